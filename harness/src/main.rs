@@ -1,0 +1,2 @@
+//! The `unshade` command.
+fn main() {}
