@@ -1,0 +1,13 @@
+//! Suites: every face in every light through every solver, resumable, nothing done twice.
+
+mod content;
+mod entrant;
+mod file;
+mod record;
+mod run;
+mod scene;
+
+pub use content::hash_path;
+pub use file::{Case, Entrant, Method, Suite};
+pub use run::{RunError, RunSummary, run};
+pub use scene::{Scene, SceneError};

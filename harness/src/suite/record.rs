@@ -1,0 +1,81 @@
+//! What a run folder remembers of its finished stages.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use solver::atomic;
+
+use super::content::hash_path;
+
+/// A finished stage: what went in, what came out.
+#[derive(Serialize, Deserialize)]
+struct Finished {
+    key: String,
+    content: String,
+}
+
+/// Seconds that a stage took when it last ran, and whether this run could skip it.
+#[derive(Clone, Serialize, Deserialize)]
+struct Time {
+    id: String,
+    seconds: f64,
+    cached: bool,
+}
+
+#[derive(Default, Serialize, Deserialize)]
+struct Times {
+    stages: Vec<Time>,
+}
+
+/// The records below `RUN/stages` and the wall times in `RUN/timing.json`.
+pub(super) struct Records {
+    run: PathBuf,
+    earlier: BTreeMap<String, f64>,
+    times: Times,
+}
+
+impl Records {
+    pub(super) fn open(run: &Path) -> io::Result<Self> {
+        fs::create_dir_all(run.join("stages"))?;
+        let earlier: Times = fs::read(run.join("timing.json"))
+            .ok()
+            .and_then(|bytes| serde_json::from_slice(&bytes).ok())
+            .unwrap_or_default();
+        let earlier = earlier.stages.into_iter().map(|time| (time.id, time.seconds)).collect();
+        Ok(Self { run: run.to_path_buf(), earlier, times: Times::default() })
+    }
+
+    fn path(&self, id: &str) -> PathBuf {
+        self.run.join("stages").join(format!("{}.json", id.replace('/', ".")))
+    }
+
+    /// The content hash of a stage that was finished with this key and whose output is intact.
+    pub(super) fn finished(&self, id: &str, key: &str, output: &Path) -> Option<String> {
+        let record: Finished = serde_json::from_slice(&fs::read(self.path(id)).ok()?).ok()?;
+        let valid = record.key == key && hash_path(output).ok()? == record.content;
+        valid.then_some(record.content)
+    }
+
+    /// Notes a finished stage and returns the hash of its output.
+    pub(super) fn note(&mut self, id: &str, key: &str, output: &Path) -> io::Result<String> {
+        let content = hash_path(output)?;
+        let record = Finished { key: key.to_owned(), content: content.clone() };
+        atomic::write_file(&self.path(id), &serde_json::to_vec_pretty(&record)?)?;
+        Ok(content)
+    }
+
+    /// Notes the time of a stage; `None` keeps that of the run which did the work.
+    pub(super) fn note_time(&mut self, id: &str, seconds: Option<f64>) -> io::Result<()> {
+        let earlier = self.earlier.get(id).copied().unwrap_or(0.0);
+        self.times.stages.push(Time {
+            id: id.to_owned(),
+            seconds: seconds.unwrap_or(earlier),
+            cached: seconds.is_none(),
+        });
+        let bytes = serde_json::to_vec_pretty(&self.times)?;
+        atomic::write_file(&self.run.join("timing.json"), &bytes)
+    }
+}

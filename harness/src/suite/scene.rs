@@ -1,0 +1,182 @@
+//! Scene files: references to faces, lights and rigs are resolved into one table
+//! that stands alone, so that a capture's `truth/scene.toml` renders it again.
+
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+/// What can be wrong with a scene or suite file.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// A file cannot be read.
+    #[error("{path}: cannot be read: {reason}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
+    /// A file is not TOML.
+    #[error("{path}: is not valid TOML: {reason}")]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What the parser said, on one line.
+        reason: String,
+    },
+    /// A value is missing or of the wrong kind.
+    #[error("{path}: {key}: {reason}")]
+    Value {
+        /// The file.
+        path: PathBuf,
+        /// The key in question.
+        key: String,
+        /// What is wrong and the mend.
+        reason: String,
+    },
+}
+
+impl SceneError {
+    pub(super) fn value(path: &Path, key: &str, reason: impl Into<String>) -> Self {
+        Self::Value { path: path.to_path_buf(), key: key.to_owned(), reason: reason.into() }
+    }
+}
+
+/// A scene whose face, lights and rig are spelt out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The table that `truth/scene.toml` will hold.
+    pub table: Table,
+}
+
+impl Scene {
+    /// Reads a scene file and everything it refers to.
+    pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let mut table = read_toml(path)?;
+        check_format(path, &table)?;
+        check_keys(path, &table, &["format", "name", "face", "light", "relight", "rig", "render"])?;
+        for key in ["face", "light", "rig"] {
+            let value = table
+                .remove(key)
+                .ok_or_else(|| SceneError::value(path, key, "is missing; name a file or write a table"))?;
+            table.insert(key.to_owned(), Value::Table(resolve(path, key, value)?));
+        }
+        let relight = match table.remove("relight") {
+            None => Vec::new(),
+            Some(Value::Array(lights)) => lights
+                .into_iter()
+                .map(|light| resolve(path, "relight", light))
+                .collect::<Result<_, _>>()?,
+            Some(_) => return Err(SceneError::value(path, "relight", "must be a list of lights")),
+        };
+        let mut scene = Self { table };
+        scene.set_relight(relight);
+        for section in ["name", "render"] {
+            if !scene.table.contains_key(section) {
+                return Err(SceneError::value(path, section, "is missing"));
+            }
+        }
+        Ok(scene)
+    }
+
+    /// The name of the face, the light or the rig.
+    pub fn name_of(&self, section: &str) -> &str {
+        self.table
+            .get(section)
+            .and_then(|table| table.get("name"))
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    }
+
+    /// The lights that are not the capture's own.
+    pub fn relight(&self) -> Vec<Table> {
+        match self.table.get("relight") {
+            Some(Value::Array(lights)) => {
+                lights.iter().filter_map(|light| light.as_table().cloned()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// This scene with another face.
+    pub fn with_face(mut self, face: Table) -> Self {
+        self.table.insert("face".to_owned(), Value::Table(face));
+        self
+    }
+
+    /// This scene captured in `light` and relit in all the `others` of another name.
+    pub fn with_lights(mut self, light: &Table, others: &[Table]) -> Self {
+        let mut relight: Vec<Table> = Vec::new();
+        for other in others {
+            let name = other.get("name");
+            let known = name == light.get("name") || relight.iter().any(|l| l.get("name") == name);
+            if !known {
+                relight.push(other.clone());
+            }
+        }
+        self.table.insert("light".to_owned(), Value::Table(light.clone()));
+        self.set_relight(relight);
+        self
+    }
+
+    /// The scene as TOML text; equal scenes give equal text.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(&self.table)
+    }
+
+    fn set_relight(&mut self, lights: Vec<Table>) {
+        // Arrays of tables come last in TOML, so the list is put behind everything else.
+        self.table.remove("relight");
+        let lights = lights.into_iter().map(Value::Table).collect();
+        self.table.insert("relight".to_owned(), Value::Array(lights));
+    }
+}
+
+/// Reads a face, light or rig: a table as it stands, or the file that a string names.
+pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, SceneError> {
+    let (mut table, origin) = match value {
+        Value::Table(table) => (table, from.to_path_buf()),
+        Value::String(name) => {
+            let path = from.parent().unwrap_or(Path::new("")).join(name);
+            (read_toml(&path)?, path)
+        }
+        _ => return Err(SceneError::value(from, key, "must be a file name or a table")),
+    };
+    if !matches!(table.get("name"), Some(Value::String(_))) {
+        return Err(SceneError::value(&origin, "name", format!("is missing; give the {key} a name")));
+    }
+    // A picture that a light names lies beside the file that names it.
+    if let Some(Value::String(path)) = table.get_mut("path") {
+        let beside = origin.parent().unwrap_or(Path::new("")).join(&*path);
+        *path = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
+    }
+    Ok(table)
+}
+
+pub(super) fn read_toml(path: &Path) -> Result<Table, SceneError> {
+    let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
+        path: path.to_path_buf(),
+        reason: error.to_string(),
+    })?;
+    text.parse::<Table>().map_err(|error| SceneError::Syntax {
+        path: path.to_path_buf(),
+        reason: error.message().replace('\n', " "),
+    })
+}
+
+pub(super) fn check_format(path: &Path, table: &Table) -> Result<(), SceneError> {
+    match table.get("format") {
+        Some(Value::Integer(1)) => Ok(()),
+        Some(other) => Err(SceneError::value(path, "format", format!("is {other}; this version reads 1"))),
+        None => Err(SceneError::value(path, "format", "is missing; write format = 1")),
+    }
+}
+
+pub(super) fn check_keys(path: &Path, table: &Table, known: &[&str]) -> Result<(), SceneError> {
+    match table.keys().find(|key| !known.contains(&key.as_str())) {
+        Some(key) => {
+            Err(SceneError::value(path, key, format!("is unknown; there are {}", known.join(", "))))
+        }
+        None => Ok(()),
+    }
+}

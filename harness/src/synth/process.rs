@@ -1,0 +1,184 @@
+//! One rendering stage as a child process.
+
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::{Interpreter, InterpreterError};
+
+/// Raised by Ctrl-C; every stage looks at it and stops cleanly.
+pub type Interrupt = Arc<AtomicBool>;
+
+/// How a rendering stage can end badly.
+#[derive(Debug, thiserror::Error)]
+pub enum StageError {
+    /// Python is missing.
+    #[error(transparent)]
+    Interpreter(#[from] InterpreterError),
+    /// The input is wrong; the child's own line.
+    #[error("{message}")]
+    Input {
+        /// The Python exception's name.
+        kind: String,
+        /// What is wrong, where, and the mend.
+        message: String,
+    },
+    /// The child died without saying why.
+    #[error("{verb}: the renderer ended with {status}; its last words: {last_words}")]
+    Died {
+        /// The stage.
+        verb: String,
+        /// Exit status or signal.
+        status: String,
+        /// The last line on its standard error.
+        last_words: String,
+    },
+    /// The user interrupted.
+    #[error("interrupted; the same command goes on from here")]
+    Interrupted,
+}
+
+#[derive(Deserialize)]
+#[serde(tag = "event", rename_all = "lowercase")]
+enum Event {
+    Progress { done: u64, total: u64, #[serde(default)] what: String },
+    Warning { message: String },
+    Error { #[serde(default)] kind: String, message: String },
+    Result(Value),
+}
+
+/// Runs `python -m unshade.stage <verb> <arguments>` and returns its result event.
+///
+/// `progress` hears how many of how many steps are done; warnings go to the log.
+pub fn run_stage(
+    interpreter: &Interpreter,
+    verb: &str,
+    arguments: &[OsString],
+    interrupt: &Interrupt,
+    progress: &mut dyn FnMut(u64, u64, &str),
+) -> Result<Value, StageError> {
+    let mut child = interpreter
+        .command()
+        .args(["-m", "unshade.stage", verb])
+        .args(arguments)
+        .arg("--watch-stdin")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| InterpreterError::Start {
+            path: interpreter.path().to_path_buf(),
+            reason: error.to_string(),
+        })?;
+    let (sender, lines) = mpsc::channel();
+    if let Some(stdout) = child.stdout.take() {
+        thread::spawn(move || {
+            for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+    }
+    let stderr = child.stderr.take().map(|mut stderr| {
+        thread::spawn(move || {
+            let mut bytes = Vec::new();
+            let _ = stderr.read_to_end(&mut bytes);
+            String::from_utf8_lossy(&bytes).into_owned()
+        })
+    });
+    let mut outcome: Option<Result<Value, StageError>> = None;
+    loop {
+        if interrupt.load(Ordering::Relaxed) {
+            stop(&mut child);
+            return Err(StageError::Interrupted);
+        }
+        match lines.recv_timeout(Duration::from_millis(100)) {
+            Ok(line) => match serde_json::from_str(&line) {
+                Ok(Event::Progress { done, total, what }) => progress(done, total, &what),
+                Ok(Event::Warning { message }) => tracing::warn!("{message}"),
+                Ok(Event::Error { kind, message }) => {
+                    outcome = Some(Err(StageError::Input { kind, message }));
+                }
+                Ok(Event::Result(value)) => outcome = Some(Ok(value)),
+                Err(_) => tracing::debug!("{line}"),
+            },
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+    }
+    let status = child.wait();
+    let said = stderr.and_then(|reader| reader.join().ok()).unwrap_or_default();
+    let ok = status.as_ref().is_ok_and(|status| status.success());
+    match outcome {
+        Some(Err(error)) => Err(error),
+        Some(Ok(value)) if ok => Ok(value),
+        _ => Err(StageError::Died {
+            verb: verb.to_owned(),
+            status: status.map_or_else(|error| error.to_string(), |status| status.to_string()),
+            last_words: said.trim().lines().last().unwrap_or("none").to_owned(),
+        }),
+    }
+}
+
+fn stop(child: &mut Child) {
+    drop(child.stdin.take());
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+#[cfg(test)]
+#[cfg(unix)]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    fn run_script(script: &str, interrupt: &Interrupt) -> (Result<Value, StageError>, Vec<u64>) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("python");
+        std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let mut done = Vec::new();
+        let result = run_stage(&Interpreter::at(&path), "synth", &[], interrupt, &mut |d, _, _| done.push(d));
+        (result, done)
+    }
+
+    #[test]
+    fn progress_and_result_are_heard() {
+        let script = r#"echo '{"event":"progress","done":1,"total":2,"what":"view"}'
+            echo 'noise'; echo '{"event":"result","variant":"x"}'"#;
+        let (result, done) = run_script(script, &Interrupt::default());
+        assert_eq!(result.unwrap()["variant"], "x");
+        assert_eq!(done, [1]);
+    }
+
+    #[test]
+    fn the_childs_own_line_is_the_error() {
+        let script = r#"echo '{"event":"error","kind":"SceneError","message":"no such light"}'; exit 2"#;
+        let (result, _) = run_script(script, &Interrupt::default());
+        assert_eq!(result.unwrap_err().to_string(), "no such light");
+    }
+
+    #[test]
+    fn a_child_that_dies_is_reported_with_its_last_words() {
+        let (result, _) = run_script("echo first >&2; echo LLVM ERROR >&2; exit 134", &Interrupt::default());
+        let error = result.unwrap_err().to_string();
+        assert!(error.contains("LLVM ERROR") && error.contains("134"), "{error}");
+    }
+
+    #[test]
+    fn an_interrupt_ends_the_child() {
+        let interrupt = Interrupt::default();
+        interrupt.store(true, Ordering::Relaxed);
+        let (result, _) = run_script("exec sleep 60", &interrupt);
+        assert!(matches!(result, Err(StageError::Interrupted)));
+    }
+}

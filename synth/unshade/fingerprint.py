@@ -1,0 +1,26 @@
+"""What decides whether a rendering is still valid: the renderer's versions and sources.
+
+``python -m unshade.fingerprint`` prints one line; equal lines mean equal pictures.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from importlib.metadata import version
+from pathlib import Path
+
+_LIBRARIES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "anny", "pillow")
+
+
+def fingerprint() -> str:
+    """Versions of the libraries and a BLAKE2 hash of the sources that make a picture."""
+    package = Path(__file__).parent
+    digest = hashlib.blake2b(digest_size=16)
+    for path in sorted(package.rglob("*.py")):
+        digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    versions = " ".join(f"{name}={version(name)}" for name in _LIBRARIES)
+    return f"{versions} sources={digest.hexdigest()}"
+
+
+if __name__ == "__main__":
+    print(fingerprint())
