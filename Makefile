@@ -1,1 +1,46 @@
-# make demo · make test · make bench
+# make demo · make test · make bench: each does all set-up that it needs.
+# Needs Rust, Python 3.10+ with pip, a C compiler and make; no root.
+
+PYTHON ?= python3
+UV := $(CURDIR)/.tools/bin/uv
+BIN := $(CURDIR)/.venv/bin
+
+.PHONY: build demo emily held-out test lint clean
+
+build: .venv/complete
+	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
+
+# uv lives in the project, not in the user's Python.
+$(UV):
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || \
+	  { echo "unshade: $(PYTHON) is older than 3.10; name a newer one: make PYTHON=python3.12" >&2; exit 2; }
+	@$(PYTHON) -m pip --version >/dev/null || \
+	  { echo "unshade: $(PYTHON) has no pip; install it (Debian: python3-pip), or name another: make PYTHON=..." >&2; exit 2; }
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --no-warn-script-location --target .tools uv==0.13.8
+
+# The exact pins of pyproject.toml; the mark is written last, so an interrupted set-up is done again.
+.venv/complete: pyproject.toml | $(UV)
+	$(UV) venv --quiet --clear --python "$(PYTHON)" .venv
+	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --group build
+	@touch $@
+
+demo: build
+	$(BIN)/unshade run scenes/suites/demo.toml -o runs/demo
+	@echo "open runs/demo/report/index.html"
+
+emily: build
+	$(BIN)/unshade run scenes/suites/emily.toml -o runs/emily
+
+held-out: build
+	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
+
+test: build
+	cargo test --release --workspace --quiet
+	$(BIN)/python -m pytest -q
+
+lint: build
+	cargo fmt --check
+	cargo clippy --release --workspace --all-targets -- -D warnings
+
+clean:
+	rm -rf target .venv .tools runs

@@ -1,0 +1,124 @@
+//! What each verb does.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use solver::atomic;
+
+use super::progress::Progress;
+use super::{CompareArgs, SolveArgs, SolverName, Verb, doctor};
+use crate::compare;
+use crate::score;
+use crate::suite::{self, Observer, RunError, Scene, Suite, Tools};
+use crate::synth::{Interpreter, Interrupt, run_stage};
+use crate::report;
+
+pub(super) fn run(verb: Verb) -> Result<ExitCode, RunError> {
+    match verb {
+        Verb::Synth { scene, out } => {
+            alone("synth", |tools, step| synth(&scene, &out, tools, step))?;
+        }
+        Verb::Solve(arguments) => {
+            alone("solve", |tools, step| solve(&arguments, tools, step))?;
+        }
+        Verb::Relight { capture, maps, out } => {
+            alone("relight", |tools, step| suite::relight(&capture, &maps, &out, tools, step))?;
+        }
+        Verb::Score { capture, maps, relit, out } => {
+            score::score(&capture, &maps, relit.as_deref())?.write(&out)?;
+        }
+        Verb::Run { suite, out } => return run_suite(&suite, &out),
+        Verb::Report { run, out } => {
+            report::write(&run, &out)?;
+            println!("{}", out.join("index.html").display());
+        }
+        Verb::Compare(arguments) => return compare_run(&arguments),
+        Verb::Doctor => return doctor::examine(&tools()),
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn tools() -> Tools {
+    let interrupt = Interrupt::default();
+    let flag = interrupt.clone();
+    // A second handler (a caller that set its own) keeps the first: then Ctrl-C is theirs.
+    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+        tracing::debug!("Ctrl-C is handled elsewhere: {error}");
+    }
+    Tools { interpreter: Interpreter::find(), interrupt }
+}
+
+/// Runs one stage outside a suite, with its bar.
+fn alone(
+    id: &str,
+    work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let mut progress = Progress::new();
+    let start = Instant::now();
+    progress.stage_begins(id, 0, 1);
+    let result = work(&tools(), &mut |done, total, what| progress.step(done, total, what));
+    if result.is_ok() {
+        progress.stage_ends(id, Some(start.elapsed().as_secs_f64()));
+    }
+    progress.finish();
+    result
+}
+
+fn synth(
+    scene: &Path,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
+    let resolved = out.with_extension("scene.toml.partial");
+    if let Some(folder) = out.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    atomic::write_file(&resolved, text.as_bytes())?;
+    let arguments =
+        ["--scene".as_ref(), resolved.as_os_str(), "--out".as_ref(), out.as_os_str()]
+            .map(std::ffi::OsStr::to_os_string);
+    let result = run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step);
+    fs::remove_file(&resolved)?;
+    result?;
+    Ok(())
+}
+
+fn solve(
+    arguments: &SolveArgs,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let config = if arguments.config.ends_with(".toml") {
+        solver::Config::from_toml(&fs::read_to_string(&arguments.config)?)?
+    } else {
+        solver::Config::preset(&arguments.config)?
+    };
+    let capture = &arguments.capture;
+    match arguments.solver {
+        SolverName::Fields => {
+            suite::solve(&solver::Capture::open(capture)?, &config, &arguments.out, tools, step)
+        }
+        SolverName::MeanTexture => Ok(suite::mean_texture(capture, &arguments.out)?),
+        SolverName::Oracle => Ok(score::oracle_maps(capture, &arguments.out)?),
+    }
+}
+
+fn run_suite(suite: &Path, out: &Path) -> Result<ExitCode, RunError> {
+    let suite = Suite::open(suite)?;
+    let mut progress = Progress::new();
+    let start = Instant::now();
+    let summary = suite::run(&suite, out, &tools(), &mut progress);
+    progress.finish();
+    let summary = summary?;
+    let seconds = start.elapsed().as_secs_f64();
+    let (ran, skipped) = (summary.ran, summary.skipped);
+    eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
+    println!("{}", summary.report.display());
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,42 @@
+//! `unshade doctor`: what was found, and what is missing with the mend.
+
+use std::process::ExitCode;
+
+use serde_json::Value;
+
+use crate::suite::{RunError, Tools};
+use crate::synth::{StageError, run_stage};
+
+/// Prints one line a part; exit code 1 if something that a run needs is missing.
+pub(super) fn examine(tools: &Tools) -> Result<ExitCode, RunError> {
+    println!("unshade    {}", env!("CARGO_PKG_VERSION"));
+    println!("python     {}", tools.interpreter.path().display());
+    println!("cpu        {} threads, {}", rayon::current_num_threads(), solver::simd_level());
+    let adapters = solver::machine::adapters();
+    if adapters.is_empty() {
+        println!("gpu        none; the solver runs on the CPU");
+    }
+    for adapter in adapters {
+        let kind = if adapter.software { "software, never chosen" } else { "GPU" };
+        println!("gpu        {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
+    }
+    let found = match run_stage(&tools.interpreter, "doctor", &[], &tools.interrupt, &mut |_, _, _| {}) {
+        Ok(found) => found,
+        Err(StageError::Interrupted) => return Err(RunError::Interrupted),
+        Err(error) => {
+            println!("renderer   MISSING: {error}");
+            return Ok(ExitCode::from(1));
+        }
+    };
+    let mut complete = true;
+    for part in found["parts"].as_array().into_iter().flatten() {
+        let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();
+        if part["ok"].as_bool().unwrap_or(false) {
+            println!("{:<10} {}", text("name"), text("found"));
+        } else {
+            complete &= !part["needed"].as_bool().unwrap_or(true);
+            println!("{:<10} MISSING: {}; {}", text("name"), text("found"), text("mend"));
+        }
+    }
+    Ok(ExitCode::from(u8::from(!complete)))
+}

@@ -1,0 +1,172 @@
+//! The `unshade` command. Exit codes: 0 done, 1 a check failed, 2 bad input or usage,
+//! 3 interrupted.
+
+mod commands;
+mod doctor;
+mod progress;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::suite::RunError;
+
+/// Measures how well a face's reflectance can be recovered from photographs.
+#[derive(Parser)]
+#[command(name = "unshade", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    /// Say more (-v: what each stage does, -vv: everything).
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    verbose: u8,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Render a capture with its truth.
+    Synth {
+        /// What to render.
+        scene: PathBuf,
+        /// The capture's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Recover reflectance maps from a capture.
+    Solve(SolveArgs),
+    /// Render recovered maps in the capture's lights.
+    Relight {
+        /// The capture whose scene is rendered.
+        capture: PathBuf,
+        /// The maps to put on the face.
+        maps: PathBuf,
+        /// The pictures' folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Score maps and relit pictures against the truth.
+    Score {
+        /// The capture with its truth.
+        capture: PathBuf,
+        /// The maps to score.
+        maps: PathBuf,
+        /// What `unshade relight` made of them.
+        #[arg(long)]
+        relit: Option<PathBuf>,
+        /// The scores' file.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Everything above for every case of a suite; resumes where it stopped.
+    Run {
+        /// The suite.
+        suite: PathBuf,
+        /// The run's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Write a run's report: one folder that opens offline.
+    Report {
+        /// The run's folder.
+        run: PathBuf,
+        /// The report's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Compare a run with a baseline; exit code 1 on a regression.
+    Compare(CompareArgs),
+    /// Say what this machine has, and what is missing with the mend.
+    Doctor,
+}
+
+#[derive(Args)]
+struct SolveArgs {
+    /// The capture; its `truth/` is never opened.
+    capture: PathBuf,
+    /// The maps' folder.
+    #[arg(short, long)]
+    out: PathBuf,
+    /// `fields`, or a baseline.
+    #[arg(long, value_enum, default_value_t = SolverName::Fields)]
+    solver: SolverName,
+    /// A preset (unshade, paper, fast) or a TOML file.
+    #[arg(long, default_value = "unshade")]
+    config: String,
+    /// What computes.
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    backend: BackendName,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// The run's folder.
+    run: PathBuf,
+    /// A `baseline.json` that `unshade report` wrote.
+    baseline: PathBuf,
+    /// How far a metric may move; the built-in rules are scenes/tolerances.toml.
+    #[arg(long)]
+    tolerances: Option<PathBuf>,
+    /// Also write the verdicts as JUnit XML.
+    #[arg(long)]
+    junit: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SolverName {
+    /// Neural shading fields.
+    Fields,
+    /// The mean of the projected colours.
+    MeanTexture,
+    /// The true maps (opens `truth/`).
+    Oracle,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BackendName {
+    /// A real GPU where the solver has kernels for it, else the CPU.
+    Auto,
+    /// The CPU.
+    Cpu,
+}
+
+/// Runs the command line `arguments` (the program's name first).
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let level = ["warn", "info", "debug"][usize::from(cli.verbose.min(2))];
+    let _ = tracing_subscriber::fmt()
+        .with_env_filter(level)
+        .with_writer(std::io::stderr)
+        .without_time()
+        .with_target(false)
+        .try_init();
+    match commands::run(cli.verb) {
+        Ok(code) => code,
+        Err(RunError::Interrupted) => {
+            eprintln!("unshade: {}", RunError::Interrupted);
+            ExitCode::from(3)
+        }
+        Err(error) => {
+            eprintln!("unshade: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

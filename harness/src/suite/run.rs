@@ -1,0 +1,310 @@
+//! Runs a suite: capture, solve, relight, score for every case, then the report.
+//!
+//! A stage whose inputs have not changed is skipped; every output appears complete or not at
+//! all, so a run that was killed goes on where it stopped and ends with the same bytes.
+
+use std::ffi::OsString;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::{Value, json};
+use solver::atomic;
+
+use super::content::{hash_parts, hash_path};
+use super::entrant;
+use super::file::{Case, Entrant, Method, Suite};
+use super::record::Records;
+use super::scene::SceneError;
+use crate::report::{self, ReportError};
+use crate::score::{self, ScoreError};
+use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
+
+/// What the solver's and the scoring's code was when this program was built.
+const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
+const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
+
+/// How a run can end badly; each message is one line.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)]
+pub enum RunError {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Interpreter(#[from] InterpreterError),
+    #[error(transparent)]
+    Stage(StageError),
+    #[error(transparent)]
+    Capture(#[from] solver::CaptureError),
+    #[error(transparent)]
+    Config(#[from] solver::ConfigError),
+    #[error(transparent)]
+    Solve(#[from] solver::SolveError),
+    #[error(transparent)]
+    Maps(#[from] solver::MapsError),
+    #[error(transparent)]
+    Score(#[from] ScoreError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error("solver {name}: {reason}")]
+    Program { name: String, reason: String },
+    #[error("{0}: another run is using this folder; wait for it or choose another")]
+    Busy(PathBuf),
+    #[error("the run folder cannot be used: {0}")]
+    Folder(#[from] io::Error),
+    #[error("interrupted; the same command goes on from here")]
+    Interrupted,
+}
+
+impl From<StageError> for RunError {
+    fn from(error: StageError) -> Self {
+        match error {
+            StageError::Interrupted => Self::Interrupted,
+            error => Self::Stage(error),
+        }
+    }
+}
+
+/// What every stage needs at hand.
+pub struct Tools {
+    /// Runs the path tracer.
+    pub interpreter: Interpreter,
+    /// Raised by Ctrl-C.
+    pub interrupt: Interrupt,
+}
+
+/// Hears how a run gets on.
+pub trait Observer {
+    /// `done` of `total` stages are finished and `id` begins.
+    fn stage_begins(&mut self, id: &str, done: usize, total: usize);
+    /// The stage has done `done` of `total` steps.
+    fn step(&mut self, done: u64, total: u64, what: &str);
+    /// The stage is finished; `seconds` is absent if its earlier result was still valid.
+    fn stage_ends(&mut self, id: &str, seconds: Option<f64>);
+}
+
+/// What a run left behind.
+#[derive(Debug)]
+pub struct RunSummary {
+    /// The page to open.
+    pub report: PathBuf,
+    /// Stages that ran, and stages whose earlier results were still valid.
+    pub ran: usize,
+    /// See `ran`.
+    pub skipped: usize,
+}
+
+/// Runs `suite` in the folder `out`.
+pub fn run(
+    suite: &Suite,
+    out: &Path,
+    tools: &Tools,
+    observer: &mut dyn Observer,
+) -> Result<RunSummary, RunError> {
+    fs::create_dir_all(out)?;
+    let lock = File::create(out.join(".lock"))?;
+    match lock.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(RunError::Busy(out.to_path_buf())),
+        Err(TryLockError::Error(error)) => return Err(error.into()),
+    }
+    let renderer = tools.interpreter.fingerprint()?;
+    let total = suite.cases.len() * (1 + 3 * suite.entrants.len());
+    let records = Records::open(out)?;
+    let mut stages = Stages { out, tools, observer, records, ran: 0, skipped: 0, total };
+    let manifest = manifest(suite, &renderer);
+    atomic::write_file(&out.join("run.json"), &serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?)?;
+    for case in &suite.cases {
+        let capture = stages.capture(case, &renderer)?;
+        for entrant in &suite.entrants {
+            stages.entrant(case, entrant, &capture, &renderer)?;
+        }
+    }
+    let (ran, skipped) = (stages.ran, stages.skipped);
+    let folder = out.join("report");
+    report::write(out, &folder)?;
+    Ok(RunSummary { report: folder.join("index.html"), ran, skipped })
+}
+
+fn manifest(suite: &Suite, renderer: &str) -> Value {
+    let cases: Vec<Value> = suite
+        .cases
+        .iter()
+        .map(|case| {
+            let solvers: Vec<Value> = suite
+                .entrants
+                .iter()
+                .map(|entrant| {
+                    let below = |folder| format!("{folder}/{}/{}", case.id, entrant.id);
+                    json!({
+                        "id": entrant.id, "kind": entrant.kind(), "title": entrant.title,
+                        "maps": below("maps"), "relit": below("relit"),
+                        "scores": format!("{}.json", below("scores")),
+                    })
+                })
+                .collect();
+            json!({
+                "id": case.id, "face": case.scene.name_of("face"),
+                "light": case.scene.name_of("light"),
+                "capture": format!("captures/{}", case.id), "solvers": solvers,
+            })
+        })
+        .collect();
+    json!({
+        "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
+        "versions": {
+            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
+            "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
+        },
+        "suite_toml": suite.text,
+    })
+}
+
+struct Stages<'a> {
+    out: &'a Path,
+    tools: &'a Tools,
+    observer: &'a mut dyn Observer,
+    records: Records,
+    ran: usize,
+    skipped: usize,
+    total: usize,
+}
+
+/// A finished output: where it is and what is in it.
+struct Output {
+    path: PathBuf,
+    content: String,
+}
+
+impl Stages<'_> {
+    /// Does `work` unless its output is there, intact, and made from the same inputs.
+    fn stage(
+        &mut self,
+        id: &str,
+        inputs: &[&str],
+        path: PathBuf,
+        work: impl FnOnce(&Path, &Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
+    ) -> Result<Output, RunError> {
+        let key = hash_parts(inputs);
+        self.observer.stage_begins(id, self.ran + self.skipped, self.total);
+        if let Some(content) = self.records.finished(id, &key, &path) {
+            self.skipped += 1;
+            self.records.note_time(id, None)?;
+            self.observer.stage_ends(id, None);
+            return Ok(Output { path, content });
+        }
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let start = Instant::now();
+        let observer = &mut *self.observer;
+        work(&path, self.tools, &mut |done, total, what| observer.step(done, total, what))?;
+        let content = self.records.note(id, &key, &path)?;
+        let seconds = start.elapsed().as_secs_f64();
+        self.ran += 1;
+        self.records.note_time(id, Some(seconds))?;
+        self.observer.stage_ends(id, Some(seconds));
+        Ok(Output { path, content })
+    }
+
+    fn capture(&mut self, case: &Case, renderer: &str) -> Result<Output, RunError> {
+        let scene = case.scene.to_toml().map_err(io::Error::other)?;
+        let lights = light_files(case)?;
+        let scene_file = self.out.join("captures").join(format!("{}.toml", case.id));
+        fs::create_dir_all(self.out.join("captures"))?;
+        atomic::write_file(&scene_file, scene.as_bytes())?;
+        let path = self.out.join("captures").join(&case.id);
+        let id = format!("capture/{}", case.id);
+        self.stage(&id, &["capture", renderer, &scene, &lights], path, |path, tools, step| {
+            let arguments = words(&[("--scene", scene_file.as_os_str()), ("--out", path.as_os_str())]);
+            run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
+            Ok(())
+        })
+    }
+
+    fn entrant(
+        &mut self,
+        case: &Case,
+        entrant: &Entrant,
+        capture: &Output,
+        renderer: &str,
+    ) -> Result<(), RunError> {
+        let name = format!("{}/{}", case.id, entrant.id);
+        let method = match &entrant.method {
+            Method::Fields { config, backend } => {
+                // The resolved values, so that a preset that changed is solved again.
+                let config = solver::Config::from_toml(config)?.to_toml();
+                hash_parts(&["fields", &config, backend, SOLVER_SOURCES])
+            }
+            Method::Oracle => hash_parts(&["oracle", SCORE_SOURCES]),
+            Method::MeanTexture => hash_parts(&["mean texture", SOLVER_SOURCES]),
+            Method::Command(words) => hash_parts(&["command", &words.join("\0")]),
+            Method::Python(function) => hash_parts(&["python", function]),
+        };
+        let maps = self.stage(
+            &format!("maps/{name}"),
+            &["maps", &capture.content, &method],
+            self.out.join("maps").join(&name),
+            |path, tools, step| entrant::make_maps(entrant, &capture.path, path, tools, step),
+        )?;
+        let relit = self.stage(
+            &format!("relit/{name}"),
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES],
+            self.out.join("relit").join(&name),
+            |path, tools, step| relight(&capture.path, &maps.path, path, tools, step),
+        )?;
+        self.stage(
+            &format!("scores/{name}"),
+            &["scores", &capture.content, &maps.content, &relit.content, SCORE_SOURCES],
+            self.out.join("scores").join(format!("{name}.json")),
+            |path, _, _| {
+                let mut scores = score::score(&capture.path, &maps.path, Some(&relit.path))?;
+                scores.solver.clone_from(&entrant.id);
+                Ok(scores.write(path)?)
+            },
+        )?;
+        Ok(())
+    }
+}
+
+/// Renders `maps` in the capture's lights, as they are and after the one global factor.
+pub fn relight(
+    capture: &Path,
+    maps: &Path,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let scale = score::fit_scale(capture, maps)?;
+    let mut arguments = words(&[
+        ("--capture", capture.as_os_str()),
+        ("--maps", maps.as_os_str()),
+        ("--out", out.as_os_str()),
+    ]);
+    for scale in ["none=1.0".to_owned(), format!("global={}", scale.global)] {
+        arguments.extend([OsString::from("--scale"), OsString::from(scale)]);
+    }
+    run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
+    Ok(())
+}
+
+/// The content of every picture that the case's lights name.
+fn light_files(case: &Case) -> Result<String, RunError> {
+    let own = case.scene.table.get("light").and_then(|light| light.as_table().cloned());
+    let mut hashes = Vec::new();
+    for light in own.iter().chain(&case.scene.relight()) {
+        if let Some(path) = light.get("path").and_then(|path| path.as_str()) {
+            let path = Path::new(path);
+            hashes.push(hash_path(path).map_err(|error| SceneError::Read {
+                path: path.to_path_buf(),
+                reason: error.to_string(),
+            })?);
+        }
+    }
+    Ok(hashes.join(" "))
+}
+
+fn words(pairs: &[(&str, &std::ffi::OsStr)]) -> Vec<OsString> {
+    pairs.iter().flat_map(|(flag, value)| [OsString::from(flag), value.to_os_string()]).collect()
+}
