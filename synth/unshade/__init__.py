@@ -1,0 +1,1 @@
+"""Measures how well a face's reflectance can be recovered from photographs."""

@@ -1,0 +1,1 @@
+"""Mitsuba as the ground truth: lights, cameras, skin material, captures and relighting."""

@@ -1,0 +1,95 @@
+"""Renders one camera to picture layers with the variance of their mean.
+
+The samples of a pixel are split over independent passes, each stratified in itself; the
+spread of the passes gives the variance of the mean that scoring needs for its noise
+floor. Sums run over blocks of neighbouring samples, never through atomics, so equal
+seeds give equal bytes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from .split import split_radiance
+
+_MAX_LANES = 1 << 21
+"""Camera rays in flight, which bounds memory to about a gigabyte."""
+
+
+@dataclass(frozen=True)
+class Layers:
+    """One rendered picture: arrays [height, width, 3], linear Rec.709 radiance, float32."""
+
+    diffuse: np.ndarray
+    specular: np.ndarray
+    variance: np.ndarray
+    """Variance of the mean of the total."""
+
+    @property
+    def total(self) -> np.ndarray:
+        """The picture: the exact sum of its layers."""
+        return self.diffuse + self.specular
+
+
+def seed_of(*parts: object) -> int:
+    """A 32-bit seed that depends on every part and nothing else."""
+    text = "\0".join(str(part) for part in parts)
+    return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=4).digest(), "little")
+
+
+def passes_for(samples: int) -> int | None:
+    """Number of passes (4 to 16) whose share of the samples is a full multijitter grid."""
+    for passes in range(4, 17):
+        share, rest = divmod(samples, passes)
+        if rest == 0 and share and share % math.isqrt(share) == 0:
+            return passes
+    return None
+
+
+def render_layers(scene, head, sensor, *, samples: int, depth: int, seed: int) -> Layers:
+    """Renders ``sensor`` with ``samples`` per pixel in all; ``passes_for`` must allow them."""
+    passes = passes_for(samples)
+    width, height = sensor.film().size()
+    rows = max(1, _MAX_LANES // (width * samples))
+    bands = [
+        _render_band(
+            scene, head, sensor, samples // passes, passes, depth, seed_of(seed, top), top,
+            min(rows, height - top),
+        )
+        for top in range(0, height, rows)
+    ]
+    picture = np.concatenate(bands)
+    mean = picture.mean(2).astype(np.float32)
+    variance = (picture[..., :3] + picture[..., 3:]).var(2, ddof=1) / passes
+    return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32))
+
+
+def _render_band(scene, head, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
+    """Layers [rows, width, passes, 6] of some rows, float64."""
+    width, height = sensor.film().size()
+    lanes = width * rows * passes * samples
+    sampler = sensor.sampler()
+    sampler.set_sample_count(samples)
+    sampler.set_samples_per_wavefront(samples)
+    sampler.seed(seed, lanes)
+    # Opaque numbers, so that all bands and pictures share one compiled kernel.
+    index = dr.arange(mi.UInt32, lanes) // dr.opaque(mi.UInt32, samples * passes)
+    row = index // dr.opaque(mi.UInt32, width)
+    column = index - row * dr.opaque(mi.UInt32, width)
+    corner = mi.Point2f(mi.Float(column), mi.Float(row + dr.opaque(mi.UInt32, top)))
+    size = mi.Vector2f(dr.opaque(mi.Float, width), dr.opaque(mi.Float, height))
+    ray, _ = sensor.sample_ray(0.0, 0.5, (corner + sampler.next_2d()) / size, mi.Point2f(0.5))
+    diffuse, specular = split_radiance(
+        scene, head, sampler, ray, dr.opaque(mi.UInt32, depth)
+    )
+    channels = [diffuse.x, diffuse.y, diffuse.z, specular.x, specular.y, specular.z]
+    dr.eval(channels)
+    sums = [np.array(dr.block_reduce(dr.ReduceOp.Add, c, samples)) for c in channels]
+    means = np.stack(sums, -1, dtype=np.float64) / samples
+    return means.reshape(rows, width, passes, 6)
