@@ -1,0 +1,198 @@
+"""What all faces share: subdivided head, its parts, the chart, the morph targets."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from . import base_mesh
+from .chart import boundary_loops, unwrap
+from .subdivide import subdivide, triangulate
+
+PARTS = ("chart", "rest", "mouth", "sockets")
+LEVELS = 2
+
+ETHNIC = ("african", "asian", "caucasian")
+LOCAL_FOLDERS = ("head", "nose", "mouth", "eyes", "chin", "cheek", "forehead", "ears", "eyebrows")
+
+# A point in the native UV inside each island that is used.
+_ISLANDS = {"head": (0.82, 0.5), "mouth": (0.84, 0.07), "socket_l": (0.04, 0.59), "socket_r": (0.12, 0.59), "body": (0.4, 0.6)}
+# Neck and shoulders: the body above this height and within this half width (m).
+_SHOULDER_HEIGHT, _SHOULDER_HALF_WIDTH = 0.52, 0.17
+# The chart ends behind the ears and, over the forehead, leans back with the skull (m).
+_CHART_DEPTH, _CHART_CROWN = 0.04, 0.775
+
+
+@dataclasses.dataclass(frozen=True)
+class Head:
+    """Identity-independent arrays; B base vertices, V subdivided ones, C of them in the chart.
+
+    `base` (B,3) m; `refine_*` the CSR matrix (V,B) of the subdivision; `eyes` (2,E) base
+    indices of the eyeballs, left first; `target_names` and `targets_*` the CSR matrix
+    (T,3B) of the morph targets in metres; `template` (V,3) and `eye_template` (2,4: centre,
+    radius) the average young head in PAINT coordinates: millimetres from the midpoint of
+    the eyes' centres. `part_<name>` (F,3) triangles of subdivided vertices. The chart:
+    `chart_vertices` (C,) subdivided indices, ascending; `chart_uv` (C,2); `native_uv` (C,2)
+    of the base mesh, where the region masks live; `rim_mm` (C,) distance to its outer rim.
+    """
+
+    base: np.ndarray
+    refine_data: np.ndarray
+    refine_indices: np.ndarray
+    refine_indptr: np.ndarray
+    eyes: np.ndarray
+    target_names: np.ndarray
+    targets_data: np.ndarray
+    targets_indices: np.ndarray
+    targets_indptr: np.ndarray
+    template: np.ndarray
+    eye_template: np.ndarray
+    part_chart: np.ndarray
+    part_rest: np.ndarray
+    part_mouth: np.ndarray
+    part_sockets: np.ndarray
+    chart_vertices: np.ndarray
+    chart_uv: np.ndarray
+    native_uv: np.ndarray
+    rim_mm: np.ndarray
+
+    def refine(self, base: np.ndarray) -> np.ndarray:
+        """Subdivided positions (V,3) of base positions (B,3)."""
+        shape = (len(self.template), len(self.base))
+        return sp.csr_matrix((self.refine_data, self.refine_indices, self.refine_indptr), shape=shape) @ base
+
+    def morph(self, weights: dict[str, float]) -> np.ndarray:
+        """Base positions (B,3) m of the weighted morph targets."""
+        row = {name: i for i, name in enumerate(self.target_names)}
+        dense = np.zeros(len(self.target_names))
+        for name, weight in weights.items():
+            dense[row[name]] += weight
+        shape = (len(dense), self.base.size)
+        targets = sp.csr_matrix((self.targets_data, self.targets_indices, self.targets_indptr), shape=shape)
+        return self.base + (targets.T @ dense).reshape(-1, 3)
+
+    @property
+    def chart_triangles(self) -> np.ndarray:
+        """Chart triangles (F,3) as indices into the C chart vertices."""
+        return np.searchsorted(self.chart_vertices, self.part_chart)
+
+
+def average_weights() -> dict[str, float]:
+    """Morph weights of the template: young, of average build, every ethnicity and gender alike."""
+    weights = {f"macrodetails/{e}-{g}-young": 1 / 6 for e in ETHNIC for g in ("female", "male")}
+    return weights | {f"macrodetails/universal-{g}-young-averagemuscle-averageweight": 1 / 2 for g in ("female", "male")}
+
+
+def fit_sphere(points: np.ndarray) -> np.ndarray:
+    """Least-squares sphere through points (N,3): centre and radius (4,)."""
+    system = np.c_[2 * points, np.ones(len(points))]
+    x, y, z, rest = np.linalg.lstsq(system, (points**2).sum(axis=1), rcond=None)[0]
+    return np.array([x, y, z, np.sqrt(rest + x * x + y * y + z * z)])
+
+
+def make_head() -> Head:
+    """Build everything from the head data; slow (see `cache.load_head`)."""
+    mesh = base_mesh.read_base_mesh()
+    quads, uv_quads, part = _select(mesh)
+    eyes = np.stack([np.unique(mesh.quads[mesh.groups == f"helper-{s}-eye"]) for s in "lr"])
+    used = np.unique(np.r_[quads.ravel(), eyes.ravel()])
+    compact = np.full(len(mesh.vertices), -1)
+    # Head vertices first: only they are subdivided.
+    skin = np.unique(quads)
+    order = np.r_[skin, np.setdiff1d(used, skin)]
+    compact[order] = np.arange(len(order))
+    quads, eyes = compact[quads], compact[eyes]
+    base = mesh.vertices[order]
+    names, targets = _targets(compact, len(base))
+
+    refine, fine_quads = subdivide(quads, len(skin), LEVELS)
+    refine = sp.csr_matrix((refine.data, refine.indices, refine.indptr), shape=(refine.shape[0], len(base)))
+    fine_part = np.repeat(part, 4**LEVELS)
+
+    blank = np.zeros(0)
+    head = Head(
+        base, refine.data, refine.indices, refine.indptr, eyes, names, targets.data, targets.indices, targets.indptr,
+        np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), blank, blank, blank, blank,
+    )  # fmt: skip
+    young = head.morph(average_weights())
+    spheres = np.stack([fit_sphere(young[e]) for e in eyes])
+    middle = spheres[:, :3].mean(axis=0)
+    spheres[:, :3] -= middle
+    template = 1000 * (head.refine(young) - middle)
+
+    chart = part == "chart"
+    vertices, uv, native = _chart(young, quads[chart], uv_quads[chart], mesh.uv)
+    fine = np.unique(head.part_chart)
+    local = np.searchsorted(vertices, quads[chart])
+    spread, fine_local = subdivide(local, len(vertices), LEVELS)
+    # Row of every subdivided chart vertex in the chart's own subdivision.
+    own = np.empty(len(fine), dtype=np.int64)
+    own[np.searchsorted(fine, fine_quads[fine_part == "chart"])] = fine_local
+    rim = fine[boundary_loops(np.searchsorted(fine, head.part_chart))[0]]
+    distance = cKDTree(template[rim]).query(template[fine])[0]
+    return dataclasses.replace(
+        head,
+        template=template,
+        eye_template=1000 * spheres,
+        chart_vertices=fine,
+        chart_uv=(spread @ uv)[own],
+        native_uv=(spread @ native)[own],
+        rim_mm=distance,
+    )
+
+
+def _select(mesh: base_mesh.BaseMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Quads (F,4), their native UV indices, and the part of each, of head, neck and shoulders."""
+    body = mesh.groups == "body"
+    quads, uv_quads = mesh.quads[body], mesh.uv_quads[body]
+    sides = np.stack([uv_quads, np.roll(uv_quads, -1, axis=1)], axis=-1).reshape(-1, 2)
+    graph = sp.coo_matrix((np.ones(len(sides)), sides.T), shape=(len(mesh.uv),) * 2)
+    island = connected_components(graph, directed=False)[1][uv_quads[:, 0]]
+    centre_uv, centre = mesh.uv[uv_quads].mean(axis=1), mesh.vertices[quads].mean(axis=1)
+    at = {name: island == island[np.abs(centre_uv - spot).sum(axis=1).argmin()] for name, spot in _ISLANDS.items()}
+
+    front = centre[:, 2] > _CHART_DEPTH + np.maximum(0, centre[:, 1] - _CHART_CROWN)
+    shoulders = at["body"] & (centre[:, 1] > _SHOULDER_HEIGHT) & (np.abs(centre[:, 0]) < _SHOULDER_HALF_WIDTH)
+    part = np.full(len(quads), "", dtype="<U8")
+    part[at["head"] | shoulders] = "rest"
+    part[at["head"] & front] = "chart"
+    part[at["mouth"]] = "mouth"
+    part[at["socket_l"] | at["socket_r"]] = "sockets"
+    keep = part != ""
+    return quads[keep], uv_quads[keep], part[keep]
+
+
+def _chart(young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Base vertices of the chart (N,), ascending, their chart UV and their native UV (N,2)."""
+    vertices, first = np.unique(quads, return_index=True)
+    local = np.searchsorted(vertices, quads)
+    guess = native[uv_quads.ravel()[first]]
+    loops = boundary_loops(triangulate(local))
+    # The mouth is the inner loop on the midline; the other inner loops are the eyes.
+    mouth = min(loops[1:], key=lambda loop: abs(young[vertices[loop], 0].mean()))
+    return vertices, unwrap(young[vertices], local, guess, mouth), guess
+
+
+def _targets(compact: np.ndarray, count: int) -> tuple[np.ndarray, sp.csr_matrix]:
+    """Names and CSR (T,3B) of the targets that move the kept vertices."""
+    macro = [f"macrodetails/{e}-{g}-{a}" for e in ETHNIC for g in ("female", "male") for a in ("young", "old")]
+    macro += [
+        f"macrodetails/universal-{g}-{a}-{m}muscle-{w}weight"
+        for g in ("female", "male") for a in ("young", "old") for m in ("min", "average", "max") for w in ("min", "average", "max")
+    ]  # fmt: skip
+    local = [f"{folder}/{name}" for folder in LOCAL_FOLDERS for name in base_mesh.target_names(folder)]
+    asymmetry = [f"asym/{name}" for name in base_mesh.target_names("asym") if name.startswith("asym-")]
+    names, columns, values, starts = macro + local + asymmetry, [], [], [0]
+    for name in names:
+        index, offset = base_mesh.read_target(name)
+        kept = compact[index] >= 0
+        columns.append((3 * compact[index[kept], None] + np.arange(3)).ravel())
+        values.append(offset[kept].ravel())
+        starts.append(starts[-1] + columns[-1].size)
+    table = sp.csr_matrix((np.concatenate(values), np.concatenate(columns), np.array(starts)), shape=(len(names), 3 * count))
+    table.sort_indices()
+    return np.array(names), table

@@ -1,0 +1,131 @@
+"""What a face is asked to be: the `[face]` table of a scene."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import zlib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import UnshadeError
+
+FITZPATRICK = ("I", "II", "III", "IV", "V", "VI")
+ETHNICITIES = ("african", "asian", "caucasian")
+
+
+class FaceError(UnshadeError):
+    """A face that cannot be built."""
+
+
+def stream(seed: int, *names: str) -> np.random.Generator:
+    """Independent generator for one purpose of one face.
+
+    Every purpose has its own stream, so fixing one field (or painting one more
+    layer) leaves all other draws of the same seed as they were.
+    """
+    return np.random.default_rng([seed, *(zlib.crc32(name.encode()) for name in names)])
+
+
+@dataclasses.dataclass(frozen=True)
+class FaceSpec:
+    """One identity, complete: nothing is left to be drawn but shape and paint details.
+
+    `gender` runs from 0 (female) to 1 (male), `age` from 0 (young adult) to 1 (old),
+    `weight` from 0 (thin) to 1 (heavy); `ethnicity` holds the shares (african, asian,
+    caucasian) of the shape and sums to 1; `fitzpatrick` is the skin type I to VI,
+    independent of the shape; `texture_size` is the side of the truth maps in texels.
+    """
+
+    name: str
+    seed: int
+    fitzpatrick: str
+    gender: float
+    age: float
+    ethnicity: tuple[float, float, float]
+    weight: float
+    texture_size: int = 512
+
+    @classmethod
+    def from_table(cls, table: Mapping[str, Any], *, place: str = "[face]") -> FaceSpec:
+        """Read a `[face]` table; absent fields are drawn from the seed.
+
+        Raises `FaceError` naming the key and the mend.
+        """
+        known = [field.name for field in dataclasses.fields(cls)]
+        for key in table:
+            if key not in known:
+                near = difflib.get_close_matches(key, known, 1, 0.0)[0]
+                raise FaceError(f"unknown key '{key}' in {place}; did you mean '{near}'?")
+        name, seed = _name(table, place), _whole(table, "seed", 0, 2**63 - 1, place)
+
+        def share(key: str, draw: Any) -> float:
+            if key in table:
+                return _number(table[key], key, 0.0, 1.0, place)
+            return float(draw(stream(seed, key)))
+
+        if "fitzpatrick" in table:
+            skin = table["fitzpatrick"]
+            if skin not in FITZPATRICK:
+                raise FaceError(f"fitzpatrick in {place} is {skin!r}; use one of {', '.join(FITZPATRICK)}")
+        else:
+            skin = str(stream(seed, "fitzpatrick").choice(FITZPATRICK))
+        size = _whole(table, "texture_size", 64, 8192, place) if "texture_size" in table else cls.texture_size
+        return cls(
+            name=name,
+            seed=seed,
+            fitzpatrick=skin,
+            gender=share("gender", lambda rng: rng.uniform()),
+            age=share("age", lambda rng: rng.beta(1.0, 1.3)),
+            ethnicity=_ethnicity(table, seed, place),
+            weight=share("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
+            texture_size=size,
+        )
+
+    def to_table(self) -> dict[str, Any]:
+        """The complete table: `from_table(spec.to_table()) == spec`."""
+        table = dataclasses.asdict(self)
+        table["ethnicity"] = dict(zip(ETHNICITIES, self.ethnicity))
+        return table
+
+
+def _name(table: Mapping[str, Any], place: str) -> str:
+    name = table.get("name")
+    if not isinstance(name, str) or not name:
+        raise FaceError(f"name in {place} is missing or no text; give the face a name, as name = \"demo\"")
+    return name
+
+
+def _whole(table: Mapping[str, Any], key: str, low: int, high: int, place: str) -> int:
+    value = table.get(key)
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        said = "missing" if value is None else repr(value)
+        raise FaceError(f"{key} in {place} is {said}; use a whole number from {low} to {high}")
+    return value
+
+
+def _number(value: Any, key: str, low: float, high: float, place: str) -> float:
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    if not number or not low <= value <= high:
+        raise FaceError(f"{key} in {place} is {value!r}; use a number from {low:g} to {high:g}")
+    return float(value)
+
+
+def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, float, float]:
+    if "ethnicity" not in table:
+        return tuple(map(float, stream(seed, "ethnicity").dirichlet([0.6] * 3)))
+    shares = table["ethnicity"]
+    if not isinstance(shares, Mapping):
+        raise FaceError(f"ethnicity in {place} is no table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}")
+    for key in shares:
+        if key not in ETHNICITIES:
+            raise FaceError(f"unknown key '{key}' in ethnicity of {place}; use {', '.join(ETHNICITIES)}")
+    values = [_number(shares.get(key, 0.0), f"ethnicity.{key}", 0.0, 1.0, place) for key in ETHNICITIES]
+    total = math.fsum(values)
+    if abs(total - 1.0) > 1e-3:
+        raise FaceError(f"ethnicity in {place} sums to {total:g}; make the shares sum to 1")
+    # The identity of shares read back from a written table survives: they sum to 1 within rounding.
+    return tuple(values) if abs(total - 1.0) < 1e-9 else tuple(v / total for v in values)
