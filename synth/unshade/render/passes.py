@@ -9,13 +9,13 @@ seeds give equal bytes.
 from __future__ import annotations
 
 import hashlib
-import math
 from dataclasses import dataclass
 
 import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from ..scene_file import passes_for
 from .split import split_radiance
 
 _MAX_LANES = 1 << 21
@@ -41,15 +41,6 @@ def seed_of(*parts: object) -> int:
     """A 32-bit seed that depends on every part and nothing else."""
     text = "\0".join(str(part) for part in parts)
     return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=4).digest(), "little")
-
-
-def passes_for(samples: int) -> int | None:
-    """Number of passes (4 to 16) whose share of the samples is a full multijitter grid."""
-    for passes in range(4, 17):
-        share, rest = divmod(samples, passes)
-        if rest == 0 and share and share % math.isqrt(share) == 0:
-            return passes
-    return None
 
 
 def render_layers(scene, head, sensor, *, samples: int, depth: int, seed: int) -> Layers:

@@ -1,0 +1,182 @@
+"""Renders a scene into a capture folder: pictures, masks, labels, mesh, and the truth."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+from ..face import Face, build_face
+from ..fingerprint import fingerprint
+from ..scene_file import Light, Scene
+from . import lights
+from .folder import ResumableFolder
+from .llvm import Choice
+from .mesh_file import obj_text
+from .passes import Layers, render_layers, seed_of
+from .pictures import read_gray, read_exr, write_exr, write_gray, write_text
+from .probes import TexelVisibility, nearest_texels, view_through_centres
+from .rigs import Camera, cameras
+from .scene import ChartMaps, HeadScene
+from .scene_text import scene_text, with_own_pictures
+
+Progress = Callable[[int, int, str], None]
+"""Steps done, steps in all, and what the next one is."""
+
+_ENVIRONMENTS = Path("lights")
+"""Where the environment maps of a capture lie, seen from its ``truth/scene.toml``."""
+
+
+def synthesise(scene: Scene, out: Path, choice: Choice, progress: Progress) -> None:
+    """Writes the capture of ``scene`` to ``out``.
+
+    An interrupted call leaves ``out.partial`` behind; the next one with the same scene and
+    renderer takes it up and ends with the same bytes.
+    """
+    Capture(scene, out, choice, progress).write()
+
+
+class Capture:
+    """One capture in the making."""
+
+    def __init__(self, scene: Scene, out: Path, choice: Choice, progress: Progress) -> None:
+        self.scene = scene
+        self.stated = replace(
+            with_own_pictures(scene, _ENVIRONMENTS),
+            render=replace(scene.render, variant=choice.variant),
+            versions=versions(choice),
+        )
+        sources = [Path(light.path).read_bytes() for light in scene.lights if light.path]
+        key = f"{scene_text(self.stated)}\n{fingerprint()}\n{seed_of(*sources)}"
+        self.folder = ResumableFolder(out, key)
+        self.path = self.folder.path
+        self.truth = self.path / "truth"
+        self.cameras = cameras(scene.rig, scene.render.width, scene.render.height)
+        self.tests = [camera for camera in self.cameras if not camera.train]
+        self._steps = 2 + len(self.cameras) + len(self.tests) * len(scene.relight)
+        self._done = 0
+        self._progress = progress
+
+    def write(self) -> None:
+        self._step("face")
+        face = build_face(self.scene.face)
+        head = HeadScene(face.chart, face.parts, ChartMaps.truth(face))
+        self._write_mesh_and_maps(face)
+        self._write_views(face, head)
+        for light in self.scene.relight:
+            self._write_relit(face, head, light)
+        self._step("visibility")
+        self._write_coverage(face, head)
+        write_text(self.path / "transforms.json", transforms_text(self.cameras))
+        write_text(self.truth / "scene.toml", scene_text(self.stated))
+        self.folder.commit()
+        self._progress(self._steps, self._steps, "capture")
+
+    def _step(self, what: str) -> None:
+        self._progress(self._done, self._steps, what)
+        self._done += 1
+
+    def _write_mesh_and_maps(self, face: Face) -> None:
+        maps = face.maps
+        write_text(self.path / "mesh.obj", obj_text(face.chart))
+        write_exr(self.truth / "diffuse_albedo.exr", {"": maps.diffuse_albedo})
+        write_exr(self.truth / "specular_albedo.exr", {"Y": maps.specular_albedo})
+        write_exr(self.truth / "diffuse_normal.exr", {"": maps.diffuse_normal})
+        write_exr(self.truth / "specular_normal.exr", {"": maps.specular_normal})
+        write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
+        for light in self.scene.lights:
+            if light.path:
+                picture = lights.read_rgb(light.path).clip(0)
+                write_exr(self.truth / _ENVIRONMENTS / f"{light.name}.exr", {"": picture})
+
+    def _write_views(self, face: Face, head: HeadScene) -> None:
+        own = self.scene.light
+        model = lights.exposed(own, face.chart.vertices, face.chart.normals)
+        write_exr(self.truth / "light.exr", {"": model.latlong()})
+        lit = head.lit(model)
+        for camera in self.cameras:
+            self._step(f"view {camera.name}")
+            name = camera.name
+            image = self.path / "images" / f"{name}.exr"
+            if image.exists():
+                continue
+            centres = view_through_centres(head, camera)
+            labels = np.where(centres.mask, nearest_texels(face.maps.labels, centres.uv), 0)
+            write_gray(self.path / "masks" / f"{name}.png", np.where(centres.mask, 255, 0).astype(np.uint8))
+            write_gray(self.path / "labels" / f"{name}.png", labels.astype(np.uint8))
+            layers = self._render(lit, head, camera, own)
+            write_exr(self.truth / "layers" / f"{name}.exr", layer_channels(layers))
+            if not camera.train:
+                write_exr(self._relit_path(own, camera), {"": layers.total, **layer_channels(layers)})
+            # Last, since it marks the view as finished.
+            write_exr(image, {"": layers.total})
+
+    def _write_relit(self, face: Face, head: HeadScene, light: Light) -> None:
+        model = lights.exposed(light, face.chart.vertices, face.chart.normals)
+        lit = head.lit(model)
+        for camera in self.tests:
+            self._step(f"view {camera.name} in {light.name}")
+            path = self._relit_path(light, camera)
+            if not path.exists():
+                layers = self._render(lit, head, camera, light)
+                write_exr(path, {"": layers.total, **layer_channels(layers)})
+
+    def _render(self, lit, head: HeadScene, camera: Camera, light: Light) -> Layers:
+        render = self.scene.render
+        return render_layers(
+            lit, head.dark, camera.sensor(render.samples),
+            samples=render.samples, depth=render.depth,
+            seed=seed_of("truth", render.seed, light.name, camera.name),
+        )  # fmt: skip
+
+    def _relit_path(self, light: Light, camera: Camera) -> Path:
+        return self.truth / "relit" / light.name / f"{camera.name}.exr"
+
+    def _write_coverage(self, face: Face, head: HeadScene) -> None:
+        visibility = TexelVisibility(head, face.chart, self.scene.face.texture_size)
+        views = sum(
+            visibility.seen_by(camera, read_gray(self.path / "masks" / f"{camera.name}.png") > 0).astype(int)
+            for camera in self.cameras
+            if camera.train
+        )
+        write_gray(self.truth / "views.png", views.clip(0, 255).astype(np.uint8))
+        write_gray(self.truth / "coverage.png", np.where(views > 0, 255, 0).astype(np.uint8))
+
+
+def layer_channels(layers: Layers) -> dict[str, np.ndarray]:
+    """The channels that describe how a picture came about."""
+    return {"diffuse": layers.diffuse, "specular": layers.specular, "variance": layers.variance}
+
+
+def transforms_text(rig: list[Camera]) -> str:
+    """``transforms.json`` in the manner of nerfstudio."""
+    frames = [camera.frame() for camera in rig]
+    document = {
+        "camera_model": "PINHOLE",
+        "mesh": "mesh.obj",
+        "frames": frames,
+        "train_filenames": [f["file_path"] for f, c in zip(frames, rig) if c.train],
+        "test_filenames": [f["file_path"] for f, c in zip(frames, rig) if not c.train],
+    }
+    return json.dumps(document, indent=1) + "\n"
+
+
+def versions(choice: Choice) -> dict[str, str]:
+    """The ``[versions]`` of a capture's scene."""
+    try:
+        own = importlib.metadata.version("unshade")
+    except importlib.metadata.PackageNotFoundError:
+        own = "source tree"
+    known = {
+        "unshade": own,
+        "mitsuba": mi.__version__,
+        "drjit": dr.__version__,
+        "variant": choice.variant,
+    }
+    return known | ({"llvm": choice.llvm.version} if choice.llvm else {})

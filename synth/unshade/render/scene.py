@@ -1,0 +1,128 @@
+"""The head in Mitsuba: chart with its maps, the other parts, and one scene per light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mitsuba as mi
+import numpy as np
+
+from ..face import Chart, Face, Part
+from .lights import AnyLight
+
+_WET_ALPHA = 0.06
+"""GGX alpha of the eyes, which are smoother than any skin."""
+
+
+@dataclass(frozen=True)
+class ChartMaps:
+    """What the chart is made of; square arrays of any size, texel row 0 at v = 1.
+
+    ``diffuse_albedo`` [N, N, 3] linear Rec.709, ``specular_albedo`` [N, N] (0 to 0.05),
+    normals [N, N, 3] in object space. Without ``specular_albedo`` there are no highlights;
+    without a normal map the mesh's own normal serves.
+    """
+
+    diffuse_albedo: np.ndarray
+    specular_albedo: np.ndarray | None = None
+    diffuse_normal: np.ndarray | None = None
+    specular_normal: np.ndarray | None = None
+
+    @classmethod
+    def truth(cls, face: Face) -> ChartMaps:
+        maps = face.maps
+        return cls(maps.diffuse_albedo, maps.specular_albedo, maps.diffuse_normal, maps.specular_normal)
+
+
+class HeadScene:
+    """All shapes of a head, built once and shared by a scene without light and one per light.
+
+    ``dark`` answers what a camera or a texel sees; pictures are traced in ``lit``.
+    """
+
+    def __init__(self, chart: Chart, parts: list[Part], maps: ChartMaps) -> None:
+        self.skin = mi.load_dict(
+            {
+                "type": "skin",
+                "diffuse": _texture(maps.diffuse_albedo),
+                "specular": _texture(_or_zero(maps.specular_albedo, 1)),
+                # A texel without direction means the mesh's own normal.
+                "diffuse_normal": _texture(_or_zero(maps.diffuse_normal, 3)),
+                "specular_normal": _texture(_or_zero(maps.specular_normal, 3)),
+            }
+        )
+        self.chart = _mesh("chart", chart, self.skin, uv=chart.uv)
+        self._shapes = {"chart": self.chart} | {part.name: _part(part) for part in parts}
+        self.dark = mi.load_dict({"type": "scene", **self._shapes})
+
+    def lit(self, light: AnyLight):
+        """The head in a light."""
+        return mi.load_dict({"type": "scene", **self._shapes, **light.emitters()})
+
+    def set_diffuse_albedo(self, albedo: np.ndarray) -> None:
+        """Replaces the diffuse albedo [N, N, 3] in all scenes of this head."""
+        parameters = mi.traverse(self.skin)
+        parameters["diffuse.data"] = mi.TensorXf(np.ascontiguousarray(albedo, dtype=np.float32))
+        parameters.update()
+
+
+def _part(part: Part):
+    if part.uv is None:
+        bsdf = {
+            "type": "skin",
+            "diffuse": {"type": "mesh_attribute", "name": "vertex_diffuse"},
+            "specular": {"type": "mesh_attribute", "name": "vertex_specular"},
+        }
+        mesh = _mesh(part.name, part, mi.load_dict(bsdf))
+        mesh.add_attribute("vertex_diffuse", 3, _flat(part.diffuse))
+        mesh.add_attribute("vertex_specular", 1, _flat(part.specular))
+        return mesh
+    bsdf = {
+        "type": "skin",
+        "diffuse": _texture(part.diffuse),
+        "specular": _texture(part.specular),
+        "alpha": _WET_ALPHA,
+    }
+    return _mesh(part.name, part, mi.load_dict(bsdf), uv=part.uv)
+
+
+def _mesh(name: str, shape: Chart | Part, bsdf, uv: np.ndarray | None = None):
+    properties = mi.Properties()
+    properties["bsdf"] = bsdf
+    mesh = mi.Mesh(
+        name,
+        len(shape.vertices),
+        len(shape.triangles),
+        props=properties,
+        has_vertex_normals=True,
+        has_vertex_texcoords=uv is not None,
+    )
+    parameters = mi.traverse(mesh)
+    parameters["vertex_positions"] = _flat(shape.vertices)
+    parameters["vertex_normals"] = _flat(shape.normals)
+    parameters["faces"] = np.ascontiguousarray(shape.triangles, dtype=np.uint32).ravel()
+    if uv is not None:
+        # Mitsuba's texture row 0 lies at v = 0, ours at v = 1.
+        parameters["vertex_texcoords"] = _flat(np.stack([uv[:, 0], 1 - uv[:, 1]], 1))
+    parameters.update()
+    return mesh
+
+
+def _flat(values: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(values, dtype=np.float32).ravel()
+
+
+def _or_zero(picture: np.ndarray | None, channels: int) -> np.ndarray:
+    return np.zeros((2, 2, channels), np.float32) if picture is None else picture
+
+
+def _texture(picture: np.ndarray) -> dict[str, Any]:
+    picture = picture[..., None] if picture.ndim == 2 else picture
+    return {
+        "type": "bitmap",
+        "bitmap": mi.Bitmap(np.ascontiguousarray(picture, dtype=np.float32)),
+        "raw": True,
+        "filter_type": "bilinear",
+        "wrap_mode": "clamp",
+    }

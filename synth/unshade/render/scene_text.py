@@ -1,0 +1,59 @@
+"""Writes a scene back as TOML, with every default spelt out and the renderer's versions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, fields, replace
+from pathlib import Path
+from typing import Any
+
+from ..scene_file import FORMAT, Light, Rig, Scene
+
+
+def scene_text(scene: Scene) -> str:
+    """TOML that `scene_file.read_scene` reads back to an equal scene."""
+    tables: list[tuple[str, Mapping[str, Any]]] = [
+        ("face", scene.face.to_table()),
+        ("light", _light_table(scene.light)),
+        ("rig", _rig_table(scene.rig)),
+        ("render", asdict(scene.render)),
+        ("versions", scene.versions),
+    ]
+    blocks = [f"format = {FORMAT}\nname = {_value(scene.name)}\n"]
+    blocks += [f"[{name}]\n{_lines(table)}" for name, table in tables if table]
+    blocks += [f"[[relight]]\n{_lines(_light_table(light))}" for light in scene.relight]
+    return "\n".join(blocks)
+
+
+def with_own_pictures(scene: Scene, folder: Path) -> Scene:
+    """The scene with the environment maps of its lights at ``folder/<light>.exr``."""
+
+    def moved(light: Light) -> Light:
+        return replace(light, path=str(folder / f"{light.name}.exr")) if light.path else light
+
+    return replace(scene, light=moved(scene.light), relight=tuple(map(moved, scene.relight)))
+
+
+def _light_table(light: Light) -> dict[str, Any]:
+    table = {key: value for key, value in asdict(light).items() if value is not None}
+    if light.kind != "envmap":
+        del table["rotation_degrees"]
+    return table
+
+
+def _rig_table(rig: Rig) -> dict[str, Any]:
+    if rig.kind == "phone":
+        return asdict(rig)
+    return {field.name: getattr(rig, field.name) for field in fields(Rig) if field.name in ("name", "kind")}
+
+
+def _lines(table: Mapping[str, Any]) -> str:
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_value(v)}" for key, v in value.items()) + " }"
+    # Texts (without DEL, which JSON leaves bare), numbers and booleans are spelt alike.
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

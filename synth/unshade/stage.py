@@ -1,0 +1,139 @@
+"""The rendering stages as child processes: ``python -m unshade.stage VERB ...``.
+
+Standard output carries JSON lines: ``progress``, ``warning``, and one ``result`` or
+``error`` at the end. The exit code is 0 done, 2 bad input, 3 interrupted, 1 a fault of our
+own (its traceback goes to standard error).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import threading
+import traceback
+from pathlib import Path
+from typing import Any
+
+from .errors import UnshadeError
+
+_INTERRUPTED, _FAULT = 3, 1
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = _parser().parse_args(arguments)
+    if options.watch_stdin:
+        threading.Thread(target=_leave_with_parent, daemon=True).start()
+    try:
+        result = options.stage(options)
+    except UnshadeError as error:
+        _say("error", kind=type(error).__name__, message=" ".join(str(error).split()))
+        return error.exit_code
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except Exception:
+        traceback.print_exc()
+        return _FAULT
+    _say("result", **result)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m unshade.stage", description=__doc__)
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
+
+    synth = verbs.add_parser("synth", help="render a scene into a capture")
+    synth.add_argument("--scene", type=Path, required=True)
+    synth.add_argument("--out", type=Path, required=True)
+    synth.set_defaults(stage=_synth)
+
+    relight = verbs.add_parser("relight", help="render recovered maps in a capture's lights")
+    relight.add_argument("--capture", type=Path, required=True)
+    relight.add_argument("--maps", type=Path, required=True)
+    relight.add_argument("--out", type=Path, required=True)
+    relight.add_argument("--scale", type=_scale, action="append", required=True, metavar="NAME=FACTOR")
+    relight.add_argument("--seed-offset", type=int, default=0)
+    relight.set_defaults(stage=_relight)
+
+    doctor = verbs.add_parser("doctor", help="say what rendering finds on this machine")
+    doctor.set_defaults(stage=_doctor)
+    for verb in (synth, relight, doctor):
+        verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
+    return parser
+
+
+def _scale(text: str) -> tuple[str, float]:
+    name, _, factor = text.partition("=")
+    try:
+        value = float(factor)
+    except ValueError:
+        value = float("nan")
+    if not name.isidentifier() or not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is no NAME=FACTOR with a positive factor")
+    return name, value
+
+
+def _synth(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+    from .scene_file import read_scene
+
+    scene = read_scene(options.scene)
+    choice = _activate(llvm.choose(scene.render.variant))
+    from .render.capture import synthesise
+
+    synthesise(scene, options.out, choice, _progress)
+    return {"capture": str(options.out), "variant": choice.variant}
+
+
+def _relight(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+    from .render.truth_scene import captured_scene
+
+    scene = captured_scene(options.capture)
+    choice = _activate(llvm.choose(scene.versions["variant"]))
+    from .render.relight import relight
+
+    relight(
+        scene, options.maps, options.out,
+        scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
+    )  # fmt: skip
+    return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _doctor(options: argparse.Namespace) -> dict[str, Any]:
+    from .render.doctor import examine
+
+    return {"checks": examine()}
+
+
+def _activate(choice):
+    from .render import llvm
+
+    if choice.warning:
+        _warn(choice.warning)
+    llvm.activate(choice)
+    return choice
+
+
+def _progress(done: int, total: int, what: str) -> None:
+    _say("progress", done=done, total=total, what=what)
+
+
+def _warn(message: str) -> None:
+    _say("warning", message=message)
+
+
+def _say(event: str, **fields: Any) -> None:
+    print(json.dumps({"event": event, **fields}), flush=True)
+
+
+def _leave_with_parent() -> None:
+    """Ends this process at once when the parent closes our standard input or dies."""
+    while os.read(0, 4096):
+        pass
+    os._exit(_INTERRUPTED)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
