@@ -7,28 +7,16 @@ import dataclasses
 import numpy as np
 
 from .cache import load_head
-from .geometry import Chart, Part, part_mesh, place
+from .eyes import make_eyes
+from .geometry import Chart, Geometry, Part, part_mesh, place
+from .hair import HairStyle, hair_style
+from .head import Head
 from .identity import shape
+from .paint import Maps, paint_maps
+from .pigment import skin_colour
+from .regions import find_regions
+from .skin import base_pigments, head_colour
 from .spec import FaceSpec
-from .texels import rasterise
-
-
-@dataclasses.dataclass(frozen=True)
-class Maps:
-    """Truth maps (N,N,...), texel row 0 at v = 1; every texel holds a value, those outside the chart their nearest one's.
-
-    `diffuse_albedo` (N,N,3) f32 linear Rec.709; `specular_albedo` (N,N) f32, reflectance at
-    normal incidence, 0 to 0.05; `specular_normal` and `diffuse_normal` (N,N,3) f32 unit
-    vectors in object space (= world); `labels` (N,N) u8, see `labels.Label`;
-    `inside` (N,N) bool: the texel's centre lies in the chart.
-    """
-
-    diffuse_albedo: np.ndarray
-    specular_albedo: np.ndarray
-    specular_normal: np.ndarray
-    diffuse_normal: np.ndarray
-    labels: np.ndarray
-    inside: np.ndarray
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,20 +41,28 @@ def build_face(spec: FaceSpec) -> Face:
     """
     head = load_head()
     geometry = place(head, shape(head, spec))
-    used, mesh = part_mesh(geometry, head.part_chart)
-    chart = Chart(uv=head.chart_uv.astype(np.float32), **mesh)
-    texels = rasterise(head.chart_uv, head.chart_triangles, spec.texture_size)
-    normal = texels.sample(geometry.normals[used])
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    rows, columns = texels.nearest_inside()
-    normal = texels.image(normal)[rows, columns]
-    size = texels.inside.shape
-    maps = Maps(
-        np.full((*size, 3), 0.4, np.float32), np.full(size, 0.03, np.float32), normal, normal,
-        texels.inside.astype(np.uint8), texels.inside,
-    )  # fmt: skip
+    style = hair_style(spec)
+    _, mesh = part_mesh(geometry, head.part_chart)
+    return Face(
+        spec=spec,
+        chart=Chart(uv=head.chart_uv.astype(np.float32), **mesh),
+        parts=_occluders(head, geometry, style, spec) + make_eyes(geometry.eyes, spec),
+        maps=paint_maps(head, geometry, style, spec),
+    )
+
+
+def _occluders(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec) -> list[Part]:
+    """Rest of the head, mouth cavity and eye sockets, one colour per vertex."""
     parts = []
     for name in ("rest", "mouth", "sockets"):
         used, mesh = part_mesh(geometry, getattr(head, f"part_{name}"))
-        parts.append(Part(name=name, diffuse=np.full((len(used), 3), 0.4, np.float32), specular=np.full(len(used), 0.03, np.float32), **mesh))
-    return Face(spec, chart, parts, maps)
+        regions = find_regions(head.template[used].astype(np.float32))
+        if name == "rest":
+            diffuse, specular = head_colour(regions, style, spec)
+        else:
+            # Mucous membrane: little melanin over much blood.
+            pigments = base_pigments(regions, spec)
+            diffuse = skin_colour(0.5 * pigments.melanin, 3.0 * pigments.blood)
+            specular = np.full(len(used), 0.02, dtype=np.float32)
+        parts.append(Part(name=name, diffuse=diffuse, specular=specular, **mesh))
+    return parts

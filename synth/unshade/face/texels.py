@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
@@ -36,6 +37,18 @@ class Texels:
         picture = np.full(self.inside.shape + values.shape[1:], fill, dtype=values.dtype)
         picture[self.inside] = values
         return picture
+
+    @functools.cached_property
+    def _number(self) -> np.ndarray:
+        return self.image(np.arange(1, len(self.triangle) + 1))
+
+    def around(self, uv: np.ndarray, reach: float) -> np.ndarray:
+        """Texels in a square of half side `reach` (texels) round a point of the chart."""
+        size = len(self.inside)
+        column, row = uv[0] * size - 0.5, (1 - uv[1]) * size - 0.5
+        rows = slice(max(0, int(row - reach)), int(row + reach) + 2)
+        number = self._number[rows, max(0, int(column - reach)) : int(column + reach) + 2]
+        return number[number > 0] - 1
 
     def nearest_inside(self) -> tuple[np.ndarray, np.ndarray]:
         """Row and column (N,N) of the nearest texel of the chart."""

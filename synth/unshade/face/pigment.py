@@ -1,0 +1,132 @@
+"""Skin colour from two pigments: melanin in the epidermis, haemoglobin in the dermis.
+
+A thin pigmented epidermis (Kubelka-Munk layer, K = 2 mua and S = 3/4 mus') lies on a
+bloody dermis without end. Optical constants are those of S. L. Jacques, "Skin Optics", Oregon Medical Laser Center News, Jan 1998
+(omlc.org/news/jan98/skinoptics.html); haemoglobin is S. Prahl's compilation
+(omlc.org/spectra/hemoglobin); the diffuse reflectance of the semi-infinite dermis is
+that of the dipole (Jensen et al. 2001, section 2.4). Spectra become linear Rec.709
+under D65 through the CIE 1931 observer.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+
+WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
+"""Sampled wavelengths in nm."""
+
+# Molar extinction in cm-1/M at WAVELENGTHS (Prahl: Gratzer, Kollias), oxygenated and not.
+_OXY = np.array([
+    266232, 466840, 480360, 246072, 102580, 62816, 44480, 33209.2, 26629.2, 23684.4, 20932.8, 20035.2, 24202.4, 39956.8, 53236, 43016,
+    32613.2, 44496, 50104, 14400.8, 3200, 1506, 942, 610, 442, 368, 319.6, 294, 277.6, 276, 290,
+])  # fmt: skip
+_DEOXY = np.array([
+    223296, 303956, 407560, 528600, 413280, 103292, 23388.8, 16156.4, 14550, 16684, 20862, 25773.6, 31589.6, 39036.4, 46592, 53412,
+    53788, 45072, 37020, 28324.4, 14677.2, 9443.6, 6509.6, 5148.8, 4345.2, 3750.12, 3226.56, 2795.12, 2407.92, 2051.96, 1794.28,
+])  # fmt: skip
+# CIE standard illuminant D65, relative power at WAVELENGTHS (CIE 015).
+_D65 = np.array([
+    82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405,
+    104.046, 100.000, 96.3342, 95.7880, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213,
+    71.6091,
+])  # fmt: skip
+
+_EPIDERMIS_CM = 0.006
+_HAEMOGLOBIN_GRAMS = 150.0  # per litre of whole blood
+_HAEMOGLOBIN_MOLAR = 64500.0  # g/mol
+_OXYGENATION = 0.75
+_REFRACTIVE_INDEX = 1.4
+
+MELANOSOMES = {"I": 0.0325, "II": 0.0445, "III": 0.0595, "IV": 0.0785, "V": 0.120, "VI": 0.190}
+"""Volume fraction of melanosomes per Fitzpatrick type; Jacques gives 1.3-6.3 % for light,
+11-16 % for moderately and 18-43 % for darkly pigmented adults."""
+
+BLOOD = {"I": 0.0070, "II": 0.0070, "III": 0.0075, "IV": 0.0080, "V": 0.0080, "VI": 0.0080}
+"""Volume fraction of blood in the dermis, cheeks and lips not counted."""
+
+MELANIN_LIMIT, BLOOD_LIMIT = 0.6, 0.06
+"""Largest fractions that `skin_colour` tabulates."""
+
+
+def _observer() -> np.ndarray:
+    """CIE 1931 colour-matching functions (31,3), multi-lobe fit of Wyman, Sloan & Shirley 2013, table 1."""
+
+    def lobe(height: float, centre: float, below: float, above: float) -> np.ndarray:
+        offset = WAVELENGTHS - centre
+        return height * np.exp(-0.5 * (offset * np.where(offset < 0, below, above)) ** 2)
+
+    x = lobe(0.362, 442.0, 0.0624, 0.0374) + lobe(1.056, 599.8, 0.0264, 0.0323) - lobe(0.065, 501.1, 0.0490, 0.0382)
+    y = lobe(0.821, 568.8, 0.0213, 0.0247) + lobe(0.286, 530.9, 0.0613, 0.0322)
+    z = lobe(1.217, 437.0, 0.0845, 0.0278) + lobe(0.681, 459.0, 0.0385, 0.0725)
+    return np.stack([x, y, z], axis=1)
+
+
+_XYZ_TO_RGB = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
+
+
+def _projection() -> np.ndarray:
+    """Matrix (31,3) from reflectance to linear Rec.709; a perfect white is exactly (1,1,1)."""
+    rgb = (_D65[:, None] * _observer()) @ _XYZ_TO_RGB.T
+    return rgb / rgb.sum(axis=0)
+
+
+def reflectance(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+    """Diffuse reflectance (...,31) of skin with these volume fractions of melanosomes and blood."""
+    melanin, blood = np.asarray(melanin)[..., None], np.asarray(blood)[..., None]
+    baseline = 0.244 + 85.3 * np.exp(-(WAVELENGTHS - 154) / 66.2)
+    epidermis = melanin * 6.6e11 * WAVELENGTHS**-3.33 + (1 - melanin) * baseline
+    extinction = _OXYGENATION * _OXY + (1 - _OXYGENATION) * _DEOXY
+    whole_blood = np.log(10) * extinction * _HAEMOGLOBIN_GRAMS / _HAEMOGLOBIN_MOLAR
+    absorption = blood * whole_blood + (1 - blood) * baseline
+    scattering = 2e5 * WAVELENGTHS**-1.5 + 2e12 * WAVELENGTHS**-4.0
+    return _layer(epidermis, scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
+
+
+def _layer(absorption: np.ndarray, scattering: np.ndarray, thickness: float, below: np.ndarray) -> np.ndarray:
+    """Reflectance of a layer over a ground of reflectance `below` (Kubelka 1948, equation 24)."""
+    s = 0.75 * scattering
+    a = 1 + 2 * absorption / s
+    b = np.sqrt(a * a - 1)
+    term = b / np.tanh(b * s * thickness)
+    return (1 - below * (a - term)) / (a - below + term)
+
+
+def _dipole(albedo: np.ndarray) -> np.ndarray:
+    """Diffuse reflectance of a semi-infinite medium of this reduced albedo (Jensen et al. 2001)."""
+    eta = _REFRACTIVE_INDEX
+    inner = -1.440 / eta**2 + 0.710 / eta + 0.668 + 0.0636 * eta
+    mismatch = (1 + inner) / (1 - inner)
+    root = np.sqrt(3 * (1 - albedo))
+    return albedo / 2 * (1 + np.exp(-4 / 3 * mismatch * root)) * np.exp(-root)
+
+
+def exact_colour(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 diffuse albedo (...,3) from the full spectrum."""
+    return np.clip(reflectance(melanin, blood) @ _projection(), 0, 1)
+
+
+# Table knots grow with the square of the index: colour changes fastest where there is little pigment.
+_KNOTS = 96
+
+
+@functools.cache
+def _table() -> np.ndarray:
+    knots = (np.arange(_KNOTS) / (_KNOTS - 1)) ** 2
+    return exact_colour(MELANIN_LIMIT * knots[:, None], BLOOD_LIMIT * knots).astype(np.float32)
+
+
+def skin_colour(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 diffuse albedo (M,3) f32, bilinear in a table of `exact_colour`; fractions are clipped to the limits."""
+
+    def position(fraction: np.ndarray, limit: float) -> tuple[np.ndarray, np.ndarray]:
+        knot = np.sqrt(np.clip(fraction / limit, 0, 1)).astype(np.float32) * (_KNOTS - 1)
+        low = np.minimum(knot.astype(np.int64), _KNOTS - 2)
+        return low, (knot - low).astype(np.float32)[:, None]
+
+    (i, s), (j, t) = position(melanin, MELANIN_LIMIT), position(blood, BLOOD_LIMIT)
+    table = _table()
+    near = table[i, j] * (1 - t) + table[i, j + 1] * t
+    far = table[i + 1, j] * (1 - t) + table[i + 1, j + 1] * t
+    return near * (1 - s) + far * s

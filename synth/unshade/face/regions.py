@@ -1,0 +1,87 @@
+"""Where on the template head the skin changes: smooth fields over template millimetres.
+
+Coordinates: origin midway between the eyes' centres, +Y up, +Z out of the face.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from scipy.ndimage import gaussian_filter, map_coordinates
+
+from . import base_mesh
+from .head import Head
+
+
+def bump(points: np.ndarray, centre: tuple, radii: tuple) -> np.ndarray:
+    """Gaussian (M,) f32 with standard deviations `radii` around `centre`."""
+    offset = (points - np.float32(centre)) / np.float32(radii)
+    return np.exp(-0.5 * np.einsum("ij,ij->i", offset, offset))
+
+
+def pair(points: np.ndarray, centre: tuple, radii: tuple) -> np.ndarray:
+    """A `bump` on each side of the face."""
+    mirrored = np.column_stack([np.abs(points[:, 0]), points[:, 1:]])
+    return bump(mirrored, centre, radii)
+
+
+def smoothstep(low: float, high: float, value: np.ndarray) -> np.ndarray:
+    """0 below `low`, 1 above `high`, smooth between."""
+    t = np.clip((value - low) / (high - low), 0, 1)
+    return t * t * (3 - 2 * t)
+
+
+@dataclasses.dataclass(frozen=True)
+class Regions:
+    """Fields (M,) f32 in 0..1 at `points` (M,3). Those from masks (`lips`, `lids`, `ears`) are 0 off the chart."""
+
+    points: np.ndarray
+    nose: np.ndarray
+    cheek: np.ndarray
+    forehead: np.ndarray
+    under_eye: np.ndarray
+    upper_lid: np.ndarray
+    chin: np.ndarray
+    ear_flush: np.ndarray
+    oily: np.ndarray
+    lips: np.ndarray
+    lids: np.ndarray
+    ears: np.ndarray
+
+
+def find_regions(points: np.ndarray, masks: dict[str, np.ndarray] | None = None) -> Regions:
+    """Fields at template points (M,3) mm; `masks` as of `sample_masks`, none off the chart."""
+    nose = bump(points, (0, -36, 43), (16, 12, 16))
+    forehead = bump(points, (0, 50, 12), (46, 24, 40))
+    chin = bump(points, (0, -96, 22), (18, 10, 20))
+    none = np.zeros(len(points), dtype=np.float32)
+    masks = masks or {"lips": none, "eyelids": none, "ears": none}
+    return Regions(
+        points=points,
+        nose=nose,
+        cheek=pair(points, (42, -38, 2), (17, 15, 28)),
+        forehead=forehead,
+        under_eye=pair(points, (28, -15, 10), (13, 5, 18)),
+        upper_lid=pair(points, (29, 7, 12), (16, 6, 12)),
+        chin=chin,
+        ear_flush=pair(points, (77, -20, -68), (8, 26, 20)),
+        oily=np.clip(nose + 0.8 * forehead + 0.6 * chin + 0.5 * bump(points, (0, -12, 30), (8, 22, 20)), 0, 1),
+        lips=masks["lips"],
+        lids=masks["eyelids"],
+        ears=masks["ears"],
+    )
+
+
+def sample_masks(head: Head, native_uv: np.ndarray) -> dict[str, np.ndarray]:
+    """Region masks of the head data at native UV (M,2): f32 in 0..1.
+
+    The lips span some sixty pixels there, so their outline is blurred before it is sampled.
+    """
+    place = np.stack([(1 - native_uv[:, 1]), native_uv[:, 0]])
+    masks = {}
+    for name in ("lips", "eyelids", "ears"):
+        image = gaussian_filter(base_mesh.read_region(name), 1.0)
+        size = np.array(image.shape, dtype=np.float32)[:, None]
+        masks[name] = map_coordinates(image, place * size - 0.5, order=1, mode="nearest", output=np.float32)
+    return masks

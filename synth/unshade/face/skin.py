@@ -1,0 +1,132 @@
+"""Colour of the skin: pigments over regions, then hair, lips, lids and what lies in the relief."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from .hair import HairStyle, scalp_cover
+from .noise import octaves
+from .pigment import BLOOD, BLOOD_LIMIT, MELANIN_LIMIT, MELANOSOMES, skin_colour
+from .regions import Regions, smoothstep
+from .relief import Relief
+from .spec import FaceSpec, stream
+from .texels import Texels
+
+_SPECULAR = 0.026
+"""Reflectance of skin at normal incidence away from oily regions; F0 of n = 1.4 is 0.028."""
+
+SPECULAR_LIMIT = 0.05
+
+
+@dataclasses.dataclass(frozen=True)
+class Pigments:
+    """Volume fractions (M,) of melanosomes and blood."""
+
+    melanin: np.ndarray
+    blood: np.ndarray
+
+
+def base_pigments(regions: Regions, spec: FaceSpec) -> Pigments:
+    """Slowly varying pigments, the same function on the chart and on the rest of the head.
+
+    Variations of melanin shrink with its amount: dark skin is even, not blotchy.
+    """
+    rng = stream(spec.seed, "complexion")
+    flush, rings, sun, thin = rng.uniform((0.6, 0.2, 0.4, 0.5), (1.3, 1.0, 1.0, 1.0))
+    even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
+    patches = octaves(regions.points, 40.0, 3, 8.0, stream(spec.seed, "melanin patches"))
+    glow = octaves(regions.points, 34.0, 3, 8.0, stream(spec.seed, "blood patches"))
+    melanin = 1 + even * (
+        0.04 * patches + 0.14 * sun * regions.forehead - 0.08 * regions.cheek + 0.26 * rings * regions.under_eye + 0.08 * regions.upper_lid
+    )
+    blood = 1 + 0.10 * glow + flush * (0.75 * regions.nose + 0.80 * regions.cheek + 0.25 * regions.chin)
+    blood += 0.45 * regions.ear_flush + 0.35 * thin * regions.under_eye + 0.35 * regions.upper_lid - 0.12 * regions.forehead
+    return Pigments(MELANOSOMES[spec.fitzpatrick] * melanin, BLOOD[spec.fitzpatrick] * blood)
+
+
+def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:
+    """Diffuse (M,3) and specular (M,) albedo f32 of the head away from the chart; at its rim the chart agrees."""
+    pigments = base_pigments(regions, spec)
+    colour = skin_colour(pigments.melanin, pigments.blood)
+    scalp = scalp_cover(regions.points, style, spec.seed)
+    return _with_hair(colour, scalp, style.scalp), _specular_base(regions, scalp)
+
+
+def chart_colour(
+    regions: Regions,
+    relief: Relief,
+    marks: np.ndarray,
+    cover: dict[str, np.ndarray],
+    rims: dict[str, np.ndarray],
+    texel: float,
+    style: HairStyle,
+    spec: FaceSpec,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Diffuse (M,3) and specular (M,) albedo f32 of the chart's texels.
+
+    `marks` (M,) melanin of moles and freckles; `cover`: `brow`, `scalp`, `beard` shares;
+    `rims`: `outer`, 0 at the outer rim to 1 inside, and `lash`, `wet`, the shares of lash
+    line and waterline. Detail fades towards the outer rim, where the rest of the head takes over.
+    """
+    pigments, fade = base_pigments(regions, spec), rims["outer"]
+    even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
+    fine = octaves(regions.points, 6.0, 3, 2 * texel, stream(spec.seed, "fine melanin"))
+    mottle = octaves(regions.points, 5.0, 3, 2 * texel, stream(spec.seed, "fine blood"))
+    lips = regions.lips * fade
+    melanin = pigments.melanin * (1 + fade * even * 0.045 * fine) + fade * marks
+    blood = pigments.blood * (1 + fade * (0.09 * mottle + 0.35 * relief.creases))
+    # Lips have a thin, little pigmented epidermis over dense vessels; on dark skin they keep more of its melanin.
+    bare = 0.55 - 0.25 * smoothstep(0.06, 0.19, np.float64(MELANOSOMES[spec.fitzpatrick]))
+    flesh = stream(spec.seed, "lip colour").uniform(0.8, 1.25)
+    melanin = melanin * (1 - bare * lips)
+    blood = blood * (1 + lips * flesh * (1.5 + 0.12 * fine))
+    blood = blood * (1 + 1.2 * rims["wet"])
+    colour = skin_colour(np.clip(melanin, 0, MELANIN_LIMIT), np.clip(blood, 0, BLOOD_LIMIT))
+
+    colour = colour * (1 - fade * (0.08 * relief.pores + 0.12 * relief.creases))[:, None]
+    # A shaven beard shows its roots through the skin: bluish grey, hence red is damped most.
+    colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.48, 0.42, 0.36]))
+    colour = colour + (fade * cover["brow"])[:, None] * (style.brow.astype(np.float32) - colour)
+    colour = _with_hair(colour, cover["scalp"], style.scalp)
+    colour = colour * (1 - 0.82 * rims["lash"])[:, None]
+
+    specular = _specular_base(regions, cover["scalp"])
+    specular = specular + fade * (0.004 * lips + 0.0012 * mottle)
+    specular = specular * (1 - fade * (0.45 * relief.pores + 0.30 * relief.creases + 0.5 * cover["brow"]))
+    specular = specular * (1 - 0.6 * rims["lash"]) + 0.012 * rims["wet"]
+    return colour.astype(np.float32), np.clip(specular, 0, SPECULAR_LIMIT).astype(np.float32)
+
+
+def _with_hair(colour: np.ndarray, cover: np.ndarray, hair: np.ndarray) -> np.ndarray:
+    return (colour + 0.93 * cover[:, None] * (hair.astype(np.float32) - colour)).astype(np.float32)
+
+
+def _specular_base(regions: Regions, scalp: np.ndarray) -> np.ndarray:
+    return ((_SPECULAR + 0.010 * regions.oily + 0.002 * regions.cheek) * (1 - 0.6 * scalp)).astype(np.float32)
+
+
+def draw_marks(points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.ndarray, texel: float, spec: FaceSpec) -> np.ndarray:
+    """Melanin (M,) of freckles, age spots and moles: round spots at template points (M,3) mm.
+
+    Their centres are drawn among `sites` (the chart's vertices, at `site_uv`), so that they
+    stay in place when the texture's size changes.
+    """
+    rng = stream(spec.seed, "marks")
+    freckled = rng.uniform(0.1, 1.4) * {"I": 420, "II": 220, "III": 70, "IV": 20, "V": 5, "VI": 3}[spec.fitzpatrick]
+    anywhere = 1 - sites.lips
+    kinds = (
+        (rng.poisson(freckled), (0.2 + 2 * sites.cheek + 1.4 * sites.nose) * anywhere, (0.35, 0.9), (0.012, 0.035)),
+        (int(50 * spec.age**2 * rng.uniform(0.3, 1.3)), anywhere, (1.0, 2.6), (0.015, 0.035)),
+        (int(rng.integers(2, 9)), anywhere, (0.6, 1.3), (0.15, 0.30)),
+    )
+    marks = np.zeros(len(points), dtype=np.float32)
+    for count, weight, radii, amounts in kinds:
+        for site in rng.choice(len(site_uv), count, p=weight / weight.sum(dtype=np.float64)):
+            radius, amount, stretch = rng.uniform(*radii), rng.uniform(*amounts), rng.uniform(0.7, 1.3)
+            near = texels.around(site_uv[site], 2.0 * radius / texel + 1)
+            offset = (points[near] - np.float32(sites.points[site])) * np.float32([stretch, 1 / stretch, 1])
+            distance = np.sqrt((offset**2).sum(axis=1)) / radius
+            marks[near] = np.maximum(marks[near], amount * smoothstep(1.5, 0.4, distance))
+    return marks / np.float32(1 + 4 * MELANOSOMES[spec.fitzpatrick])
