@@ -55,7 +55,7 @@ class Rig:
     max_angle_degrees: float = 45.0
     seed: int = 0
     distance_metres: float = 0.55
-    fov_degrees: float = 33.0
+    fov_degrees: float = 25.0
 
 
 @dataclass(frozen=True)

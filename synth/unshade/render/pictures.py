@@ -54,7 +54,7 @@ def read_exr(path: Path) -> dict[str, np.ndarray]:
     """All channels of a float EXR by name, each [H, W] float32, finite."""
     bitmap = _open(path)
     names = [field.name for field in bitmap.struct_()]
-    values = np.array(bitmap.convert(component_format=mi.Struct.Type.Float32), dtype=np.float32)
+    values = np.array(bitmap).astype(np.float32)
     values = values.reshape(*values.shape[:2], -1)
     _require_finite(path, values, names)
     return {name: values[..., i] for i, name in enumerate(names)}

@@ -106,7 +106,7 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
     ]
 
 
-_FACE = np.array([0.0, -0.015, 0.06])
+_FACE = np.array([0.0, 0.0, 0.06])
 """What a phone is pointed at: the middle of the face, seen from the head's centre (m)."""
 
 _ELEVATION_SHARE = 0.6

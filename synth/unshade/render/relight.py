@@ -1,0 +1,111 @@
+"""Renders recovered maps on the true head, in the lights and withheld views of a capture."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import MapsError
+from ..face import build_face
+from ..fingerprint import fingerprint
+from ..scene_file import Scene
+from . import lights
+from .capture import Progress, layer_channels
+from .folder import ResumableFolder
+from .passes import render_layers, seed_of
+from .pictures import read_exr, write_exr, write_text
+from .rigs import cameras
+from .scene import ChartMaps, HeadScene
+from .scene_text import scene_text
+
+_FILES = {
+    "diffuse_albedo": "RGB",
+    "specular_albedo": "Y",
+    "diffuse_normal": "RGB",
+    "specular_normal": "RGB",
+}
+"""Maps of a folder and the channels of their EXR files."""
+
+
+def relight(
+    scene: Scene,
+    maps: Path,
+    out: Path,
+    *,
+    scales: Mapping[str, float],
+    seed_offset: int = 0,
+    progress: Progress,
+    warn: Callable[[str], None],
+) -> None:
+    """Writes ``out/<scale>/<light>/<frame>.exr`` for the maps of a solver.
+
+    ``scene`` is the capture's own (`truth_scene.captured_scene`); each scale multiplies the
+    recovered diffuse albedo before rendering. Pictures have as many samples as the truth
+    and other seeds, so that the noise of the two is independent. An interrupted call is
+    taken up as in `capture.synthesise`. Raises `MapsError` for maps that cannot be rendered.
+    """
+    chart_maps = read_maps(maps, warn)
+    render = scene.render
+    views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
+    contents = [(maps / f"{name}.exr") for name in _FILES]
+    hashes = [seed_of(path.read_bytes()) if path.exists() else None for path in contents]
+    folder = ResumableFolder(
+        out, f"{scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+    )
+    jobs = [(scale, light, view) for scale in scales for light in scene.lights for view in views]
+    progress(0, len(jobs), "face")
+    face = build_face(scene.face)
+    head = HeadScene(face.chart, face.parts, chart_maps)
+    lit = {
+        light.name: head.lit(lights.exposed(light, face.chart.vertices, face.chart.normals))
+        for light in scene.lights
+    }
+    current = None
+    for done, (scale, light, view) in enumerate(jobs):
+        progress(done, len(jobs), f"view {view.name} in {light.name}, scale {scale}")
+        path = folder.path / scale / light.name / f"{view.name}.exr"
+        if path.exists():
+            continue
+        if scale != current:
+            head.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
+            current = scale
+        layers = render_layers(
+            lit[light.name], head.dark, view.sensor(render.samples),
+            samples=render.samples, depth=render.depth,
+            seed=seed_of("relit", render.seed, seed_offset, light.name, view.name),
+        )  # fmt: skip
+        write_exr(path, {"": layers.total, **layer_channels(layers)})
+    document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
+    write_text(folder.path / "relit.json", json.dumps(document, indent=1) + "\n")
+    folder.commit()
+    progress(len(jobs), len(jobs), "relit")
+
+
+def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
+    """The maps of a solver: all but the diffuse albedo may be missing."""
+    found = {name: _read_map(folder / f"{name}.exr", channels) for name, channels in _FILES.items()}
+    if found["diffuse_albedo"] is None:
+        raise MapsError(f"{folder}: diffuse_albedo.exr is missing; a face cannot be relit without it")
+    for name in ("diffuse_albedo", "specular_albedo"):
+        if found[name] is not None and (negative := int((found[name] < 0).sum())):
+            warn(f"{folder / name}.exr: {negative} values are negative and count as 0")
+            found[name] = found[name].clip(0)
+    return ChartMaps(**found)
+
+
+def _read_map(path: Path, channels: str) -> np.ndarray | None:
+    if not path.exists():
+        return None
+    planes = read_exr(path)
+    missing = [channel for channel in channels if channel not in planes]
+    if missing:
+        raise MapsError(
+            f"{path}: channel {missing[0]} is missing among {', '.join(sorted(planes))}; write {', '.join(channels)}"
+        )
+    values = np.stack([planes[channel] for channel in channels], -1)
+    if values.shape[0] != values.shape[1]:
+        raise MapsError(f"{path}: is {values.shape[1]} x {values.shape[0]} texels; write a square map")
+    return values if len(channels) > 1 else values[..., 0]
