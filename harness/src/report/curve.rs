@@ -1,0 +1,173 @@
+//! The loss of a solver over its iterations, as an inline SVG with a logarithmic axis.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+/// Losses of one stage of the optimisation.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Stage {
+    pub name: String,
+    /// `(iteration within the stage, loss)`; only positive, finite losses.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// The stages of a `solve.json`; empty for a solver that keeps no history.
+pub(super) fn stages(solve: &Value) -> Vec<Stage> {
+    let history = solve.as_object().and_then(|solve| solve.iter().find(|(key, _)| is_history(key)));
+    let Some((_, Value::Array(history))) = history else { return Vec::new() };
+    history.iter().filter_map(stage).filter(|stage| stage.points.len() > 1).collect()
+}
+
+/// Whether an entry of `solve.json` holds the losses.
+pub(super) fn is_history(key: &str) -> bool {
+    matches!(key, "loss_history" | "history" | "loss")
+}
+
+fn stage(value: &Value) -> Option<Stage> {
+    let name = ["stage", "name"].iter().find_map(|key| value.get(key)?.as_str())?.to_owned();
+    let losses = ["losses", "loss"].iter().find_map(|key| value.get(key)?.as_array())?;
+    let iterations = ["iterations", "iteration"].iter().find_map(|key| value.get(key)?.as_array());
+    let points = losses.iter().enumerate().filter_map(|(index, loss)| {
+        let iteration = match iterations {
+            Some(iterations) => iterations.get(index)?.as_f64()?,
+            None => index as f64,
+        };
+        Some((iteration, loss.as_f64()?)).filter(|(_, loss)| *loss > 0.0 && loss.is_finite())
+    });
+    Some(Stage { name, points: points.collect() })
+}
+
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 280.0;
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 14.0;
+const TOP: f64 = 30.0;
+const BOTTOM: f64 = 40.0;
+
+/// More points than this per stage are thinned to the mean of their neighbours.
+const POINTS_PER_STAGE: usize = 300;
+
+/// Draws the stages one after the other; `None` without a history.
+pub(super) fn svg(stages: &[Stage]) -> Option<String> {
+    let losses = || stages.iter().flat_map(|stage| &stage.points).map(|point| point.1);
+    let low = losses().min_by(f64::total_cmp)?.log10();
+    let high = losses().max_by(f64::total_cmp)?.log10();
+    let pad = ((high - low) * 0.06).max(0.02);
+    let (low, high) = (low - pad, high + pad);
+    let length = |stage: &Stage| stage.points.last().map_or(0.0, |point| point.0) + 1.0;
+    let total: f64 = stages.iter().map(length).sum();
+    let x = |iteration: f64| LEFT + iteration / total * (WIDTH - LEFT - RIGHT);
+    let y = |log: f64| TOP + (high - log) / (high - low) * (HEIGHT - TOP - BOTTOM);
+
+    let mut svg = format!(
+        "<svg class=\"curve\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
+         aria-label=\"loss over iterations\">"
+    );
+    for (value, text) in ticks(low, high) {
+        let place = y(value.log10());
+        let _ = write!(
+            svg,
+            "<line class=\"grid\" x1=\"{LEFT}\" x2=\"{:.1}\" y1=\"{place:.1}\" y2=\"{place:.1}\"/>\
+             <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{text}</text>",
+            WIDTH - RIGHT,
+            LEFT - 8.0,
+            place + 4.0,
+        );
+    }
+    let mut start = 0.0;
+    for (index, stage) in stages.iter().enumerate() {
+        let (from, to) = (x(start), x(start + length(stage)));
+        if index % 2 == 1 {
+            let _ = write!(
+                svg,
+                "<rect class=\"band\" x=\"{from:.1}\" y=\"{TOP}\" width=\"{:.1}\" height=\"{:.1}\"/>",
+                to - from,
+                HEIGHT - TOP - BOTTOM,
+            );
+        }
+        let _ = write!(
+            svg,
+            "<text class=\"stage\" x=\"{:.1}\" y=\"{:.1}\">{}</text>\
+             <text x=\"{from:.1}\" y=\"{:.1}\">{start}</text>",
+            from + 2.0,
+            // Names of short stages would overlap on one line.
+            TOP - 6.0 - if index % 2 == 1 { 11.0 } else { 0.0 },
+            escape(&stage.name),
+            HEIGHT - BOTTOM + 16.0,
+        );
+        let points: Vec<String> = thinned(&stage.points)
+            .into_iter()
+            .map(|(iteration, loss)| format!("{:.1},{:.1}", x(start + iteration), y(loss.log10())))
+            .collect();
+        let _ = write!(svg, "<polyline points=\"{}\"/>", points.join(" "));
+        start += length(stage);
+    }
+    let _ = write!(
+        svg,
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">iteration (of {total})</text></svg>",
+        WIDTH - RIGHT,
+        HEIGHT - 6.0,
+    );
+    Some(svg)
+}
+
+/// Values 1, 2 and 5 times a power of ten between two logarithms.
+fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
+    let decades = low.floor() as i32..=high.ceil() as i32;
+    // Over many decades the powers of ten alone.
+    let steps: &[f64] = if high - low > 2.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+    decades
+        .flat_map(|decade| steps.iter().map(move |step| (step * 10f64.powi(decade), decade)))
+        .filter(|(value, _)| (low..=high).contains(&value.log10()))
+        .map(|(value, decade)| (value, format!("{value:.*}", (-decade).max(0) as usize)))
+        .collect()
+}
+
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let bin = points.len().div_ceil(POINTS_PER_STAGE).max(1);
+    let mean = |bin: &[(f64, f64)], part: fn(&(f64, f64)) -> f64| {
+        bin.iter().map(part).sum::<f64>() / bin.len() as f64
+    };
+    points.chunks(bin).map(|bin| (mean(bin, |p| p.0), mean(bin, |p| p.1))).collect()
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn stages_follow_each_other_and_lower_losses_lie_lower() {
+        let solve = json!({"loss_history": [
+            {"stage": "warm-up", "losses": [1.0, 0.1]},
+            {"stage": "<b>", "losses": [0.01, 0.001]},
+        ]});
+        let svg = svg(&stages(&solve)).unwrap();
+        let lines: Vec<Vec<f64>> = svg
+            .split("<polyline points=\"")
+            .skip(1)
+            .map(|rest| {
+                let points = rest.split('"').next().unwrap();
+                points.split([' ', ',']).map(|number| number.parse().unwrap()).collect()
+            })
+            .collect();
+        assert_eq!(lines.len(), 2);
+        assert!(lines[0][2] < lines[1][0], "the second stage begins after the first");
+        let heights = [lines[0][1], lines[0][3], lines[1][1], lines[1][3]];
+        let steps: Vec<f64> = heights.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(steps.iter().all(|step| (step - steps[0]).abs() < 0.3), "decades are equal steps");
+        assert!(svg.contains("&lt;b&gt;") && !svg.contains("<b>"));
+    }
+
+    #[test]
+    fn a_solver_without_a_history_has_no_curve() {
+        assert!(svg(&stages(&json!({"seed": 1}))).is_none());
+        let broken = json!({"loss_history": [{"stage": "s", "losses": [-1.0, null]}]});
+        assert!(svg(&stages(&broken)).is_none());
+    }
+}

@@ -1,0 +1,145 @@
+//! The report: a run folder as one folder of pages that opens from disk, without a network.
+//!
+//! [`write`] reads `run.json`, the scores, maps and pictures below a run and leaves
+//! `index.html` with its pictures and the scores it was made from. Equal runs give equal
+//! bytes, except in the section with the wall times.
+
+mod curve;
+mod difference;
+mod matrix;
+mod metric;
+mod page;
+mod plates;
+mod run;
+mod scores;
+mod table;
+mod tone;
+
+#[cfg(test)]
+mod fake;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use solver::atomic::Folder;
+use solver::picture::PictureError;
+
+use run::{RunFile, Timing};
+
+/// What can keep a report from being written; each message is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A file or folder of the run cannot be read.
+    #[error("{path}: cannot be read: {reason}")]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// A file of the run is not what it should be.
+    #[error("{path}: is not a valid file of a run: {reason}; run the suite again")]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What the parser said.
+        reason: String,
+    },
+    /// The run was written by another version.
+    #[error("{path}: has format {found}, this program reads {}; run the suite again", FORMAT)]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// The format it states.
+        found: u32,
+    },
+    /// A picture of the run is broken, or one of the report cannot be written.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// Something of the report cannot be written.
+    #[error("{path}: cannot be written: {reason}")]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// The target holds something else, which would be lost.
+    #[error("{0}: exists and is not a report; choose a new folder")]
+    NotAReport(PathBuf),
+    /// A page could not be laid out.
+    #[error("the report's page cannot be laid out: {0}")]
+    Template(#[from] minijinja::Error),
+}
+
+impl ReportError {
+    fn read(path: &Path, reason: io::Error) -> Self {
+        Self::Read { path: path.to_path_buf(), reason }
+    }
+
+    fn write(path: &Path, reason: io::Error) -> Self {
+        Self::Write { path: path.to_path_buf(), reason }
+    }
+}
+
+/// What a report consists of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportSummary {
+    /// The page to open.
+    pub index: PathBuf,
+    /// Captures that were compared.
+    pub cases: usize,
+    /// Pictures in the folder.
+    pub pictures: usize,
+}
+
+/// The version of `run.json` that is read.
+const FORMAT: u32 = 1;
+
+/// Stands in every page, and tells a folder that may be replaced from one that may not.
+const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
+
+/// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report.
+pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
+    check_target(out)?;
+    let path = run.join("run.json");
+    let manifest: RunFile = run::read_json(&path)?;
+    if manifest.format != FORMAT {
+        return Err(ReportError::Format { path, found: manifest.format });
+    }
+    let timing: Timing = run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
+    let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
+    let pictures = fill(run, &manifest, timing, folder.path()).inspect_err(|_| {
+        // The report's own fault is what matters, not that its remains could not be removed.
+        let _ = fs::remove_dir_all(folder.path());
+    })?;
+    folder.commit().map_err(|error| ReportError::write(out, error))?;
+    Ok(ReportSummary { index: out.join("index.html"), cases: manifest.cases.len(), pictures })
+}
+
+/// Writes everything below `root` and returns the number of pictures.
+fn fill(
+    run: &Path,
+    manifest: &RunFile,
+    timing: Timing,
+    root: &Path,
+) -> Result<usize, ReportError> {
+    let page = page::Page::make(run, manifest, timing, root)?;
+    let index = root.join("index.html");
+    fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;
+    Ok(page.pictures())
+}
+
+/// Refuses to replace a folder that is neither empty nor an earlier report.
+fn check_target(out: &Path) -> Result<(), ReportError> {
+    let refused = || Err(ReportError::NotAReport(out.to_path_buf()));
+    if out.file_name().is_none() || out.is_file() {
+        return refused();
+    }
+    let occupied = fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some());
+    let page = fs::read_to_string(out.join("index.html")).unwrap_or_default();
+    if occupied && !page.contains(MARK) { refused() } else { Ok(()) }
+}

@@ -1,0 +1,212 @@
+//! The table of a case: one row per subject, metric, region and scale mode; one column per
+//! method. A score that does not exist stays empty, it never becomes a number.
+
+use serde::Serialize;
+
+use super::metric::{self, Direction};
+use super::run::Kind;
+use super::scores::{Row, Scores};
+
+/// What stands in a cell without a value.
+pub(super) const EMPTY: &str = "–";
+
+/// One method in one case.
+pub(super) struct Column<'a> {
+    pub id: &'a str,
+    pub title: &'a str,
+    pub kind: Kind,
+    pub scores: Option<&'a Scores>,
+}
+
+impl Column<'_> {
+    /// The row of a metric over the subject's whole region.
+    pub fn find(
+        &self,
+        subject: &str,
+        light: Option<&str>,
+        metric: &str,
+        scale: &str,
+    ) -> Option<&Row> {
+        self.scores?.rows.iter().find(|row| {
+            row.subject == subject
+                && row.light.as_deref() == light
+                && row.metric == metric
+                && row.scale == scale
+                && is_whole(row)
+        })
+    }
+}
+
+/// A table as the template shows it.
+#[derive(Debug, Serialize)]
+pub(super) struct Table {
+    pub columns: Vec<Heading>,
+    pub groups: Vec<Group>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Heading {
+    pub title: String,
+    pub kind: &'static str,
+}
+
+/// The rows of one subject.
+#[derive(Debug, Serialize)]
+pub(super) struct Group {
+    pub title: String,
+    pub rows: Vec<Line>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Line {
+    /// `<subject>[/light]/<metric>@<region>:<scale>`, as `unshade compare` names it.
+    pub id: String,
+    pub metric: &'static str,
+    pub name: String,
+    pub unit: String,
+    pub direction: &'static str,
+    pub region: String,
+    pub space: String,
+    pub scale: String,
+    pub cells: Vec<Cell>,
+    pub floor: String,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct Cell {
+    pub value: String,
+    pub interval: String,
+    pub best: bool,
+    pub kind: &'static str,
+}
+
+/// The chosen rows: whole regions and the metrics that answer the subject's question.
+pub(super) fn chosen(columns: &[Column], own_light: &str) -> Table {
+    build(columns, own_light, |row| is_whole(row) && metric::is_chosen(&row.subject, &row.metric))
+}
+
+/// Every row that any column has.
+pub(super) fn complete(columns: &[Column], own_light: &str) -> Table {
+    build(columns, own_light, |_| true)
+}
+
+fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Table {
+    let mut keys: Vec<&Row> = Vec::new();
+    for row in columns.iter().filter_map(|column| column.scores).flat_map(|s| &s.rows) {
+        if keep(row) && !keys.iter().any(|key| same(key, row)) {
+            keys.push(row);
+        }
+    }
+    let mut groups: Vec<Group> = Vec::new();
+    keys.sort_by_key(|row| group_order(row, own_light));
+    for key in keys {
+        let title = group_title(key, own_light);
+        if groups.last().is_none_or(|group| group.title != title) {
+            groups.push(Group { title, rows: Vec::new() });
+        }
+        if let Some(group) = groups.last_mut() {
+            group.rows.push(line(key, columns));
+        }
+    }
+    let columns = columns
+        .iter()
+        .map(|column| Heading { title: column.title.to_owned(), kind: column.kind.name() })
+        .collect();
+    Table { columns, groups }
+}
+
+fn same(a: &Row, b: &Row) -> bool {
+    (&a.subject, &a.light, &a.metric, &a.region, &a.label, &a.scale)
+        == (&b.subject, &b.light, &b.metric, &b.region, &b.label, &b.scale)
+}
+
+fn is_whole(row: &Row) -> bool {
+    row.label.is_none() && matches!(row.region.as_str(), "coverage-e5" | "mask-e5")
+}
+
+fn line(key: &Row, columns: &[Column]) -> Line {
+    let info = metric::info(&key.metric);
+    let rows: Vec<Option<&Row>> = columns
+        .iter()
+        .map(|column| column.scores?.rows.iter().find(|row| same(row, key)))
+        .collect();
+    let value = |row: &Option<&Row>| row.and_then(|row| row.value);
+    let decimals = decimals(info.unit, rows.iter().filter_map(value));
+    let contenders = || {
+        let pairs = columns.iter().zip(&rows);
+        pairs.filter(|(column, _)| column.kind != Kind::Oracle).filter_map(|(_, row)| value(row))
+    };
+    // With a single contender there is nothing to win.
+    let best = match info.direction {
+        _ if contenders().count() < 2 => None,
+        Direction::Higher => contenders().max_by(f64::total_cmp),
+        Direction::Lower => contenders().min_by(f64::total_cmp),
+        Direction::Zero => contenders().min_by(|a, b| a.abs().total_cmp(&b.abs())),
+    };
+    let cells = columns
+        .iter()
+        .zip(&rows)
+        .map(|(column, row)| Cell {
+            value: shown(value(row), decimals),
+            interval: interval(row.and_then(|row| row.ci95), decimals),
+            best: column.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
+            kind: column.kind.name(),
+        })
+        .collect();
+    // The true maps' pictures, where there are some: their floor depends on no method.
+    let oracle = columns.iter().zip(&rows).filter(|(column, _)| column.kind == Kind::Oracle);
+    let floor = oracle.chain(columns.iter().zip(&rows)).find_map(|(_, row)| (*row)?.floor);
+    Line {
+        id: row_id(key),
+        metric: info.id,
+        name: info.name.to_owned(),
+        unit: info.unit.to_owned(),
+        direction: info.direction.name(),
+        region: metric::region(&key.region, key.label.as_deref()),
+        space: info.space.to_owned(),
+        scale: metric::scale(&key.scale).to_owned(),
+        cells,
+        floor: shown(floor, decimals),
+    }
+}
+
+/// A value with a fixed number of decimals, or the dash of an empty cell.
+pub(super) fn shown(value: Option<f64>, decimals: usize) -> String {
+    value.map_or(EMPTY.to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// A 95 % confidence interval; nothing where none could be estimated.
+pub(super) fn interval(ci95: Option<[f64; 2]>, decimals: usize) -> String {
+    ci95.map(|[low, high]| format!("{low:.decimals$} … {high:.decimals$}")).unwrap_or_default()
+}
+
+/// Two for decibels and degrees; elsewhere enough for three digits of the largest value.
+pub(super) fn decimals(unit: &str, values: impl Iterator<Item = f64>) -> usize {
+    if matches!(unit, "dB" | "°") {
+        return 2;
+    }
+    let largest = values.map(f64::abs).fold(0.0, f64::max);
+    if largest == 0.0 { 3 } else { (2.0 - largest.log10().floor()).clamp(1.0, 6.0) as usize }
+}
+
+fn row_id(row: &Row) -> String {
+    let light = row.light.as_ref().map(|light| format!("/{light}")).unwrap_or_default();
+    let label = row.label.as_ref().map(|label| format!("[{label}]")).unwrap_or_default();
+    format!("{}{light}/{}@{}{label}:{}", row.subject, row.metric, row.region, row.scale)
+}
+
+/// Subjects in the order of the walk from maps to pictures; the capture's own light first.
+fn group_order(row: &Row, own_light: &str) -> (usize, bool, String) {
+    let subject = metric::SUBJECTS.iter().position(|(id, _)| *id == row.subject);
+    let light = row.light.clone().unwrap_or_default();
+    (subject.unwrap_or(metric::SUBJECTS.len()), light != own_light, light)
+}
+
+fn group_title(row: &Row, own_light: &str) -> String {
+    let subject = metric::subject(&row.subject);
+    match row.light.as_deref() {
+        None => subject.to_owned(),
+        Some(light) if light == own_light => format!("{subject}, {light} (the capture's light)"),
+        Some(light) => format!("{subject}, {light}"),
+    }
+}
