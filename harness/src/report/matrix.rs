@@ -23,7 +23,7 @@ pub(super) struct Source<'a> {
 pub(super) struct Matrix {
     pub face: String,
     pub frame: String,
-    pub top: f32,
+    pub top: String,
     pub error: &'static str,
     pub blocks: Vec<Block>,
 }
@@ -88,7 +88,7 @@ fn matrix(face: &str, cases: &[Source]) -> Option<Matrix> {
     Some(Matrix {
         face: face.to_owned(),
         frame: first.strips.first()?.title.clone(),
-        top: first.top,
+        top: first.top.clone(),
         error: first.error,
         blocks: cases.iter().map(|case| block(case, &lights)).collect(),
     })

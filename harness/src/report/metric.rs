@@ -49,9 +49,9 @@ pub(super) fn region(id: &str, label: Option<&str>) -> String {
 pub(super) fn scale(id: &str) -> &str {
     match id {
         "none" => "as is",
-        "global" => "one factor",
-        "channel" => "one factor per channel",
-        "median" => "median factor",
+        "global" => "after one factor",
+        "channel" => "after one factor per channel",
+        "median" => "after the median factor",
         other => other,
     }
 }

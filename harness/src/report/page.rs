@@ -206,7 +206,9 @@ impl Page {
         ] {
             environment.add_template(name, text)?;
         }
-        Ok(environment.get_template("index.html")?.render(Value::from(Serde(self)))?)
+        let html = environment.get_template("index.html")?.render(Value::from(Serde(self)))?;
+        // The engine escapes the slashes of paths too, for templates without quoted attributes.
+        Ok(html.replace("&#x2f;", "/"))
     }
 }
 

@@ -10,7 +10,8 @@ use solver::picture::{self, GrayImage, Picture};
 use super::ReportError;
 use super::difference::{self, Measure};
 use super::run::{Frame, Frames};
-use super::table::Column;
+use super::scores::Row;
+use super::table::{self, Column};
 use super::tone::{self, Raster};
 
 /// A training view.
@@ -60,7 +61,8 @@ pub(super) struct Plate {
     pub title: String,
     pub tone: String,
     pub error: &'static str,
-    pub top: f32,
+    /// The error at the end of the colour bar.
+    pub top: String,
     pub unit: &'static str,
     pub strips: Vec<Strip>,
 }
@@ -220,7 +222,10 @@ impl Studio<'_> {
             };
             entries.push(Entry {
                 picture: Some(self.save(&name, &raster)?),
-                caption: caption(method.column, kind.subject, None, kind.metric, None),
+                caption: caption(
+                    method.column.find(kind.subject, None, kind.metric, "none"),
+                    None,
+                ),
                 errors: self.errors(&name, &compared, &factors)?,
             });
         }
@@ -251,7 +256,7 @@ impl Studio<'_> {
             title,
             tone: show.words(),
             error: measure.label(),
-            top: measure.top(),
+            top: measure.top().to_string(),
             unit: measure.unit(),
             strips,
         }
@@ -279,7 +284,7 @@ impl Studio<'_> {
 
     /// The withheld views: by the methods themselves, then relit in every light.
     pub fn view_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let relit = self.lights()?.into_iter().map(Source::Relit);
+        let relit = self.lights()?.into_iter().map(|light| self.relit(light));
         std::iter::once(Source::View)
             .chain(relit)
             .filter_map(|source| self.view_plate(&source, &Layer::ALL).transpose())
@@ -288,12 +293,19 @@ impl Studio<'_> {
 
     /// The exact split of the withheld views in the capture's light.
     pub fn layer_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let sources = [Source::View, Source::Relit(self.light.to_owned())];
+        let sources = [Source::View, self.relit(self.light.to_owned())];
         [Layer::DIFFUSE, Layer::SPECULAR]
             .iter()
             .flat_map(|layer| sources.iter().map(move |source| (source, layer)))
             .filter_map(|(source, layer)| self.view_plate(source, layer).transpose())
             .collect()
+    }
+
+    /// Relit pictures with the albedo after its one factor, if anything was rendered so.
+    fn relit(&self, light: String) -> Source {
+        let mut folders = self.methods.iter().filter_map(|method| method.relit.as_ref());
+        let scaled = folders.any(|folder| folder.join("global").is_dir());
+        Source::Relit { light, scale: if scaled { "global" } else { "none" } }
     }
 
     fn view_plate(&self, source: &Source, layer: &Layer) -> Result<Option<Plate>, ReportError> {
@@ -307,10 +319,10 @@ impl Studio<'_> {
         }
         let made_by = match source {
             Source::View => "by the method itself".to_owned(),
-            Source::Relit(light) if light == self.light => {
-                format!("maps relit: {light}, the capture's light")
+            Source::Relit { light, scale } => {
+                let own = if light == self.light { ", the capture's light" } else { "" };
+                format!("maps relit: {light}{own} (albedo {})", super::metric::scale(scale))
             }
-            Source::Relit(light) => format!("maps relit: {light}"),
         };
         let title = format!("Withheld view{}, {made_by}", layer.words);
         let subject = (layer.subject(source), source.light());
@@ -343,7 +355,9 @@ impl Studio<'_> {
         let truth = match source {
             Source::View if layer.name.is_none() => frame.image.clone(),
             Source::View => self.capture.join("truth/layers").join(&file),
-            Source::Relit(light) => self.capture.join("truth/relit").join(light).join(&file),
+            Source::Relit { light, .. } => {
+                self.capture.join("truth/relit").join(light).join(&file)
+            }
         };
         let Some(truth) = read_if_present(&truth, layer.channels)? else { return Ok(None) };
         let mask = match &frame.mask {
@@ -372,10 +386,10 @@ impl Studio<'_> {
                 mask: mask.as_ref(),
                 measure: Measure::Display,
             };
-            let frame = Some(frame.name.as_str());
+            let score = method.column.find(&subject, light, "psnr_srgb", source.scale());
             entries.push(Entry {
                 picture: Some(self.save(&name, &show.raster(&made))?),
-                caption: caption(method.column, &subject, light, "psnr_srgb", frame),
+                caption: caption(score, Some(&frame.name)),
                 errors: self.errors(&name, &compared, &[Some(1.0)])?,
             });
         }
@@ -425,33 +439,38 @@ impl Layer {
 enum Source {
     /// The method's own view synthesis.
     View,
-    /// The path tracer, from the method's maps, in this light.
-    Relit(String),
+    /// The path tracer, from the method's maps.
+    Relit { light: String, scale: &'static str },
 }
 
 impl Source {
     fn subject(&self) -> &'static str {
         match self {
             Source::View => "view",
-            Source::Relit(_) => "relit",
+            Source::Relit { .. } => "relit",
         }
     }
 
     fn light(&self) -> Option<&str> {
         match self {
             Source::View => None,
-            Source::Relit(light) => Some(light),
+            Source::Relit { light, .. } => Some(light),
         }
     }
 
-    /// Relit pictures are those of the albedo after its one factor, where they exist.
+    /// The scale mode of the scores that belong to the picture.
+    fn scale(&self) -> &'static str {
+        match self {
+            Source::View => "none",
+            Source::Relit { scale, .. } => scale,
+        }
+    }
+
     fn path(&self, method: &Method, file: &str) -> Option<PathBuf> {
         match self {
             Source::View => Some(method.maps.as_ref()?.join("views").join(file)),
-            Source::Relit(light) => {
-                let relit = method.relit.as_ref()?;
-                let scales = ["global", "none"].map(|scale| relit.join(scale).join(light));
-                scales.into_iter().find(|folder| folder.is_dir()).map(|folder| folder.join(file))
+            Source::Relit { light, scale } => {
+                Some(method.relit.as_ref()?.join(scale).join(light).join(file))
             }
         }
     }
@@ -478,24 +497,16 @@ pub(super) fn file_name(name: &str) -> String {
         .collect()
 }
 
-/// The score that belongs under a picture.
-fn caption(
-    column: &Column,
-    subject: &str,
-    light: Option<&str>,
-    metric: &str,
-    frame: Option<&str>,
-) -> String {
-    let scale = if light.is_some() { "global" } else { "none" };
-    let Some(row) = column.find(subject, light, metric, scale) else { return String::new() };
-    let value = match (frame, &row.per_frame) {
+/// The score that belongs under a picture; empty where there is none.
+fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
+    let value = row.and_then(|row| match (frame, &row.per_frame) {
         (Some(frame), Some(per_frame)) => per_frame.get(frame).copied(),
         _ => row.value,
-    };
-    let info = super::metric::info(metric);
-    let Some(value) = value else { return String::new() };
-    let decimals = super::table::decimals(info.unit, std::iter::once(value));
-    format!("{value:.decimals$} {}", info.unit)
+    });
+    let (Some(row), Some(value)) = (row, value) else { return String::new() };
+    let info = super::metric::info(&row.metric);
+    let decimals = table::decimals(info.unit, std::iter::once(value));
+    format!("{} {value:.decimals$} {}", info.name, info.unit)
 }
 
 /// Channels of a file that may be absent as a whole or lack just these layers.

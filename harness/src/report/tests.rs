@@ -1,33 +1,53 @@
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use super::{ReportError, fake, write};
+use solver::picture::{self, Picture};
 
-fn report() -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let (run, out) = (folder.path().join("run"), folder.path().join("report"));
-    fake::write(&run);
-    write(&run, &out).unwrap();
-    let html = fs::read_to_string(out.join("index.html")).unwrap();
-    (folder, html)
+use super::{fake, write};
+
+struct Made {
+    folder: tempfile::TempDir,
+    html: String,
 }
 
+fn report() -> Made {
+    let folder = tempfile::tempdir().unwrap();
+    fake::write(&folder.path().join("run"));
+    let html = again(folder.path());
+    Made { folder, html }
+}
+
+fn again(folder: &Path) -> String {
+    write(&folder.join("run"), &folder.join("report")).unwrap();
+    fs::read_to_string(folder.join("report/index.html")).unwrap()
+}
+
+/// What stands between every `from` and the next `to`.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
     text.split(from).skip(1).map(|rest| rest.split(to).next().unwrap()).collect()
 }
 
-#[test]
-fn scratch_report() {
-    if let Ok(out) = std::env::var("SCRATCH_REPORT") {
-        let run = Path::new(&out).join("run");
-        fake::write(&run);
-        println!("{:?}", write(&run, &Path::new(&out).join("report")).unwrap());
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().to_string_lossy().into_owned();
+                found.insert(name, fs::read(&path).unwrap());
+            }
+        }
     }
+    found
 }
 
 #[test]
-fn every_row_states_its_protocol() {
-    let (_folder, html) = report();
+fn every_row_states_its_protocol_and_has_a_cell_per_column() {
+    let html = report().html;
     let rows = between(&html, "<tr title=\"", "</tr>");
     assert!(rows.len() > 20, "{}", rows.len());
     for row in rows {
@@ -35,5 +55,164 @@ fn every_row_states_its_protocol() {
         assert_eq!(protocol.len(), 1);
         let parts: Vec<&str> = protocol[0].split("; ").collect();
         assert!(parts.len() == 3 && parts.iter().all(|part| !part.is_empty()), "{protocol:?}");
+        // Protocol, three methods, noise floor.
+        assert_eq!(row.matches("<td").count(), 5, "{row}");
+    }
+}
+
+#[test]
+fn a_score_that_does_not_exist_is_a_dash_and_the_best_is_bold() {
+    let html = report().html;
+    let row = between(&html, "<tr title=\"view/psnr_srgb@mask-e5:none\">", "</tr>")[0];
+    assert_eq!(between(row, "<td class=\"baseline\">", "</td>"), ["–"]);
+    assert!(!row.contains("<b>"), "nothing to win without a contender");
+    let row = between(&html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
+    assert!(between(row, "<td class=\"solver\">", "</td>")[0].starts_with("<b>32.04</b>"), "{row}");
+    assert!(between(row, "<td class=\"oracle\">", "</td>")[0].starts_with("53.98"), "{row}");
+}
+
+#[test]
+fn names_are_escaped() {
+    let html = report().html;
+    assert!(html.contains("&lt;unshade&gt; &amp; co") && html.contains("Two &lt;balls&gt;"));
+    assert!(!html.contains("<unshade>") && !html.contains("<balls>"));
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere_and_every_link_leads_somewhere() {
+    let made = report();
+    for scheme in ["http:", "https:", "file:", "src=\"/", "href=\"/", "@import", "url("] {
+        assert!(!made.html.contains(scheme), "{scheme}");
+    }
+    let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\""]
+        .into_iter()
+        .flat_map(|kind| between(&made.html, kind, "\""));
+    let mut pictures = 0;
+    for reference in references {
+        match reference.strip_prefix('#') {
+            Some(id) => assert!(made.html.contains(&format!("id=\"{id}\"")), "{reference}"),
+            None => {
+                assert!(made.folder.path().join("report").join(reference).is_file(), "{reference}");
+                pictures += 1;
+            }
+        }
+    }
+    assert!(pictures > 100, "{pictures}");
+}
+
+#[test]
+fn the_matrix_has_a_block_per_input_light_with_three_comparisons() {
+    let html = report().html;
+    let matrix = between(&html, "<section id=\"matrix\">", "</section>")[0];
+    let blocks = between(matrix, "<th scope=\"col\">input: ", "<th scope=\"row\">");
+    assert_eq!(blocks.len(), 2);
+    for (block, other) in blocks.iter().zip(["uniform", "flash"]) {
+        let titles = between(block, "<th scope=\"colgroup\" colspan=\"3\">", "</th>");
+        let opposite = format!("Maps relit, opposite light: {other}");
+        assert_eq!(titles, ["View synthesis, same light", "Maps relit, same light", &opposite]);
+        assert_eq!(block.matches("alt=\"photograph\"").count(), 3);
+        assert_eq!(block.matches("alt=\"error of").count(), 3);
+    }
+}
+
+#[test]
+fn each_plate_with_pictures_has_a_slider_that_a_keyboard_can_move() {
+    let html = report().html;
+    let plates = between(&html, "<figure class=\"plate\"", "</figure>");
+    // Per case: four maps, own view, two lights, and two layers of view and relit picture.
+    assert_eq!(plates.len(), 2 * (4 + 1 + 2 + 4));
+    for plate in plates {
+        assert_eq!(plate.matches("<input type=\"range\"").count(), 1);
+        assert!(plate.contains("class=\"heat\""), "a colour bar");
+    }
+}
+
+#[test]
+fn equal_runs_differ_only_in_their_times() {
+    let made = report();
+    let (root, first) = (made.folder.path(), files(&made.folder.path().join("report")));
+    again(root);
+    assert_eq!(first, files(&root.join("report")));
+    let times = r#"{"stages": [{"id": "capture/demo-flash", "seconds": 99.0, "cached": true}]}"#;
+    fs::write(root.join("run/timing.json"), times).unwrap();
+    let slower = again(root);
+    let cut = |html: &str| {
+        let (before, rest) = html.split_once("<section id=\"times\">").unwrap();
+        format!("{before}{}", rest.split_once("</section>").unwrap().1)
+    };
+    assert_ne!(made.html, slower);
+    assert_eq!(cut(&made.html), cut(&slower));
+}
+
+#[test]
+fn a_method_that_made_nothing_leaves_its_column_empty() {
+    let made = report();
+    let run = made.folder.path().join("run");
+    for part in ["maps", "relit"] {
+        fs::remove_dir_all(run.join(part).join("demo-flash/unshade")).unwrap();
+    }
+    fs::remove_file(run.join("scores/demo-flash/unshade.json")).unwrap();
+    let html = again(made.folder.path());
+    let row = between(&html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
+    assert_eq!(between(row, "<td class=\"solver\">", "</td>"), ["–"]);
+}
+
+#[test]
+fn broken_runs_are_refused_in_one_line_and_leave_the_earlier_report() {
+    let made = report();
+    let (root, run) = (made.folder.path(), made.folder.path().join("run"));
+    let refused = |file: &str, content: Option<&[u8]>, expected: &[&str]| {
+        let path = run.join(file);
+        let original = fs::read(&path).unwrap();
+        match content {
+            Some(content) => fs::write(&path, content).unwrap(),
+            None => fs::remove_file(&path).unwrap(),
+        }
+        let message = write(&run, &root.join("report")).unwrap_err().to_string();
+        fs::write(&path, original).unwrap();
+        assert!(!message.contains('\n'), "{message}");
+        let name = Path::new(file).file_name().unwrap().to_string_lossy();
+        assert!(message.contains(&*name), "{message}");
+        assert!(expected.iter().all(|part| message.contains(part)), "{message}");
+        assert!(!root.join("report.partial").exists());
+        assert_eq!(fs::read_to_string(root.join("report/index.html")).unwrap(), made.html);
+    };
+    refused("run.json", None, &["cannot be read"]);
+    refused("run.json", Some(b"{"), &["is not a valid file of a run", "run the suite again"]);
+    refused("run.json", Some(br#"{"format":9,"suite":"s","cases":[]}"#), &["format 9", "reads 1"]);
+    refused("scores/demo-flash/unshade.json", Some(b"[1"), &["is not a valid file of a run"]);
+    refused("captures/demo-flash/transforms.json", None, &["cannot be read"]);
+    refused("captures/demo-flash/images/000.exr", Some(b"no picture"), &["cannot be read"]);
+}
+
+#[test]
+fn a_nan_in_a_map_is_reported_with_its_place() {
+    let made = report();
+    let path = made.folder.path().join("run/maps/demo-flash/unshade/specular_albedo.exr");
+    let mut map = Picture::new(96, 96, 1);
+    map.pixel_mut(3, 2)[0] = f32::NAN;
+    picture::write_exr(&path, &map, &["Y"]).unwrap();
+    let result = write(&made.folder.path().join("run"), &made.folder.path().join("report"));
+    let message = result.unwrap_err().to_string();
+    assert!(message.contains("specular_albedo.exr: NaN at column 3, row 2"), "{message}");
+}
+
+#[test]
+fn a_folder_that_is_not_a_report_is_not_replaced() {
+    let made = report();
+    let target = made.folder.path().join("thesis");
+    fs::create_dir(&target).unwrap();
+    fs::write(target.join("chapter.tex"), "years of work").unwrap();
+    let message = write(&made.folder.path().join("run"), &target).unwrap_err().to_string();
+    assert!(message.contains("is not a report; choose a new folder"), "{message}");
+    assert!(target.join("chapter.tex").exists());
+}
+
+#[test]
+fn scratch_report() {
+    if let Ok(out) = std::env::var("SCRATCH_REPORT") {
+        let run = Path::new(&out).join("run");
+        fake::write(&run);
+        write(&run, &Path::new(&out).join("report")).unwrap();
     }
 }
