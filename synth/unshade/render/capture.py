@@ -23,7 +23,7 @@ from .passes import Layers, render_layers, seed_of
 from .pictures import read_gray, read_exr, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
 from .rigs import Camera, cameras
-from .scene import ChartMaps, HeadScene
+from .scene import ChartMaps, HeadScene, LitHead
 from .scene_text import scene_text, with_own_pictures
 
 Progress = Callable[[int, int, str], None]
@@ -110,7 +110,7 @@ class Capture:
             labels = np.where(centres.mask, nearest_texels(face.maps.labels, centres.uv), 0)
             write_gray(self.path / "masks" / f"{name}.png", np.where(centres.mask, 255, 0).astype(np.uint8))
             write_gray(self.path / "labels" / f"{name}.png", labels.astype(np.uint8))
-            layers = self._render(lit, head, camera, own)
+            layers = self._render(lit, camera, own)
             write_exr(self.truth / "layers" / f"{name}.exr", layer_channels(layers))
             if not camera.train:
                 write_exr(self._relit_path(own, camera), {"": layers.total, **layer_channels(layers)})
@@ -124,13 +124,13 @@ class Capture:
             self._step(f"view {camera.name} in {light.name}")
             path = self._relit_path(light, camera)
             if not path.exists():
-                layers = self._render(lit, head, camera, light)
+                layers = self._render(lit, camera, light)
                 write_exr(path, {"": layers.total, **layer_channels(layers)})
 
-    def _render(self, lit, head: HeadScene, camera: Camera, light: Light) -> Layers:
+    def _render(self, lit: LitHead, camera: Camera, light: Light) -> Layers:
         render = self.scene.render
         return render_layers(
-            lit, head.dark, camera.sensor(render.samples),
+            lit, camera.sensor(render.samples),
             samples=render.samples, depth=render.depth,
             seed=seed_of("truth", render.seed, light.name, camera.name),
         )  # fmt: skip

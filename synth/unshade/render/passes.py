@@ -16,6 +16,7 @@ import mitsuba as mi
 import numpy as np
 
 from ..scene_file import passes_for
+from .scene import LitHead
 from .split import split_radiance
 
 _MAX_LANES = 1 << 21
@@ -43,15 +44,15 @@ def seed_of(*parts: object) -> int:
     return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=4).digest(), "little")
 
 
-def render_layers(scene, head, sensor, *, samples: int, depth: int, seed: int) -> Layers:
+def render_layers(lit: LitHead, sensor, *, samples: int, depth: int, seed: int) -> Layers:
     """Renders ``sensor`` with ``samples`` per pixel in all; ``passes_for`` must allow them."""
     passes = passes_for(samples)
     width, height = sensor.film().size()
     rows = max(1, _MAX_LANES // (width * samples))
     bands = [
         _render_band(
-            scene, head, sensor, samples // passes, passes, depth, seed_of(seed, top), top,
-            min(rows, height - top),
+            lit, sensor, samples // passes, passes, depth, seed_of(seed, top),
+            top, min(rows, height - top),
         )
         for top in range(0, height, rows)
     ]
@@ -61,7 +62,7 @@ def render_layers(scene, head, sensor, *, samples: int, depth: int, seed: int) -
     return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32))
 
 
-def _render_band(scene, head, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
+def _render_band(lit, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
     """Layers [rows, width, passes, 6] of some rows, float64."""
     width, height = sensor.film().size()
     lanes = width * rows * passes * samples
@@ -77,7 +78,7 @@ def _render_band(scene, head, sensor, samples, passes, depth, seed, top, rows) -
     size = mi.Vector2f(dr.opaque(mi.Float, width), dr.opaque(mi.Float, height))
     ray, _ = sensor.sample_ray(0.0, 0.5, (corner + sampler.next_2d()) / size, mi.Point2f(0.5))
     diffuse, specular = split_radiance(
-        scene, head, sampler, ray, dr.opaque(mi.UInt32, depth)
+        lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light
     )
     channels = [diffuse.x, diffuse.y, diffuse.z, specular.x, specular.y, specular.z]
     dr.eval(channels)

@@ -73,7 +73,7 @@ def relight(
             head.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
             current = scale
         layers = render_layers(
-            lit[light.name], head.dark, view.sensor(render.samples),
+            lit[light.name], view.sensor(render.samples),
             samples=render.samples, depth=render.depth,
             seed=seed_of("relit", render.seed, seed_offset, light.name, view.name),
         )  # fmt: skip

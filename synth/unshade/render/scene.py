@@ -10,6 +10,7 @@ import numpy as np
 
 from ..face import Chart, Face, Part
 from .lights import AnyLight
+from .split import LambertLight
 
 _WET_ALPHA = 0.06
 """GGX alpha of the eyes, which are smoother than any skin."""
@@ -35,6 +36,15 @@ class ChartMaps:
         return cls(maps.diffuse_albedo, maps.specular_albedo, maps.diffuse_normal, maps.specular_normal)
 
 
+@dataclass(frozen=True)
+class LitHead:
+    """A head in a light, the same head without it (what cameras see), and how to sample it."""
+
+    scene: Any
+    dark: Any
+    lambert_light: LambertLight
+
+
 class HeadScene:
     """All shapes of a head, built once and shared by a scene without light and one per light.
 
@@ -56,9 +66,10 @@ class HeadScene:
         self._shapes = {"chart": self.chart} | {part.name: _part(part) for part in parts}
         self.dark = mi.load_dict({"type": "scene", **self._shapes})
 
-    def lit(self, light: AnyLight):
+    def lit(self, light: AnyLight) -> LitHead:
         """The head in a light."""
-        return mi.load_dict({"type": "scene", **self._shapes, **light.emitters()})
+        scene = mi.load_dict({"type": "scene", **self._shapes, **light.emitters()})
+        return LitHead(scene, self.dark, light.lambert_light)
 
     def set_diffuse_albedo(self, albedo: np.ndarray) -> None:
         """Replaces the diffuse albedo [N, N, 3] in all scenes of this head."""

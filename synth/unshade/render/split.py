@@ -8,6 +8,8 @@ layers add up to the picture in one pass.
 
 from __future__ import annotations
 
+from enum import Enum
+
 import drjit as dr
 import mitsuba as mi
 
@@ -22,13 +24,35 @@ def _mis(pdf, other):
     return dr.select(a > 0, a / dr.select(a > 0, a + b, 1), 0)
 
 
+def _lambert_weight(lambert_light, blend, towards_light, from_surface):
+    """The weight of one way of sampling, given its weight in each case."""
+    if lambert_light is LambertLight.BLEND:
+        return blend
+    return mi.Float(towards_light if lambert_light is LambertLight.TOWARDS_LIGHT else from_surface)
+
+
+class LambertLight(Enum):
+    """How light that arrives directly at the Lambert term of the first surface is sampled.
+
+    Either way of sampling alone is right, and so is any blend. What suits the light best
+    halves the noise: specular light and bounces always use the blend.
+    """
+
+    TOWARDS_LIGHT = 1
+    """Compact lights: a direction from the cosine lobe would rarely meet them."""
+    BLEND = 2
+    """Both, weighed by the power heuristic: environment maps."""
+    FROM_SURFACE = 3
+    """The same light from everywhere: only its occlusion is left to chance."""
+
+
 @dr.syntax
-def split_radiance(scene, head, sampler, ray, max_depth):
+def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
     """Diffuse and specular radiance (linear RGB) along camera rays.
 
     ``head`` holds the shapes of ``scene`` without its emitters: cameras look through
     lights, and see black where there is no head. ``max_depth`` counts path segments as
-    Mitsuba's ``path`` does (2 is direct light only).
+    Mitsuba's ``path`` does (2 is direct light only). ``lambert_light`` is a `LambertLight`.
     """
     everything = mi.BSDFContext()
     lambert = mi.BSDFContext()
@@ -48,29 +72,32 @@ def split_radiance(scene, head, sampler, ray, max_depth):
         towards = mi.DirectionSample3f(scene, si, previous)
         later = active & (depth > 0)
         weight = _mis(previous_pdf, scene.pdf_emitter_direction(previous, towards, later))
-        met = dr.select(later, throughput * towards.emitter.eval(si, later) * weight, 0)
-        diffuse += share * met
-        specular += (1 - share) * met
+        lambert_weight = dr.select(depth == 1, _lambert_weight(lambert_light, weight, 0, 1), weight)
+        met = dr.select(later, throughput * towards.emitter.eval(si, later), 0)
+        diffuse += share * met * lambert_weight
+        specular += (1 - share) * met * weight
 
         following = active & si.is_valid() & (depth + 1 < max_depth)
         bsdf = si.bsdf(ray)
         light, radiance = scene.sample_emitter_direction(si, sampler.next_2d(), True, following)
         lit = following & (light.pdf > 0)
         wo = si.to_local(light.d)
-        value, pdf, scattered, weight = bsdf.eval_pdf_sample(
+        value, pdf, scattered, albedo = bsdf.eval_pdf_sample(
             everything, si, wo, sampler.next_1d(), sampler.next_2d(), following
         )
         at_first = following & (depth == 0)
         light_share = dr.select(
             at_first, _ratio(bsdf.eval(lambert, si, wo, at_first), value), share
         )
-        direct = dr.select(lit, throughput * value * radiance * _mis(light.pdf, pdf), 0)
-        diffuse += light_share * direct
-        specular += (1 - light_share) * direct
+        weight = _mis(light.pdf, pdf)
+        lambert_weight = dr.select(depth == 0, _lambert_weight(lambert_light, weight, 1, 0), weight)
+        direct = dr.select(lit, throughput * value * radiance, 0)
+        diffuse += light_share * direct * lambert_weight
+        specular += (1 - light_share) * direct * weight
 
         scattered_lambert = bsdf.eval(lambert, si, scattered.wo, at_first)
-        share = dr.select(at_first, _ratio(scattered_lambert, weight * scattered.pdf), share)
-        throughput = throughput * weight
+        share = dr.select(at_first, _ratio(scattered_lambert, albedo * scattered.pdf), share)
+        throughput = throughput * albedo
         previous = mi.Interaction3f(si)
         previous_pdf = scattered.pdf
         active = following & (dr.max(throughput) > 0)
