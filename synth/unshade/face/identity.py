@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import itertools
 
-from .head import ETHNIC, Head
+import numpy as np
+
+from .head import ETHNIC, JAW, LOCAL_FOLDERS, Head
 from .spec import FaceSpec, stream
 
 _LOCAL_SD = 0.28
 """Standard deviation of a local shape parameter; from 0.45 on faces turn into caricatures."""
 
 _ASYMMETRY_SD = 0.10
+
+_JAW = -0.05
+"""Closes the lips, which the neutral head holds slightly apart."""
 
 # Local parameters that distort sooner than the rest, and the factor that tames each.
 _DAMPED = (
@@ -55,8 +60,8 @@ def local_weights(names: list[str], seed: int) -> dict[str, float]:
     groups: dict[str, list[str]] = {}
     for name in names:
         folder, short = name.split("/")
-        # Left and right share one parameter; neck measures and macros are no local shape.
-        if folder in ("macrodetails", "asym") or short.startswith("r-"):
+        # Left and right share one parameter.
+        if folder not in LOCAL_FOLDERS or short.startswith("r-"):
             continue
         groups.setdefault(f"{folder}/{short.rsplit('-', 1)[0]}", []).append(name)
     weights = {}
@@ -74,6 +79,6 @@ def local_weights(names: list[str], seed: int) -> dict[str, float]:
     return weights
 
 
-def shape(head: Head, spec: FaceSpec):
+def shape(head: Head, spec: FaceSpec) -> np.ndarray:
     """Base positions (B,3) in metres of the identity, in the coordinates of the head data."""
-    return head.morph(macro_weights(spec) | local_weights(list(head.target_names), spec.seed))
+    return head.morph(macro_weights(spec) | local_weights(list(head.target_names), spec.seed) | {JAW: _JAW})

@@ -10,10 +10,11 @@ from .geometry import Geometry, unit
 from .hair import HairStyle, beard_cover, draw_brows, scalp_cover, scalp_grain
 from .head import Head
 from .labels import Label
+from .lids import margin_distance
 from .normals import DIFFUSION_MM, relief_normals, smoothed, tangents
-from .regions import Regions, find_regions, pair, sample_masks, smoothstep
+from .regions import Regions, find_regions, sample_masks, smoothstep
 from .relief import draw_relief
-from .skin import chart_colour, draw_marks
+from .skin import Pigments, base_pigments, chart_colour, draw_marks
 from .spec import FaceSpec
 from .strokes import Sketch
 from .texels import Texels, rasterise
@@ -50,23 +51,28 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     scale = chart_scale(head)
     texel = scale / spec.texture_size
 
-    points = texels.sample(head.template[vertices])
-    regions = find_regions(points, sample_masks(head, texels.sample(head.native_uv)))
     sites = find_regions(head.template[vertices].astype(np.float32), sample_masks(head, head.native_uv))
+    # What varies slowly is computed at the vertices and interpolated.
+    coarse = base_pigments(sites, spec)
+    melanin, blood, scalp, x, y, z, s, t, u, v = texels.sample(
+        np.column_stack([coarse.melanin, coarse.blood, scalp_cover(sites.points, style, spec.seed), sites.points, head.native_uv, uv])
+    ).T
+    points = np.stack([x, y, z], axis=1)
+    regions = find_regions(points, sample_masks(head, np.stack([s, t], axis=1)))
     positions, normals = geometry.positions[vertices], geometry.normals[vertices]
-    rims = _rims(texels, positions, geometry.eyes, head.rim_mm, regions)
-    sketch = Sketch(points, (points[:, 2] > -30) & (rims["outer"] > 0))
+    rims = _rims(texels, 1000 * margin_distance(positions, triangles, geometry.eyes), head.rim_mm, regions)
+    sketch = Sketch(points, (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70))
     cover = {
         "brow": draw_brows(sketch, len(points), texel, spec),
-        "scalp": scalp_cover(points, style, spec.seed),
+        "scalp": scalp,
         "beard": beard_cover(points, regions.lips, style),
     }
-    places = texels.sample(uv) * np.float32(scale)
-    relief = draw_relief(regions, places, sketch, cover["brow"], texel, spec)
-    marks = draw_marks(points, texels, sites, uv, texel, spec)
     labels = _labels(regions, cover)
-    cover["scalp"] = cover["scalp"] * (1 - rims["outer"] * (1 - scalp_grain(points, 2 * texel, spec.seed)))
-    diffuse, specular = chart_colour(regions, relief, marks, cover, rims, texel, style, spec)
+    relief = draw_relief(regions, np.stack([u, v], axis=1) * np.float32(scale), sketch, cover["brow"], texel, spec)
+    marks = draw_marks(points, texels, sites, uv, texel, spec)
+    hairy = scalp > 0
+    cover["scalp"][hairy] *= 1 - rims["outer"][hairy] * (1 - scalp_grain(points[hairy], 2 * texel, spec.seed))
+    diffuse, specular = chart_colour(regions, Pigments(melanin, blood), relief, marks, cover, rims, texel, style, spec)
 
     smooth = unit(texels.sample(normals))
     du, dv = (texels.sample(t) for t in tangents(positions, uv, triangles))
@@ -93,22 +99,17 @@ def chart_scale(head: Head) -> float:
     return float(np.sqrt(area / np.abs(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])).sum()))
 
 
-def _rims(texels: Texels, positions: np.ndarray, eyes: np.ndarray, rim_mm: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:
-    """`outer`: 0 at the chart's outer rim to 1 inside; `lash`, `wet`: dark line and moist edge of the lids' margins.
+def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:
+    """`outer`: 0 at the chart's outer rim to 1 inside; `lash`, `wet`: dark line and moist edge of the lids.
 
-    The margin is found on the face itself: there the skin lifts off the eyeball.
+    `margin` and `rim`: distances (C,) in mm from the chart's vertices to the lid margins and the outer rim.
     """
-    gaps = [np.linalg.norm(positions - eye[:3], axis=1) - eye[3] for eye in eyes]
-    gap = texels.sample(1000 * np.minimum(*gaps))
-    socket = pair(regions.points, (29, 0, 12), (17, 9, 14)) > 0.25
-    upper = smoothstep(-2.0, 2.0, regions.points[:, 1])
-    lash = socket * smoothstep(0.3, 0.8, gap) * smoothstep(2.0, 1.2, gap) * (0.35 + 0.65 * upper)
-    wet = socket * smoothstep(0.8, 0.2, gap) * (1 - 0.6 * upper)
-    return {
-        "outer": smoothstep(0, _RIM_FADE_MM, texels.sample(rim_mm)).astype(np.float32),
-        "lash": lash.astype(np.float32),
-        "wet": wet.astype(np.float32),
-    }
+    lid, outer = texels.sample(np.column_stack([margin, rim])).T
+    upper = smoothstep(-3.0, 2.0, regions.points[:, 1])
+    width = 0.55 + 0.75 * upper
+    lash = (0.45 + 0.55 * upper) * smoothstep(width, 0.4 * width, lid) * smoothstep(0.0, 0.25, lid + 0.25 * upper)
+    wet = (1 - upper) * smoothstep(0.9, 0.3, lid)
+    return {"outer": smoothstep(0, _RIM_FADE_MM, outer), "lash": lash, "wet": wet}
 
 
 def _labels(regions: Regions, cover: dict[str, np.ndarray]) -> np.ndarray:
@@ -117,7 +118,7 @@ def _labels(regions: Regions, cover: dict[str, np.ndarray]) -> np.ndarray:
     for label, where in (
         (Label.EAR, regions.ears > 0.5),
         (Label.EYELID, regions.lids > 0.5),
-        (Label.NOSE, regions.nose > 0.40),
+        (Label.NOSE, regions.nose_outline > 0.5),
         (Label.LIPS, regions.lips > 0.5),
         (Label.SCALP, cover["scalp"] > 0.5),
         (Label.BROW, cover["brow"] > 0.3),

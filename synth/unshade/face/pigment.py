@@ -1,8 +1,9 @@
 """Skin colour from two pigments: melanin in the epidermis, haemoglobin in the dermis.
 
 A thin pigmented epidermis (Kubelka-Munk layer, K = 2 mua and S = 3/4 mus') lies on a
-bloody dermis without end. Optical constants are those of S. L. Jacques, "Skin Optics", Oregon Medical Laser Center News, Jan 1998
-(omlc.org/news/jan98/skinoptics.html); haemoglobin is S. Prahl's compilation
+bloody dermis without end. Absorption of melanosomes and of bloodless skin: S. L. Jacques,
+"Skin Optics", Oregon Medical Laser Center News, Jan 1998 (omlc.org/news/jan98/skinoptics.html);
+scattering of skin: Jacques 2013, "Optical properties of biological tissues: a review", table 2; haemoglobin is S. Prahl's compilation
 (omlc.org/spectra/hemoglobin); the diffuse reflectance of the semi-infinite dermis is
 that of the dipole (Jensen et al. 2001, section 2.4). Spectra become linear Rec.709
 under D65 through the CIE 1931 observer.
@@ -39,14 +40,14 @@ _HAEMOGLOBIN_MOLAR = 64500.0  # g/mol
 _OXYGENATION = 0.75
 _REFRACTIVE_INDEX = 1.4
 
-MELANOSOMES = {"I": 0.0325, "II": 0.0445, "III": 0.0595, "IV": 0.0785, "V": 0.120, "VI": 0.190}
+MELANOSOMES = {"I": 0.0215, "II": 0.0353, "III": 0.0525, "IV": 0.0744, "V": 0.1275, "VI": 0.222}
 """Volume fraction of melanosomes per Fitzpatrick type; Jacques gives 1.3-6.3 % for light,
 11-16 % for moderately and 18-43 % for darkly pigmented adults."""
 
-BLOOD = {"I": 0.0070, "II": 0.0070, "III": 0.0075, "IV": 0.0080, "V": 0.0080, "VI": 0.0080}
+BLOOD = {"I": 0.0075, "II": 0.0075, "III": 0.0078, "IV": 0.0080, "V": 0.0080, "VI": 0.0080}
 """Volume fraction of blood in the dermis, cheeks and lips not counted."""
 
-MELANIN_LIMIT, BLOOD_LIMIT = 0.6, 0.06
+MELANIN_LIMIT, BLOOD_LIMIT = 0.6, 0.12
 """Largest fractions that `skin_colour` tabulates."""
 
 
@@ -80,7 +81,8 @@ def reflectance(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
     extinction = _OXYGENATION * _OXY + (1 - _OXYGENATION) * _DEOXY
     whole_blood = np.log(10) * extinction * _HAEMOGLOBIN_GRAMS / _HAEMOGLOBIN_MOLAR
     absorption = blood * whole_blood + (1 - blood) * baseline
-    scattering = 2e5 * WAVELENGTHS**-1.5 + 2e12 * WAVELENGTHS**-4.0
+    relative = WAVELENGTHS / 500
+    scattering = 48.0 * (0.409 * relative**-4.0 + 0.591 * relative**-0.702)
     return _layer(epidermis, scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
 
 

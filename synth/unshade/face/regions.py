@@ -38,6 +38,7 @@ class Regions:
 
     points: np.ndarray
     nose: np.ndarray
+    nose_outline: np.ndarray
     cheek: np.ndarray
     forehead: np.ndarray
     under_eye: np.ndarray
@@ -60,6 +61,7 @@ def find_regions(points: np.ndarray, masks: dict[str, np.ndarray] | None = None)
     return Regions(
         points=points,
         nose=nose,
+        nose_outline=_nose_outline(points),
         cheek=pair(points, (42, -38, 2), (17, 15, 28)),
         forehead=forehead,
         under_eye=pair(points, (28, -15, 10), (13, 5, 18)),
@@ -71,6 +73,13 @@ def find_regions(points: np.ndarray, masks: dict[str, np.ndarray] | None = None)
         lids=masks["eyelids"],
         ears=masks["ears"],
     )
+
+
+def _nose_outline(points: np.ndarray) -> np.ndarray:
+    """The whole nose (M,) as a face parser outlines it: bridge, wings and base."""
+    x, y, z = points.T
+    half_width = np.interp(y, [-47, -44, -38, -30, -22, -10, 2, 6], [0, 12, 18.5, 17.5, 14, 10, 7.5, 0])
+    return smoothstep(1.0, -1.0, np.abs(x) - half_width) * (z > 0)
 
 
 def sample_masks(head: Head, native_uv: np.ndarray) -> dict[str, np.ndarray]:

@@ -31,10 +31,11 @@ def draw_relief(regions: Regions, places: np.ndarray, sketch: Sketch, brows: np.
     bare = (1 - regions.lips) * smooth
     amount = np.clip(0.35 + 1.2 * regions.nose + 0.8 * regions.cheek + 0.4 * regions.forehead + 0.3 * regions.chin, 0, 1.6)
     pores = _pores(places, texel, spec) * amount * bare
-    height = -0.07 * pores
-    height += 0.016 * bare * _grain(regions.points, places, texel, spec)
+    height = -0.10 * pores
+    height += 0.022 * bare * _grain(regions.points, places, texel, spec)
     height += 0.020 * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
-    height += _lip_creases(regions, texel, spec)
+    lips = regions.lips > 0
+    height[lips] += _lip_creases(regions.points[lips], regions.lips[lips], texel, spec)
     creases = _wrinkles(sketch, len(height), texel, spec) * (1 - regions.lips)
     height -= creases
     height += 0.08 * brows
@@ -59,14 +60,13 @@ def _grain(points: np.ndarray, places: np.ndarray, texel: float, spec: FaceSpec)
     return (octaves(points, 3.0, 3, 2 * texel, rng) - 1.2 * furrows) * (0.7 + 0.6 * spec.age)
 
 
-def _lip_creases(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
-    """Vertical furrows of the lips (M,), mm."""
-    rng = stream(spec.seed, "lip creases")
-    squeezed = regions.points * np.float32([1.0, 0.22, 0.5])
+def _lip_creases(points: np.ndarray, lips: np.ndarray, texel: float, spec: FaceSpec) -> np.ndarray:
+    """Vertical furrows of the lips, mm, at points (K,3) with their share (K,) of lip."""
     if texel > 0.8:
-        return np.zeros(len(squeezed), dtype=np.float32)
-    furrow = np.abs(smooth_noise(squeezed, 1.5, rng))
-    return regions.lips * (0.05 * np.minimum(furrow, 1.0) - 0.03)
+        return np.zeros(len(points), dtype=np.float32)
+    squeezed = points * np.float32([1.0, 0.22, 0.5])
+    furrow = np.abs(smooth_noise(squeezed, 1.5, stream(spec.seed, "lip creases")))
+    return lips * (0.05 * np.minimum(furrow, 1.0) - 0.03)
 
 
 def _wrinkles(sketch: Sketch, count: int, texel: float, spec: FaceSpec) -> np.ndarray:

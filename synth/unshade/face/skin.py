@@ -56,6 +56,7 @@ def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.
 
 def chart_colour(
     regions: Regions,
+    pigments: Pigments,
     relief: Relief,
     marks: np.ndarray,
     cover: dict[str, np.ndarray],
@@ -66,28 +67,27 @@ def chart_colour(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Diffuse (M,3) and specular (M,) albedo f32 of the chart's texels.
 
-    `marks` (M,) melanin of moles and freckles; `cover`: `brow`, `scalp`, `beard` shares;
+    `pigments` those of `base_pigments`; `marks` (M,) melanin of moles and freckles; `cover`: `brow`, `scalp`, `beard` shares;
     `rims`: `outer`, 0 at the outer rim to 1 inside, and `lash`, `wet`, the shares of lash
     line and waterline. Detail fades towards the outer rim, where the rest of the head takes over.
     """
-    pigments, fade = base_pigments(regions, spec), rims["outer"]
+    fade = rims["outer"]
     even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
     fine = octaves(regions.points, 6.0, 3, 2 * texel, stream(spec.seed, "fine melanin"))
     mottle = octaves(regions.points, 5.0, 3, 2 * texel, stream(spec.seed, "fine blood"))
     lips = regions.lips * fade
     melanin = pigments.melanin * (1 + fade * even * 0.045 * fine) + fade * marks
     blood = pigments.blood * (1 + fade * (0.09 * mottle + 0.35 * relief.creases))
-    # Lips have a thin, little pigmented epidermis over dense vessels; on dark skin they keep more of its melanin.
-    bare = 0.55 - 0.25 * smoothstep(0.06, 0.19, np.float64(MELANOSOMES[spec.fitzpatrick]))
     flesh = stream(spec.seed, "lip colour").uniform(0.8, 1.25)
-    melanin = melanin * (1 - bare * lips)
-    blood = blood * (1 + lips * flesh * (1.5 + 0.12 * fine))
+    # Lips: vessels show through a thin epidermis; pale skin's lips are more pigmented than the rest of it, dark skin's less.
+    melanin = melanin + lips * (0.5 * (0.055 + MELANOSOMES[spec.fitzpatrick]) - melanin)
+    blood = blood * (1 + lips * flesh * (6.0 + 0.4 * fine))
     blood = blood * (1 + 1.2 * rims["wet"])
     colour = skin_colour(np.clip(melanin, 0, MELANIN_LIMIT), np.clip(blood, 0, BLOOD_LIMIT))
 
-    colour = colour * (1 - fade * (0.08 * relief.pores + 0.12 * relief.creases))[:, None]
+    colour = colour * (1 - fade * (0.12 * relief.pores + 0.12 * relief.creases))[:, None]
     # A shaven beard shows its roots through the skin: bluish grey, hence red is damped most.
-    colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.48, 0.42, 0.36]))
+    colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.42, 0.40, 0.36]))
     colour = colour + (fade * cover["brow"])[:, None] * (style.brow.astype(np.float32) - colour)
     colour = _with_hair(colour, cover["scalp"], style.scalp)
     colour = colour * (1 - 0.82 * rims["lash"])[:, None]

@@ -20,13 +20,13 @@ class Sketch:
 
         A texel appears once, with its nearest segment.
         """
-        low, high = curve.min(axis=0) - reach, curve.max(axis=0) + reach
-        found = self.tree.query_ball_point((low + high) / 2, np.linalg.norm(high - low) / 2, return_sorted=True)
-        found = np.asarray(found, dtype=np.int64)
         start, step = curve[:-1], np.diff(curve, axis=0)
+        balls = self.tree.query_ball_point(start + step / 2, reach + 0.5 * np.linalg.norm(step, axis=1))
+        found = np.unique(np.concatenate([np.asarray(ball, dtype=np.int64) for ball in balls]))
         offset = self.plane[found][:, None, :] - start
         share = np.clip((offset * step).sum(axis=2) / np.maximum((step**2).sum(axis=1), 1e-12), 0, 1)
-        distance = np.linalg.norm(offset - share[:, :, None] * step, axis=2)
+        away = offset - share[:, :, None] * step
+        distance = np.sqrt((away**2).sum(axis=2))
         segment = distance.argmin(axis=1)
         rows = np.arange(len(found))
         shortest = distance[rows, segment]

@@ -6,6 +6,7 @@ import dataclasses
 import functools
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.ndimage import distance_transform_edt
 
 # Candidate texels tested at a time, to bound memory.
@@ -25,12 +26,15 @@ class Texels:
     triangle: np.ndarray
     weights: np.ndarray
 
+    @functools.cached_property
+    def _matrix(self) -> sp.csr_matrix:
+        ends = np.arange(0, 3 * len(self.triangle) + 1, 3)
+        corners = self.triangles[self.triangle].ravel()
+        return sp.csr_matrix((self.weights.ravel(), corners, ends), shape=(len(self.triangle), int(self.triangles.max()) + 1))
+
     def sample(self, values: np.ndarray) -> np.ndarray:
-        """Values per chart vertex (C,...) interpolated at the texels: (M,...) f32."""
-        values = np.ascontiguousarray(values, dtype=np.float32)
-        corners = self.triangles[self.triangle]
-        shape = (-1,) + (1,) * (values.ndim - 1)
-        return sum(values[corners[:, k]] * self.weights[:, k].reshape(shape) for k in range(3))
+        """Values per chart vertex (C,) or (C,K) interpolated at the texels: (M,) or (M,K) f32."""
+        return self._matrix @ np.ascontiguousarray(values, dtype=np.float32)
 
     def image(self, values: np.ndarray, fill: float = 0.0) -> np.ndarray:
         """Texel values (M,...) as a picture (N,N,...), `fill` outside the chart."""
