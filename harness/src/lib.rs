@@ -1,2 +1,3 @@
 //! Scoring.
+pub mod metrics;
 pub mod report;

@@ -1,0 +1,34 @@
+//! Metrics: pure functions of a prediction, its truth and a region.
+//!
+//! ```
+//! use harness::metrics::{Metric, Pair, Region};
+//! use solver::picture::Picture;
+//!
+//! let truth = Picture { width: 2, height: 1, channels: 3, data: vec![0.5; 6] };
+//! let prediction = Picture { data: vec![0.4; 6], ..truth.clone() };
+//! let region = Region::whole(2, 1)?;
+//! let pair = Pair::new(&prediction, &truth, &region)?;
+//! let psnr = Metric::find("psnr_lin")?.value(&pair)?;
+//! assert!((psnr.unwrap() - 20.0).abs() < 1e-5);
+//! # Ok::<(), harness::metrics::MetricError>(())
+//! ```
+
+mod colour;
+mod error;
+mod filter;
+mod neighbourhood;
+mod pair;
+mod quantity;
+mod region;
+mod registry;
+mod scale;
+mod statistic;
+
+pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
+pub use error::MetricError;
+pub use pair::Pair;
+pub use quantity::Quantity;
+pub use region::{Region, black_outside};
+pub use registry::{Direction, METRICS, Metric};
+pub use scale::{Scale, ScaleMode};
+pub use statistic::{Sample, Statistic};
