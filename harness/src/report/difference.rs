@@ -1,19 +1,20 @@
-//! Error of one picture or map against its truth, per pixel.
+//! Error of one picture or map against its truth, per pixel: the quantities behind the scores.
 
 use solver::picture::{GrayImage, Picture};
 
-use super::tone::{Field, srgb};
+use super::tone::Field;
+use crate::metrics::{Metric, Pair, Region};
 
-/// How two pixels are compared, and the error that takes the last colour of the bar.
+/// How two pixels are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
-    /// Mean over the channels of the absolute difference of sRGB values in [0, 1].
+    /// Root mean square over the channels of the difference of sRGB values in [0, 1].
     Display,
     /// CIEDE2000 of two linear colours (D65).
     ColourDifference,
-    /// Absolute difference of the first channel.
+    /// Absolute difference of a single channel.
     Value,
-    /// Angle between two vectors.
+    /// Angle between two vectors, degrees.
     Angle,
 }
 
@@ -31,7 +32,7 @@ impl Measure {
     /// The quantity, as the colour bar names it.
     pub fn label(self) -> &'static str {
         match self {
-            Measure::Display => "mean |Δ| of sRGB",
+            Measure::Display => "RMS Δ of sRGB",
             Measure::ColourDifference => "CIEDE2000",
             Measure::Value => "|Δ|",
             Measure::Angle => "angle",
@@ -43,62 +44,40 @@ impl Measure {
         if self == Measure::Angle { "°" } else { "" }
     }
 
-    fn error(self, a: &[f32], b: &[f32]) -> f32 {
+    /// The metric whose per-pixel quantity it is, and whether that is the square of the error.
+    fn metric(self) -> (&'static str, bool) {
         match self {
-            Measure::Display => {
-                let sum: f32 = a.iter().zip(b).map(|(a, b)| (srgb(*a) - srgb(*b)).abs()).sum();
-                sum / a.len() as f32
-            }
-            Measure::ColourDifference => colour_difference(a, b),
-            Measure::Value => (a[0] - b[0]).abs(),
-            Measure::Angle => angle_degrees(a, b),
+            Measure::Display => ("psnr_srgb", true),
+            Measure::ColourDifference => ("ciede2000_mean", false),
+            Measure::Value => ("rmse", true),
+            Measure::Angle => ("normal_mean_deg", false),
         }
     }
 }
 
-fn colour_difference(a: &[f32], b: &[f32]) -> f32 {
-    a.iter().zip(b).map(|(a, b)| (srgb(*a) - srgb(*b)).abs()).sum::<f32>() * 100.0
-}
-
-/// From the chord and not the cosine, which is flat where the angle is small.
-fn angle_degrees(a: &[f32], b: &[f32]) -> f32 {
-    let unit = |v: &[f32]| -> [f64; 3] {
-        let length = v.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>().sqrt();
-        std::array::from_fn(|c| f64::from(v[c]) / length)
-    };
-    let (a, b) = (unit(a), unit(b));
-    let chord: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-    (2.0 * (chord / 2.0).min(1.0).asin()).to_degrees() as f32
-}
-
-/// The error of `picture` times `scale` inside `mask`, NaN outside.
+/// The error of `picture` times `factor` inside `mask`, NaN outside.
 ///
-/// `None` if the sizes differ: photographs are never resampled to be compared.
+/// `None` if they cannot be compared: the sizes differ, or the mask is empty.
 pub(super) fn field(
     picture: &Picture,
     truth: &Picture,
     mask: Option<&GrayImage>,
     measure: Measure,
-    scale: f32,
+    factor: f64,
 ) -> Option<Field> {
     let (width, height) = (truth.width, truth.height);
-    if (picture.width, picture.height, picture.channels) != (width, height, truth.channels)
-        || mask.is_some_and(|mask| (mask.width, mask.height) != (width, height))
-    {
-        return None;
+    let region = match mask {
+        Some(mask) => Region::of_mask("mask", mask),
+        None => Region::whole(width, height),
+    };
+    let region = region.ok()?;
+    let pair = Pair::new(picture, truth, &region).ok()?.scaled([factor; 3]);
+    let (metric, squared) = measure.metric();
+    let errors = Metric::find(metric).ok()?.measure(&pair).ok()?;
+    let mut values = vec![f32::NAN; width * height];
+    for (index, error) in region.pixels().iter().zip(errors) {
+        values[*index] = if squared { error.sqrt() } else { error } as f32;
     }
-    let mut scaled = vec![0.0; picture.channels];
-    let values = (0..width * height)
-        .map(|i| {
-            if mask.is_some_and(|mask| mask.data[i] == 0) {
-                return f32::NAN;
-            }
-            for (target, value) in scaled.iter_mut().zip(picture.pixel(i % width, i / width)) {
-                *target = value * scale;
-            }
-            measure.error(&scaled, truth.pixel(i % width, i / width))
-        })
-        .collect();
     Some(Field { width, height, values })
 }
 
@@ -142,12 +121,17 @@ mod tests {
     }
 
     #[test]
-    fn angles_are_right_from_thousandths_of_a_degree_to_a_half_turn() {
-        for degrees in [0.001_f64, 1.0, 60.0, 179.0] {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            let turned = [2.0 * cos as f32, 2.0 * sin as f32, 0.0];
-            let found = error(&turned, &[1.0, 0.0, 0.0], Measure::Angle);
-            assert!((f64::from(found) / degrees - 1.0).abs() < 1e-3, "{degrees}: {found}");
+    fn each_measure_is_the_error_itself_and_not_its_square() {
+        let pairs: [(&[f32], &[f32], Measure, f32); 4] = [
+            (&[0.0, 1.0, 0.0], &[0.0; 3], Measure::Display, (1.0_f32 / 3.0).sqrt()),
+            // Black and white are 100 lightness units apart.
+            (&[1.0; 3], &[0.0; 3], Measure::ColourDifference, 100.0),
+            (&[0.03], &[0.01], Measure::Value, 0.02),
+            (&[3.0, 3.0, 0.0], &[1.0, 0.0, 0.0], Measure::Angle, 45.0),
+        ];
+        for (a, b, measure, expected) in pairs {
+            let found = error(a, b, measure);
+            assert!((found / expected - 1.0).abs() < 1e-4, "{measure:?}: {found}");
         }
     }
 

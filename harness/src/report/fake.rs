@@ -118,16 +118,20 @@ fn save_capture(folder: &Path, light: usize) {
         frames.push(json!({
             "name": name, "file_path": format!("images/{name}.exr"),
             "mask_path": format!("masks/{name}.png"),
+            "w": SIDE, "h": SIDE, "fl_x": 90.0, "fl_y": 90.0, "cx": 48.0, "cy": 48.0,
             "transform_matrix": [[1, 0, 0, index as f64 * 0.1], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]],
         }));
     }
     let names = |range: std::ops::Range<usize>| -> Vec<String> {
         range.map(|index| format!("images/{index:03}.exr")).collect()
     };
-    save_json(
-        &folder.join("transforms.json"),
-        &json!({"frames": frames, "train_filenames": names(0..4), "test_filenames": names(4..6)}),
-    );
+    save_json(&folder.join("transforms.json"), &json!({
+        "camera_model": "PINHOLE", "mesh": "mesh.obj", "frames": frames,
+        "train_filenames": names(0..4), "test_filenames": names(4..6),
+    }));
+    let triangle = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n\
+                    f 1/1/1 2/2/2 3/3/3\n";
+    fs::write(folder.join("mesh.obj"), triangle).unwrap();
     save_maps(&folder.join("truth"), 0.0, true);
     picture::write_png_gray(&folder.join("truth/coverage.png"), &mask()).unwrap();
 }

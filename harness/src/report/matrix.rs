@@ -4,10 +4,13 @@
 
 use serde::Serialize;
 
-use super::metric;
 use super::plates::{Plate, Tile};
 use super::run::Kind;
 use super::table::{self, Column};
+use crate::metrics::METRICS;
+
+/// The numbers below each panel.
+const FIGURE_METRICS: [&str; 3] = ["psnr_srgb", "ssim", "flip_mean"];
 
 /// What the matrix needs of one case.
 pub(super) struct Source<'a> {
@@ -133,14 +136,13 @@ fn block(case: &Source, lights: &[&str]) -> Block {
 /// The image metrics over all withheld views, relit pictures after the one factor.
 fn numbers(column: &Column, subject: &str, light: Option<&str>) -> Vec<Number> {
     let scale = if light.is_some() { "global" } else { "none" };
-    ["psnr_srgb", "ssim", "flip"]
-        .into_iter()
+    let metrics = METRICS.iter().filter(|metric| FIGURE_METRICS.contains(&metric.id));
+    metrics
         .filter_map(|metric| {
-            let info = metric::info(metric);
-            let row = column.find(subject, light, metric, scale)?;
-            let decimals = table::decimals(info.unit, row.value.into_iter());
+            let row = column.find(subject, light, metric.id, scale)?;
+            let decimals = table::decimals(metric.unit, row.value.into_iter());
             Some(Number {
-                name: info.name,
+                name: metric.name,
                 value: table::shown(row.value, decimals),
                 interval: table::interval(row.ci95, decimals),
             })

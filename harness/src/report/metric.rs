@@ -1,4 +1,6 @@
-//! The words of the table: what a row's ids mean.
+//! The words of the table: what the ids of a row mean.
+
+use crate::metrics::{Metric, Quantity};
 
 /// What is compared, in the order of the table.
 pub(super) const SUBJECTS: [(&str, &str); 10] = [
@@ -7,28 +9,44 @@ pub(super) const SUBJECTS: [(&str, &str); 10] = [
     ("specular_normal", "Specular normal map"),
     ("diffuse_normal", "Diffuse normal map"),
     ("view", "Withheld view, by the method itself"),
-    ("view_diffuse_layer", "Withheld view, diffuse layer"),
-    ("view_specular_layer", "Withheld view, specular layer"),
+    ("view_diffuse_layer", "Withheld view, diffuse layer, by the method itself"),
+    ("view_specular_layer", "Withheld view, specular layer, by the method itself"),
     ("relit", "Withheld view, maps relit"),
-    ("relit_diffuse_layer", "Relit, diffuse layer"),
-    ("relit_specular_layer", "Relit, specular layer"),
+    ("relit_diffuse_layer", "Withheld view, diffuse layer, maps relit"),
+    ("relit_specular_layer", "Withheld view, specular layer, maps relit"),
 ];
 
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Direction { Higher, Lower, Zero }
-impl Direction { pub fn name(self) -> &'static str { match self { Direction::Higher => "↑", Direction::Lower => "↓", Direction::Zero => "→0" } } }
-
-pub(super) struct Info { pub id: &'static str, pub name: &'static str, pub unit: &'static str, pub direction: Direction, pub space: &'static str, pub definition: &'static str }
-
-pub(super) const ALL: &[Info] = &[
-  Info { id: "psnr_srgb", name: "PSNR", unit: "dB", direction: Direction::Higher, space: "sRGB, clipped to [0,1]", definition: "peak 1, mean over mask pixels x 3" },
-  Info { id: "psnr_lin", name: "PSNR, linear", unit: "dB", direction: Direction::Higher, space: "linear", definition: "peak 1, mean over mask pixels x 3" },
-  Info { id: "ssim", name: "SSIM", unit: "", direction: Direction::Higher, space: "sRGB", definition: "Wang" },
-  Info { id: "normal_mean_deg", name: "Mean angle", unit: "°", direction: Direction::Lower, space: "object space", definition: "mean angle" },
-  Info { id: "rmse", name: "RMSE", unit: "", direction: Direction::Lower, space: "linear", definition: "rmse" },
+/// Metrics that only the full list shows: variants of one that the table has.
+const VARIANTS: [&str; 7] = [
+    "psnr_lin",
+    "relmse",
+    "flip_p95",
+    "spearman",
+    "normal_below_5",
+    "normal_below_22_5",
+    "normal_below_30",
 ];
-pub(super) fn info(id: &str) -> &'static Info { ALL.iter().find(|i| i.id == id).unwrap_or(&ALL[0]) }
-pub(super) fn is_chosen(_subject: &str, _metric: &str) -> bool { true }
+
+/// Whether the table of a case shows a metric in a scale mode, or only the full list does.
+pub(super) fn is_chosen(metric: &str, scale: &str) -> bool {
+    !VARIANTS.contains(&metric) && matches!(scale, "none" | "global")
+}
+
+/// The values that are compared.
+pub(super) fn space(metric: &Metric) -> &'static str {
+    match metric.quantity {
+        Quantity::SquaredErrorSrgb => "sRGB clipped to [0, 1]",
+        Quantity::Ssim | Quantity::Flip => "sRGB clipped to [0, 1], black outside",
+        Quantity::ColourDifference | Quantity::Typology => "L*a*b*, D65",
+        Quantity::Angle => "object space",
+        Quantity::HighPass
+        | Quantity::WithinLabel
+        | Quantity::LowPassError
+        | Quantity::LogErrorAndCause => "log luminance",
+        Quantity::Luminance | Quantity::ErrorAndCause => "linear luminance",
+        _ => "linear",
+    }
+}
 
 /// A subject's name.
 pub(super) fn subject(id: &str) -> &str {
@@ -51,7 +69,7 @@ pub(super) fn scale(id: &str) -> &str {
         "none" => "as is",
         "global" => "after one factor",
         "channel" => "after one factor per channel",
-        "median" => "after the median factor",
+        "median" => "after the median ratio per channel",
         other => other,
     }
 }

@@ -6,6 +6,7 @@
 
 mod curve;
 mod difference;
+mod maps;
 mod matrix;
 mod metric;
 mod page;
@@ -14,6 +15,7 @@ mod run;
 mod scores;
 mod table;
 mod tone;
+mod views;
 
 #[cfg(test)]
 mod fake;

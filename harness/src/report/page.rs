@@ -16,6 +16,7 @@ use super::run::{self, Case, Frames, RunFile, Timing};
 use super::scores::Scores;
 use super::table::{self, Column, Table};
 use super::{MARK, ReportError, curve, metric, tone};
+use crate::metrics::{METRICS, Metric};
 
 /// The page as the templates see it.
 #[derive(Serialize)]
@@ -94,6 +95,7 @@ struct Definition {
     direction: &'static str,
     space: &'static str,
     text: &'static str,
+    link: &'static str,
 }
 
 #[derive(Serialize)]
@@ -151,7 +153,7 @@ impl Page {
             summary: Vec::new(),
             matrices: Vec::new(),
             cases: Vec::new(),
-            metrics: metric::ALL.iter().map(Definition::of).collect(),
+            metrics: METRICS.iter().map(Definition::of).collect(),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
             times: Times::of(timing),
@@ -295,9 +297,8 @@ impl CaseView {
             .collect();
         let anchor = plates::file_name(&case.id);
         let studio = Studio {
-            capture: &capture,
-            light: &case.light,
             frames: &frames,
+            light: &case.light,
             methods: &methods,
             root,
             folder: &format!("pictures/{anchor}"),
@@ -381,25 +382,25 @@ impl Hashes {
         let inputs = inputs.into_iter().flatten().filter_map(|(name, hash)| {
             hash.as_ref().map(|hash| (name.clone(), hash.clone()))
         });
-        let factor = column.scores.and_then(|scores| scores.scale.as_ref()?.global);
         Self {
             title: column.title.to_owned(),
             data,
             inputs: inputs.collect(),
-            factor: factor.map(|factor| format!("{factor:.4}")),
+            factor: column.factor().map(|factor| format!("{factor:.4}")),
         }
     }
 }
 
 impl Definition {
-    fn of(info: &metric::Info) -> Self {
+    fn of(metric: &'static Metric) -> Self {
         Self {
-            id: info.id,
-            name: info.name,
-            unit: info.unit,
-            direction: info.direction.name(),
-            space: info.space,
-            text: info.definition,
+            id: metric.id,
+            name: metric.name,
+            unit: metric.unit,
+            direction: metric.direction.symbol(),
+            space: metric::space(metric),
+            text: metric.definition,
+            link: metric.link,
         }
     }
 }

@@ -1,5 +1,4 @@
-//! The pictures of a case: for every map and every withheld view one plate of input, truth,
-//! what each method made of it, and its error in false colour.
+//! Turns pictures into tiles: input, truth, what each method made of it, and its error.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,6 +12,7 @@ use super::run::{Frame, Frames};
 use super::scores::Row;
 use super::table::{self, Column};
 use super::tone::{self, Raster};
+use crate::metrics::Metric;
 
 /// A training view.
 #[derive(Debug, Serialize)]
@@ -67,11 +67,37 @@ pub(super) struct Plate {
     pub strips: Vec<Strip>,
 }
 
+impl Plate {
+    /// A figure of `strips`; all have one tone and one measure.
+    pub fn new(
+        (subject, light): (&str, Option<&str>),
+        title: String,
+        show: Show,
+        measure: Measure,
+        strips: Vec<Strip>,
+    ) -> Self {
+        let id: Vec<&str> = std::iter::once(subject).chain(light).collect();
+        Self {
+            id: file_name(&id.join("-")),
+            subject: (subject.to_owned(), light.map(str::to_owned)),
+            title,
+            tone: show.words(),
+            error: measure.label(),
+            top: measure.top().to_string(),
+            unit: measure.unit(),
+            strips,
+        }
+    }
+}
+
 /// How a picture becomes visible.
 #[derive(Clone, Copy)]
-enum Show {
+pub(super) enum Show {
+    /// Linear colour through the sRGB curve.
     Colour { exposure: f32 },
+    /// One channel.
     Grey { white: f32 },
+    /// Unit vectors.
     Normal,
 }
 
@@ -93,52 +119,6 @@ impl Show {
     }
 }
 
-/// A map as it is shown and compared.
-struct MapKind {
-    subject: &'static str,
-    title: &'static str,
-    channels: &'static [&'static str],
-    show: Show,
-    measure: Measure,
-    metric: &'static str,
-}
-
-const RGB: &[&str] = &["R", "G", "B"];
-const MAPS: [MapKind; 4] = [
-    MapKind {
-        subject: "diffuse_albedo",
-        title: "Diffuse albedo",
-        channels: RGB,
-        show: Show::Colour { exposure: 1.0 },
-        measure: Measure::ColourDifference,
-        metric: "psnr_srgb",
-    },
-    MapKind {
-        subject: "specular_albedo",
-        title: "Specular albedo",
-        channels: &["Y"],
-        show: Show::Grey { white: 0.05 },
-        measure: Measure::Value,
-        metric: "rmse",
-    },
-    MapKind {
-        subject: "specular_normal",
-        title: "Specular normal",
-        channels: RGB,
-        show: Show::Normal,
-        measure: Measure::Angle,
-        metric: "normal_mean_deg",
-    },
-    MapKind {
-        subject: "diffuse_normal",
-        title: "Diffuse normal",
-        channels: RGB,
-        show: Show::Normal,
-        measure: Measure::Angle,
-        metric: "normal_mean_deg",
-    },
-];
-
 /// One method's column and its folders below the run, which may be absent.
 pub(super) struct Method<'a> {
     pub column: &'a Column<'a>,
@@ -146,11 +126,25 @@ pub(super) struct Method<'a> {
     pub relit: Option<PathBuf>,
 }
 
+/// A truth that the methods' pictures are compared with.
+pub(super) struct Subject {
+    /// Names its files.
+    pub name: String,
+    pub title: String,
+    /// Which training view to show beside it.
+    pub input: Option<usize>,
+    pub truth: Picture,
+    pub mask: Option<GrayImage>,
+    pub show: Show,
+    pub measure: Measure,
+    /// Compare a second time after the method's one factor.
+    pub scaled: bool,
+}
+
 /// Makes the plates of one case and writes their pictures.
 pub(super) struct Studio<'a> {
-    pub capture: &'a Path,
-    pub light: &'a str,
     pub frames: &'a Frames,
+    pub light: &'a str,
     pub methods: &'a [Method<'a>],
     /// The report's folder, and where below it this case's pictures go.
     pub root: &'a Path,
@@ -158,6 +152,73 @@ pub(super) struct Studio<'a> {
 }
 
 impl Studio<'_> {
+    /// The training views.
+    pub fn inputs(&self) -> Result<Vec<Input>, ReportError> {
+        let input = |frame: &Frame| {
+            let raster = tone::colour(&picture::read_exr_rgb(&frame.image)?, 1.0);
+            let tile = self.save(&format!("input-{}", frame.name), &raster)?;
+            Ok(Input { title: format!("input view {}", frame.name), tile })
+        };
+        self.frames.train.iter().map(input).collect()
+    }
+
+    /// Compares what `made` reads for each method, with its score, with the subject.
+    pub fn strip(
+        &self,
+        subject: &Subject,
+        made: impl Fn(&Method) -> Result<Option<(Picture, String)>, ReportError>,
+    ) -> Result<Strip, ReportError> {
+        let mut errors = vec!["error".to_owned()];
+        if subject.scaled {
+            errors.push("error after one factor".to_owned());
+        }
+        let mut entries = Vec::new();
+        for method in self.methods {
+            entries.push(match made(method)? {
+                Some((picture, caption)) => self.entry(subject, method, &picture, caption)?,
+                None => Entry::default(),
+            });
+        }
+        let truth = subject.show.raster(&subject.truth);
+        Ok(Strip {
+            title: subject.title.clone(),
+            input: subject.input,
+            truth: self.save(&format!("truth-{}", subject.name), &truth)?,
+            errors,
+            entries,
+        })
+    }
+
+    fn entry(
+        &self,
+        subject: &Subject,
+        method: &Method,
+        made: &Picture,
+        caption: String,
+    ) -> Result<Entry, ReportError> {
+        let name = format!("{}-{}", method.column.id, subject.name);
+        let mut factors = vec![Some(1.0)];
+        if subject.scaled {
+            factors.push(method.column.factor());
+        }
+        let mut errors = Vec::new();
+        for (index, factor) in factors.into_iter().enumerate() {
+            let field = factor.and_then(|factor| {
+                let mask = subject.mask.as_ref();
+                difference::field(made, &subject.truth, mask, subject.measure, factor)
+            });
+            errors.push(match field {
+                Some(field) => {
+                    let raster = tone::false_colour(&field, subject.measure.top());
+                    Some(self.save(&format!("{name}-error{index}"), &raster)?)
+                }
+                None => None,
+            });
+        }
+        let picture = Some(self.save(&name, &subject.show.raster(made))?);
+        Ok(Entry { picture, caption, errors })
+    }
+
     fn save(&self, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
         let src = format!("{}/{}.png", self.folder, file_name(name));
         let path = self.root.join(&src);
@@ -166,326 +227,6 @@ impl Studio<'_> {
         }
         raster.save(&path)?;
         Ok(Tile { src, width: raster.width, height: raster.height })
-    }
-
-    /// The training views.
-    pub fn inputs(&self) -> Result<Vec<Input>, ReportError> {
-        let mut inputs = Vec::new();
-        for frame in &self.frames.train {
-            let raster = tone::colour(&picture::read_exr_rgb(&frame.image)?, 1.0);
-            let tile = self.save(&format!("input-{}", frame.name), &raster)?;
-            inputs.push(Input { title: format!("input view {}", frame.name), tile });
-        }
-        Ok(inputs)
-    }
-
-    /// One plate per map that the capture knows the truth of.
-    pub fn map_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        MAPS.iter().filter_map(|kind| self.map_plate(kind).transpose()).collect()
-    }
-
-    fn map_plate(&self, kind: &MapKind) -> Result<Option<Plate>, ReportError> {
-        let file = format!("{}.exr", kind.subject);
-        let Some(truth) = read_if_present(&self.capture.join("truth").join(&file), kind.channels)?
-        else {
-            return Ok(None);
-        };
-        let coverage = read_mask_if_present(&self.capture.join("truth/coverage.png"))?;
-        let scaled = kind.subject == "diffuse_albedo";
-        let mut errors = vec!["error".to_owned()];
-        if scaled {
-            errors.push("error after the one factor".to_owned());
-        }
-        let mut entries = Vec::new();
-        for method in self.methods {
-            let map = match &method.maps {
-                Some(maps) => read_if_present(&maps.join(&file), kind.channels)?,
-                None => None,
-            };
-            let Some(map) = map else {
-                entries.push(Entry::default());
-                continue;
-            };
-            let map = difference::resample(&map, truth.width, truth.height);
-            let global = method.column.scores.and_then(|scores| scores.scale.as_ref()?.global);
-            let mut factors = vec![Some(1.0)];
-            if scaled {
-                factors.push(global);
-            }
-            let name = format!("{}-{}", method.column.id, kind.subject);
-            let raster = kind.show.raster(&map);
-            let compared = Compared {
-                picture: &map,
-                truth: &truth,
-                mask: coverage.as_ref(),
-                measure: kind.measure,
-            };
-            entries.push(Entry {
-                picture: Some(self.save(&name, &raster)?),
-                caption: caption(
-                    method.column.find(kind.subject, None, kind.metric, "none"),
-                    None,
-                ),
-                errors: self.errors(&name, &compared, &factors)?,
-            });
-        }
-        let strip = Strip {
-            title: String::new(),
-            input: self.frames.nearest_train([0.0, 0.0, 1.0]),
-            truth: self.save(&format!("truth-{}", kind.subject), &kind.show.raster(&truth))?,
-            errors,
-            entries,
-        };
-        let subject = (kind.subject.to_owned(), None);
-        Ok(Some(self.plate(subject, kind.title.to_owned(), kind.show, kind.measure, vec![strip])))
-    }
-
-    fn plate(
-        &self,
-        subject: (String, Option<&str>),
-        title: String,
-        show: Show,
-        measure: Measure,
-        strips: Vec<Strip>,
-    ) -> Plate {
-        let light = subject.1.map(str::to_owned);
-        let id = [Some(subject.0.as_str()), subject.1].into_iter().flatten();
-        Plate {
-            id: file_name(&id.collect::<Vec<_>>().join("-")),
-            subject: (subject.0, light),
-            title,
-            tone: show.words(),
-            error: measure.label(),
-            top: measure.top().to_string(),
-            unit: measure.unit(),
-            strips,
-        }
-    }
-
-    fn errors(
-        &self,
-        name: &str,
-        compared: &Compared,
-        factors: &[Option<f64>],
-    ) -> Result<Vec<Option<Tile>>, ReportError> {
-        let mut tiles = Vec::new();
-        for (index, factor) in factors.iter().enumerate() {
-            let field = factor.and_then(|factor| compared.field(factor as f32));
-            tiles.push(match field {
-                Some(field) => {
-                    let raster = tone::false_colour(&field, compared.measure.top());
-                    Some(self.save(&format!("{name}-error{index}"), &raster)?)
-                }
-                None => None,
-            });
-        }
-        Ok(tiles)
-    }
-
-    /// The withheld views: by the methods themselves, then relit in every light.
-    pub fn view_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let relit = self.lights()?.into_iter().map(|light| self.relit(light));
-        std::iter::once(Source::View)
-            .chain(relit)
-            .filter_map(|source| self.view_plate(&source, &Layer::ALL).transpose())
-            .collect()
-    }
-
-    /// The exact split of the withheld views in the capture's light.
-    pub fn layer_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let sources = [Source::View, self.relit(self.light.to_owned())];
-        [Layer::DIFFUSE, Layer::SPECULAR]
-            .iter()
-            .flat_map(|layer| sources.iter().map(move |source| (source, layer)))
-            .filter_map(|(source, layer)| self.view_plate(source, layer).transpose())
-            .collect()
-    }
-
-    /// Relit pictures with the albedo after its one factor, if anything was rendered so.
-    fn relit(&self, light: String) -> Source {
-        let mut folders = self.methods.iter().filter_map(|method| method.relit.as_ref());
-        let scaled = folders.any(|folder| folder.join("global").is_dir());
-        Source::Relit { light, scale: if scaled { "global" } else { "none" } }
-    }
-
-    fn view_plate(&self, source: &Source, layer: &Layer) -> Result<Option<Plate>, ReportError> {
-        let mut strips = Vec::new();
-        for frame in &self.frames.test {
-            strips.extend(self.strip(source, frame, layer)?);
-        }
-        let made = strips.iter().flat_map(|strip| &strip.entries);
-        if made.filter(|entry| entry.picture.is_some()).count() == 0 {
-            return Ok(None);
-        }
-        let made_by = match source {
-            Source::View => "by the method itself".to_owned(),
-            Source::Relit { light, scale } => {
-                let own = if light == self.light { ", the capture's light" } else { "" };
-                format!("maps relit: {light}{own} (albedo {})", super::metric::scale(scale))
-            }
-        };
-        let title = format!("Withheld view{}, {made_by}", layer.words);
-        let subject = (layer.subject(source), source.light());
-        let show = Show::Colour { exposure: layer.exposure };
-        Ok(Some(self.plate(subject, title, show, Measure::Display, strips)))
-    }
-
-    /// The lights with a true relit picture, the capture's own first.
-    fn lights(&self) -> Result<Vec<String>, ReportError> {
-        let folder = self.capture.join("truth/relit");
-        if !folder.is_dir() {
-            return Ok(Vec::new());
-        }
-        let mut lights = Vec::new();
-        for entry in fs::read_dir(&folder).map_err(|error| ReportError::read(&folder, error))? {
-            let entry = entry.map_err(|error| ReportError::read(&folder, error))?;
-            lights.push(entry.file_name().to_string_lossy().into_owned());
-        }
-        lights.sort_by_key(|light| (light != self.light, light.clone()));
-        Ok(lights)
-    }
-
-    fn strip(
-        &self,
-        source: &Source,
-        frame: &Frame,
-        layer: &Layer,
-    ) -> Result<Option<Strip>, ReportError> {
-        let file = format!("{}.exr", frame.name);
-        let truth = match source {
-            Source::View if layer.name.is_none() => frame.image.clone(),
-            Source::View => self.capture.join("truth/layers").join(&file),
-            Source::Relit { light, .. } => {
-                self.capture.join("truth/relit").join(light).join(&file)
-            }
-        };
-        let Some(truth) = read_if_present(&truth, layer.channels)? else { return Ok(None) };
-        let mask = match &frame.mask {
-            Some(mask) => read_mask_if_present(mask)?,
-            None => None,
-        };
-        let subject = layer.subject(source);
-        let light = source.light();
-        let show = Show::Colour { exposure: layer.exposure };
-        let name = [Some(subject.as_str()), light, Some(&frame.name)];
-        let name = name.into_iter().flatten().collect::<Vec<_>>().join("-");
-        let mut entries = Vec::new();
-        for method in self.methods {
-            let made = match source.path(method, &file) {
-                Some(path) => read_if_present(&path, layer.channels)?,
-                None => None,
-            };
-            let Some(made) = made else {
-                entries.push(Entry::default());
-                continue;
-            };
-            let name = format!("{}-{name}", method.column.id);
-            let compared = Compared {
-                picture: &made,
-                truth: &truth,
-                mask: mask.as_ref(),
-                measure: Measure::Display,
-            };
-            let score = method.column.find(&subject, light, "psnr_srgb", source.scale());
-            entries.push(Entry {
-                picture: Some(self.save(&name, &show.raster(&made))?),
-                caption: caption(score, Some(&frame.name)),
-                errors: self.errors(&name, &compared, &[Some(1.0)])?,
-            });
-        }
-        Ok(Some(Strip {
-            title: format!("view {}", frame.name),
-            input: self.frames.nearest_train(frame.direction),
-            truth: self.save(&format!("truth-{name}"), &show.raster(&truth))?,
-            errors: vec!["error".to_owned()],
-            entries,
-        }))
-    }
-}
-
-/// A picture as a whole, or one part of its exact split.
-struct Layer {
-    name: Option<&'static str>,
-    words: &'static str,
-    channels: &'static [&'static str],
-    exposure: f32,
-}
-
-impl Layer {
-    const ALL: Self = Self { name: None, words: "", channels: RGB, exposure: 1.0 };
-    const DIFFUSE: Self = Self {
-        name: Some("diffuse"),
-        words: ", diffuse layer",
-        channels: &["diffuse.R", "diffuse.G", "diffuse.B"],
-        exposure: 1.0,
-    };
-    /// Several times darker than the picture it belongs to, hence the exposure.
-    const SPECULAR: Self = Self {
-        name: Some("specular"),
-        words: ", specular layer",
-        channels: &["specular.R", "specular.G", "specular.B"],
-        exposure: 3.0,
-    };
-
-    fn subject(&self, source: &Source) -> String {
-        match self.name {
-            None => source.subject().to_owned(),
-            Some(name) => format!("{}_{name}_layer", source.subject()),
-        }
-    }
-}
-
-/// Who made a picture of a withheld view.
-enum Source {
-    /// The method's own view synthesis.
-    View,
-    /// The path tracer, from the method's maps.
-    Relit { light: String, scale: &'static str },
-}
-
-impl Source {
-    fn subject(&self) -> &'static str {
-        match self {
-            Source::View => "view",
-            Source::Relit { .. } => "relit",
-        }
-    }
-
-    fn light(&self) -> Option<&str> {
-        match self {
-            Source::View => None,
-            Source::Relit { light, .. } => Some(light),
-        }
-    }
-
-    /// The scale mode of the scores that belong to the picture.
-    fn scale(&self) -> &'static str {
-        match self {
-            Source::View => "none",
-            Source::Relit { scale, .. } => scale,
-        }
-    }
-
-    fn path(&self, method: &Method, file: &str) -> Option<PathBuf> {
-        match self {
-            Source::View => Some(method.maps.as_ref()?.join("views").join(file)),
-            Source::Relit { light, scale } => {
-                Some(method.relit.as_ref()?.join(scale).join(light).join(file))
-            }
-        }
-    }
-}
-
-struct Compared<'a> {
-    picture: &'a Picture,
-    truth: &'a Picture,
-    mask: Option<&'a GrayImage>,
-    measure: Measure,
-}
-
-impl Compared<'_> {
-    fn field(&self, factor: f32) -> Option<tone::Field> {
-        difference::field(self.picture, self.truth, self.mask, self.measure, factor)
     }
 }
 
@@ -498,19 +239,19 @@ pub(super) fn file_name(name: &str) -> String {
 }
 
 /// The score that belongs under a picture; empty where there is none.
-fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
+pub(super) fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
     let value = row.and_then(|row| match (frame, &row.per_frame) {
         (Some(frame), Some(per_frame)) => per_frame.get(frame).copied(),
         _ => row.value,
     });
     let (Some(row), Some(value)) = (row, value) else { return String::new() };
-    let info = super::metric::info(&row.metric);
-    let decimals = table::decimals(info.unit, std::iter::once(value));
-    format!("{} {value:.decimals$} {}", info.name, info.unit)
+    let Ok(metric) = Metric::find(&row.metric) else { return String::new() };
+    let decimals = table::decimals(metric.unit, std::iter::once(value));
+    format!("{} {value:.decimals$} {}", metric.name, metric.unit)
 }
 
 /// Channels of a file that may be absent as a whole or lack just these layers.
-fn read_if_present(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
+pub(super) fn read_if_present(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
     if !path.exists() {
         return Ok(None);
     }
@@ -524,6 +265,7 @@ fn read_if_present(path: &Path, channels: &[&str]) -> Result<Option<Picture>, Re
     Ok(Some(picture::read_exr(path, channels)?))
 }
 
-fn read_mask_if_present(path: &Path) -> Result<Option<GrayImage>, ReportError> {
+/// A mask that may be absent.
+pub(super) fn read_mask_if_present(path: &Path) -> Result<Option<GrayImage>, ReportError> {
     if path.exists() { Ok(Some(picture::read_png_gray(path)?)) } else { Ok(None) }
 }

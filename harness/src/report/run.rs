@@ -90,10 +90,13 @@ pub(super) struct StageTime {
 /// The part of `capture/transforms.json` that the pictures need.
 #[derive(Debug)]
 pub(super) struct Frames {
+    /// The capture's folder.
+    pub root: PathBuf,
     pub train: Vec<Frame>,
     pub test: Vec<Frame>,
 }
 
+/// A view, not opened.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub name: String,
@@ -134,6 +137,7 @@ impl Frames {
                 .collect()
         };
         Ok(Self {
+            root: capture.to_path_buf(),
             train: chosen(&transforms.train_filenames),
             test: chosen(&transforms.test_filenames),
         })

@@ -3,9 +3,10 @@
 
 use serde::Serialize;
 
-use super::metric::{self, Direction};
+use super::metric;
 use super::run::Kind;
 use super::scores::{Row, Scores};
+use crate::metrics::{Direction, Metric};
 
 /// What stands in a cell without a value.
 pub(super) const EMPTY: &str = "–";
@@ -19,6 +20,11 @@ pub(super) struct Column<'a> {
 }
 
 impl Column<'_> {
+    /// The one factor of the diffuse albedo.
+    pub fn factor(&self) -> Option<f64> {
+        self.scores?.scale.as_ref()?.global
+    }
+
     /// The row of a metric over the subject's whole region.
     pub fn find(
         &self,
@@ -61,12 +67,11 @@ pub(super) struct Group {
 pub(super) struct Line {
     /// `<subject>[/light]/<metric>@<region>:<scale>`, as `unshade compare` names it.
     pub id: String,
-    pub metric: &'static str,
     pub name: String,
-    pub unit: String,
+    pub unit: &'static str,
     pub direction: &'static str,
     pub region: String,
-    pub space: String,
+    pub space: &'static str,
     pub scale: String,
     pub cells: Vec<Cell>,
     pub floor: String,
@@ -82,7 +87,7 @@ pub(super) struct Cell {
 
 /// The chosen rows: whole regions and the metrics that answer the subject's question.
 pub(super) fn chosen(columns: &[Column], own_light: &str) -> Table {
-    build(columns, own_light, |row| is_whole(row) && metric::is_chosen(&row.subject, &row.metric))
+    build(columns, own_light, |row| is_whole(row) && metric::is_chosen(&row.metric, &row.scale))
 }
 
 /// Every row that any column has.
@@ -125,24 +130,26 @@ fn is_whole(row: &Row) -> bool {
 }
 
 fn line(key: &Row, columns: &[Column]) -> Line {
-    let info = metric::info(&key.metric);
+    // A metric of another version of the scoring is shown by its id alone.
+    let known = Metric::find(&key.metric).ok();
+    let unit = known.map_or("", |metric| metric.unit);
     let rows: Vec<Option<&Row>> = columns
         .iter()
         .map(|column| column.scores?.rows.iter().find(|row| same(row, key)))
         .collect();
     let value = |row: &Option<&Row>| row.and_then(|row| row.value);
-    let decimals = decimals(info.unit, rows.iter().filter_map(value));
+    let decimals = decimals(unit, rows.iter().filter_map(value));
     let contenders = || {
         let pairs = columns.iter().zip(&rows);
         pairs.filter(|(column, _)| column.kind != Kind::Oracle).filter_map(|(_, row)| value(row))
     };
-    // With a single contender there is nothing to win.
-    let best = match info.direction {
-        _ if contenders().count() < 2 => None,
-        Direction::Higher => contenders().max_by(f64::total_cmp),
-        Direction::Lower => contenders().min_by(f64::total_cmp),
-        Direction::Zero => contenders().min_by(|a, b| a.abs().total_cmp(&b.abs())),
-    };
+    let contenders: Vec<f64> = columns
+        .iter()
+        .zip(&rows)
+        .filter(|(column, _)| column.kind != Kind::Oracle)
+        .filter_map(|(_, row)| value(row))
+        .collect();
+    let best = known.and_then(|metric| best(metric.direction, &contenders));
     let cells = columns
         .iter()
         .zip(&rows)
@@ -158,16 +165,21 @@ fn line(key: &Row, columns: &[Column]) -> Line {
     let floor = oracle.chain(columns.iter().zip(&rows)).find_map(|(_, row)| (*row)?.floor);
     Line {
         id: row_id(key),
-        metric: info.id,
-        name: info.name.to_owned(),
-        unit: info.unit.to_owned(),
-        direction: info.direction.name(),
+        name: known.map_or(key.metric.as_str(), |metric| metric.name).to_owned(),
+        unit,
+        direction: known.map_or("", |metric| metric.direction.symbol()),
         region: metric::region(&key.region, key.label.as_deref()),
-        space: info.space.to_owned(),
+        space: known.map_or("", metric::space),
         scale: metric::scale(&key.scale).to_owned(),
         cells,
         floor: shown(floor, decimals),
     }
+}
+
+/// The best of several values; with a single contender there is nothing to win.
+fn best(direction: Direction, values: &[f64]) -> Option<f64> {
+    let better = |a: f64, b: f64| if direction.gain(a, b) > 0.0 { b } else { a };
+    if values.len() < 2 { None } else { values.iter().copied().reduce(better) }
 }
 
 /// A value with a fixed number of decimals, or the dash of an empty cell.

@@ -81,14 +81,18 @@ fn names_are_escaped() {
 #[test]
 fn nothing_is_loaded_from_elsewhere_and_every_link_leads_somewhere() {
     let made = report();
-    for scheme in ["http:", "https:", "file:", "src=\"/", "href=\"/", "@import", "url("] {
-        assert!(!made.html.contains(scheme), "{scheme}");
+    for elsewhere in ["src=\"http", "src=\"//", "src=\"file", "src=\"/", "href=\"/", "<link", "@import", "url("] {
+        assert!(!made.html.contains(elsewhere), "{elsewhere}");
     }
     let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\""]
         .into_iter()
         .flat_map(|kind| between(&made.html, kind, "\""));
     let mut pictures = 0;
     for reference in references {
+        // The source of a metric is followed by a reader, never loaded.
+        if reference.starts_with("https://") {
+            continue;
+        }
         match reference.strip_prefix('#') {
             Some(id) => assert!(made.html.contains(&format!("id=\"{id}\"")), "{reference}"),
             None => {

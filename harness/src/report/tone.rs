@@ -5,6 +5,8 @@ use std::path::Path;
 
 use solver::picture::{self, Picture, PictureError};
 
+use crate::metrics::srgb;
+
 /// The longest side of a picture in a report; larger ones are averaged down.
 const LONGEST_SIDE: usize = 512;
 
@@ -42,14 +44,14 @@ pub(super) struct Field {
     pub values: Vec<f32>,
 }
 
-/// The sRGB transfer curve (IEC 61966-2-1) of a linear value clipped to [0, 1].
-pub(super) fn srgb(linear: f32) -> f32 {
-    let x = linear.clamp(0.0, 1.0);
-    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
-}
-
+/// The 8-bit code of a value in [0, 1]; others are clipped.
 fn byte(display: f32) -> u8 {
     (display.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// The 8-bit sRGB code of a linear value.
+fn srgb_byte(linear: f32) -> u8 {
+    byte(srgb(f64::from(linear)) as f32)
 }
 
 /// Linear colour times `exposure`, through the sRGB curve.
@@ -57,7 +59,7 @@ pub(super) fn colour(picture: &Picture, exposure: f32) -> Raster {
     let small = shrink(picture, LONGEST_SIDE);
     Raster::from_pixels(small.width, small.height, |x, y| {
         let pixel = small.pixel(x, y);
-        std::array::from_fn(|c| byte(srgb(pixel[c.min(pixel.len() - 1)] * exposure)))
+        std::array::from_fn(|c| srgb_byte(pixel[c.min(pixel.len() - 1)] * exposure))
     })
 }
 
@@ -147,11 +149,9 @@ mod tests {
 
     #[test]
     fn mid_grey_takes_the_code_of_the_standard() {
-        // 21.4 % linear is code 127.5 of sRGB; 0.0031308 is where the branches meet.
-        assert_eq!(byte(srgb(0.2140)), 127);
-        assert_eq!(byte(srgb(0.2159)), 128);
-        assert!((12.92 * 0.003_130_8 - srgb(0.003_130_9)).abs() < 1e-5);
-        assert_eq!((byte(srgb(-1.0)), byte(srgb(7.0))), (0, 255));
+        // Half the display's range is 21.4 % of its light.
+        assert_eq!((srgb_byte(0.2130), srgb_byte(0.2159)), (127, 128));
+        assert_eq!((srgb_byte(-1.0), srgb_byte(7.0)), (0, 255));
     }
 
     #[test]
