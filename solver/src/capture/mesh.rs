@@ -1,0 +1,95 @@
+//! The mesh: triangles with one normal and one texture coordinate per vertex.
+
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+
+use crate::error::CaptureError;
+
+/// A triangle mesh; every vertex has a position, a unit normal and a texture coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Metres, world space.
+    pub positions: Vec<Vec3>,
+    /// Unit, world space; from the file, or area-weighted if it has none.
+    pub normals: Vec<Vec3>,
+    /// u right, v up, inside the unit square.
+    pub uvs: Vec<Vec2>,
+    /// Vertex indices, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Reads an OBJ file; all its objects become one mesh.
+    pub fn open(path: &Path) -> Result<Self, CaptureError> {
+        let options =
+            tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
+        let (models, _) = tobj::load_obj(path, &options).map_err(|error| CaptureError::Read {
+            path: path.to_path_buf(),
+            reason: error.to_string(),
+        })?;
+        let wrong = |reason: String| CaptureError::Mesh { path: path.to_path_buf(), reason };
+        let mut mesh = Self { positions: vec![], normals: vec![], uvs: vec![], triangles: vec![] };
+        let mut normals_given = true;
+        for tobj::Model { mesh: part, .. } in models {
+            let base = mesh.positions.len() as u32;
+            if part.texcoords.len() / 2 != part.positions.len() / 3 {
+                return Err(wrong("has no texture coordinates; unwrap it first".to_owned()));
+            }
+            normals_given &= part.normals.len() == part.positions.len();
+            mesh.positions.extend(part.positions.chunks_exact(3).map(Vec3::from_slice));
+            mesh.normals.extend(part.normals.chunks_exact(3).map(Vec3::from_slice));
+            mesh.uvs.extend(part.texcoords.chunks_exact(2).map(Vec2::from_slice));
+            let corners = part.indices.chunks_exact(3);
+            mesh.triangles.extend(corners.map(|t| [t[0] + base, t[1] + base, t[2] + base]));
+        }
+        if !normals_given || mesh.normals.contains(&Vec3::ZERO) {
+            mesh.normals = vertex_normals(&mesh.positions, &mesh.triangles);
+        }
+        mesh.check().map_err(wrong)?;
+        for normal in &mut mesh.normals {
+            // Only a vertex without area can have none; no pixel ever meets it.
+            *normal = normal.normalize_or(Vec3::Z);
+        }
+        Ok(mesh)
+    }
+
+    /// Opposite corners of the smallest box around the mesh, the least coordinates first.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        self.positions.iter().fold(empty, |(low, high), p| (low.min(*p), high.max(*p)))
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.triangles.is_empty() {
+            return Err("has no triangles".to_owned());
+        }
+        let finite = |v: &Vec3| v.is_finite();
+        if let Some(i) = self.positions.iter().position(|p| !finite(p)) {
+            return Err(format!("vertex {} is not finite; remove it", i + 1));
+        }
+        if let Some(i) = self.normals.iter().position(|n| !finite(n)) {
+            return Err(format!("normal of vertex {} is not finite; recompute the normals", i + 1));
+        }
+        // Unwrapping tools round: a hair outside is inside.
+        let inside = |uv: &Vec2| (*uv - Vec2::splat(0.5)).abs().max_element() <= 0.5 + 1e-5;
+        if let Some(uv) = self.uvs.iter().find(|uv| !inside(uv)) {
+            let place = format!("texture coordinate ({}, {})", uv.x, uv.y);
+            return Err(format!("{place} is outside the unit square; rescale the chart"));
+        }
+        Ok(())
+    }
+}
+
+/// Sums of the adjacent triangles' normals, weighted by their areas.
+fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+        let area_normal = (b - a).cross(c - a);
+        for corner in corners {
+            normals[*corner as usize] += area_normal;
+        }
+    }
+    normals
+}

@@ -1,0 +1,85 @@
+//! A capture folder: opened and checked here, once, for everyone.
+
+mod camera;
+mod mesh;
+mod transforms;
+mod view;
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use crate::error::CaptureError;
+
+pub use camera::Camera;
+pub use mesh::Mesh;
+pub use view::View;
+
+/// Everything a solver may see: the mesh, the training views, and where the withheld cameras stand.
+///
+/// Pictures of withheld frames and the folder `truth` are never opened.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// The training views, in the order of `train_filenames`.
+    pub train: Vec<View>,
+    /// The withheld cameras, in the order of `test_filenames`.
+    pub withheld: Vec<Camera>,
+    hash: String,
+}
+
+impl Capture {
+    /// Opens and checks a capture folder (`transforms.json`, the mesh, pictures, masks, labels).
+    pub fn open(folder: &Path) -> Result<Self, CaptureError> {
+        let path = folder.join("transforms.json");
+        let bytes = read(&path)?;
+        let transforms = transforms::Transforms::parse(folder, &bytes)
+            .map_err(|reason| CaptureError::Transforms { path, reason })?;
+        let open = |frame| View::open(frame);
+        let (mesh, train) = rayon::join(
+            || Mesh::open(&transforms.mesh_path),
+            || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
+        );
+        let (mesh, train) = (mesh?, train?);
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&bytes).update(&read(&transforms.mesh_path)?);
+        for frame in &transforms.train {
+            let paths = [Some(&frame.image_path), Some(&frame.mask_path), frame.label_path.as_ref()];
+            for path in paths.into_iter().flatten() {
+                hasher.update(&read(path)?);
+            }
+        }
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            mesh,
+            train,
+            withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
+            hash: hasher.finalize().to_hex().to_string(),
+        })
+    }
+
+    /// BLAKE3 of the inputs a solver sees, hexadecimal: `transforms.json`, the mesh, and the
+    /// training views' pictures, masks and labels, as they were when the folder was opened.
+    pub fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    /// The camera of a training or withheld frame.
+    pub fn camera(&self, name: &str) -> Option<&Camera> {
+        let train = self.train.iter().map(|view| &view.camera);
+        train.chain(&self.withheld).find(|camera| camera.name == name)
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, CaptureError> {
+    std::fs::read(path).map_err(|error| CaptureError::Read {
+        path: path.to_path_buf(),
+        reason: error.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests;

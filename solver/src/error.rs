@@ -1,0 +1,126 @@
+//! Everything that can go wrong, each with one line for the user: what, where, and the mend.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::picture::PictureError;
+
+/// A capture folder that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CaptureError {
+    /// A file is missing or unreadable.
+    #[error("{path}: cannot be read: {reason}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
+    /// `transforms.json` says something impossible.
+    #[error("{path}: {reason}")]
+    Transforms {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and the mend.
+        reason: String,
+    },
+    /// The mesh cannot carry textures.
+    #[error("{path}: {reason}")]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and the mend.
+        reason: String,
+    },
+    /// A mask or picture does not belong to its camera.
+    #[error("{path}: {reason}")]
+    Frame {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and the mend.
+        reason: String,
+    },
+    /// The mesh and the masks of the training views have no pixel in common.
+    #[error(
+        "{0}: no texel of the mesh is seen in any training view; check the camera matrices (camera \
+         to world, looking down -z) and the masks"
+    )]
+    NothingVisible(PathBuf),
+    /// A picture file is faulty.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+}
+
+/// A configuration that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// No preset has this name.
+    #[error("no configuration is named {0:?}; the named ones are paper, unshade and fast")]
+    UnknownPreset(String),
+    /// The text is not TOML, has an unknown key, or a value of the wrong type.
+    #[error("configuration: {0}")]
+    Toml(String),
+    /// A value is out of its range.
+    #[error("configuration: {key} is {value}, but must be {range}")]
+    Range {
+        /// Dotted key.
+        key: &'static str,
+        /// What was given.
+        value: String,
+        /// What is allowed.
+        range: &'static str,
+    },
+}
+
+/// A maps folder that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum MapsError {
+    /// A file or the folder itself cannot be read or written.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A picture file is faulty.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A map is not square, or has another size than the others.
+    #[error("{path}: {reason}")]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and the mend.
+        reason: String,
+    },
+}
+
+/// A decomposition that did not come to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum SolveError {
+    /// The configuration is out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The mesh and the masks of the training views have no pixel in common.
+    #[error(
+        "no texel of the mesh is seen in any training view; check the camera matrices (camera to \
+         world, looking down -z) and the masks"
+    )]
+    NothingVisible,
+    /// The loss became NaN or infinite.
+    #[error(
+        "the loss of stage {stage} is {loss} at iteration {iteration}; lower that stage's rates"
+    )]
+    NotFinite {
+        /// The stage's name.
+        stage: String,
+        /// Iteration within the stage, from 1.
+        iteration: usize,
+        /// NaN or infinity.
+        loss: f64,
+    },
+    /// The progress callback asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}

@@ -1,0 +1,116 @@
+//! The maps folder: what every solver leaves behind.
+
+use std::path::Path;
+
+use crate::atomic::Folder;
+use crate::error::MapsError;
+use crate::picture::{self, GrayImage, Picture};
+
+/// Square reflectance maps of one size; what a solver does not recover is absent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Maps {
+    /// RGB, linear Rec.709 reflectance.
+    pub diffuse_albedo: Option<Picture>,
+    /// One channel: reflectance at normal incidence, 0 to 0.05.
+    pub specular_albedo: Option<Picture>,
+    /// Unit vectors in object space.
+    pub diffuse_normal: Option<Picture>,
+    /// Unit vectors in object space.
+    pub specular_normal: Option<Picture>,
+    /// 255 where the map had data.
+    pub coverage: Option<GrayImage>,
+}
+
+type Field = fn(&mut Maps) -> &mut Option<Picture>;
+
+/// File, channel names, and the place of each float map.
+const FILES: [(&str, &[&str], Field); 4] = [
+    ("diffuse_albedo.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_albedo),
+    ("specular_albedo.exr", &["Y"], |maps| &mut maps.specular_albedo),
+    ("diffuse_normal.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_normal),
+    ("specular_normal.exr", &["R", "G", "B"], |maps| &mut maps.specular_normal),
+];
+const COVERAGE: &str = "coverage.png";
+
+impl Maps {
+    /// Reads whatever maps `folder` has; they must be square and of one size.
+    pub fn read(folder: &Path) -> Result<Self, MapsError> {
+        if let Err(source) = std::fs::read_dir(folder) {
+            return Err(MapsError::Io { path: folder.to_path_buf(), source });
+        }
+        let mut maps = Self::default();
+        let mut side = None;
+        for (file, channels, field) in FILES {
+            let path = folder.join(file);
+            if path.exists() {
+                let map = picture::read_exr(&path, channels)?;
+                check_side(&path, map.width, map.height, &mut side)?;
+                *field(&mut maps) = Some(map);
+            }
+        }
+        let path = folder.join(COVERAGE);
+        if path.exists() {
+            let coverage = picture::read_png_gray(&path)?;
+            check_side(&path, coverage.width, coverage.height, &mut side)?;
+            maps.coverage = Some(coverage);
+        }
+        Ok(maps)
+    }
+
+    /// Writes a folder with the maps that there are, completely or not at all.
+    pub fn write(&self, folder: &Path) -> Result<(), MapsError> {
+        let io = |source| MapsError::Io { path: folder.to_path_buf(), source };
+        let partial = Folder::begin(folder).map_err(io)?;
+        self.write_into(partial.path())?;
+        partial.commit().map_err(io)
+    }
+
+    /// Writes the files into a folder that exists, for callers that add files of their own.
+    pub fn write_into(&self, folder: &Path) -> Result<(), MapsError> {
+        let mut maps = self.clone();
+        for (file, channels, field) in FILES {
+            if let Some(map) = field(&mut maps) {
+                picture::write_exr(&folder.join(file), map, channels)?;
+            }
+        }
+        if let Some(coverage) = &self.coverage {
+            picture::write_png_gray(&folder.join(COVERAGE), coverage)?;
+        }
+        Ok(())
+    }
+}
+
+fn check_side(
+    path: &Path,
+    width: usize,
+    height: usize,
+    side: &mut Option<usize>,
+) -> Result<(), MapsError> {
+    let expected = *side.get_or_insert(width);
+    if (width, height) == (expected, expected) {
+        return Ok(());
+    }
+    let reason = format!("is {width}x{height}, expected {expected}x{expected}; maps are square and of one size");
+    Err(MapsError::Size { path: path.to_path_buf(), reason })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn absent_maps_stay_absent_and_sizes_must_agree() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("maps");
+        let mut albedo = Picture::new(4, 4, 3);
+        albedo.pixel_mut(1, 2)[0] = 0.5;
+        let maps = Maps { diffuse_albedo: Some(albedo), ..Maps::default() };
+        maps.write(&folder).unwrap();
+        assert_eq!(Maps::read(&folder).unwrap(), maps);
+        picture::write_exr(&folder.join("specular_albedo.exr"), &Picture::new(8, 8, 1), &["Y"])
+            .unwrap();
+        let error = Maps::read(&folder).unwrap_err().to_string();
+        assert!(error.contains("specular_albedo.exr: is 8x8, expected 4x4"), "{error}");
+        assert!(Maps::read(&root.path().join("absent")).is_err());
+    }
+}

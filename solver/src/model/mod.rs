@@ -1,0 +1,8 @@
+//! The model: three networks, shading, textures with their blur, and the albedo prior.
+
+pub mod blur;
+pub mod networks;
+pub mod normals;
+pub mod planes;
+pub mod prior;
+pub mod texture;

@@ -1,0 +1,83 @@
+//! Semantic initialisation of the diffuse albedo (paper, section 5.3): the mean colour of every
+//! face region, painted over the region.
+
+use glam::{DVec3, Vec3};
+
+use crate::capture::{Mesh, View};
+use crate::fill;
+use crate::gbuffer::{Atlas, BLUR_SIGMA_PX, GBuffer, view_weights};
+use crate::picture::Picture;
+use crate::projection::{Observation, Projection, per_texel};
+
+/// Added to every pixel's weight, so that a region seen only at its rim still has a mean.
+const LEAST_WEIGHT: f32 = 1e-4;
+
+/// The diffuse albedo to start from: linear RGB on a square map of `size` texels, in the unit of
+/// the pictures (radiance, not reflectance). The G-buffers are those of the views.
+///
+/// A texel belongs to the region that most views see there (weighted by the cosine); a texel that
+/// none sees or labels takes the nearest texel's region. Without labels the face is one region.
+pub fn initial_diffuse_albedo(
+    mesh: &Mesh,
+    views: &[View],
+    gbuffers: &[GBuffer],
+    size: usize,
+) -> Picture {
+    let atlas = Atlas::new(mesh, size);
+    let regions = region_map(&atlas, &Projection::of_views(views, gbuffers));
+    let colours = region_colours(views, gbuffers);
+    let data = regions.iter().flat_map(|region| colours[*region as usize].to_array()).collect();
+    Picture { width: size, height: size, channels: 3, data }
+}
+
+/// The region of every texel; 0 only if no view has labels.
+pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
+    let vote = |seen: &[(usize, Observation)]| {
+        let mut votes = [0.0_f32; 256];
+        for (view, observation) in seen {
+            let view = projections[*view].view;
+            let [x, y] = observation.at.map(|value| value as usize);
+            votes[label(view, y * view.camera.width + x) as usize] += observation.cosine;
+        }
+        // Ascending ids, and a later one must have more: the smaller id wins a tie.
+        (1..=255_u8).fold(0, |best, id| {
+            let (most, votes) = (votes[best as usize], votes[id as usize]);
+            if votes > 0.0 && (best == 0 || votes > most) { id } else { best }
+        })
+    };
+    let regions = per_texel(atlas, projections, vote);
+    let known: Vec<bool> = regions.iter().map(|region| *region != 0).collect();
+    let nearest = fill::nearest_known(&known, atlas.size, atlas.size);
+    nearest.into_iter().map(|texel| regions[texel as usize]).collect()
+}
+
+fn label(view: &View, pixel: usize) -> u8 {
+    view.labels.as_ref().map_or(0, |labels| labels.data[pixel])
+}
+
+/// Mean colour of the pixels of every region, weighted by the form factor; region 0 is the mean
+/// over all pixels.
+fn region_colours(views: &[View], gbuffers: &[GBuffer]) -> [Vec3; 256] {
+    let mut sums = [DVec3::ZERO; 256];
+    let mut totals = [0.0_f64; 256];
+    for (view, gbuffer) in views.iter().zip(gbuffers) {
+        let weights = view_weights(gbuffer, BLUR_SIGMA_PX);
+        for (pixel, weight) in gbuffer.pixels.iter().zip(weights) {
+            let pixel = *pixel as usize;
+            let colour = Vec3::from_slice(&view.image.data[3 * pixel..]).as_dvec3();
+            let weight = f64::from(weight + LEAST_WEIGHT);
+            let region = label(view, pixel);
+            let all = (region != 0).then_some(0);
+            for region in all.into_iter().chain([region as usize]) {
+                sums[region] += weight * colour;
+                totals[region] += weight;
+            }
+        }
+    }
+    std::array::from_fn(|region| {
+        if totals[region] > 0.0 { (sums[region] / totals[region]).as_vec3() } else { Vec3::ZERO }
+    })
+}
+
+#[cfg(test)]
+mod tests;
