@@ -10,7 +10,7 @@ from .regions import smoothstep
 from .spec import FaceSpec, stream
 
 _RINGS, _SEGMENTS = 96, 128
-_TEXTURE = (512, 1024)
+_TEXTURE = (320, 512)
 
 # Angles (degrees) from the optical axis: a limbus of 11.7 mm and a pupil of 4 mm on a 24 mm eye.
 _IRIS, _PUPIL = 27.0, 9.0

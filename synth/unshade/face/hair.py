@@ -58,13 +58,13 @@ def scalp_cover(points: np.ndarray, style: HairStyle, seed: int) -> np.ndarray:
     rag = 2.0 * octaves(points, 16.0, 2, 0.0, stream(seed, "hairline"))
     cover = smoothstep(-5.0, 6.0, y - line + rag)
     # Ears stand in front of hair that grows behind them.
-    ear = (np.abs(x) > 73.0) & (y < 25.0)
-    return np.where(ear, 0.0, cover).astype(np.float32)
+    ear = smoothstep(70.0, 75.0, np.abs(x)) * smoothstep(30.0, 22.0, y)
+    return (cover * (1 - ear)).astype(np.float32)
 
 
 def scalp_grain(points: np.ndarray, finest: float, seed: int) -> np.ndarray:
     """Stubble: factor (M,) around 1 on the scalp's cover."""
-    return np.clip(1 + 0.045 * octaves(points, 2.0, 3, finest, stream(seed, "stubble")), 0.5, 1.07)
+    return np.clip(1 + 0.045 * octaves(points, 1.2, 2, finest, stream(seed, "stubble")), 0.5, 1.07)
 
 
 def beard_cover(points: np.ndarray, lips: np.ndarray, style: HairStyle) -> np.ndarray:

@@ -15,7 +15,7 @@ def margin_distance(positions: np.ndarray, triangles: np.ndarray, eyes: np.ndarr
     the rim of each eye hole's submerged skin crosses the sphere. Skin that dips into the
     sphere elsewhere (a deep fold) is no margin.
     """
-    edges = np.unique(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
+    edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     curves = []
     for eye in eyes:
         gap = np.linalg.norm(positions - eye[:3], axis=1) - eye[3]

@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from .chart import signed_areas
 from .geometry import Geometry, unit
 from .hair import HairStyle, beard_cover, draw_brows, scalp_cover, scalp_grain
 from .head import Head
@@ -51,14 +52,14 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     scale = chart_scale(head)
     texel = scale / spec.texture_size
 
-    sites = find_regions(head.template[vertices].astype(np.float32), sample_masks(head, head.native_uv))
+    sites = find_regions(head.template[vertices].astype(np.float32), sample_masks(head.native_uv))
     # What varies slowly is computed at the vertices and interpolated.
     coarse = base_pigments(sites, spec)
     melanin, blood, scalp, x, y, z, s, t, u, v = texels.sample(
         np.column_stack([coarse.melanin, coarse.blood, scalp_cover(sites.points, style, spec.seed), sites.points, head.native_uv, uv])
     ).T
     points = np.stack([x, y, z], axis=1)
-    regions = find_regions(points, sample_masks(head, np.stack([s, t], axis=1)))
+    regions = find_regions(points, sample_masks(np.stack([s, t], axis=1)))
     positions, normals = geometry.positions[vertices], geometry.normals[vertices]
     rims = _rims(texels, 1000 * margin_distance(positions, triangles, geometry.eyes), head.rim_mm, regions)
     sketch = Sketch(points, (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70))
@@ -94,9 +95,9 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
 
 def chart_scale(head: Head) -> float:
     """Template millimetres per unit of UV, in the mean over the chart's area."""
-    corner, flat = head.template[head.part_chart], head.chart_uv[head.chart_triangles]
-    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1).sum()
-    return float(np.sqrt(area / np.abs(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])).sum()))
+    corner = head.template[head.part_chart]
+    doubled = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1).sum()
+    return float(np.sqrt(0.5 * doubled / signed_areas(head.chart_uv, head.chart_triangles).sum()))
 
 
 def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:

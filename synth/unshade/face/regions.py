@@ -6,12 +6,12 @@ Coordinates: origin midway between the eyes' centres, +Y up, +Z out of the face.
 from __future__ import annotations
 
 import dataclasses
+import functools
 
 import numpy as np
 from scipy.ndimage import gaussian_filter, map_coordinates
 
 from . import base_mesh
-from .head import Head
 
 
 def bump(points: np.ndarray, centre: tuple, radii: tuple) -> np.ndarray:
@@ -82,15 +82,17 @@ def _nose_outline(points: np.ndarray) -> np.ndarray:
     return smoothstep(1.0, -1.0, np.abs(x) - half_width) * (z > 0)
 
 
-def sample_masks(head: Head, native_uv: np.ndarray) -> dict[str, np.ndarray]:
-    """Region masks of the head data at native UV (M,2): f32 in 0..1.
+@functools.cache
+def _mask(name: str) -> np.ndarray:
+    """Region mask of the head data; the lips span some sixty of its pixels, so outlines are blurred."""
+    return gaussian_filter(base_mesh.read_region(name), 1.0)
 
-    The lips span some sixty pixels there, so their outline is blurred before it is sampled.
-    """
+
+def sample_masks(native_uv: np.ndarray) -> dict[str, np.ndarray]:
+    """Region masks of the head data at native UV (M,2): f32 in 0..1."""
     place = np.stack([(1 - native_uv[:, 1]), native_uv[:, 0]])
     masks = {}
     for name in ("lips", "eyelids", "ears"):
-        image = gaussian_filter(base_mesh.read_region(name), 1.0)
-        size = np.array(image.shape, dtype=np.float32)[:, None]
-        masks[name] = map_coordinates(image, place * size - 0.5, order=1, mode="nearest", output=np.float32)
+        size = np.array(_mask(name).shape, dtype=np.float32)[:, None]
+        masks[name] = map_coordinates(_mask(name), place * size - 0.5, order=1, mode="nearest", output=np.float32)
     return masks

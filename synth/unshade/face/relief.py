@@ -33,14 +33,14 @@ def draw_relief(regions: Regions, places: np.ndarray, sketch: Sketch, brows: np.
     pores = _pores(places, texel, spec) * amount * bare
     height = -0.10 * pores
     height += 0.022 * bare * _grain(regions.points, places, texel, spec)
-    height += 0.020 * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
+    height += 0.030 * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
     lips = regions.lips > 0
     height[lips] += _lip_creases(regions.points[lips], regions.lips[lips], texel, spec)
     creases = _wrinkles(sketch, len(height), texel, spec) * (1 - regions.lips)
     height -= creases
     height += 0.08 * brows
     return Relief(
-        height.astype(np.float32), np.clip(pores, 0, 1).astype(np.float32), np.clip(creases / 0.3, 0, 1).astype(np.float32)
+        height.astype(np.float32), np.clip(pores, 0, 1).astype(np.float32), np.clip(creases / 0.5, 0, 1).astype(np.float32)
     )
 
 
@@ -95,7 +95,7 @@ def _wrinkle_curves(rng: np.random.Generator, age: float):
         reach, shift = rng.uniform(24, 40), rng.normal(0, 4)
         x = np.linspace(-reach, reach, 40) + shift
         y = 36 + 8.5 * k + rng.normal(0, 1.2) + 2.5 * np.cos(x / 16 + rng.normal(0, 0.3))
-        yield wavy(x, y, 0.8), (0.02 + 0.22 * age) * rng.uniform(0.4, 1), rng.uniform(0.55, 0.9)
+        yield wavy(x, y, 0.8), (0.02 + 0.40 * age) * rng.uniform(0.4, 1), rng.uniform(0.7, 1.1)
     for side in (-1.0, 1.0):
         for k in range(6):  # crow's feet
             angle = np.radians(-34 + 13 * k + rng.normal(0, 4))
@@ -103,16 +103,16 @@ def _wrinkle_curves(rng: np.random.Generator, age: float):
             t = np.linspace(0, rng.uniform(10, 19), 12)
             bow = 0.012 * (k - 2.5) * t**2
             curve = start + np.stack([t * np.cos(angle), t * np.sin(angle) + bow], axis=1)
-            yield curve * [side, 1], (0.01 + 0.17 * age) * rng.uniform(0.4, 1), rng.uniform(0.4, 0.65)
+            yield curve * [side, 1], (0.01 + 0.30 * age) * rng.uniform(0.4, 1), rng.uniform(0.5, 0.8)
         for k in range(3):  # under the eye
             x = np.linspace(17 + 1.5 * k, 42 - k, 24)
             y = -10.5 - 3.2 * k - 3.0 * np.sin(np.pi * (x - 15) / 30) + rng.normal(0, 0.4)
-            yield wavy(x, y, 0.3) * [side, 1], (0.02 + 0.11 * age) * rng.uniform(0.5, 1), rng.uniform(0.4, 0.7)
+            yield wavy(x, y, 0.3) * [side, 1], (0.02 + 0.20 * age) * rng.uniform(0.5, 1), rng.uniform(0.5, 0.8)
         t = np.linspace(0, 1, 24)  # nose to mouth
         fold = np.stack([17 + 14 * t + 2 * np.sin(np.pi * t), -35 - 34 * t], axis=1)
-        yield fold * [side, 1], (0.03 + 0.28 * age) * rng.uniform(0.7, 1), 1.3
+        yield fold * [side, 1], (0.03 + 0.50 * age) * rng.uniform(0.7, 1), 1.5
         fold = np.stack([27 + 3 * t, -72 - 20 * t], axis=1)  # below the mouth's corner
-        yield fold * [side, 1], 0.22 * age * rng.uniform(0.5, 1), 1.0
+        yield fold * [side, 1], 0.40 * age * rng.uniform(0.5, 1), 1.2
         t = np.linspace(0, 1, 12)  # between the brows
         frown = np.stack([5.5 + 1.5 * t + rng.normal(0, 0.6), 12 + 16 * t], axis=1)
-        yield frown * [side, 1], (0.01 + 0.2 * age) * rng.uniform(0.3, 1), 0.7
+        yield frown * [side, 1], (0.01 + 0.35 * age) * rng.uniform(0.3, 1), 0.9

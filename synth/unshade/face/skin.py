@@ -80,7 +80,7 @@ def chart_colour(
     blood = pigments.blood * (1 + fade * (0.09 * mottle + 0.35 * relief.creases))
     flesh = stream(spec.seed, "lip colour").uniform(0.8, 1.25)
     # Lips: vessels show through a thin epidermis; pale skin's lips are more pigmented than the rest of it, dark skin's less.
-    melanin = melanin + lips * (0.5 * (0.055 + MELANOSOMES[spec.fitzpatrick]) - melanin)
+    melanin = melanin + lips * (0.75 * MELANOSOMES[spec.fitzpatrick] + 0.014 - melanin)
     blood = blood * (1 + lips * flesh * (6.0 + 0.4 * fine))
     blood = blood * (1 + 1.2 * rims["wet"])
     colour = skin_colour(np.clip(melanin, 0, MELANIN_LIMIT), np.clip(blood, 0, BLOOD_LIMIT))
