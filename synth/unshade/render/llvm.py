@@ -182,7 +182,8 @@ def activate(choice: Choice) -> None:
     """Sets the variant of this process, once, and registers the skin material.
 
     Raises `VariantError` if the process already renders in another one: its classes
-    belong to the variant that was set when they were made.
+    belong to the variant that was set when they were made; or if Dr.Jit, imported earlier,
+    has already taken another LLVM.
     """
     if choice.llvm:
         os.environ["DRJIT_LIBLLVM_PATH"] = choice.llvm.path
@@ -194,6 +195,15 @@ def activate(choice: Choice) -> None:
         )
     if mi.variant() is None:
         mi.set_variant(choice.variant)
+    if choice.llvm:
+        import drjit as dr
+
+        taken = ".".join(map(str, dr.detail.llvm_version()))
+        if taken != choice.llvm.version:
+            raise VariantError(
+                f"drjit was imported first and took LLVM {taken}, not {choice.llvm.path}; "
+                f"import unshade before drjit and mitsuba, or set DRJIT_LIBLLVM_PATH={choice.llvm.path}"
+            )
     from .skin_bsdf import SkinBSDF
 
     mi.register_bsdf("skin", SkinBSDF)

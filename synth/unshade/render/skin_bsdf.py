@@ -52,7 +52,7 @@ class SkinBSDF(mi.BSDF):
         self.diffuse = props.get_unbounded_texture("diffuse")
         self.specular = props.get_unbounded_texture("specular")
         self.diffuse_normal, self.specular_normal = (
-            props.get_unbounded_texture(name) if props.has_property(name) else None
+            props.get_unbounded_texture(name) if name in props else None
             for name in ("diffuse_normal", "specular_normal")
         )
         alpha = props.get("alpha", 0.0)
