@@ -1,8 +1,10 @@
-//! The model: three networks, shading, textures with their blur, and the albedo prior.
+//! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
 pub mod blur;
 pub mod networks;
 pub mod normals;
 pub mod planes;
 pub mod prior;
+pub mod samples;
+pub mod taps;
 pub mod texture;

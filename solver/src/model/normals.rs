@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::planes::Planes;
 use crate::config::NetworkConfig;
-use crate::gbuffer::samples::Samples;
+use super::samples::Samples;
 
 /// Rows of the directions: scaled diffuse normal, then scaled reflected direction.
 pub const DIRECTIONS: usize = 6;

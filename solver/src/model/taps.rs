@@ -6,7 +6,7 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use crate::model::planes::Planes;
+use super::planes::Planes;
 
 /// The four texels around each sample, with bilinear weights; outside the texture it is clamped.
 #[derive(Clone, Debug)]

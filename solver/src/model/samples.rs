@@ -1,15 +1,12 @@
 //! The samples of an optimisation: every usable pixel, with what the model needs of it.
 
 use glam::{Vec2, Vec3};
-use rayon::prelude::*;
 
-use super::raster::Fragments;
+use super::planes::Planes;
 use super::taps::Taps;
-use super::views::SeenView;
-use super::weights::direction_to;
-use crate::capture::{Camera, Mesh};
-use crate::config::{NetworkConfig, RenderingConfig};
-use crate::model::planes::Planes;
+use crate::capture::{Mesh, View};
+use crate::config::{Config, ViewWeightConfig};
+use crate::gbuffer::{self, GBuffer};
 
 /// Samples in texel order; see [`Taps`].
 #[derive(Clone, Debug)]
@@ -32,7 +29,7 @@ pub struct Samples {
     pub pixel: Vec<u32>,
 }
 
-/// What of the configuration shapes samples, and the mesh's extent.
+/// How positions and the Fresnel factor become inputs of the model.
 #[derive(Clone, Debug)]
 pub struct SampleSpace {
     centre: Vec3,
@@ -40,39 +37,49 @@ pub struct SampleSpace {
     f0: Option<f32>,
 }
 
+/// One sample before the samples are sorted and laid out.
 struct Sample {
     position: Vec3,
     normal: Vec3,
     view: Vec3,
     uv: Vec2,
-    target: [f32; 3],
+    target: Vec3,
     weight: f32,
     pixel: u32,
 }
 
 impl SampleSpace {
     /// Positions span -1 to 1 along the longest side of the mesh's box, times the configured scale.
-    pub fn new(mesh: &Mesh, networks: &NetworkConfig, rendering: &RenderingConfig) -> Self {
+    pub fn new(mesh: &Mesh, config: &Config) -> Self {
         let (low, high) = mesh.bounds();
         let half = (0.5 * (high - low).max_element()).max(f32::MIN_POSITIVE);
         Self {
             centre: 0.5 * (low + high),
-            scale: networks.position_scale / half,
-            f0: rendering.fresnel.then_some(rendering.f0),
+            scale: config.networks.position_scale / half,
+            f0: config.rendering.fresnel.then_some(config.rendering.f0),
         }
     }
 
-    /// The usable pixels of all training views, for textures of side `size`.
-    pub fn training(&self, mesh: &Mesh, views: &[SeenView], size: usize) -> Samples {
-        let of_view = |view: &SeenView| -> Vec<Sample> {
-            let pick = |at: usize| {
-                let target = std::array::from_fn(|c| view.image.data[3 * at + c]);
-                sample(mesh, &view.camera, &view.fragments, at, target, view.weights[at])
+    /// The usable pixels of training views (those that count at all), for textures of side `size`.
+    pub fn training(
+        &self,
+        views: &[View],
+        gbuffers: &[GBuffer],
+        weights: &ViewWeightConfig,
+        size: usize,
+    ) -> Samples {
+        let mut samples = vec![];
+        for (view, gbuffer) in views.iter().zip(gbuffers) {
+            let weights = match weights.depth {
+                true => gbuffer::view_weights(gbuffer, weights.depth_blur),
+                false => gbuffer::cosine_weights(gbuffer),
             };
-            (0..view.weights.len()).filter(|at| view.weights[*at] > 0.0).filter_map(pick).collect()
-        };
-        let mut samples: Vec<Sample> =
-            views.par_iter().map(of_view).collect::<Vec<_>>().into_iter().flatten().collect();
+            let target = |pixel: u32| Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
+            let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+            samples.extend(
+                usable.map(|(i, weight)| sample(gbuffer, i, target(gbuffer.pixels[i]), *weight)),
+            );
+        }
         let sum: f64 = samples.iter().map(|s| f64::from(s.weight)).sum();
         let mean = (sum / samples.len().max(1) as f64) as f32;
         samples.iter_mut().for_each(|s| s.weight /= mean);
@@ -80,12 +87,9 @@ impl SampleSpace {
     }
 
     /// Every pixel at which a withheld camera sees the front of the mesh.
-    pub fn withheld(&self, mesh: &Mesh, camera: &Camera, size: usize) -> Samples {
-        let fragments = Fragments::of_view(mesh, camera);
-        let samples: Vec<Sample> = (0..camera.width * camera.height)
-            .filter(|at| fragments.is_front(mesh, *at, camera.position()))
-            .filter_map(|at| sample(mesh, camera, &fragments, at, [0.0; 3], 0.0))
-            .collect();
+    pub fn withheld(&self, gbuffer: &GBuffer, size: usize) -> Samples {
+        let samples: Vec<_> =
+            (0..gbuffer.len()).map(|i| sample(gbuffer, i, Vec3::ZERO, 0.0)).collect();
         self.arrange(&samples, size)
     }
 
@@ -103,7 +107,7 @@ impl SampleSpace {
                 let s = &samples[order[i]];
                 [self.f0.map_or(1.0, |f0| schlick(f0, s.normal.dot(s.view)))]
             }),
-            target: Planes::from_fn(order.len(), |i| samples[order[i]].target),
+            target: vector(&|s| s.target),
             weight: Planes::from_fn(order.len(), |i| [samples[order[i]].weight]),
             taps,
             pixel: order.iter().map(|source| samples[*source].pixel).collect(),
@@ -128,22 +132,14 @@ pub fn schlick(f0: f32, cosine: f32) -> f32 {
     f0 + (1.0 - f0) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
 }
 
-fn sample(
-    mesh: &Mesh,
-    camera: &Camera,
-    fragments: &Fragments,
-    at: usize,
-    target: [f32; 3],
-    weight: f32,
-) -> Option<Sample> {
-    let surface = fragments.surface(mesh, at)?;
-    Some(Sample {
-        position: surface.position,
-        normal: surface.normal,
-        view: direction_to(camera.position().as_vec3(), surface.position),
-        uv: surface.uv,
+fn sample(gbuffer: &GBuffer, i: usize, target: Vec3, weight: f32) -> Sample {
+    Sample {
+        position: gbuffer.positions[i],
+        normal: gbuffer.normals[i],
+        view: gbuffer.view_dirs[i],
+        uv: gbuffer.uvs[i],
         target,
         weight,
-        pixel: at as u32,
-    })
+        pixel: gbuffer.pixels[i],
+    }
 }

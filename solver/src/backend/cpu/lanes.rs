@@ -1,0 +1,283 @@
+//! Vectors of floats with one meaning and three widths.
+//!
+//! A vector type is only ever used inside functions that are entered after its instruction set was
+//! found (see [`super::Level`]); that is what makes the intrinsics sound.
+
+#[cfg(target_arch = "x86_64")]
+use crate::model::planes::BLOCK;
+use crate::model::planes::Row;
+
+/// Partial sums, one per lane; narrower vectors use the first lanes.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub struct LaneSum(pub [f32; 16]);
+
+/// A vector of floats.
+pub trait Lanes: Copy {
+    /// Number of floats; divides the block's length and is at most 16.
+    const WIDTH: usize;
+    /// All lanes `x`.
+    fn splat(x: f32) -> Self;
+    /// Lanes `at..at + WIDTH` of a row.
+    fn load(row: &Row, at: usize) -> Self;
+    /// Writes lanes `at..at + WIDTH` of a row.
+    fn store(self, row: &mut Row, at: usize);
+    /// The first lanes of a sum.
+    fn load_sum(sum: &LaneSum) -> Self;
+    /// Writes the first lanes of a sum.
+    fn store_sum(self, sum: &mut LaneSum);
+    /// self + b.
+    fn add(self, b: Self) -> Self;
+    /// self - b.
+    fn sub(self, b: Self) -> Self;
+    /// self * b.
+    fn mul(self, b: Self) -> Self;
+    /// self / b.
+    fn div(self, b: Self) -> Self;
+    /// self * b + c, rounded once where the hardware can.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// The larger one.
+    fn max(self, b: Self) -> Self;
+    /// The smaller one.
+    fn min(self, b: Self) -> Self;
+    /// Without its sign.
+    fn abs(self) -> Self;
+    /// Nearest integer.
+    fn round(self) -> Self;
+    /// self * 2^n for an integral n that keeps the result normal.
+    fn scale(self, n: Self) -> Self;
+    /// self where `gate` > 0, else 0.
+    fn where_positive(self, gate: Self) -> Self;
+}
+
+/// e^x, relative error about 1e-7; x is clamped to [-87, 88].
+#[inline(always)]
+pub fn exp<S: Lanes>(x: S) -> S {
+    let x = x.max(S::splat(-87.0)).min(S::splat(88.0));
+    let n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
+    // ln 2 in two parts, the first with so few bits that its product with n is exact.
+    let r = n.mul_add(S::splat(-0.693_359_4), x);
+    let r = n.mul_add(S::splat(2.121_944_4e-4), r);
+    // Taylor's series: |r| <= 0.347, so the first term left out is below 6e-9.
+    let mut sum = S::splat(1.0 / 5040.0);
+    for factor in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+        sum = sum.mul_add(r, S::splat(factor));
+    }
+    sum.scale(n)
+}
+
+/// log(1 + e^x) and its derivative, the logistic function; relative error about 2e-7.
+#[inline(always)]
+pub fn softplus<S: Lanes>(x: S) -> (S, S) {
+    let one = S::splat(1.0);
+    let zero = S::splat(0.0);
+    let e = exp(zero.sub(x.abs()));
+    // log(1 + e) = 2 artanh(s) with s = e / (2 + e) <= 1/3: its series converges fast.
+    let (a, b) = (one.add(e), S::splat(2.0).add(e));
+    let inverse = one.div(a.mul(b));
+    let (logistic, s) = (inverse.mul(b), e.mul(inverse).mul(a));
+    let square = s.mul(s);
+    let mut sum = S::splat(1.0 / 13.0);
+    for factor in [1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
+        sum = sum.mul_add(square, S::splat(factor));
+    }
+    let log = s.add(s).mul(sum);
+    let other = e.mul(logistic);
+    let slope = logistic.where_positive(x).add(other.sub(other.where_positive(x)));
+    (x.max(zero).add(log), slope)
+}
+
+/// Plain arrays, left to the compiler.
+#[derive(Clone, Copy)]
+pub struct Portable([f32; 8]);
+
+#[inline(always)]
+fn zip(mut a: Portable, b: Portable, f: impl Fn(f32, f32) -> f32) -> Portable {
+    for (a, b) in a.0.iter_mut().zip(b.0) {
+        *a = f(*a, b);
+    }
+    a
+}
+
+#[rustfmt::skip]
+impl Lanes for Portable {
+    const WIDTH: usize = 8;
+    #[inline(always)] fn splat(x: f32) -> Self { Self([x; 8]) }
+    #[inline(always)] fn load(row: &Row, at: usize) -> Self {
+        let mut out = [0.0; 8];
+        out.copy_from_slice(&row.0[at..at + 8]);
+        Self(out)
+    }
+    #[inline(always)] fn store(self, row: &mut Row, at: usize) { row.0[at..at + 8].copy_from_slice(&self.0); }
+    #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
+        let mut out = [0.0; 8];
+        out.copy_from_slice(&sum.0[..8]);
+        Self(out)
+    }
+    #[inline(always)] fn store_sum(self, sum: &mut LaneSum) { sum.0[..8].copy_from_slice(&self.0); }
+    #[inline(always)] fn add(self, b: Self) -> Self { zip(self, b, |a, b| a + b) }
+    #[inline(always)] fn sub(self, b: Self) -> Self { zip(self, b, |a, b| a - b) }
+    #[inline(always)] fn mul(self, b: Self) -> Self { zip(self, b, |a, b| a * b) }
+    #[inline(always)] fn div(self, b: Self) -> Self { zip(self, b, |a, b| a / b) }
+    #[inline(always)] fn mul_add(self, b: Self, c: Self) -> Self { self.mul(b).add(c) }
+    #[inline(always)] fn max(self, b: Self) -> Self { zip(self, b, |a, b| if a > b { a } else { b }) }
+    #[inline(always)] fn min(self, b: Self) -> Self { zip(self, b, |a, b| if a < b { a } else { b }) }
+    #[inline(always)] fn abs(self) -> Self { zip(self, self, |a, _| a.abs()) }
+    #[inline(always)] fn round(self) -> Self {
+        // Adding 1.5 * 2^23 leaves no bits for the fraction.
+        zip(self, self, |a, _| (a + 12_582_912.0) - 12_582_912.0)
+    }
+    #[inline(always)] fn scale(self, n: Self) -> Self {
+        zip(self, n, |a, n| a * f32::from_bits(((n as i32 + 127) as u32) << 23))
+    }
+    #[inline(always)] fn where_positive(self, gate: Self) -> Self { zip(self, gate, |a, g| if g > 0.0 { a } else { 0.0 }) }
+}
+
+/// A row's lanes must exist before they are read or written through a pointer.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn check(at: usize, width: usize) {
+    assert!(at + width <= BLOCK);
+}
+
+#[cfg(target_arch = "x86_64")]
+pub use x86::{Avx2, Avx512};
+
+#[cfg(target_arch = "x86_64")]
+#[rustfmt::skip]
+mod x86 {
+    use std::arch::x86_64::*;
+    use super::{LaneSum, Lanes, Row, check};
+
+    /// 16 lanes; AVX-512 F.
+    #[derive(Clone, Copy)]
+    pub struct Avx512(__m512);
+
+    /// 8 lanes; AVX2 and FMA.
+    #[derive(Clone, Copy)]
+    pub struct Avx2(__m256);
+
+    /// Methods that are nothing but one intrinsic on values.
+    macro_rules! values {
+        ($($name:ident($($arg:ident),*) = $body:expr;)*) => {
+            $(values!(@ $name, ($($arg),*), $body);)*
+        };
+        (@ $name:ident, ($a:ident), $body:expr) => {
+            // SAFETY: an intrinsic on values needs only its instruction set, and this type is used
+            // after that was found.
+            #[inline(always)] fn $name(self) -> Self { let $a = self.0; Self(unsafe { $body }) }
+        };
+        (@ $name:ident, ($a:ident, $b:ident), $body:expr) => {
+            // SAFETY: as above.
+            #[inline(always)] fn $name(self, b: Self) -> Self { let ($a, $b) = (self.0, b.0); Self(unsafe { $body }) }
+        };
+        (@ $name:ident, ($a:ident, $b:ident, $c:ident), $body:expr) => {
+            // SAFETY: as above.
+            #[inline(always)] fn $name(self, b: Self, c: Self) -> Self { let ($a, $b, $c) = (self.0, b.0, c.0); Self(unsafe { $body }) }
+        };
+    }
+
+    impl Lanes for Avx512 {
+        const WIDTH: usize = 16;
+        #[inline(always)] fn splat(x: f32) -> Self {
+            // SAFETY: needs only AVX-512 F, and this type is used after that was found.
+            Self(unsafe { _mm512_set1_ps(x) })
+        }
+        #[inline(always)] fn load(row: &Row, at: usize) -> Self {
+            check(at, Self::WIDTH);
+            // SAFETY: the lanes lie inside the row, as just checked; the load may be unaligned.
+            Self(unsafe { _mm512_loadu_ps(row.0.as_ptr().add(at)) })
+        }
+        #[inline(always)] fn store(self, row: &mut Row, at: usize) {
+            check(at, Self::WIDTH);
+            // SAFETY: the lanes lie inside the row, as just checked; the store may be unaligned.
+            unsafe { _mm512_storeu_ps(row.0.as_mut_ptr().add(at), self.0) }
+        }
+        #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
+            // SAFETY: a sum has 16 lanes.
+            Self(unsafe { _mm512_loadu_ps(sum.0.as_ptr()) })
+        }
+        #[inline(always)] fn store_sum(self, sum: &mut LaneSum) {
+            // SAFETY: a sum has 16 lanes.
+            unsafe { _mm512_storeu_ps(sum.0.as_mut_ptr(), self.0) }
+        }
+        values! {
+            add(a, b) = _mm512_add_ps(a, b);
+            sub(a, b) = _mm512_sub_ps(a, b);
+            mul(a, b) = _mm512_mul_ps(a, b);
+            div(a, b) = _mm512_div_ps(a, b);
+            mul_add(a, b, c) = _mm512_fmadd_ps(a, b, c);
+            max(a, b) = _mm512_max_ps(a, b);
+            min(a, b) = _mm512_min_ps(a, b);
+            abs(a) = _mm512_abs_ps(a);
+            round(a) = _mm512_roundscale_ps::<0>(a);
+            scale(a, n) = _mm512_scalef_ps(a, n);
+            where_positive(a, gate) = _mm512_maskz_mov_ps(
+                _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), a);
+        }
+    }
+
+    impl Lanes for Avx2 {
+        const WIDTH: usize = 8;
+        #[inline(always)] fn splat(x: f32) -> Self {
+            // SAFETY: needs only AVX, and this type is used after AVX2 was found.
+            Self(unsafe { _mm256_set1_ps(x) })
+        }
+        #[inline(always)] fn load(row: &Row, at: usize) -> Self {
+            check(at, Self::WIDTH);
+            // SAFETY: the lanes lie inside the row, as just checked; the load may be unaligned.
+            Self(unsafe { _mm256_loadu_ps(row.0.as_ptr().add(at)) })
+        }
+        #[inline(always)] fn store(self, row: &mut Row, at: usize) {
+            check(at, Self::WIDTH);
+            // SAFETY: the lanes lie inside the row, as just checked; the store may be unaligned.
+            unsafe { _mm256_storeu_ps(row.0.as_mut_ptr().add(at), self.0) }
+        }
+        #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
+            // SAFETY: a sum has 16 lanes, of which 8 are read.
+            Self(unsafe { _mm256_loadu_ps(sum.0.as_ptr()) })
+        }
+        #[inline(always)] fn store_sum(self, sum: &mut LaneSum) {
+            // SAFETY: a sum has 16 lanes, of which 8 are written.
+            unsafe { _mm256_storeu_ps(sum.0.as_mut_ptr(), self.0) }
+        }
+        values! {
+            add(a, b) = _mm256_add_ps(a, b);
+            sub(a, b) = _mm256_sub_ps(a, b);
+            mul(a, b) = _mm256_mul_ps(a, b);
+            div(a, b) = _mm256_div_ps(a, b);
+            mul_add(a, b, c) = _mm256_fmadd_ps(a, b, c);
+            max(a, b) = _mm256_max_ps(a, b);
+            min(a, b) = _mm256_min_ps(a, b);
+            abs(a) = _mm256_andnot_ps(_mm256_set1_ps(-0.0), a);
+            round(a) = _mm256_round_ps::<8>(a);
+            scale(a, n) = _mm256_mul_ps(a, _mm256_castsi256_ps(_mm256_slli_epi32::<23>(
+                _mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)))));
+            where_positive(a, gate) = _mm256_and_ps(
+                _mm256_cmp_ps::<_CMP_GT_OQ>(gate, _mm256_setzero_ps()), a);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The portable lanes stand for all: the other widths are compared with them as whole kernels.
+    #[test]
+    fn exp_and_softplus_are_accurate_and_their_derivatives_match() {
+        let (mut worst_exp, mut worst_softplus, mut worst_slope) = (0.0f64, 0.0f64, 0.0f64);
+        for step in -8000..8000 {
+            let x = step as f32 * 0.01;
+            let exact = f64::from(x).exp();
+            let relative = |got: f32, exact: f64| (f64::from(got) / exact - 1.0).abs();
+            worst_exp = worst_exp.max(relative(exp(Portable::splat(x)).0[3], exact));
+            let (value, slope) = softplus(Portable::splat(x));
+            worst_softplus = worst_softplus.max(relative(value.0[0], exact.ln_1p()));
+            worst_slope = worst_slope.max(relative(slope.0[7], exact / (1.0 + exact)));
+        }
+        assert!(worst_exp < 3e-7, "{worst_exp}");
+        assert!(worst_softplus < 5e-7, "{worst_softplus}");
+        assert!(worst_slope < 5e-7, "{worst_slope}");
+    }
+}

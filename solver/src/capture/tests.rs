@@ -1,0 +1,171 @@
+use std::fs;
+use std::path::Path;
+
+use glam::Vec3;
+use serde_json::{Value, json};
+
+use super::*;
+use crate::picture::{self, GrayImage, Picture};
+use crate::testing;
+
+fn written(folder: &Path) -> Vec<View> {
+    let mesh = testing::dome(6);
+    let shade = |p: Vec3| (p.abs(), if p.x < 0.0 { 1 } else { 2 });
+    let views: Vec<View> =
+        testing::rig(3, 16).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
+    testing::write_capture(folder, &mesh, &views, 1);
+    views
+}
+
+#[test]
+fn what_was_written_is_opened_and_withheld_pictures_are_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let views = written(folder.path());
+    for part in ["images/002.exr", "masks/002.png", "labels/002.png"] {
+        fs::remove_file(folder.path().join(part)).unwrap();
+    }
+    let capture = Capture::open(folder.path()).unwrap();
+    assert_eq!(capture.train, views[..2]);
+    assert_eq!(capture.withheld, [views[2].camera.clone()]);
+    assert_eq!(capture.camera("002"), Some(&views[2].camera));
+    assert_eq!(capture.camera("003"), None);
+    let mesh = testing::dome(6);
+    assert_eq!(capture.mesh.triangles.len(), mesh.triangles.len());
+    let corners = |mesh: &Mesh| -> Vec<Vec3> {
+        mesh.triangles.iter().flatten().map(|corner| mesh.positions[*corner as usize]).collect()
+    };
+    assert_eq!(corners(&capture.mesh), corners(&mesh));
+}
+
+#[test]
+fn the_hash_changes_with_every_input_and_with_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path());
+    let hash = || Capture::open(folder.path()).unwrap().hash().to_owned();
+    let before = hash();
+    assert_eq!(before.len(), 64);
+    fs::write(folder.path().join("images/002.exr"), "changed").unwrap();
+    fs::create_dir(folder.path().join("truth")).unwrap();
+    assert_eq!(hash(), before);
+    let path = folder.path().join("labels/001.png");
+    let mut labels = picture::read_png_gray(&path).unwrap();
+    labels.data[0] = 9;
+    picture::write_png_gray(&path, &labels).unwrap();
+    assert_ne!(hash(), before);
+}
+
+#[test]
+fn normals_are_computed_if_the_file_has_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    fs::write(&path, text).unwrap();
+    let mesh = Mesh::open(&path).unwrap();
+    assert_eq!(mesh.triangles.len(), 2, "a quadrilateral becomes two triangles");
+    assert_eq!(mesh.normals, [Vec3::Z; 4]);
+}
+
+#[test]
+fn half_a_view_averages_votes_and_keeps_a_pixel_only_if_all_four_are_valid() {
+    let (width, height) = (5, 3);
+    let image = Picture { width, height, channels: 3, data: (0..45).map(|v| v as f32).collect() };
+    let mut mask = GrayImage { width, height, data: vec![255; 15] };
+    mask.data[8] = 0;
+    let ids = vec![7, 3, 2, 2, 9, 3, 7, 4, 1, 9, 9, 9, 9, 9, 9];
+    let labels = Some(GrayImage { width, height, data: ids });
+    let mut camera = testing::camera("a", Vec3::Z, 4);
+    (camera.width, camera.height) = (width, height);
+    let half = View { camera, image, mask, labels }.half();
+    assert_eq!((half.camera.width, half.camera.height), (2, 1));
+    // Pixels 0, 1, 5, 6 and 2, 3, 7, 8 of three channels each.
+    assert_eq!(half.image.data, [9.0, 10.0, 11.0, 15.0, 16.0, 17.0]);
+    assert_eq!(half.mask.data, [255, 0]);
+    assert_eq!(half.labels.unwrap().data, [3, 2]);
+}
+
+/// Breaks one thing and returns the message.
+fn broken(break_it: impl FnOnce(&Path, &mut Value)) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path());
+    let path = folder.path().join("transforms.json");
+    let mut transforms = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    break_it(folder.path(), &mut transforms);
+    fs::write(&path, transforms.to_string()).unwrap();
+    let message = Capture::open(folder.path()).unwrap_err().to_string();
+    assert!(!message.contains('\n'), "{message}");
+    message
+}
+
+#[test]
+fn every_fault_of_the_transforms_is_named() {
+    let cases: [(&str, Value, &str); 17] = [
+        ("/camera_model", json!("OPENCV"), "\"OPENCV\"; undistort"),
+        ("/train_filenames", json!([]), "train_filenames is empty"),
+        ("/train_filenames/0", json!("images/9.exr"), "no frame has file_path images/9.exr"),
+        ("/test_filenames/0", json!("images/000.exr"), "\"000\" is listed twice"),
+        ("/frames/1/name", json!("000"), "\"000\" is listed twice"),
+        ("/frames/0/name", json!("../000"), "cannot be a file name"),
+        ("/frames/0/w", json!(0), "frame images/000.exr: size 0x16 is empty"),
+        ("/frames/0/w", json!(17), "000.exr: is 16x16, but its camera says 17x16"),
+        ("/frames/0/fl_x", json!(0.0), "fl_x and fl_y must be positive"),
+        ("/frames/0/fl_y", json!(-5.0), "fl_x and fl_y must be positive"),
+        ("/frames/0/cx", json!("middle"), "invalid type"),
+        ("/frames/0/transform_matrix/0/0", json!(2.0), "not rigid"),
+        ("/frames/0/transform_matrix/3/0", json!(1.0), "not rigid"),
+        ("/frames/0/mask_path", json!("../000.png"), "leads out of the capture folder"),
+        ("/frames/0/label_path", json!("/etc/000.png"), "leads out of the capture folder"),
+        ("/frames/0/label_path", json!("truth/labels.png"), "part of the truth"),
+        ("/mesh", json!("../mesh.obj"), "mesh: ../mesh.obj leads out"),
+    ];
+    for (place, value, expected) in cases {
+        let message = broken(|_, transforms| *transforms.pointer_mut(place).unwrap() = value);
+        assert!(message.contains(expected), "{place}: {message}");
+    }
+}
+
+#[test]
+fn every_fault_of_the_files_is_named() {
+    type Fault = fn(&Path);
+    let cases: [(&str, Fault); 13] = [
+        ("mesh.obj: cannot be read", |folder| fs::remove_file(folder.join("mesh.obj")).unwrap()),
+        ("000.exr: cannot be read", |folder| fs::remove_file(folder.join("images/000.exr")).unwrap()),
+        ("000.png: cannot be read", |folder| fs::remove_file(folder.join("masks/000.png")).unwrap()),
+        ("000.png: cannot be read", |folder| fs::write(folder.join("labels/000.png"), "x").unwrap()),
+        ("masks/000.png: is 8x16, but its camera says 16x16", |folder| {
+            picture::write_png_gray(&folder.join("masks/000.png"), &GrayImage::new(8, 16)).unwrap();
+        }),
+        ("labels/001.png: is 16x8, but", |folder| {
+            picture::write_png_gray(&folder.join("labels/001.png"), &GrayImage::new(16, 8)).unwrap();
+        }),
+        ("has no foreground", |folder| {
+            picture::write_png_gray(&folder.join("masks/001.png"), &GrayImage::new(16, 16)).unwrap();
+        }),
+        ("001.exr: NaN at column 3, row 2, channel G", |folder| {
+            let mut image = Picture::new(16, 16, 3);
+            image.pixel_mut(3, 2)[1] = f32::NAN;
+            picture::write_exr_rgb(&folder.join("images/001.exr"), &image).unwrap();
+        }),
+        ("has no triangles", |folder| fs::write(folder.join("mesh.obj"), "v 0 0 0\n").unwrap()),
+        ("has no texture coordinates", |folder| {
+            fs::write(folder.join("mesh.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+        }),
+        ("mesh.obj: cannot be read", |folder| {
+            let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 9/1\n";
+            fs::write(folder.join("mesh.obj"), text).unwrap();
+        }),
+        ("vertex 2 is not finite", |folder| {
+            let text = "v 0 0 0\nv NaN 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+            fs::write(folder.join("mesh.obj"), text).unwrap();
+        }),
+        ("(0, 1.5) is outside the unit square", |folder| {
+            let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 0 1.5\nf 1/1 2/2 3/1\n";
+            fs::write(folder.join("mesh.obj"), text).unwrap();
+        }),
+    ];
+    for (expected, fault) in cases {
+        let message = broken(|folder, _| fault(folder));
+        assert!(message.contains(expected), "{expected}: {message}");
+    }
+    let message = Capture::open(Path::new("/nowhere")).unwrap_err().to_string();
+    assert!(message.contains("/nowhere/transforms.json: cannot be read"), "{message}");
+}
