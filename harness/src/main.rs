@@ -1,2 +1,7 @@
 //! The `unshade` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(harness::cli::main(std::env::args_os()))
+}

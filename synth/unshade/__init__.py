@@ -1,1 +1,43 @@
-"""Measures how well a face's reflectance can be recovered from photographs."""
+"""Measures how well a face's reflectance can be recovered from photographs.
+
+The stages hand folders to each other, on disk::
+
+    capture = unshade.synth("scenes/demo.toml", "capture")
+    maps = unshade.solve(capture, out="maps")
+    unshade.relight("capture", "maps", "relit")
+    scores = unshade.score("capture", "maps", relit="relit")
+
+Every fault is an exception of :mod:`unshade.errors` whose message says what is wrong, where,
+and the mend.
+"""
+
+from importlib import import_module
+
+_HOMES = {
+    "Capture": "_native",
+    "Maps": "_native",
+    "__version__": "_native",
+    "solve": "_native",
+    "compare": "stages",
+    "relight": "stages",
+    "report": "stages",
+    "run": "stages",
+    "score": "stages",
+    "synth": "stages",
+}
+_MODULES = ("errors", "metrics")
+
+__all__ = sorted([*_HOMES, *_MODULES])
+
+
+def __getattr__(name: str) -> object:
+    """Load on first use: the rendering stages, started as processes, need none of this."""
+    if name in _MODULES:
+        return import_module(f"unshade.{name}")
+    if name in _HOMES:
+        return getattr(import_module(f"unshade.{_HOMES[name]}"), name)
+    raise AttributeError(f"module 'unshade' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

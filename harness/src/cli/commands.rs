@@ -3,21 +3,20 @@
 use std::fs;
 use std::io;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use solver::atomic;
 
 use super::progress::Progress;
-use super::{CompareArgs, SolveArgs, SolverName, Verb, doctor};
+use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, Verb, doctor};
 use crate::compare;
 use crate::score;
 use crate::suite::{self, Observer, RunError, Scene, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt, run_stage};
 use crate::report;
 
-pub(super) fn run(verb: Verb) -> Result<ExitCode, RunError> {
+pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth { scene, out } => {
             alone("synth", |tools, step| synth(&scene, &out, tools, step))?;
@@ -39,7 +38,7 @@ pub(super) fn run(verb: Verb) -> Result<ExitCode, RunError> {
         Verb::Compare(arguments) => return compare_run(&arguments),
         Verb::Doctor => return doctor::examine(&tools()),
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(DONE)
 }
 
 fn tools() -> Tools {
@@ -109,7 +108,7 @@ fn solve(
     }
 }
 
-fn run_suite(suite: &Path, out: &Path) -> Result<ExitCode, RunError> {
+fn run_suite(suite: &Path, out: &Path) -> Result<u8, RunError> {
     let suite = Suite::open(suite)?;
     let mut progress = Progress::new();
     let start = Instant::now();
@@ -120,5 +119,5 @@ fn run_suite(suite: &Path, out: &Path) -> Result<ExitCode, RunError> {
     let (ran, skipped) = (summary.ran, summary.skipped);
     eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
     println!("{}", summary.report.display());
-    Ok(ExitCode::SUCCESS)
+    Ok(DONE)
 }

@@ -1,14 +1,13 @@
 //! `unshade doctor`: what was found, and what is missing with the mend.
 
-use std::process::ExitCode;
-
 use serde_json::Value;
 
+use super::{CHECK_FAILED, DONE};
 use crate::suite::{RunError, Tools};
 use crate::synth::{StageError, run_stage};
 
 /// Prints one line a part; exit code 1 if something that a run needs is missing.
-pub(super) fn examine(tools: &Tools) -> Result<ExitCode, RunError> {
+pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
     println!("unshade    {}", env!("CARGO_PKG_VERSION"));
     println!("python     {}", tools.interpreter.path().display());
     println!("cpu        {} threads, {}", rayon::current_num_threads(), solver::simd_level());
@@ -25,7 +24,7 @@ pub(super) fn examine(tools: &Tools) -> Result<ExitCode, RunError> {
         Err(StageError::Interrupted) => return Err(RunError::Interrupted),
         Err(error) => {
             println!("renderer   MISSING: {error}");
-            return Ok(ExitCode::from(1));
+            return Ok(CHECK_FAILED);
         }
     };
     let mut complete = true;
@@ -38,5 +37,5 @@ pub(super) fn examine(tools: &Tools) -> Result<ExitCode, RunError> {
             println!("{:<10} MISSING: {}; {}", text("name"), text("found"), text("mend"));
         }
     }
-    Ok(ExitCode::from(u8::from(!complete)))
+    Ok(if complete { DONE } else { CHECK_FAILED })
 }

@@ -7,7 +7,6 @@ mod progress;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -131,13 +130,19 @@ enum BackendName {
     Cpu,
 }
 
-/// Runs the command line `arguments` (the program's name first).
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Exit codes.
+const DONE: u8 = 0;
+const CHECK_FAILED: u8 = 1;
+const BAD_INPUT: u8 = 2;
+const INTERRUPTED: u8 = 3;
+
+/// Runs the command line `arguments` (the program's name first) and returns the exit code.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
             let _ = error.print();
-            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+            return if error.use_stderr() { BAD_INPUT } else { DONE };
         }
     };
     let level = ["warn", "info", "debug"][usize::from(cli.verbose.min(2))];
@@ -149,13 +154,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .try_init();
     match commands::run(cli.verb) {
         Ok(code) => code,
-        Err(RunError::Interrupted) => {
-            eprintln!("unshade: {}", RunError::Interrupted);
-            ExitCode::from(3)
-        }
         Err(error) => {
             eprintln!("unshade: {error}");
-            ExitCode::from(2)
+            if matches!(error, RunError::Interrupted) { INTERRUPTED } else { BAD_INPUT }
         }
     }
 }

@@ -1,0 +1,86 @@
+//! The stages as functions.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+
+use super::capture::Capture;
+use super::errors::{named_error, raise};
+use super::maps::Maps;
+use crate::{cli, report, score};
+
+/// Runs the command line and returns its exit code.
+#[pyfunction]
+pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| cli::main(arguments))
+}
+
+/// Recovers maps from a capture; `progress(stage, iteration, total, loss)` may be given, and what
+/// it raises stops the solve. With `out`, the whole maps folder is written there too.
+#[pyfunction]
+#[pyo3(signature = (capture, *, config="unshade", out=None, progress=None))]
+pub(super) fn solve(
+    py: Python<'_>,
+    capture: &Bound<'_, Capture>,
+    config: &str,
+    out: Option<PathBuf>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Maps> {
+    // A preset's name, or the text of a configuration.
+    let config = if config.contains('=') {
+        solver::Config::from_toml(config)
+    } else {
+        solver::Config::preset(config)
+    }
+    .map_err(raise)?;
+    let capture = &capture.get().inner;
+    let mut raised: Option<PyErr> = None;
+    let solution = py.detach(|| {
+        solver::solve(capture, &config, &mut |step| {
+            let heard = Python::attach(|py| {
+                py.check_signals()?;
+                if let Some(progress) = &progress {
+                    let arguments = (step.stage, step.iteration, step.total, step.loss);
+                    progress.call1(py, arguments)?;
+                }
+                Ok(())
+            });
+            match heard {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    raised = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        })
+    });
+    if let Some(error) = raised {
+        return Err(error);
+    }
+    let solution = solution.map_err(raise)?;
+    if let Some(out) = out {
+        py.detach(|| solution.write(&out)).map_err(raise)?;
+    }
+    Ok(Maps { inner: solution.maps })
+}
+
+/// The scores of a maps folder as JSON text.
+#[pyfunction]
+#[pyo3(signature = (capture, maps, relit=None))]
+pub(super) fn score_json(
+    py: Python<'_>,
+    capture: PathBuf,
+    maps: PathBuf,
+    relit: Option<PathBuf>,
+) -> PyResult<String> {
+    let scores = py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?;
+    serde_json::to_string(&scores).map_err(|error| named_error("ScoreError", &error.to_string()))
+}
+
+/// Writes the report of a run folder.
+#[pyfunction]
+pub(super) fn write_report(py: Python<'_>, run: PathBuf, out: PathBuf) -> PyResult<()> {
+    py.detach(|| report::write(&run, &out)).map_err(raise)?;
+    Ok(())
+}

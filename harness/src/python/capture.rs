@@ -1,0 +1,130 @@
+//! `unshade.Capture`.
+
+use std::path::PathBuf;
+
+use numpy::ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use solver::{Camera, Mesh, View};
+
+use super::arrays;
+use super::errors::raise;
+use super::maps::Maps;
+
+/// A capture folder, opened and checked.
+#[pyclass(module = "unshade", frozen)]
+pub(super) struct Capture {
+    pub(super) inner: solver::Capture,
+}
+
+impl Capture {
+    fn view(&self, name: &str) -> PyResult<&View> {
+        let found = self.inner.train.iter().find(|view| view.camera.name == name);
+        found.ok_or_else(|| PyKeyError::new_err(format!("no training view is named {name:?}")))
+    }
+}
+
+#[pymethods]
+impl Capture {
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let inner = py.detach(|| solver::Capture::open(&path)).map_err(raise)?;
+        Ok(Self { inner })
+    }
+
+    /// The folder.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.inner.folder.clone()
+    }
+
+    /// Names of the training views.
+    #[getter]
+    fn train(&self) -> Vec<String> {
+        self.inner.train.iter().map(|view| view.camera.name.clone()).collect()
+    }
+
+    /// Names of the withheld views; their pictures belong to the truth.
+    #[getter]
+    fn withheld(&self) -> Vec<String> {
+        self.inner.withheld.iter().map(|camera| camera.name.clone()).collect()
+    }
+
+    /// Linear radiance of a training view.
+    fn image<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        arrays::picture_to_array(py, &self.view(name)?.image)
+    }
+
+    /// 255 where the mesh is the first surface.
+    fn mask<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
+        arrays::gray_to_array(py, &self.view(name)?.mask)
+    }
+
+    /// Region ids, or None.
+    fn labels<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
+        let labels = self.view(name)?.labels.as_ref();
+        labels.map(|labels| arrays::gray_to_array(py, labels)).transpose()
+    }
+
+    /// Size, focal lengths, principal point (pixels) and camera-to-world matrix of any view.
+    fn camera<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let camera = self.inner.camera(name);
+        let camera =
+            camera.ok_or_else(|| PyKeyError::new_err(format!("no view is named {name:?}")))?;
+        camera_to_dict(py, camera)
+    }
+
+    /// Vertices, normals, texture coordinates and triangles.
+    #[getter]
+    fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        mesh_to_dict(py, &self.inner.mesh)
+    }
+
+    /// The true maps of a synthetic capture.
+    fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
+        let folder = self.inner.folder.join("truth");
+        Ok(Maps { inner: py.detach(|| solver::Maps::read(&folder)).map_err(raise)? })
+    }
+
+    fn __repr__(&self) -> String {
+        let (train, withheld) = (self.inner.train.len(), self.inner.withheld.len());
+        let folder = self.inner.folder.display();
+        format!("Capture({folder}: {train} training views, {withheld} withheld)")
+    }
+}
+
+fn camera_to_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyDict>> {
+    let matrix = camera.camera_to_world;
+    let matrix: Bound<'py, PyArray2<f32>> =
+        Array2::from_shape_fn((4, 4), |(row, column)| matrix.col(column)[row]).into_pyarray(py);
+    let dict = PyDict::new(py);
+    dict.set_item("width", camera.width)?;
+    dict.set_item("height", camera.height)?;
+    dict.set_item("focal", camera.focal)?;
+    dict.set_item("centre", camera.centre)?;
+    dict.set_item("camera_to_world", matrix)?;
+    Ok(dict)
+}
+
+fn mesh_to_dict<'py>(py: Python<'py>, mesh: &Mesh) -> PyResult<Bound<'py, PyDict>> {
+    let rows = |array: Bound<'py, PyArray1<f32>>, width: usize| {
+        array.call_method1("reshape", ((-1, width as isize),))
+    };
+    let vectors = |vectors: &[glam::Vec3]| {
+        rows(vectors.iter().flat_map(|v| v.to_array()).collect::<Array1<_>>().into_pyarray(py), 3)
+    };
+    let uvs: Array1<f32> = mesh.uvs.iter().flat_map(|uv| uv.to_array()).collect();
+    let triangles: Array1<u32> = mesh.triangles.iter().flatten().copied().collect();
+    let dict = PyDict::new(py);
+    dict.set_item("vertices", vectors(&mesh.positions)?)?;
+    dict.set_item("normals", vectors(&mesh.normals)?)?;
+    dict.set_item("uvs", rows(uvs.into_pyarray(py), 2)?)?;
+    dict.set_item("triangles", triangles.into_pyarray(py).call_method1("reshape", ((-1, 3),))?)?;
+    Ok(dict)
+}

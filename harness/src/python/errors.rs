@@ -1,0 +1,46 @@
+//! Rust's errors as the named exceptions of `unshade.errors`.
+
+use pyo3::prelude::*;
+
+use crate::score::ScoreError;
+use crate::suite::RunError;
+use solver::{CaptureError, ConfigError, MapsError, SolveError};
+
+/// An error that has a Python exception of its own.
+pub(super) trait Named: std::error::Error {
+    /// The class in `unshade.errors`.
+    const CLASS: &'static str;
+}
+
+macro_rules! named {
+    ($($error:ty => $class:literal),* $(,)?) => {
+        $(impl Named for $error { const CLASS: &'static str = $class; })*
+    };
+}
+
+named! {
+    CaptureError => "CaptureError",
+    MapsError => "MapsError",
+    ConfigError => "ConfigError",
+    SolveError => "SolveError",
+    ScoreError => "ScoreError",
+    RunError => "UnshadeError",
+    crate::metrics::MetricError => "MetricError",
+    crate::report::ReportError => "ReportError",
+}
+
+/// The exception for `error`.
+pub(super) fn raise<E: Named>(error: E) -> PyErr {
+    named_error(E::CLASS, &error.to_string())
+}
+
+/// The exception `class` of `unshade.errors`.
+pub(super) fn named_error(class: &str, message: &str) -> PyErr {
+    Python::attach(|py| {
+        let raised = py
+            .import("unshade.errors")
+            .and_then(|errors| errors.getattr(class))
+            .and_then(|class| class.call1((message,)));
+        raised.map_or_else(|error| error, PyErr::from_value)
+    })
+}

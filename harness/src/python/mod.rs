@@ -1,0 +1,25 @@
+//! The extension module `unshade._native`: bindings, nothing else.
+
+mod arrays;
+mod calls;
+mod capture;
+mod errors;
+mod maps;
+mod metrics;
+
+use pyo3::prelude::*;
+
+/// What the Python package `unshade` is made of.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<capture::Capture>()?;
+    module.add_class::<maps::Maps>()?;
+    module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::write_report, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,12 @@
+from unshade import errors as errors
+from unshade import metrics as metrics
+from unshade._native import Capture as Capture
+from unshade._native import Maps as Maps
+from unshade._native import __version__ as __version__
+from unshade._native import solve as solve
+from unshade.stages import compare as compare
+from unshade.stages import relight as relight
+from unshade.stages import report as report
+from unshade.stages import run as run
+from unshade.stages import score as score
+from unshade.stages import synth as synth

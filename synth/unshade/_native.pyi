@@ -1,0 +1,105 @@
+"""The compiled core; use it through :mod:`unshade`."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Path = str | os.PathLike[str]
+_Float = NDArray[np.float32]
+_Byte = NDArray[np.uint8]
+
+__version__: str
+
+class _Camera(TypedDict):
+    width: int
+    height: int
+    focal: list[float]
+    centre: list[float]
+    camera_to_world: _Float
+
+class _Mesh(TypedDict):
+    vertices: _Float
+    normals: _Float
+    uvs: _Float
+    triangles: NDArray[np.uint32]
+
+class Capture:
+    """A capture folder, opened and checked; raises ``errors.CaptureError``."""
+
+    def __init__(self, path: _Path) -> None: ...
+    @property
+    def path(self) -> Path:
+        """The folder."""
+    @property
+    def train(self) -> list[str]:
+        """Names of the training views."""
+    @property
+    def withheld(self) -> list[str]:
+        """Names of the withheld views; their pictures belong to the truth."""
+    @property
+    def mesh(self) -> _Mesh:
+        """Vertices and normals (V, 3), uvs (V, 2), triangles (F, 3); metres, world space."""
+    def image(self, name: str) -> _Float:
+        """(height, width, 3) linear radiance of a training view."""
+    def mask(self, name: str) -> _Byte:
+        """(height, width), 255 where the mesh is the first surface."""
+    def labels(self, name: str) -> _Byte | None:
+        """(height, width) region ids."""
+    def camera(self, name: str) -> _Camera:
+        """Any view's camera: pixels, and camera to world with OpenGL axes (4, 4)."""
+    def truth(self) -> Maps:
+        """The true maps of a synthetic capture."""
+
+class Maps:
+    """Square reflectance maps; what a solver does not recover is None."""
+
+    diffuse_albedo: _Float | None
+    specular_albedo: _Float | None
+    diffuse_normal: _Float | None
+    specular_normal: _Float | None
+    coverage: _Byte | None
+    def __init__(
+        self,
+        *,
+        diffuse_albedo: _Float | None = None,
+        specular_albedo: _Float | None = None,
+        diffuse_normal: _Float | None = None,
+        specular_normal: _Float | None = None,
+        coverage: _Byte | None = None,
+    ) -> None: ...
+    @staticmethod
+    def read(path: _Path) -> Maps:
+        """Read whatever maps the folder has."""
+    def write(self, path: _Path) -> None:
+        """Write the folder, completely or not at all."""
+
+def solve(
+    capture: Capture,
+    *,
+    config: str = "unshade",
+    out: _Path | None = None,
+    progress: Callable[[str, int, int, float], object] | None = None,
+) -> Maps:
+    """Recover maps; ``config`` is a preset's name or the text of a configuration.
+
+    ``progress(stage, iteration, total, loss)`` hears how it goes; what it raises stops the
+    solve. With ``out`` the whole maps folder is written there too.
+    """
+
+def run_command_line(arguments: list[str]) -> int: ...
+def score_json(capture: _Path, maps: _Path, relit: _Path | None = None) -> str: ...
+def write_report(run: _Path, out: _Path) -> None: ...
+def metric_definitions() -> list[tuple[str, str, str, str, str, str]]: ...
+def measure(
+    metric: str,
+    prediction: _Float,
+    truth: _Float,
+    mask: NDArray[np.bool_] | None = None,
+    *,
+    erode: bool = False,
+    scale: str = "none",
+) -> float | None: ...

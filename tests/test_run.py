@@ -1,0 +1,181 @@
+"""The whole job from the outside: one face, rendered, solved, relit, scored, shown."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from conftest import TINY, unshade
+
+CASE = "tiny-studio"
+# Wall times are the one thing in which two runs may differ; the report shows them.
+NOT_CONTENT = {"timing.json", ".lock"}
+
+
+def digest(run: Path) -> dict[str, str]:
+    """Path to hash of every file of a run that must not depend on how it was run."""
+    files = (path for path in sorted(run.rglob("*")) if path.is_file())
+    return {
+        str(path.relative_to(run)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in files
+        if path.name not in NOT_CONTENT and "report" not in path.relative_to(run).parts
+    }
+
+
+def rows(run: Path, solver: str) -> dict[str, dict]:
+    """Rows of a solver's scores by their id."""
+    scores = json.loads((run / "scores" / CASE / f"{solver}.json").read_text())
+    return {
+        f"{row['subject']}{'/' + row['light'] if row['light'] else ''}"
+        f"/{row['metric']}@{row['region']}:{row['scale']}": row
+        for row in scores["rows"]
+        if row.get("label") is None
+    }
+
+
+def test_the_oracle_scores_at_the_noise_floor(tiny_run: Path) -> None:
+    """True maps in: the relit pictures differ from the truth by rendering noise alone."""
+    relit = {
+        name: row
+        for name, row in rows(tiny_run, "oracle").items()
+        if name.startswith("relit/") and "/psnr_lin@" in name and name.endswith(":none")
+    }
+    assert {name.split("/")[1] for name in relit} == {"studio", "uniform"}
+    for name, row in relit.items():
+        # The floor is itself estimated from four passes a picture.
+        assert abs(row["value"] - row["floor"]) < 1.0, (name, row["value"], row["floor"])
+
+
+def test_the_oracle_maps_are_exact(tiny_run: Path) -> None:
+    oracle = rows(tiny_run, "oracle")
+    assert oracle["specular_normal/normal_deg_mean@coverage-e5:none"]["value"] < 0.05
+    assert oracle["specular_albedo/spec_rmse@coverage-e5:none"]["value"] < 1e-6
+
+
+def test_the_solver_beats_the_mean_texture(tiny_run: Path) -> None:
+    """Even a few iterations take the baked shading out of the albedo."""
+    key = "diffuse_albedo/psnr_srgb@coverage-e5:global"
+    assert rows(tiny_run, "quick")[key]["value"] > rows(tiny_run, "mean_texture")[key]["value"] + 2
+
+
+def test_the_solver_never_opens_the_truth(tiny_run: Path, tmp_path: Path) -> None:
+    """Maps from a capture without its truth and without the withheld pictures are the same."""
+    import shutil
+
+    blind = tmp_path / "capture"
+    shutil.copytree(tiny_run / "captures" / CASE, blind)
+    shutil.rmtree(blind / "truth")
+    for frame in json.loads((blind / "transforms.json").read_text())["test_filenames"]:
+        (blind / frame).unlink()
+    config = tmp_path / "quick.toml"
+    config.write_text(
+        'base = "fast"\n[warm_up]\niterations = 60\n[fine_tune]\niterations = 10\n'
+    )
+    unshade("solve", blind, "-o", tmp_path / "maps", "--config", config)
+    for name in ("diffuse_albedo.exr", "specular_normal.exr"):
+        assert (tmp_path / "maps" / name).read_bytes() == (
+            tiny_run / "maps" / CASE / "quick" / name
+        ).read_bytes()
+
+
+def test_a_second_run_does_nothing(tiny_run: Path) -> None:
+    before = digest(tiny_run)
+    said = unshade("run", TINY, "-o", tiny_run).stderr
+    assert "0 stages run" in said, said
+    assert digest(tiny_run) == before
+
+
+def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -> None:
+    """Killed again and again, at moments a second and a half apart, until it is through."""
+    run = tmp_path / "run"
+    command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", run]
+    for attempt in range(3):
+        process = subprocess.Popen(
+            list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        time.sleep(4 + 5 * attempt)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    unshade(*command[1:])
+    assert digest(run) == digest(tiny_run)
+    assert not list(run.rglob("*.partial"))
+
+
+def test_an_interrupt_exits_with_3(tmp_path: Path) -> None:
+    command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", tmp_path / "run"]
+    process = subprocess.Popen(
+        list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(4)
+    os.kill(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 3, said
+    assert "the same command goes on from here" in said
+
+
+def test_the_report_opens_offline(tiny_run: Path) -> None:
+    page = (tiny_run / "report" / "index.html").read_text()
+    assert not re.findall(r"""(?:src|href)=["']?(?:https?:)?//""", page)
+    for name in re.findall(r'src="([^"]+)"', page):
+        assert (tiny_run / "report" / name).is_file(), name
+
+
+def test_compare_is_red_on_a_worse_albedo_and_green_on_no_change(
+    tiny_run: Path, tmp_path: Path
+) -> None:
+    baseline = tiny_run / "report" / "baseline.json"
+    junit = tmp_path / "junit.xml"
+    same = unshade("compare", tiny_run, baseline, "--junit", junit, check=False)
+    assert same.returncode == 0, same.stdout + same.stderr
+    assert 'failures="0"' in junit.read_text()
+
+    worse = tmp_path / "worse"
+    import shutil
+
+    shutil.copytree(tiny_run, worse)
+    capture, maps = worse / "captures" / CASE, worse / "maps" / CASE / "quick"
+    _worsen_albedo(capture, maps)
+    scores = worse / "scores" / CASE / "quick.json"
+    unshade("relight", capture, maps, "-o", worse / "relit" / CASE / "quick")
+    unshade("score", capture, maps, "--relit", worse / "relit" / CASE / "quick", "-o", scores)
+    red = unshade("compare", worse, baseline, "--junit", junit, check=False)
+    assert red.returncode == 1, red.stdout + red.stderr
+    assert 'failures="0"' not in junit.read_text()
+
+
+def _worsen_albedo(capture: Path, maps_folder: Path) -> None:
+    """Make the aligned error of the diffuse albedo 2 % larger."""
+    import unshade as package
+
+    truth = package.Capture(capture).truth().diffuse_albedo
+    maps = package.Maps.read(maps_folder)
+    albedo = maps.diffuse_albedo
+    step = truth.shape[0] // albedo.shape[0]
+    truth = truth[step // 2 :: step, step // 2 :: step]
+    aligned = truth * ((albedo * truth).sum() / (truth * truth).sum())
+    maps.diffuse_albedo = albedo + 0.02 * (albedo - aligned)
+    maps.write(maps_folder)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["run", "no-such.toml", "-o", "x"], "no-such.toml: cannot be read"),
+        (["solve", "no-such-capture", "-o", "x"], "no-such-capture"),
+        (["compare", "no-such-run", "no.json"], "no"),
+        (["frobnicate"], "unrecognized subcommand"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(arguments: list[str], expected: str) -> None:
+    done = unshade(*arguments, check=False)
+    assert done.returncode == 2
+    assert expected in done.stderr
+    assert "panicked" not in done.stderr
