@@ -154,6 +154,7 @@ fn save_scores(path: &Path, method: &str, light: &str, error: f32) {
     ];
     if method != "mean_texture" {
         rows.push(row("specular_normal", None, "normal_mean_deg", "none", f64::from(error) * 80.0));
+        rows.push(row("mesh_specular_normal", None, "normal_mean_deg", "none", 3.5));
         rows.push(row("view", None, "psnr_srgb", "none", db + 4.0));
         rows.push(row("view", None, "ssim", "none", 0.98));
     }
@@ -162,8 +163,10 @@ fn save_scores(path: &Path, method: &str, light: &str, error: f32) {
     }
     let scores = json!({
         "format": 1, "capture": "c", "face": "demo", "light": light, "solver": method,
+        "protocol": {"id": "unshade-1", "statements": ["Maps are compared in texture space."]},
+        "regions": [{"region": "coverage-e5", "pixels": 5000, "share": 0.9, "solved": null}],
         "inputs": {"capture": "ab".repeat(32), "maps": "cd".repeat(32), "relit": "ef".repeat(32)},
-        "scale": {"global": 0.93, "channel": [0.9, 0.9, 0.9], "median": 0.9}, "rows": rows,
+        "scale": {"global": 0.93, "channel": [0.9, 0.9, 0.9], "median": [0.9, 0.9, 0.9]}, "rows": rows,
     });
     save_json(path, &scores);
 }

@@ -29,6 +29,8 @@ pub(super) struct Page {
     matrices: Vec<Matrix>,
     cases: Vec<CaseView>,
     metrics: Vec<Definition>,
+    /// Name and statements of each protocol that the scores were made by.
+    protocols: Vec<(String, Vec<String>)>,
     versions: Vec<(String, String)>,
     suite_toml: Option<String>,
     times: Times,
@@ -62,12 +64,23 @@ struct CaseView {
     inputs: Vec<Input>,
     table: Table,
     complete: Table,
+    regions: Vec<Region>,
     maps: Vec<Plate>,
     views: Vec<Plate>,
     layers: Vec<Plate>,
     solves: Vec<Solve>,
     hashes: Vec<Hashes>,
     scene_toml: Option<String>,
+}
+
+/// How much of the truth a region holds.
+#[derive(Serialize)]
+struct Region {
+    name: String,
+    pixels: usize,
+    share: String,
+    /// Per column: the share for which the method had data.
+    solved: Vec<String>,
 }
 
 /// What a method says about itself in `solve.json`.
@@ -83,7 +96,7 @@ struct Solve {
 struct Hashes {
     title: String,
     data: Option<String>,
-    inputs: Vec<(String, String)>,
+    inputs: Vec<(&'static str, String)>,
     factor: Option<String>,
 }
 
@@ -154,6 +167,7 @@ impl Page {
             matrices: Vec::new(),
             cases: Vec::new(),
             metrics: METRICS.iter().map(Definition::of).collect(),
+            protocols: Vec::new(),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
             times: Times::of(timing),
@@ -181,6 +195,11 @@ impl Page {
             })
             .collect();
         page.matrices = matrix::matrices(&sources);
+        for scores in scores.iter().flatten().flatten() {
+            if !page.protocols.iter().any(|(id, _)| *id == scores.protocol.id) {
+                page.protocols.push((scores.protocol.id.clone(), scores.protocol.statements.clone()));
+            }
+        }
         page.pictures = count_pictures(&root.join("pictures"))?;
         Ok(page)
     }
@@ -250,7 +269,7 @@ fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     SummaryCase { id: case.id.clone(), anchor: plates::file_name(&case.id), rows: rows.collect() }
 }
 
-/// One value, or the range over the other lights.
+/// One value (for normals beside that of the plain mesh), or the range over the other lights.
 fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
     let lights: Vec<Option<&str>> = match key.light {
         KeyLight::None => vec![None],
@@ -264,16 +283,36 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
             lights
         }
     };
-    let found = lights
-        .into_iter()
-        .filter_map(|light| column.find(key.subject, light, key.metric, key.scale)?.value);
-    let values: Vec<f64> = found.collect();
+    let value = |subject: &str, light| column.find(subject, light, key.metric, key.scale)?.value;
+    let values: Vec<f64> = lights.into_iter().filter_map(|light| value(key.subject, light)).collect();
+    let trivial = metric::trivial(key.subject).and_then(|trivial| value(trivial, None));
     let low = values.iter().copied().min_by(f64::total_cmp);
     let high = values.iter().copied().max_by(f64::total_cmp);
     match (low, high) {
         (Some(low), Some(high)) if low < high => format!("{low:.1} … {high:.1}"),
+        (value, _) if trivial.is_some() => {
+            format!("{} / {}", table::shown(value, 2), table::shown(trivial, 2))
+        }
         (value, _) => table::shown(value, 1),
     }
+}
+
+fn regions(columns: &[Column]) -> Vec<Region> {
+    let sizes = |column: &Column| column.scores.map_or(&[][..], |scores| &scores.regions).to_vec();
+    let all: Vec<_> = columns.iter().map(sizes).collect();
+    let percent = |share: Option<f64>| share.map_or(table::EMPTY.to_owned(), |s| format!("{:.1} %", s * 100.0));
+    let known = all.iter().max_by_key(|sizes| sizes.len()).into_iter().flatten();
+    known
+        .map(|size| Region {
+            name: size.region.clone(),
+            pixels: size.pixels,
+            share: percent(Some(size.share)),
+            solved: all
+                .iter()
+                .map(|sizes| percent(sizes.iter().find(|other| other.region == size.region).and_then(|s| s.solved)))
+                .collect(),
+        })
+        .collect()
 }
 
 impl CaseView {
@@ -329,6 +368,7 @@ impl CaseView {
             inputs: studio.inputs()?,
             table: table::chosen(columns, &case.light),
             complete: table::complete(columns, &case.light),
+            regions: regions(columns),
             maps: studio.map_plates()?,
             views: studio.view_plates()?,
             layers: studio.layer_plates()?,
@@ -378,14 +418,16 @@ fn plain(value: &Json) -> String {
 
 impl Hashes {
     fn of(column: &Column, data: Option<String>) -> Self {
-        let inputs = column.scores.map(|scores| &scores.inputs);
-        let inputs = inputs.into_iter().flatten().filter_map(|(name, hash)| {
-            hash.as_ref().map(|hash| (name.clone(), hash.clone()))
-        });
+        let mut inputs = Vec::new();
+        if let Some(scores) = column.scores {
+            inputs.push(("capture", scores.inputs.capture.clone()));
+            inputs.push(("maps", scores.inputs.maps.clone()));
+            inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
+        }
         Self {
             title: column.title.to_owned(),
             data,
-            inputs: inputs.collect(),
+            inputs,
             factor: column.factor().map(|factor| format!("{factor:.4}")),
         }
     }

@@ -240,9 +240,9 @@ pub(super) fn file_name(name: &str) -> String {
 
 /// The score that belongs under a picture; empty where there is none.
 pub(super) fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
-    let value = row.and_then(|row| match (frame, &row.per_frame) {
-        (Some(frame), Some(per_frame)) => per_frame.get(frame).copied(),
-        _ => row.value,
+    let value = row.and_then(|row| match frame {
+        Some(frame) => row.per_frame.get(frame).copied(),
+        None => row.value,
     });
     let (Some(row), Some(value)) = (row, value) else { return String::new() };
     let Ok(metric) = Metric::find(&row.metric) else { return String::new() };

@@ -1,6 +1,8 @@
 //! The table of a case: one row per subject, metric, region and scale mode; one column per
 //! method. A score that does not exist stays empty, it never becomes a number.
 
+use std::collections::HashSet;
+
 use serde::Serialize;
 
 use super::metric;
@@ -22,7 +24,7 @@ pub(super) struct Column<'a> {
 impl Column<'_> {
     /// The one factor of the diffuse albedo.
     pub fn factor(&self) -> Option<f64> {
-        self.scores?.scale.as_ref()?.global
+        Some(self.scores?.scale.as_ref()?.global)
     }
 
     /// The row of a metric over the subject's whole region.
@@ -38,7 +40,18 @@ impl Column<'_> {
                 && row.light.as_deref() == light
                 && row.metric == metric
                 && row.scale == scale
-                && is_whole(row)
+                && metric::is_whole(row)
+        })
+    }
+
+    /// The row of the trivial answer that a map's row has to beat.
+    fn trivial(&self, row: &Row) -> Option<&Row> {
+        let subject = metric::trivial(&row.subject)?;
+        let rows = &self.scores?.rows;
+        rows.iter().find(|other| {
+            other.subject == subject
+                && (&other.metric, &other.region, &other.label, &other.scale)
+                    == (&row.metric, &row.region, &row.label, &row.scale)
         })
     }
 }
@@ -74,6 +87,9 @@ pub(super) struct Line {
     pub space: &'static str,
     pub scale: String,
     pub cells: Vec<Cell>,
+    /// The plain mesh normal, the best constant.
+    pub trivial: String,
+    pub trivial_best: bool,
     pub floor: String,
 }
 
@@ -87,7 +103,7 @@ pub(super) struct Cell {
 
 /// The chosen rows: whole regions and the metrics that answer the subject's question.
 pub(super) fn chosen(columns: &[Column], own_light: &str) -> Table {
-    build(columns, own_light, |row| is_whole(row) && metric::is_chosen(&row.metric, &row.scale))
+    build(columns, own_light, metric::is_chosen)
 }
 
 /// Every row that any column has.
@@ -96,12 +112,9 @@ pub(super) fn complete(columns: &[Column], own_light: &str) -> Table {
 }
 
 fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Table {
-    let mut keys: Vec<&Row> = Vec::new();
-    for row in columns.iter().filter_map(|column| column.scores).flat_map(|s| &s.rows) {
-        if keep(row) && !keys.iter().any(|key| same(key, row)) {
-            keys.push(row);
-        }
-    }
+    let mut ids = HashSet::new();
+    let rows = columns.iter().filter_map(|column| column.scores).flat_map(|scores| &scores.rows);
+    let mut keys: Vec<&Row> = rows.filter(|row| keep(row) && ids.insert(row.id())).collect();
     let mut groups: Vec<Group> = Vec::new();
     keys.sort_by_key(|row| group_order(row, own_light));
     for key in keys {
@@ -120,25 +133,18 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
     Table { columns, groups }
 }
 
-fn same(a: &Row, b: &Row) -> bool {
-    (&a.subject, &a.light, &a.metric, &a.region, &a.label, &a.scale)
-        == (&b.subject, &b.light, &b.metric, &b.region, &b.label, &b.scale)
-}
-
-fn is_whole(row: &Row) -> bool {
-    row.label.is_none() && matches!(row.region.as_str(), "coverage-e5" | "mask-e5")
-}
-
 fn line(key: &Row, columns: &[Column]) -> Line {
     // A metric of another version of the scoring is shown by its id alone.
     let known = Metric::find(&key.metric).ok();
     let unit = known.map_or("", |metric| metric.unit);
+    let id = key.id();
     let rows: Vec<Option<&Row>> = columns
         .iter()
-        .map(|column| column.scores?.rows.iter().find(|row| same(row, key)))
+        .map(|column| column.scores?.rows.iter().find(|row| row.id() == id))
         .collect();
+    let trivial = columns.iter().find_map(|column| column.trivial(key)?.value);
     let value = |row: &Option<&Row>| row.and_then(|row| row.value);
-    let decimals = decimals(unit, rows.iter().filter_map(value));
+    let decimals = decimals(unit, rows.iter().filter_map(value).chain(trivial));
     let contenders = || {
         let pairs = columns.iter().zip(&rows);
         pairs.filter(|(column, _)| column.kind != Kind::Oracle).filter_map(|(_, row)| value(row))
@@ -148,6 +154,7 @@ fn line(key: &Row, columns: &[Column]) -> Line {
         .zip(&rows)
         .filter(|(column, _)| column.kind != Kind::Oracle)
         .filter_map(|(_, row)| value(row))
+        .chain(trivial)
         .collect();
     let best = known.and_then(|metric| best(metric.direction, &contenders));
     let cells = columns
@@ -164,7 +171,7 @@ fn line(key: &Row, columns: &[Column]) -> Line {
     let oracle = columns.iter().zip(&rows).filter(|(column, _)| column.kind == Kind::Oracle);
     let floor = oracle.chain(columns.iter().zip(&rows)).find_map(|(_, row)| (*row)?.floor);
     Line {
-        id: row_id(key),
+        id,
         name: known.map_or(key.metric.as_str(), |metric| metric.name).to_owned(),
         unit,
         direction: known.map_or("", |metric| metric.direction.symbol()),
@@ -172,6 +179,8 @@ fn line(key: &Row, columns: &[Column]) -> Line {
         space: known.map_or("", metric::space),
         scale: metric::scale(&key.scale).to_owned(),
         cells,
+        trivial: shown(trivial, decimals),
+        trivial_best: trivial.is_some() && trivial == best,
         floor: shown(floor, decimals),
     }
 }
@@ -199,12 +208,6 @@ pub(super) fn decimals(unit: &str, values: impl Iterator<Item = f64>) -> usize {
     }
     let largest = values.map(f64::abs).fold(0.0, f64::max);
     if largest == 0.0 { 3 } else { (2.0 - largest.log10().floor()).clamp(1.0, 6.0) as usize }
-}
-
-fn row_id(row: &Row) -> String {
-    let light = row.light.as_ref().map(|light| format!("/{light}")).unwrap_or_default();
-    let label = row.label.as_ref().map(|label| format!("[{label}]")).unwrap_or_default();
-    format!("{}{light}/{}@{}{label}:{}", row.subject, row.metric, row.region, row.scale)
 }
 
 /// Subjects in the order of the walk from maps to pictures; the capture's own light first.
