@@ -1,4 +1,4 @@
-"""Named faults of the rendering side.
+"""What can go wrong, by name; Rust and Python raise the same classes.
 
 Each message is one line: what is wrong, where, and the mend. ``exit_code`` is what
 the child process returns for it (see :mod:`unshade.stage`).
@@ -35,3 +35,27 @@ class VariantError(UnshadeError):
 
 class StorageError(UnshadeError):
     """A file or folder cannot be written."""
+
+
+class ConfigError(UnshadeError):
+    """A solver's configuration has an unknown key or a value out of range."""
+
+
+class SolveError(UnshadeError):
+    """A capture cannot be solved."""
+
+
+class MetricError(UnshadeError):
+    """Two pictures cannot be compared."""
+
+
+class ScoreError(UnshadeError):
+    """Maps or pictures cannot be scored against the truth."""
+
+
+class ReportError(UnshadeError):
+    """A run folder cannot be shown."""
+
+
+class CompareError(UnshadeError):
+    """A run cannot be compared with a baseline."""

@@ -1,25 +1,23 @@
 //! What each verb does.
 
 use std::fs;
-use std::io;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::atomic;
 
 use super::progress::Progress;
 use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, Verb, doctor};
 use crate::compare;
 use crate::score;
-use crate::suite::{self, Observer, RunError, Scene, Suite, Tools};
-use crate::synth::{Interpreter, Interrupt, run_stage};
 use crate::report;
+use crate::suite::{self, Observer, RunError, Suite, Tools};
+use crate::synth::{Interpreter, Interrupt};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth { scene, out } => {
-            alone("synth", |tools, step| synth(&scene, &out, tools, step))?;
+            alone("synth", |tools, step| suite::synth(&scene, &out, tools, step))?;
         }
         Verb::Solve(arguments) => {
             alone("solve", |tools, step| solve(&arguments, tools, step))?;
@@ -65,27 +63,6 @@ fn alone(
     }
     progress.finish();
     result
-}
-
-fn synth(
-    scene: &Path,
-    out: &Path,
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
-    let resolved = out.with_extension("scene.toml.partial");
-    if let Some(folder) = out.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    atomic::write_file(&resolved, text.as_bytes())?;
-    let arguments =
-        ["--scene".as_ref(), resolved.as_os_str(), "--out".as_ref(), out.as_os_str()]
-            .map(std::ffi::OsStr::to_os_string);
-    let result = run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step);
-    fs::remove_file(&resolved)?;
-    result?;
-    Ok(())
 }
 
 fn solve(

@@ -6,6 +6,7 @@ mod capture;
 mod errors;
 mod maps;
 mod metrics;
+mod stages;
 
 use pyo3::prelude::*;
 
@@ -19,6 +20,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
     module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::write_report, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::synth, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::relight, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::run, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
     Ok(())

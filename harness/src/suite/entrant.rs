@@ -28,10 +28,7 @@ pub(super) fn make_maps(
 ) -> Result<(), RunError> {
     match &entrant.method {
         Method::Oracle => Ok(score::oracle_maps(capture, maps)?),
-        Method::MeanTexture => {
-            let capture = solver::Capture::open(capture)?;
-            Ok(solver::baselines::mean_texture(&capture, MEAN_TEXTURE_SIZE)?.write(maps)?)
-        }
+        Method::MeanTexture => mean_texture(capture, maps),
         Method::Fields { config, .. } => {
             let config = solver::Config::from_toml(config)?;
             solve(&solver::Capture::open(capture)?, &config, maps, tools, progress)
@@ -55,8 +52,14 @@ pub(super) fn make_maps(
     }
 }
 
+/// The baseline of the same name.
+pub fn mean_texture(capture: &Path, maps: &Path) -> Result<(), RunError> {
+    let capture = solver::Capture::open(capture)?;
+    Ok(solver::baselines::mean_texture(&capture, MEAN_TEXTURE_SIZE)?.write(maps)?)
+}
+
 /// Our own solver, with an interrupt that leaves nothing behind.
-pub(super) fn solve(
+pub fn solve(
     capture: &solver::Capture,
     config: &solver::Config,
     maps: &Path,

@@ -7,7 +7,7 @@ mod record;
 mod run;
 mod scene;
 
-pub use content::hash_path;
+pub use entrant::{mean_texture, solve};
 pub use file::{Case, Entrant, Method, Suite};
-pub use run::{RunError, RunSummary, run};
+pub use run::{Observer, RunError, RunSummary, Tools, relight, run, synth};
 pub use scene::{Scene, SceneError};

@@ -16,7 +16,7 @@ use super::content::{hash_parts, hash_path};
 use super::entrant;
 use super::file::{Case, Entrant, Method, Suite};
 use super::record::Records;
-use super::scene::SceneError;
+use super::scene::{Scene, SceneError};
 use crate::report::{self, ReportError};
 use crate::score::{self, ScoreError};
 use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
@@ -266,6 +266,27 @@ impl Stages<'_> {
         )?;
         Ok(())
     }
+}
+
+/// Renders the scene file `scene` into the capture folder `out`.
+pub fn synth(
+    scene: &Path,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
+    if let Some(folder) = out.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let mut resolved = out.as_os_str().to_os_string();
+    resolved.push(".scene.partial");
+    atomic::write_file(Path::new(&resolved), text.as_bytes())?;
+    let arguments = words(&[("--scene", &resolved), ("--out", out.as_os_str())]);
+    let result = run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step);
+    fs::remove_file(&resolved)?;
+    result?;
+    Ok(())
 }
 
 /// Renders `maps` in the capture's lights, as they are and after the one global factor.
