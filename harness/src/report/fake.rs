@@ -74,7 +74,15 @@ fn layered(phase: f32, error: f32) -> Picture {
 }
 
 const LAYERED: [&str; 9] = [
-    "R", "G", "B", "diffuse.R", "diffuse.G", "diffuse.B", "specular.R", "specular.G", "specular.B",
+    "R",
+    "G",
+    "B",
+    "diffuse.R",
+    "diffuse.G",
+    "diffuse.B",
+    "specular.R",
+    "specular.G",
+    "specular.B",
 ];
 
 fn save_layered(path: &Path, phase: f32, error: f32) {
@@ -125,10 +133,13 @@ fn save_capture(folder: &Path, light: usize) {
     let names = |range: std::ops::Range<usize>| -> Vec<String> {
         range.map(|index| format!("images/{index:03}.exr")).collect()
     };
-    save_json(&folder.join("transforms.json"), &json!({
-        "camera_model": "PINHOLE", "mesh": "mesh.obj", "frames": frames,
-        "train_filenames": names(0..4), "test_filenames": names(4..6),
-    }));
+    save_json(
+        &folder.join("transforms.json"),
+        &json!({
+            "camera_model": "PINHOLE", "mesh": "mesh.obj", "frames": frames,
+            "train_filenames": names(0..4), "test_filenames": names(4..6),
+        }),
+    );
     let triangle = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n\
                     f 1/1/1 2/2/2 3/3/3\n";
     fs::write(folder.join("mesh.obj"), triangle).unwrap();
@@ -196,14 +207,17 @@ pub(super) fn write(run: &Path) {
                 let losses = |from: f64, count: usize| -> Vec<f64> {
                     (0..count).map(|i| from / (1.0 + i as f64 * 0.02)).collect()
                 };
-                save_json(&maps.join("solve.json"), &json!({
-                    "config": {"name": "fast", "warm_up": {"iterations": 400}}, "seed": 7,
-                    "device": "cpu",
-                    "loss_history": [
-                        {"stage": "warm-up", "losses": losses(0.3, 400)},
-                        {"stage": "fine-tuning", "losses": losses(0.05, 100)},
-                    ],
-                }));
+                save_json(
+                    &maps.join("solve.json"),
+                    &json!({
+                        "config": {"name": "fast", "warm_up": {"iterations": 400}}, "seed": 7,
+                        "device": "cpu",
+                        "loss_history": [
+                            {"stage": "warm-up", "losses": losses(0.3, 400)},
+                            {"stage": "fine-tuning", "losses": losses(0.05, 100)},
+                        ],
+                    }),
+                );
             }
             let scores = format!("{}.json", below("scores"));
             save_scores(&run.join(&scores), method, light, error);
@@ -217,12 +231,18 @@ pub(super) fn write(run: &Path) {
             "capture": format!("captures/{case}"), "solvers": solvers,
         }));
     }
-    save_json(&run.join("run.json"), &json!({
-        "format": 1, "suite": "fake", "title": "Two <balls>", "cases": cases,
-        "versions": {"unshade": "0.1.0"}, "suite_toml": "format = 1\n",
-    }));
-    save_json(&run.join("timing.json"), &json!({"stages": [
-        {"id": "capture/demo-flash", "seconds": 12.5, "cached": false},
-        {"id": "maps/demo-flash/unshade", "seconds": 3.0, "cached": true},
-    ]}));
+    save_json(
+        &run.join("run.json"),
+        &json!({
+            "format": 1, "suite": "fake", "title": "Two <balls>", "cases": cases,
+            "versions": {"unshade": "0.1.0"}, "suite_toml": "format = 1\n",
+        }),
+    );
+    save_json(
+        &run.join("timing.json"),
+        &json!({"stages": [
+            {"id": "capture/demo-flash", "seconds": 12.5, "cached": false},
+            {"id": "maps/demo-flash/unshade", "seconds": 3.0, "cached": true},
+        ]}),
+    );
 }

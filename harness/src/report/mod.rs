@@ -4,6 +4,7 @@
 //! `index.html` with its pictures and the scores it was made from. Equal runs give equal
 //! bytes, except in the section with the wall times.
 
+mod case;
 mod curve;
 mod difference;
 mod maps;
@@ -13,6 +14,7 @@ mod page;
 mod plates;
 mod run;
 mod scores;
+mod summary;
 mod table;
 mod tone;
 mod views;
@@ -123,12 +125,7 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
 }
 
 /// Writes everything below `root` and returns the number of pictures.
-fn fill(
-    run: &Path,
-    manifest: &RunFile,
-    timing: Timing,
-    root: &Path,
-) -> Result<usize, ReportError> {
+fn fill(run: &Path, manifest: &RunFile, timing: Timing, root: &Path) -> Result<usize, ReportError> {
     let page = page::Page::make(run, manifest, timing, root)?;
     let index = root.join("index.html");
     fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;

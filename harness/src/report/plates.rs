@@ -251,7 +251,10 @@ pub(super) fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
 }
 
 /// Channels of a file that may be absent as a whole or lack just these layers.
-pub(super) fn read_if_present(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
+pub(super) fn read_if_present(
+    path: &Path,
+    channels: &[&str],
+) -> Result<Option<Picture>, ReportError> {
     if !path.exists() {
         return Ok(None);
     }

@@ -145,10 +145,6 @@ fn line(key: &Row, columns: &[Column]) -> Line {
     let trivial = columns.iter().find_map(|column| column.trivial(key)?.value);
     let value = |row: &Option<&Row>| row.and_then(|row| row.value);
     let decimals = decimals(unit, rows.iter().filter_map(value).chain(trivial));
-    let contenders = || {
-        let pairs = columns.iter().zip(&rows);
-        pairs.filter(|(column, _)| column.kind != Kind::Oracle).filter_map(|(_, row)| value(row))
-    };
     let contenders: Vec<f64> = columns
         .iter()
         .zip(&rows)

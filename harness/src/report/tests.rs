@@ -73,7 +73,8 @@ fn a_score_that_does_not_exist_is_a_dash_and_the_best_is_bold() {
     let row = between(html, "<tr title=\"view/psnr_srgb@mask-e5:none\">", "</tr>")[0];
     assert_eq!(between(row, "<td class=\"baseline\">", "</td>"), ["–"]);
     assert!(!row.contains("<b>"), "nothing to win without a contender");
-    let row = between(html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
+    let row =
+        between(html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
     assert!(between(row, "<td class=\"solver\">", "</td>")[0].starts_with("<b>32.04</b>"), "{row}");
     assert!(between(row, "<td class=\"oracle\">", "</td>")[0].starts_with("53.98"), "{row}");
 }
@@ -98,7 +99,9 @@ fn names_are_escaped() {
 #[test]
 fn nothing_is_loaded_from_elsewhere_and_every_link_leads_somewhere() {
     let made = shared();
-    for elsewhere in ["src=\"http", "src=\"//", "src=\"file", "src=\"/", "href=\"/", "<link", "@import", "url("] {
+    for elsewhere in
+        ["src=\"http", "src=\"//", "src=\"file", "src=\"/", "href=\"/", "<link", "@import", "url("]
+    {
         assert!(!made.html.contains(elsewhere), "{elsewhere}");
     }
     let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\""]
@@ -174,7 +177,8 @@ fn a_method_that_made_nothing_leaves_its_column_empty() {
     }
     fs::remove_file(run.join("scores/demo-flash/unshade.json")).unwrap();
     let html = again(made.folder.path());
-    let row = between(&html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
+    let row =
+        between(&html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
     assert_eq!(between(row, "<td class=\"solver\">", "</td>"), ["–"]);
 }
 

@@ -22,11 +22,7 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    fn from_pixels(
-        width: usize,
-        height: usize,
-        pixel: impl Fn(usize, usize) -> [u8; 3],
-    ) -> Self {
+    fn from_pixels(width: usize, height: usize, pixel: impl Fn(usize, usize) -> [u8; 3]) -> Self {
         let bytes = (0..width * height).flat_map(|i| pixel(i % width, i / width)).collect();
         Self { width, height, bytes }
     }

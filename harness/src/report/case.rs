@@ -1,0 +1,216 @@
+//! One case of the page: its table, pictures, optimisation and provenance.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::plates::{self, Input, Method, Plate, Studio};
+use super::run::{self, Case, Frames};
+use super::table::{self, Column, Table};
+use super::{ReportError, curve};
+
+/// A case as the templates see it.
+#[derive(Serialize)]
+pub(super) struct CaseView {
+    id: String,
+    anchor: String,
+    face: String,
+    light: String,
+    train: usize,
+    test: usize,
+    inputs: Vec<Input>,
+    table: Table,
+    complete: Table,
+    regions: Vec<Region>,
+    maps: Vec<Plate>,
+    pub views: Vec<Plate>,
+    layers: Vec<Plate>,
+    solves: Vec<Solve>,
+    hashes: Vec<Hashes>,
+    scene_toml: Option<String>,
+}
+
+/// How much of the truth a region holds.
+#[derive(Serialize)]
+struct Region {
+    name: String,
+    pixels: usize,
+    share: String,
+    /// Per column: the share for which the method had data.
+    solved: Vec<String>,
+}
+
+/// What a method says about itself in `solve.json`.
+#[derive(Serialize)]
+struct Solve {
+    title: String,
+    curve: Option<String>,
+    facts: Vec<(String, String)>,
+}
+
+/// The contents that one column's scores were computed from.
+#[derive(Serialize)]
+struct Hashes {
+    title: String,
+    data: Option<String>,
+    inputs: Vec<(&'static str, String)>,
+    factor: Option<String>,
+}
+
+fn regions(columns: &[Column]) -> Vec<Region> {
+    let sizes = |column: &Column| column.scores.map_or(&[][..], |scores| &scores.regions).to_vec();
+    let all: Vec<_> = columns.iter().map(sizes).collect();
+    let percent = |share: Option<f64>| {
+        share.map_or(table::EMPTY.to_owned(), |s| format!("{:.1} %", s * 100.0))
+    };
+    let known = all.iter().max_by_key(|sizes| sizes.len()).into_iter().flatten();
+    known
+        .map(|size| Region {
+            name: size.region.clone(),
+            pixels: size.pixels,
+            share: percent(Some(size.share)),
+            solved: all
+                .iter()
+                .map(|sizes| {
+                    percent(
+                        sizes
+                            .iter()
+                            .find(|other| other.region == size.region)
+                            .and_then(|s| s.solved),
+                    )
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+impl CaseView {
+    /// Reads the case from the run, and writes its pictures and scores below `root`.
+    pub fn make(
+        run: &Path,
+        case: &Case,
+        columns: &[Column],
+        root: &Path,
+    ) -> Result<Self, ReportError> {
+        let capture = run.join(&case.capture);
+        let frames = Frames::read(&capture)?;
+        let entrant = |column: &Column| case.solvers.iter().find(|solver| solver.id == column.id);
+        let below = |path: Option<&PathBuf>| path.map(|path| run.join(path));
+        let methods: Vec<Method> = columns
+            .iter()
+            .map(|column| Method {
+                column,
+                maps: below(entrant(column).and_then(|solver| solver.maps.as_ref())),
+                relit: below(entrant(column).and_then(|solver| solver.relit.as_ref())),
+            })
+            .collect();
+        let anchor = plates::file_name(&case.id);
+        let studio = Studio {
+            frames: &frames,
+            light: &case.light,
+            methods: &methods,
+            root,
+            folder: &format!("pictures/{anchor}"),
+        };
+        let mut solves = Vec::new();
+        let mut hashes = Vec::new();
+        for method in &methods {
+            if let Some(maps) = &method.maps {
+                solves.extend(Solve::read(method.column.title, &maps.join("solve.json"))?);
+            }
+            let scores = entrant(method.column).and_then(|solver| solver.scores.as_ref());
+            let data = match below(scores) {
+                Some(path) if path.exists() => {
+                    let target =
+                        format!("data/{anchor}/{}.json", plates::file_name(method.column.id));
+                    copy(&path, &root.join(&target))?;
+                    Some(target)
+                }
+                _ => None,
+            };
+            hashes.push(Hashes::of(method.column, data));
+        }
+        Ok(Self {
+            id: case.id.clone(),
+            face: case.face.clone(),
+            light: case.light.clone(),
+            train: frames.train.len(),
+            test: frames.test.len(),
+            inputs: studio.inputs()?,
+            table: table::chosen(columns, &case.light),
+            complete: table::complete(columns, &case.light),
+            regions: regions(columns),
+            maps: studio.map_plates()?,
+            views: studio.view_plates()?,
+            layers: studio.layer_plates()?,
+            solves,
+            hashes,
+            scene_toml: fs::read_to_string(capture.join("truth/scene.toml")).ok(),
+            anchor,
+        })
+    }
+
+    /// The training view nearest to the first withheld one.
+    pub fn main_input(&self) -> Option<&plates::Tile> {
+        let index = self.views.first()?.strips.first()?.input?;
+        Some(&self.inputs.get(index)?.tile)
+    }
+}
+
+impl Solve {
+    fn read(title: &str, path: &Path) -> Result<Option<Self>, ReportError> {
+        let Some(solve) = run::read_json_if_present::<Value>(path)? else { return Ok(None) };
+        let stages = curve::stages(&solve);
+        let mut facts = Vec::new();
+        if let Value::Object(entries) = &solve {
+            for (key, value) in entries.iter().filter(|(key, _)| !curve::is_history(key)) {
+                flatten(key, value, &mut facts);
+            }
+        }
+        Ok(Some(Self { title: title.to_owned(), curve: curve::svg(&stages), facts }))
+    }
+}
+
+/// Nested tables as dotted keys, in the order of the file.
+fn flatten(key: &str, value: &Value, facts: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(entries) => {
+            for (name, value) in entries {
+                flatten(&format!("{key}.{name}"), value, facts);
+            }
+        }
+        value => facts.push((key.to_owned(), plain(value))),
+    }
+}
+
+/// A JSON value as a reader expects it: a text without its quotes.
+pub(super) fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+impl Hashes {
+    fn of(column: &Column, data: Option<String>) -> Self {
+        let mut inputs = Vec::new();
+        if let Some(scores) = column.scores {
+            inputs.push(("capture", scores.inputs.capture.clone()));
+            inputs.push(("maps", scores.inputs.maps.clone()));
+            inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
+        }
+        Self {
+            title: column.title.to_owned(),
+            data,
+            inputs,
+            factor: column.factor().map(|factor| format!("{factor:.4}")),
+        }
+    }
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), ReportError> {
+    let bytes = fs::read(from).map_err(|error| ReportError::read(from, error))?;
+    if let Some(parent) = to.parent() {
+        fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;
+    }
+    fs::write(to, bytes).map_err(|error| ReportError::write(to, error))
+}
