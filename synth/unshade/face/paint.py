@@ -63,16 +63,15 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     positions, normals = geometry.positions[vertices], geometry.normals[vertices]
     rims = _rims(texels, 1000 * margin_distance(positions, triangles, geometry.eyes), head.rim_mm, regions)
     sketch = Sketch(points, (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70))
-    cover = {
-        "brow": draw_brows(sketch, len(points), texel, spec),
-        "scalp": scalp,
-        "beard": beard_cover(points, regions.lips, style),
-    }
-    labels = _labels(regions, cover)
-    relief = draw_relief(regions, np.stack([u, v], axis=1) * np.float32(scale), sketch, cover["brow"], texel, spec)
+    brow, brow_outline = draw_brows(sketch, points, texel, spec)
+    cover = {"brow": brow, "scalp": scalp, "beard": beard_cover(points, regions.lips, style)}
+    labels = _labels(regions, scalp, brow_outline)
+    relief = draw_relief(regions, np.stack([u, v], axis=1) * np.float32(scale), sketch, brow, texel, spec)
     marks = draw_marks(points, texels, sites, uv, texel, spec)
-    hairy = scalp > 0
-    cover["scalp"][hairy] *= 1 - rims["outer"][hairy] * (1 - scalp_grain(points[hairy], 2 * texel, spec.seed))
+    hairy = np.flatnonzero(scalp)
+    stubble = 1 - rims["outer"][hairy] * (1 - scalp_grain(points[hairy], 2 * texel, spec.seed))
+    cover["scalp"] = scalp.copy()
+    cover["scalp"][hairy] *= stubble
     diffuse, specular = chart_colour(regions, Pigments(melanin, blood), relief, marks, cover, rims, texel, style, spec)
 
     smooth = unit(texels.sample(normals))
@@ -113,7 +112,7 @@ def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions)
     return {"outer": smoothstep(0, _RIM_FADE_MM, outer), "lash": lash, "wet": wet}
 
 
-def _labels(regions: Regions, cover: dict[str, np.ndarray]) -> np.ndarray:
+def _labels(regions: Regions, scalp: np.ndarray, brow: np.ndarray) -> np.ndarray:
     """Region ids (M,) u8; where regions overlap the later one of this list wins."""
     labels = np.full(len(regions.points), Label.SKIN, dtype=np.uint8)
     for label, where in (
@@ -121,8 +120,8 @@ def _labels(regions: Regions, cover: dict[str, np.ndarray]) -> np.ndarray:
         (Label.EYELID, regions.lids > 0.5),
         (Label.NOSE, regions.nose_outline > 0.5),
         (Label.LIPS, regions.lips > 0.5),
-        (Label.SCALP, cover["scalp"] > 0.5),
-        (Label.BROW, cover["brow"] > 0.3),
+        (Label.SCALP, scalp > 0.5),
+        (Label.BROW, brow > 0.5),
     ):
         labels[where] = label
     return labels

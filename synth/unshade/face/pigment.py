@@ -1,12 +1,13 @@
 """Skin colour from two pigments: melanin in the epidermis, haemoglobin in the dermis.
 
 A thin pigmented epidermis (Kubelka-Munk layer, K = 2 mua and S = 3/4 mus') lies on a
-bloody dermis without end. Absorption of melanosomes and of bloodless skin: S. L. Jacques,
-"Skin Optics", Oregon Medical Laser Center News, Jan 1998 (omlc.org/news/jan98/skinoptics.html);
-scattering of skin: Jacques 2013, "Optical properties of biological tissues: a review", table 2; haemoglobin is S. Prahl's compilation
-(omlc.org/spectra/hemoglobin); the diffuse reflectance of the semi-infinite dermis is
-that of the dipole (Jensen et al. 2001, section 2.4). Spectra become linear Rec.709
-under D65 through the CIE 1931 observer.
+bloody dermis without end. Sources: absorption of melanosomes and of bloodless skin,
+S. L. Jacques, "Skin Optics", Oregon Medical Laser Center News, Jan 1998
+(omlc.org/news/jan98/skinoptics.html); scattering of skin, Jacques 2013, "Optical
+properties of biological tissues: a review", table 2; haemoglobin, S. Prahl's compilation
+(omlc.org/spectra/hemoglobin); diffuse reflectance of the dermis, the dipole of Jensen
+et al. 2001, section 2.4. Spectra become linear Rec.709 under D65 through the CIE 1931
+observer.
 """
 
 from __future__ import annotations

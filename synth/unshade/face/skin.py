@@ -67,14 +67,14 @@ def chart_colour(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Diffuse (M,3) and specular (M,) albedo f32 of the chart's texels.
 
-    `pigments` those of `base_pigments`; `marks` (M,) melanin of moles and freckles; `cover`: `brow`, `scalp`, `beard` shares;
-    `rims`: `outer`, 0 at the outer rim to 1 inside, and `lash`, `wet`, the shares of lash
-    line and waterline. Detail fades towards the outer rim, where the rest of the head takes over.
+    `pigments` those of `base_pigments`; `marks` (M,) melanin of moles and freckles; `cover`:
+    `brow`, `scalp`, `beard` shares; `rims`: `outer`, 0 at the outer rim to 1 inside, and `lash`,
+    `wet`, the shares of lash line and waterline; `texel` in mm. Detail fades towards the outer rim, where the rest of the head takes over.
     """
     fade = rims["outer"]
     even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
     fine = octaves(regions.points, 6.0, 3, 2 * texel, stream(spec.seed, "fine melanin"))
-    mottle = octaves(regions.points, 5.0, 3, 2 * texel, stream(spec.seed, "fine blood"))
+    mottle = octaves(regions.points, 5.0, 2, 2 * texel, stream(spec.seed, "fine blood"))
     lips = regions.lips * fade
     melanin = pigments.melanin * (1 + fade * even * 0.045 * fine) + fade * marks
     blood = pigments.blood * (1 + fade * (0.09 * mottle + 0.35 * relief.creases))
