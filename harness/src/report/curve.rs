@@ -42,7 +42,7 @@ const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 280.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 14.0;
-const TOP: f64 = 30.0;
+const TOP: f64 = 36.0;
 const BOTTOM: f64 = 40.0;
 
 /// More points than this per stage are thinned to the mean of their neighbours.
@@ -86,13 +86,13 @@ pub(super) fn svg(stages: &[Stage]) -> Option<String> {
                 HEIGHT - TOP - BOTTOM,
             );
         }
+        // Names of short stages would overlap on one line or leave the picture.
+        let (place, anchor) = if from < WIDTH * 0.85 { (from + 2.0, "start") } else { (to, "end") };
         let _ = write!(
             svg,
-            "<text class=\"stage\" x=\"{:.1}\" y=\"{:.1}\">{}</text>\
+            "<text class=\"stage\" x=\"{place:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>\
              <text x=\"{from:.1}\" y=\"{:.1}\">{start}</text>",
-            from + 2.0,
-            // Names of short stages would overlap on one line.
-            TOP - 6.0 - if index % 2 == 1 { 11.0 } else { 0.0 },
+            TOP - 6.0 - if index % 2 == 1 { 14.0 } else { 0.0 },
             escape(&stage.name),
             HEIGHT - BOTTOM + 16.0,
         );

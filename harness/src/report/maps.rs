@@ -1,5 +1,7 @@
 //! The plates of the maps.
 
+use rayon::prelude::*;
+
 use super::ReportError;
 use super::difference::{self, Measure};
 use super::plates::{self, Plate, Show, Studio, Subject};
@@ -54,7 +56,7 @@ const MAPS: [MapKind; 4] = [
 impl Studio<'_> {
     /// One plate per map that the capture knows the truth of.
     pub fn map_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        MAPS.iter().filter_map(|kind| self.map_plate(kind).transpose()).collect()
+        MAPS.par_iter().filter_map(|kind| self.map_plate(kind).transpose()).collect()
     }
 
     fn map_plate(&self, kind: &MapKind) -> Result<Option<Plate>, ReportError> {

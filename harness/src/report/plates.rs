@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde::Serialize;
 use solver::picture::{self, GrayImage, Picture};
 
@@ -159,7 +160,7 @@ impl Studio<'_> {
             let tile = self.save(&format!("input-{}", frame.name), &raster)?;
             Ok(Input { title: format!("input view {}", frame.name), tile })
         };
-        self.frames.train.iter().map(input).collect()
+        self.frames.train.par_iter().map(input).collect()
     }
 
     /// Compares what `made` reads for each method, with its score, with the subject.

@@ -3,12 +3,15 @@
 use std::fs;
 use std::path::PathBuf;
 
+use rayon::prelude::*;
+
 use super::difference::Measure;
 use super::plates::{self, Method, Plate, Show, Strip, Studio, Subject};
 use super::run::Frame;
 use super::{ReportError, metric};
 
 /// A picture as a whole, or one part of its exact split.
+#[derive(Clone, Copy)]
 struct Layer {
     name: Option<&'static str>,
     words: &'static str,
@@ -84,21 +87,21 @@ impl Source {
 impl Studio<'_> {
     /// The withheld views: by the methods themselves, then relit in every light.
     pub fn view_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let relit = self.lights()?.into_iter().map(|light| self.relit(light));
-        std::iter::once(Source::View)
-            .chain(relit)
-            .filter_map(|source| self.view_plate(&source, &Layer::ALL).transpose())
-            .collect()
+        let mut sources = vec![(Source::View, Layer::ALL)];
+        sources.extend(self.lights()?.into_iter().map(|light| (self.relit(light), Layer::ALL)));
+        self.plates(&sources)
     }
 
     /// The exact split of the withheld views in the capture's light.
     pub fn layer_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        let sources = [Source::View, self.relit(self.light.to_owned())];
-        [Layer::DIFFUSE, Layer::SPECULAR]
-            .iter()
-            .flat_map(|layer| sources.iter().map(move |source| (source, layer)))
-            .filter_map(|(source, layer)| self.view_plate(source, layer).transpose())
-            .collect()
+        let sources = [Layer::DIFFUSE, Layer::SPECULAR]
+            .map(|layer| [(Source::View, layer), (self.relit(self.light.to_owned()), layer)]);
+        self.plates(sources.as_flattened())
+    }
+
+    fn plates(&self, sources: &[(Source, Layer)]) -> Result<Vec<Plate>, ReportError> {
+        let plates = sources.par_iter();
+        plates.filter_map(|(source, layer)| self.view_plate(source, layer).transpose()).collect()
     }
 
     /// Relit pictures with the albedo after its one factor, if anything was rendered so.
