@@ -18,6 +18,7 @@ import numpy as np
 from ..scene_file import passes_for
 from .scene import LitHead
 from .split import split_radiance
+from .split_scalar import split_radiance_scalar
 
 _MAX_LANES = 1 << 21
 """Camera rays in flight, which bounds memory to about a gigabyte."""
@@ -49,8 +50,9 @@ def render_layers(lit: LitHead, sensor, *, samples: int, depth: int, seed: int) 
     passes = passes_for(samples)
     width, height = sensor.film().size()
     rows = max(1, _MAX_LANES // (width * samples))
+    band = _render_band if dr.is_jit_v(mi.Float) else _render_band_slowly
     bands = [
-        _render_band(
+        band(
             lit, sensor, samples // passes, passes, depth, seed_of(seed, top),
             top, min(rows, height - top),
         )
@@ -85,3 +87,23 @@ def _render_band(lit, sensor, samples, passes, depth, seed, top, rows) -> np.nda
     sums = [np.array(dr.block_reduce(dr.ReduceOp.Add, c, samples)) for c in channels]
     means = np.stack(sums, -1, dtype=np.float64) / samples
     return means.reshape(rows, width, passes, 6)
+
+
+def _render_band_slowly(lit, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
+    """The same, sample by sample, for variants without a compiler."""
+    width, height = sensor.film().size()
+    sampler = sensor.sampler()
+    sampler.set_sample_count(samples)
+    sums = np.zeros((rows, width, passes, 6))
+    for row, column, number in np.ndindex(rows, width, passes):
+        sampler.seed(seed_of(seed, row, column, number))
+        for _ in range(samples):
+            jitter = sampler.next_2d()
+            position = mi.Point2f((column + jitter.x) / width, (top + row + jitter.y) / height)
+            ray, _ = sensor.sample_ray(0.0, 0.5, position, mi.Point2f(0.5))
+            layers = split_radiance_scalar(
+                lit.scene, lit.dark, sampler, ray, depth, lit.lambert_light
+            )
+            sums[row, column, number] += layers.ravel()
+            sampler.advance()
+    return sums / samples

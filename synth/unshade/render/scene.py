@@ -68,7 +68,9 @@ class HeadScene:
 
     def lit(self, light: AnyLight) -> LitHead:
         """The head in a light."""
-        scene = mi.load_dict({"type": "scene", **self._shapes, **light.emitters()})
+        # Made one by one: those of one dictionary come in any order, and so would their samples.
+        emitters = {name: mi.load_dict(emitter) for name, emitter in light.emitters().items()}
+        scene = mi.load_dict({"type": "scene", **self._shapes, **emitters})
         return LitHead(scene, self.dark, light.lambert_light)
 
     def set_diffuse_albedo(self, albedo: np.ndarray) -> None:

@@ -93,7 +93,7 @@ class SkinBSDF(mi.BSDF):
             return dr.select(seen, mi.Float(1), mi.Float(0))
         strength = rho_s / F0 * schlick(dr.dot(frame.n, si.wi))
         share = strength / (strength + mi.luminance(rho_d) + 1e-6)
-        return dr.select(seen, dr.clip(share, *_SPECULAR_SHARE), 0)
+        return dr.select(seen & (rho_s > 0), dr.clip(share, *_SPECULAR_SHARE), 0)
 
     def _evaluate(self, ctx, si, wo, active, surface):
         rho_d, rho_s, n_d, frame, n_g = surface
@@ -146,7 +146,7 @@ class SkinBSDF(mi.BSDF):
         value, bs.pdf = self._evaluate(ctx, si, bs.wo, active, surface)
         # A specular sample below the specular horizon may still lie above the diffuse one,
         # where the density of the diffuse part is not what produced it.
-        ok = active & (bs.pdf > 0) & (~specular | ((v.z > _MIN_COS) & (l.z > 0)))
+        ok = active & (bs.pdf > 0) & dr.select(specular, (v.z > _MIN_COS) & (l.z > 0), True)
         if not ctx.is_enabled(mi.BSDFFlags.DiffuseReflection, 0):
             ok &= specular
         return bs, dr.select(ok, value / dr.select(ok, bs.pdf, 1), 0)

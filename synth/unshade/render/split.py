@@ -14,8 +14,9 @@ import drjit as dr
 import mitsuba as mi
 
 
-def _ratio(part, whole):
-    return dr.select(whole > 0, part / dr.select(whole > 0, whole, 1), 0)
+def _share(part, whole):
+    """part / whole, 0 to 1 whatever the rounding."""
+    return dr.select(whole > 0, dr.fmin(part / dr.select(whole > 0, whole, 1), 1), 0)
 
 
 def _mis(pdf, other):
@@ -87,7 +88,7 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
         )
         at_first = following & (depth == 0)
         light_share = dr.select(
-            at_first, _ratio(bsdf.eval(lambert, si, wo, at_first), value), share
+            at_first, _share(bsdf.eval(lambert, si, wo, at_first), value), share
         )
         weight = _mis(light.pdf, pdf)
         lambert_weight = dr.select(depth == 0, _lambert_weight(lambert_light, weight, 1, 0), weight)
@@ -96,7 +97,7 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
         specular += (1 - light_share) * direct * weight
 
         scattered_lambert = bsdf.eval(lambert, si, scattered.wo, at_first)
-        share = dr.select(at_first, _ratio(scattered_lambert, albedo * scattered.pdf), share)
+        share = dr.select(at_first, _share(scattered_lambert, albedo * scattered.pdf), share)
         throughput = throughput * albedo
         previous = mi.Interaction3f(si)
         previous_pdf = scattered.pdf

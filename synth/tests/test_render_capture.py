@@ -1,0 +1,299 @@
+"""Captures and relighting as folders: complete, repeatable, resumable, and true."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+
+from unshade.errors import CaptureError, MapsError, PictureError, StorageError
+from unshade.render import capture, llvm, relight
+from unshade.render.pictures import read_exr, read_gray, write_exr
+from unshade.render.scene_text import scene_text
+from unshade.render.truth_scene import captured_scene
+from unshade.scene_file import parse_scene
+
+CHOICE = llvm.choose("llvm_ad_rgb")
+
+
+@pytest.fixture(autouse=True)
+def toy(monkeypatch):
+    """The procedural head in place of the painted one, for speed."""
+    for module in (capture, relight):
+        monkeypatch.setattr(module, "build_face", render_toy.toy_face)
+
+
+def scene(**render):
+    return parse_scene(render_toy.toy_table(**render), "toy", Path())
+
+
+def no_progress(done, total, what):
+    pass
+
+
+def files(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+@pytest.fixture(scope="module")
+def captured(tmp_path_factory):
+    out = tmp_path_factory.mktemp("captured") / "capture"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(capture, "build_face", render_toy.toy_face)
+        capture.synthesise(scene(), out, CHOICE, no_progress)
+    return out
+
+
+def test_the_folder_is_complete(captured):
+    frames, test = ["000", "001", "002", "003"], "003"
+    expected = {"transforms.json", "mesh.obj", "truth/scene.toml", "truth/light.exr"}
+    expected |= {f"{kind}/{name}.{end}" for name in frames for kind, end in (("images", "exr"), ("masks", "png"), ("labels", "png"))}
+    expected |= {f"truth/layers/{name}.exr" for name in frames}
+    expected |= {f"truth/{name}.exr" for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal")}
+    expected |= {f"truth/{name}.png" for name in ("labels", "coverage", "views")}
+    expected |= {f"truth/relit/{light}/{test}.exr" for light in ("studio", "uniform")}
+    assert set(files(captured)) == expected
+    transforms = json.loads((captured / "transforms.json").read_text())
+    assert transforms["train_filenames"] == [f"images/{name}.exr" for name in frames[:3]]
+    assert transforms["test_filenames"] == ["images/003.exr"]
+    assert set(read_exr(captured / "truth/specular_albedo.exr")) == {"Y"}
+    layered = {f"{layer}.{c}" for layer in ("diffuse", "specular", "variance") for c in "RGB"}
+    assert set(read_exr(captured / "truth/layers/000.exr")) == layered
+    assert set(read_exr(captured / "truth/relit/uniform/003.exr")) == layered | set("RGB")
+
+
+def test_pictures_are_the_sum_of_their_layers(captured):
+    for name in ("000", "003"):
+        image, layers = read_exr(captured / f"images/{name}.exr"), read_exr(captured / f"truth/layers/{name}.exr")
+        for c in "RGB":
+            assert (image[c] == layers[f"diffuse.{c}"] + layers[f"specular.{c}"]).all()
+    own = read_exr(captured / "truth/relit/studio/003.exr")
+    assert all((own[c] == image[c]).all() for c in "RGB")
+
+
+def test_masks_labels_and_coverage_agree(captured):
+    for name in ("000", "001", "002", "003"):
+        mask, labels = (read_gray(captured / f"{kind}/{name}.png") for kind in ("masks", "labels"))
+        assert set(np.unique(mask)) == {0, 255}
+        assert ((labels > 0) == (mask > 0)).mean() > 0.99 and (labels[mask == 0] == 0).all()
+    views, coverage = read_gray(captured / "truth/views.png"), read_gray(captured / "truth/coverage.png")
+    assert views.max() == 3 and ((views > 0) == (coverage == 255)).all()
+    assert (coverage[read_gray(captured / "truth/labels.png") == 0] == 0).all()
+
+
+def test_two_runs_give_identical_bytes(captured, tmp_path):
+    capture.synthesise(scene(), tmp_path / "again", CHOICE, no_progress)
+    assert files(tmp_path / "again") == files(captured)
+
+
+class Killed(Exception):
+    pass
+
+
+@pytest.mark.parametrize("after", [1, 3, 6])
+def test_an_interrupted_capture_goes_on_to_the_same_bytes(captured, tmp_path, after):
+    seen = []
+
+    def kill(done, total, what):
+        if done == after:
+            raise Killed
+
+    out = tmp_path / "capture"
+    with pytest.raises(Killed):
+        capture.synthesise(scene(), out, CHOICE, kill)
+    assert not out.exists()
+    # A picture that was being written is no picture.
+    (tmp_path / "capture.partial/images").mkdir(exist_ok=True)
+    (tmp_path / "capture.partial/images/002.exr.partial").write_bytes(b"half")
+    kept = {p: p.stat().st_mtime_ns for p in (tmp_path / "capture.partial/images").glob("*.exr")}
+    capture.synthesise(scene(), out, CHOICE, lambda done, total, what: seen.append((done, total)))
+    assert files(out) == files(captured)
+    assert {p.name: (out / "images" / p.name).stat().st_mtime_ns for p in kept} == {p.name: t for p, t in kept.items()}
+    assert seen[-1][0] == seen[-1][1] and [done for done, _ in seen] == sorted(done for done, _ in seen)
+
+
+def test_what_another_scene_left_is_not_used(captured, tmp_path):
+    def kill(done, total, what):
+        if done == 3:
+            raise Killed
+
+    with pytest.raises(Killed):
+        capture.synthesise(scene(seed=5), tmp_path / "capture", CHOICE, kill)
+    capture.synthesise(scene(), tmp_path / "capture", CHOICE, no_progress)
+    assert files(tmp_path / "capture") == files(captured)
+
+
+def test_the_truth_states_its_scene(captured):
+    stated = captured_scene(captured)
+    assert stated.render.variant == stated.versions["variant"] == "llvm_ad_rgb"
+    assert stated.versions["llvm"] == CHOICE.llvm.version
+    assert stated.face == render_toy.SPEC and stated.rig.train == 3
+
+
+def run_relight(captured, maps, out, progress=no_progress, warn=pytest.fail, scales=None):
+    stated = captured_scene(captured)
+    relight.relight(stated, maps, out, scales=scales or {"none": 1.0}, progress=progress, warn=warn)
+    return out
+
+
+@pytest.fixture(scope="module")
+def oracle(captured, tmp_path_factory):
+    maps = tmp_path_factory.mktemp("oracle") / "maps"
+    maps.mkdir()
+    for path in (captured / "truth").glob("*_*.exr"):
+        (maps / path.name).write_bytes(path.read_bytes())
+    return maps
+
+
+def rgb(path, layer=""):
+    channels = read_exr(path)
+    return np.stack([channels[f"{layer}.{c}" if layer else c] for c in "RGB"], -1).astype(float)
+
+
+def z_score(ours, theirs):
+    difference = rgb(ours) - rgb(theirs)
+    assert (difference != 0).any(), "the noise of truth and relit picture must be independent"
+    return difference.sum() / np.sqrt((rgb(ours, "variance") + rgb(theirs, "variance")).sum())
+
+
+def test_true_maps_relit_differ_from_the_truth_by_noise_alone(captured, oracle, tmp_path):
+    out = run_relight(captured, oracle, tmp_path / "relit", scales={"none": 1.0, "global": 0.9})
+    for light in ("studio", "uniform"):
+        truth = captured / f"truth/relit/{light}/003.exr"
+        assert abs(z_score(out / f"none/{light}/003.exr", truth)) < 4
+        # A tenth less albedo is no noise, and is seen in the diffuse layer alone.
+        assert z_score(out / f"global/{light}/003.exr", truth) < -8
+        diffuse, specular = (
+            rgb(out / f"global/{light}/003.exr", layer).sum() / rgb(truth, layer).sum() for layer in ("diffuse", "specular")
+        )
+        assert 0.88 < diffuse < 0.94 and 0.85 < specular < 1.15
+    document = json.loads((out / "relit.json").read_text())
+    assert document["scales"] == {"none": 1.0, "global": 0.9} and document["samples"] == 16
+
+
+def test_an_interrupted_relighting_goes_on_to_the_same_bytes(captured, oracle, tmp_path):
+    def kill(done, total, what):
+        if done == 2:
+            raise Killed
+
+    scales = {"none": 1.0, "global": 0.9}
+    with pytest.raises(Killed):
+        run_relight(captured, oracle, tmp_path / "a", kill, scales=scales)
+    resumed = run_relight(captured, oracle, tmp_path / "a", scales=scales)
+    straight = run_relight(captured, oracle, tmp_path / "b", scales=scales)
+    assert files(resumed) == files(straight)
+
+
+def test_maps_of_any_size_may_lack_all_but_albedo(captured, tmp_path):
+    maps = tmp_path / "maps"
+    maps.mkdir()
+    with pytest.raises(MapsError, match="diffuse_albedo.exr is missing"):
+        run_relight(captured, maps, tmp_path / "relit")
+    write_exr(maps / "diffuse_albedo.exr", {"": np.full((7, 7, 3), 0.4, np.float32)})
+    out = run_relight(captured, maps, tmp_path / "relit")
+    mask = read_gray(captured / "masks/003.png") > 0
+    picture = out / "none/uniform/003.exr"
+    assert rgb(picture)[mask].mean() > 0.1
+    # Only the eye, whose first surface is not the chart, keeps a highlight.
+    inner = mask.copy()
+    inner[1:-1, 1:-1] &= mask[2:, 1:-1] & mask[:-2, 1:-1] & mask[1:-1, 2:] & mask[1:-1, :-2]
+    assert np.quantile(rgb(picture, "specular")[inner], 0.9) < 1e-6
+
+
+def test_maps_that_cannot_be_rendered_are_named(captured, oracle, tmp_path):
+    maps = tmp_path / "maps"
+    maps.mkdir()
+    albedo = np.full((8, 8, 3), 0.4, np.float32)
+    write_exr(maps / "diffuse_albedo.exr", {"": albedo[:, :6]})
+    with pytest.raises(MapsError, match="is 6 x 8 texels; write a square map"):
+        run_relight(captured, maps, tmp_path / "relit")
+    write_exr(maps / "diffuse_albedo.exr", {"": albedo})
+    write_exr(maps / "specular_albedo.exr", {"": albedo})
+    with pytest.raises(MapsError, match="specular_albedo.exr: channel Y is missing"):
+        run_relight(captured, maps, tmp_path / "relit")
+    write_exr(maps / "specular_albedo.exr", {"Y": albedo[..., 0] - 0.5})
+    said = []
+    run_relight(captured, maps, tmp_path / "relit", warn=said.append)
+    assert said == [f"{maps}/specular_albedo.exr: 64 values are negative and count as 0"]
+    import mitsuba as mi
+
+    albedo[2, 3, 1] = np.nan
+    mi.Bitmap(albedo).write(str(maps / "diffuse_albedo.exr"))
+    with pytest.raises(PictureError, match="nan in channel G at column 3, row 2"):
+        run_relight(captured, maps, tmp_path / "relit")
+    (maps / "diffuse_albedo.exr").write_bytes(b"text")
+    with pytest.raises(PictureError, match="cannot be read"):
+        run_relight(captured, maps, tmp_path / "relit")
+    assert not (tmp_path / "relit2").exists()
+
+
+def test_folders_that_are_no_synthetic_capture(captured, tmp_path):
+    with pytest.raises(CaptureError, match="scene.toml: is missing"):
+        captured_scene(tmp_path)
+    (tmp_path / "truth").mkdir()
+    (tmp_path / "truth/scene.toml").write_text(scene_text(scene()))
+    with pytest.raises(CaptureError, match="names no variant"):
+        captured_scene(tmp_path)
+
+
+def test_a_place_that_cannot_be_written_is_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(StorageError, match="cannot be written"):
+        capture.synthesise(scene(), tmp_path / "file" / "capture", CHOICE, no_progress)
+
+
+def stage(*arguments, **options):
+    command = [sys.executable, "-m", "unshade.stage", *map(str, arguments)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+
+def events(output):
+    return [json.loads(line) for line in output.splitlines()]
+
+
+def test_the_child_process_says_what_is_wrong(tmp_path):
+    (tmp_path / "scene.toml").write_text(scene_text(scene()).replace("samples", "sampels"))
+    child = stage("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture")
+    (error,) = events(child.communicate()[0])
+    assert child.returncode == 2
+    assert error["event"] == "error" and error["kind"] == "SceneError"
+    assert "unknown key 'sampels' in [render]" in error["message"] and "'samples'" in error["message"]
+    assert os.listdir(tmp_path) == ["scene.toml"]
+
+
+def test_the_child_process_examines_the_machine():
+    child = stage("doctor")
+    (result,) = events(child.communicate()[0])
+    checks = {check["name"]: check for check in result["checks"]}
+    assert child.returncode == 0 and checks["llvm"]["ok"] and checks["variant"]["found"] == "llvm_ad_rgb"
+    assert all("mend" in check for check in checks.values() if not check["ok"])
+
+
+def test_the_child_process_leaves_with_its_parent_and_goes_on_later(tmp_path):
+    """The whole way with the painted head: killed in the middle, then finished."""
+    (tmp_path / "scene.toml").write_text(scene_text(scene(width=16, height=16, samples=4)))
+    arguments = ("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture", "--watch-stdin")
+    child = stage(*arguments, stdin=subprocess.PIPE)
+    for line in child.stdout:
+        if json.loads(line)["what"] == "view 001":
+            break
+    child.communicate()
+    assert child.returncode == 3
+    assert (tmp_path / "capture.partial/images/000.exr").exists() and not (tmp_path / "capture").exists()
+    child = stage(*arguments, stdin=subprocess.PIPE)
+    output = wait(child)
+    said = events(output)
+    assert child.returncode == 0 and said[-1]["event"] == "result" and said[-1]["variant"] == "llvm_ad_rgb"
+    assert (tmp_path / "capture/truth/scene.toml").exists() and not (tmp_path / "capture.partial").exists()
+
+
+def wait(child):
+    """Reads a child whose standard input stays open."""
+    output = child.stdout.read()
+    child.wait()
+    child.stdin.close()
+    return output
