@@ -56,7 +56,7 @@ def scalp_cover(points: np.ndarray, style: HairStyle, seed: int) -> np.ndarray:
     temple = np.exp(-0.5 * ((angle - 34) / 14) ** 2)
     line = np.interp(angle, _HAIRLINE_ANGLE, _HAIRLINE) + style.recession * (0.4 + 0.9 * temple) * (angle < 75)
     rag = 2.0 * octaves(points, 16.0, 2, 0.0, stream(seed, "hairline"))
-    thin = 0.06 + 0.03 * octaves(points, 12.0, 2, 0.0, stream(seed, "thin hair"))
+    thin = 0.03 + 0.012 * octaves(points, 12.0, 2, 0.0, stream(seed, "thin hair"))
     cover = smoothstep(-5.0, 6.0, y - line + rag) * np.clip(1 - thin, 0, 1)
     # Ears stand in front of hair that grows behind them.
     ear = smoothstep(70.0, 75.0, np.abs(x)) * smoothstep(30.0, 22.0, y)
