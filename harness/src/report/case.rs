@@ -10,6 +10,7 @@ use super::plates::{self, Input, Method, Plate, Studio};
 use super::run::{self, Case, Frames};
 use super::table::{self, Column, Table};
 use super::{ReportError, curve};
+use crate::score::RegionSize;
 
 /// A case as the templates see it.
 #[derive(Serialize)]
@@ -60,28 +61,22 @@ struct Hashes {
 }
 
 fn regions(columns: &[Column]) -> Vec<Region> {
-    let sizes = |column: &Column| column.scores.map_or(&[][..], |scores| &scores.regions).to_vec();
-    let all: Vec<_> = columns.iter().map(sizes).collect();
+    let sizes = |column: &Column| column.scores.map_or_else(Vec::new, |s| s.regions.clone());
+    let all: Vec<Vec<RegionSize>> = columns.iter().map(sizes).collect();
     let percent = |share: Option<f64>| {
-        share.map_or(table::EMPTY.to_owned(), |s| format!("{:.1} %", s * 100.0))
+        share.map_or(table::EMPTY.to_owned(), |share| format!("{:.1} %", share * 100.0))
     };
+    let solved = |sizes: &Vec<RegionSize>, region: &str| {
+        percent(sizes.iter().find(|size| size.region == region).and_then(|size| size.solved))
+    };
+    // A method without views has fewer regions than one with them.
     let known = all.iter().max_by_key(|sizes| sizes.len()).into_iter().flatten();
     known
         .map(|size| Region {
             name: size.region.clone(),
             pixels: size.pixels,
             share: percent(Some(size.share)),
-            solved: all
-                .iter()
-                .map(|sizes| {
-                    percent(
-                        sizes
-                            .iter()
-                            .find(|other| other.region == size.region)
-                            .and_then(|s| s.solved),
-                    )
-                })
-                .collect(),
+            solved: all.iter().map(|sizes| solved(sizes, &size.region)).collect(),
         })
         .collect()
 }
@@ -96,14 +91,13 @@ impl CaseView {
     ) -> Result<Self, ReportError> {
         let capture = run.join(&case.capture);
         let frames = Frames::read(&capture)?;
-        let entrant = |column: &Column| case.solvers.iter().find(|solver| solver.id == column.id);
-        let below = |path: Option<&PathBuf>| path.map(|path| run.join(path));
+        let below = |path: &Option<PathBuf>| path.as_ref().map(|path| run.join(path));
         let methods: Vec<Method> = columns
             .iter()
             .map(|column| Method {
                 column,
-                maps: below(entrant(column).and_then(|solver| solver.maps.as_ref())),
-                relit: below(entrant(column).and_then(|solver| solver.relit.as_ref())),
+                maps: below(&column.entrant.maps),
+                relit: below(&column.entrant.relit),
             })
             .collect();
         let anchor = plates::file_name(&case.id);
@@ -118,13 +112,15 @@ impl CaseView {
         let mut hashes = Vec::new();
         for method in &methods {
             if let Some(maps) = &method.maps {
-                solves.extend(Solve::read(method.column.title, &maps.join("solve.json"))?);
+                solves
+                    .extend(Solve::read(method.column.entrant.title(), &maps.join("solve.json"))?);
             }
-            let scores = entrant(method.column).and_then(|solver| solver.scores.as_ref());
-            let data = match below(scores) {
+            let data = match below(&method.column.entrant.scores) {
                 Some(path) if path.exists() => {
-                    let target =
-                        format!("data/{anchor}/{}.json", plates::file_name(method.column.id));
+                    let target = format!(
+                        "data/{anchor}/{}.json",
+                        plates::file_name(&method.column.entrant.id)
+                    );
                     copy(&path, &root.join(&target))?;
                     Some(target)
                 }
@@ -165,7 +161,7 @@ impl Solve {
         let stages = curve::stages(&solve);
         let mut facts = Vec::new();
         if let Value::Object(entries) = &solve {
-            for (key, value) in entries.iter().filter(|(key, _)| !curve::is_history(key)) {
+            for (key, value) in entries.iter().filter(|(key, _)| key.as_str() != curve::HISTORY) {
                 flatten(key, value, &mut facts);
             }
         }
@@ -199,7 +195,7 @@ impl Hashes {
             inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
         }
         Self {
-            title: column.title.to_owned(),
+            title: column.entrant.title().to_owned(),
             data,
             inputs,
             factor: column.factor().map(|factor| format!("{factor:.4}")),

@@ -12,30 +12,23 @@ pub(super) struct Stage {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The stages of a `solve.json`; empty for a solver that keeps no history.
-pub(super) fn stages(solve: &Value) -> Vec<Stage> {
-    let history = solve.as_object().and_then(|solve| solve.iter().find(|(key, _)| is_history(key)));
-    let Some((_, Value::Array(history))) = history else { return Vec::new() };
-    history.iter().filter_map(stage).filter(|stage| stage.points.len() > 1).collect()
-}
+/// The entry of `solve.json` that holds the losses.
+pub(super) const HISTORY: &str = "stages";
 
-/// Whether an entry of `solve.json` holds the losses.
-pub(super) fn is_history(key: &str) -> bool {
-    matches!(key, "loss_history" | "history" | "loss")
+/// The stages of a `solve.json`; empty for a method that keeps no history.
+pub(super) fn stages(solve: &Value) -> Vec<Stage> {
+    let history = solve.get(HISTORY).and_then(Value::as_array);
+    let stages = history.into_iter().flatten().filter_map(stage);
+    stages.filter(|stage| stage.points.len() > 1).collect()
 }
 
 fn stage(value: &Value) -> Option<Stage> {
-    let name = ["stage", "name"].iter().find_map(|key| value.get(key)?.as_str())?.to_owned();
-    let losses = ["losses", "loss"].iter().find_map(|key| value.get(key)?.as_array())?;
-    let iterations = ["iterations", "iteration"].iter().find_map(|key| value.get(key)?.as_array());
-    let points = losses.iter().enumerate().filter_map(|(index, loss)| {
-        let iteration = match iterations {
-            Some(iterations) => iterations.get(index)?.as_f64()?,
-            None => index as f64,
-        };
-        Some((iteration, loss.as_f64()?)).filter(|(_, loss)| *loss > 0.0 && loss.is_finite())
-    });
-    Some(Stage { name, points: points.collect() })
+    let losses = value.get("loss")?.as_array()?.iter().map(Value::as_f64).enumerate();
+    let points = losses.filter_map(|(iteration, loss)| Some((iteration as f64, loss?)));
+    Some(Stage {
+        name: value.get("name")?.as_str()?.to_owned(),
+        points: points.filter(|(_, loss)| *loss > 0.0 && loss.is_finite()).collect(),
+    })
 }
 
 const WIDTH: f64 = 760.0;
@@ -143,9 +136,9 @@ mod tests {
 
     #[test]
     fn stages_follow_each_other_and_lower_losses_lie_lower() {
-        let solve = json!({"loss_history": [
-            {"stage": "warm-up", "losses": [1.0, 0.1]},
-            {"stage": "<b>", "losses": [0.01, 0.001]},
+        let solve = json!({"stages": [
+            {"name": "warm-up", "loss": [1.0, 0.1]},
+            {"name": "<b>", "loss": [0.01, 0.001]},
         ]});
         let svg = svg(&stages(&solve)).unwrap();
         let lines: Vec<Vec<f64>> = svg
@@ -167,7 +160,7 @@ mod tests {
     #[test]
     fn a_solver_without_a_history_has_no_curve() {
         assert!(svg(&stages(&json!({"seed": 1}))).is_none());
-        let broken = json!({"loss_history": [{"stage": "s", "losses": [-1.0, null]}]});
+        let broken = json!({"stages": [{"name": "s", "loss": [-1.0, null]}]});
         assert!(svg(&stages(&broken)).is_none());
     }
 }

@@ -207,14 +207,16 @@ pub(super) fn write(run: &Path) {
                 let losses = |from: f64, count: usize| -> Vec<f64> {
                     (0..count).map(|i| from / (1.0 + i as f64 * 0.02)).collect()
                 };
+                let seconds = json!({"seconds": {"warm-up": 2.0, "fine-tuning": 1.0}});
+                save_json(&maps.join("timing.json"), &seconds);
                 save_json(
                     &maps.join("solve.json"),
                     &json!({
                         "config": {"name": "fast", "warm_up": {"iterations": 400}}, "seed": 7,
                         "device": "cpu",
-                        "loss_history": [
-                            {"stage": "warm-up", "losses": losses(0.3, 400)},
-                            {"stage": "fine-tuning", "losses": losses(0.05, 100)},
+                        "stages": [
+                            {"name": "warm-up", "loss": losses(0.3, 400)},
+                            {"name": "fine-tuning", "loss": losses(0.05, 100)},
                         ],
                     }),
                 );

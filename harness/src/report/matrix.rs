@@ -109,8 +109,8 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         .columns
         .iter()
         .map(|column| MatrixRow {
-            title: column.title.to_owned(),
-            kind: column.kind.name(),
+            title: column.entrant.title().to_owned(),
+            kind: column.entrant.kind.name(),
             cells: Vec::new(),
         })
         .collect();
@@ -122,7 +122,7 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         let Some(strip) = plate.and_then(|plate| plate.strips.first()) else { continue };
         panels.push(Panel { title, truth: strip.truth.clone() });
         for ((row, column), entry) in rows.iter_mut().zip(case.columns).zip(&strip.entries) {
-            let pictured = column.kind == Kind::Solver;
+            let pictured = column.entrant.kind == Kind::Solver;
             row.cells.push(MatrixCell {
                 picture: entry.picture.clone().filter(|_| pictured),
                 error: entry.errors.first().cloned().flatten().filter(|_| pictured),

@@ -1,7 +1,7 @@
 //! The words of the table: what the ids of a row mean.
 
-use super::scores::Row;
 use crate::metrics::{Metric, Quantity};
+use crate::score::Row;
 
 /// What is compared, in the order of the table.
 pub(super) const SUBJECTS: [(&str, &str); 13] = [

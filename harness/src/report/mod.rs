@@ -13,7 +13,6 @@ mod metric;
 mod page;
 mod plates;
 mod run;
-mod scores;
 mod summary;
 mod table;
 mod tone;
@@ -31,7 +30,9 @@ use std::path::{Path, PathBuf};
 use solver::atomic::Folder;
 use solver::picture::PictureError;
 
-use run::{RunFile, Timing};
+use run::RunFile;
+
+use crate::score::ScoreError;
 
 /// What can keep a report from being written; each message is one line.
 #[derive(Debug, thiserror::Error)]
@@ -60,6 +61,9 @@ pub enum ReportError {
         /// The format it states.
         found: u32,
     },
+    /// The scores of a method cannot be read.
+    #[error(transparent)]
+    Scores(#[from] ScoreError),
     /// A picture of the run is broken, or one of the report cannot be written.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -114,9 +118,8 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
     if manifest.format != FORMAT {
         return Err(ReportError::Format { path, found: manifest.format });
     }
-    let timing: Timing = run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
     let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
-    let pictures = fill(run, &manifest, timing, folder.path()).inspect_err(|_| {
+    let pictures = fill(run, &manifest, folder.path()).inspect_err(|_| {
         // The report's own fault is what matters, not that its remains could not be removed.
         let _ = fs::remove_dir_all(folder.path());
     })?;
@@ -125,8 +128,8 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
 }
 
 /// Writes everything below `root` and returns the number of pictures.
-fn fill(run: &Path, manifest: &RunFile, timing: Timing, root: &Path) -> Result<usize, ReportError> {
-    let page = page::Page::make(run, manifest, timing, root)?;
+fn fill(run: &Path, manifest: &RunFile, root: &Path) -> Result<usize, ReportError> {
+    let page = page::Page::make(run, manifest, root)?;
     let index = root.join("index.html");
     fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;
     Ok(page.pictures())

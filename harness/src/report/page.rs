@@ -10,12 +10,12 @@ use serde::Serialize;
 
 use super::case::{CaseView, plain};
 use super::matrix::{self, Matrix};
-use super::run::{self, Case, RunFile, Timing};
-use super::scores::Scores;
+use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
 use super::{MARK, ReportError, metric, tone};
 use crate::metrics::{METRICS, Metric};
+use crate::score::Scores;
 
 /// The page as the templates see it.
 #[derive(Serialize)]
@@ -61,16 +61,13 @@ struct TimeRow {
     /// Share of the longest stage, per cent.
     share: f64,
     cached: bool,
+    /// A part of the stage above.
+    part: bool,
 }
 
 impl Page {
     /// Reads the run, and writes the pictures and the scores below `root`.
-    pub fn make(
-        run: &Path,
-        manifest: &RunFile,
-        timing: Timing,
-        root: &Path,
-    ) -> Result<Self, ReportError> {
+    pub fn make(run: &Path, manifest: &RunFile, root: &Path) -> Result<Self, ReportError> {
         let mut page = Self {
             title: manifest.title.clone().unwrap_or_else(|| manifest.suite.clone()),
             suite: manifest.suite.clone(),
@@ -83,7 +80,7 @@ impl Page {
             protocols: Vec::new(),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
-            times: Times::of(timing),
+            times: Times::read(run, manifest)?,
             pictures: 0,
         };
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
@@ -151,29 +148,19 @@ impl Page {
 }
 
 fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
-    case.solvers
-        .iter()
-        .map(|solver| match &solver.scores {
-            Some(path) => run::read_json_if_present(&run.join(path)),
-            None => Ok(None),
-        })
-        .collect()
+    let read = |entrant: &Entrant| match &entrant.scores {
+        Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
+        _ => Ok(None),
+    };
+    case.solvers.iter().map(read).collect()
 }
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
 fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
-    let mut columns: Vec<Column> = case
-        .solvers
-        .iter()
-        .zip(scores)
-        .map(|(solver, scores)| Column {
-            id: &solver.id,
-            title: solver.title(),
-            kind: solver.kind,
-            scores: scores.as_ref(),
-        })
-        .collect();
-    columns.sort_by_key(|column| column.kind);
+    let pairs = case.solvers.iter().zip(scores);
+    let mut columns: Vec<Column> =
+        pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
+    columns.sort_by_key(|column| column.entrant.kind);
     columns
 }
 
@@ -192,20 +179,33 @@ impl Definition {
 }
 
 impl Times {
-    fn of(timing: Timing) -> Self {
-        let longest = timing.stages.iter().map(|stage| stage.seconds).fold(0.0, f64::max);
+    /// The stages of the run, each solve followed by its own stages.
+    fn read(run: &Path, manifest: &RunFile) -> Result<Self, ReportError> {
+        let path = run.join("timing.json");
+        let timing: Timing = run::read_json_if_present(&path)?.unwrap_or_default();
         let total: f64 = timing.stages.iter().map(|stage| stage.seconds).sum();
-        let stages = timing.stages.into_iter().map(|stage| TimeRow {
-            seconds: format!("{:.1}", stage.seconds),
-            share: if longest > 0.0 {
-                (stage.seconds / longest * 1000.0).round() / 10.0
-            } else {
-                0.0
-            },
-            cached: stage.cached,
-            id: stage.id,
-        });
-        Self { stages: stages.collect(), total: format!("{total:.1}") }
+        let longest = timing.stages.iter().map(|stage| stage.seconds).fold(0.0, f64::max);
+        let row = |id: String, seconds: f64, cached: bool, part: bool| TimeRow {
+            id,
+            seconds: format!("{seconds:.1}"),
+            share: if longest > 0.0 { (seconds / longest * 1000.0).round() / 10.0 } else { 0.0 },
+            cached,
+            part,
+        };
+        let mut stages = Vec::new();
+        for stage in timing.stages {
+            let solvers = manifest.cases.iter().flat_map(|case| &case.solvers);
+            let maps: Vec<_> = solvers.filter_map(|solver| solver.maps.as_ref()).collect();
+            let solve = maps.into_iter().find(|maps| **maps == Path::new(&stage.id));
+            stages.push(row(stage.id, stage.seconds, stage.cached, false));
+            let Some(maps) = solve else { continue };
+            let path = run.join(maps).join("timing.json");
+            let parts = run::read_json_if_present::<SolverTiming>(&path)?;
+            for (name, seconds) in parts.into_iter().flat_map(|parts| parts.seconds) {
+                stages.extend(seconds.as_f64().map(|seconds| row(name, seconds, false, true)));
+            }
+        }
+        Ok(Self { stages, total: format!("{total:.1}") })
     }
 }
 

@@ -10,10 +10,10 @@ use solver::picture::{self, GrayImage, Picture};
 use super::ReportError;
 use super::difference::{self, Measure};
 use super::run::{Frame, Frames};
-use super::scores::Row;
 use super::table::{self, Column};
 use super::tone::{self, Raster};
 use crate::metrics::Metric;
+use crate::score::Row;
 
 /// A training view.
 #[derive(Debug, Serialize)]
@@ -197,7 +197,7 @@ impl Studio<'_> {
         made: &Picture,
         caption: String,
     ) -> Result<Entry, ReportError> {
-        let name = format!("{}-{}", method.column.id, subject.name);
+        let name = format!("{}-{}", method.column.entrant.id, subject.name);
         let mut factors = vec![Some(1.0)];
         if subject.scaled {
             factors.push(method.column.factor());

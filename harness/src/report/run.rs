@@ -87,6 +87,12 @@ pub(super) struct StageTime {
     pub cached: bool,
 }
 
+/// `maps/timing.json`: what the stages of a solver took, by their names, in their order.
+#[derive(Debug, Deserialize)]
+pub(super) struct SolverTiming {
+    pub seconds: serde_json::Map<String, Value>,
+}
+
 /// The part of `capture/transforms.json` that the pictures need.
 #[derive(Debug)]
 pub(super) struct Frames {

@@ -58,8 +58,8 @@ const KEY_FIGURES: [KeyFigure; 5] = [
 /// The key figures of one case.
 pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
-        title: column.title.to_owned(),
-        kind: column.kind.name(),
+        title: column.entrant.title().to_owned(),
+        kind: column.entrant.kind.name(),
         cells: KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
     });
     SummaryCase { id: case.id.clone(), anchor: plates::file_name(&case.id), rows: rows.collect() }

@@ -6,18 +6,16 @@ use std::collections::HashSet;
 use serde::Serialize;
 
 use super::metric;
-use super::run::Kind;
-use super::scores::{Row, Scores};
+use super::run::{Entrant, Kind};
 use crate::metrics::{Direction, Metric};
+use crate::score::{Row, Scores};
 
 /// What stands in a cell without a value.
 pub(super) const EMPTY: &str = "–";
 
 /// One method in one case.
 pub(super) struct Column<'a> {
-    pub id: &'a str,
-    pub title: &'a str,
-    pub kind: Kind,
+    pub entrant: &'a Entrant,
     pub scores: Option<&'a Scores>,
 }
 
@@ -128,7 +126,10 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
     }
     let columns = columns
         .iter()
-        .map(|column| Heading { title: column.title.to_owned(), kind: column.kind.name() })
+        .map(|column| Heading {
+            title: column.entrant.title().to_owned(),
+            kind: column.entrant.kind.name(),
+        })
         .collect();
     Table { columns, groups }
 }
@@ -148,7 +149,7 @@ fn line(key: &Row, columns: &[Column]) -> Line {
     let contenders: Vec<f64> = columns
         .iter()
         .zip(&rows)
-        .filter(|(column, _)| column.kind != Kind::Oracle)
+        .filter(|(column, _)| column.entrant.kind != Kind::Oracle)
         .filter_map(|(_, row)| value(row))
         .chain(trivial)
         .collect();
@@ -159,12 +160,13 @@ fn line(key: &Row, columns: &[Column]) -> Line {
         .map(|(column, row)| Cell {
             value: shown(value(row), decimals),
             interval: interval(row.and_then(|row| row.ci95), decimals),
-            best: column.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
-            kind: column.kind.name(),
+            best: column.entrant.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
+            kind: column.entrant.kind.name(),
         })
         .collect();
     // The true maps' pictures, where there are some: their floor depends on no method.
-    let oracle = columns.iter().zip(&rows).filter(|(column, _)| column.kind == Kind::Oracle);
+    let oracle =
+        columns.iter().zip(&rows).filter(|(column, _)| column.entrant.kind == Kind::Oracle);
     let floor = oracle.chain(columns.iter().zip(&rows)).find_map(|(_, row)| (*row)?.floor);
     Line {
         id,

@@ -159,11 +159,13 @@ fn equal_runs_differ_only_in_their_times() {
     assert_eq!(first, files(&root.join("report")));
     let times = r#"{"stages": [{"id": "capture/demo-flash", "seconds": 99.0, "cached": true}]}"#;
     fs::write(root.join("run/timing.json"), times).unwrap();
+    fs::remove_file(root.join("run/maps/demo-flash/unshade/timing.json")).unwrap();
     let slower = again(root);
     let cut = |html: &str| {
         let (before, rest) = html.split_once("<section id=\"times\">").unwrap();
         format!("{before}{}", rest.split_once("</section>").unwrap().1)
     };
+    assert!(made.html.contains("fine-tuning</th><td class=\"number\">1.0"), "a solver's stages");
     assert_ne!(made.html, slower);
     assert_eq!(cut(&made.html), cut(&slower));
 }
@@ -205,7 +207,7 @@ fn broken_runs_are_refused_in_one_line_and_leave_the_earlier_report() {
     refused("run.json", None, &["cannot be read"]);
     refused("run.json", Some(b"{"), &["is not a valid file of a run", "run the suite again"]);
     refused("run.json", Some(br#"{"format":9,"suite":"s","cases":[]}"#), &["format 9", "reads 1"]);
-    refused("scores/demo-flash/unshade.json", Some(b"[1"), &["is not a valid file of a run"]);
+    refused("scores/demo-flash/unshade.json", Some(b"[1"), &["cannot be understood"]);
     refused("captures/demo-flash/transforms.json", None, &["cannot be read"]);
     refused("captures/demo-flash/images/000.exr", Some(b"no picture"), &["cannot be read"]);
 }
