@@ -1,7 +1,8 @@
 //! The report: a run folder as one folder of pages that opens from disk, without a network.
 //!
 //! [`write`] reads `run.json`, the scores, maps and pictures below a run and leaves
-//! `index.html` with its pictures and the scores it was made from. Equal runs give equal
+//! `index.html` with its pictures, the scores it was made from, and the baseline that later
+//! runs are compared with. Equal runs give equal
 //! bytes, except in the section with the wall times.
 
 mod case;
@@ -30,8 +31,10 @@ use std::path::{Path, PathBuf};
 use solver::atomic::Folder;
 use solver::picture::PictureError;
 
+use page::Page;
 use run::RunFile;
 
+use crate::compare::{Baseline, CompareError};
 use crate::score::ScoreError;
 
 /// What can keep a report from being written; each message is one line.
@@ -64,6 +67,9 @@ pub enum ReportError {
     /// The scores of a method cannot be read.
     #[error(transparent)]
     Scores(#[from] ScoreError),
+    /// The baseline cannot be made.
+    #[error(transparent)]
+    Baseline(#[from] CompareError),
     /// A picture of the run is broken, or one of the report cannot be written.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -102,10 +108,15 @@ pub struct ReportSummary {
     pub cases: usize,
     /// Pictures in the folder.
     pub pictures: usize,
+    /// What a later run is compared with; absent while a method has no scores.
+    pub baseline: Option<PathBuf>,
 }
 
 /// The version of `run.json` that is read.
 const FORMAT: u32 = 1;
+
+/// The file that `unshade compare` reads.
+const BASELINE: &str = "baseline.json";
 
 /// Stands in every page, and tells a folder that may be replaced from one that may not.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
@@ -119,20 +130,28 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
         return Err(ReportError::Format { path, found: manifest.format });
     }
     let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
-    let pictures = fill(run, &manifest, folder.path()).inspect_err(|_| {
+    let page = fill(run, &manifest, folder.path()).inspect_err(|_| {
         // The report's own fault is what matters, not that its remains could not be removed.
         let _ = fs::remove_dir_all(folder.path());
     })?;
     folder.commit().map_err(|error| ReportError::write(out, error))?;
-    Ok(ReportSummary { index: out.join("index.html"), cases: manifest.cases.len(), pictures })
+    Ok(ReportSummary {
+        index: out.join("index.html"),
+        cases: manifest.cases.len(),
+        pictures: page.pictures(),
+        baseline: page.has_every_score().then(|| out.join(BASELINE)),
+    })
 }
 
-/// Writes everything below `root` and returns the number of pictures.
-fn fill(run: &Path, manifest: &RunFile, root: &Path) -> Result<usize, ReportError> {
-    let page = page::Page::make(run, manifest, root)?;
+/// Writes everything below `root`.
+fn fill(run: &Path, manifest: &RunFile, root: &Path) -> Result<Page, ReportError> {
+    let page = Page::make(run, manifest, root)?;
+    if page.has_every_score() {
+        Baseline::of_run(run)?.write(&root.join(BASELINE))?;
+    }
     let index = root.join("index.html");
     fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;
-    Ok(page.pictures())
+    Ok(page)
 }
 
 /// Refuses to replace a folder that is neither empty nor an earlier report.

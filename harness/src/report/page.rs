@@ -33,6 +33,7 @@ pub(super) struct Page {
     versions: Vec<(String, String)>,
     suite_toml: Option<String>,
     times: Times,
+    has_every_score: bool,
     #[serde(skip)]
     pictures: usize,
 }
@@ -81,6 +82,7 @@ impl Page {
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
             times: Times::read(run, manifest)?,
+            has_every_score: false,
             pictures: 0,
         };
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
@@ -115,6 +117,7 @@ impl Page {
                     .push((scores.protocol.id.clone(), scores.protocol.statements.clone()));
             }
         }
+        page.has_every_score = scores.iter().flatten().all(Option::is_some);
         page.pictures = count_pictures(&root.join("pictures"))?;
         Ok(page)
     }
@@ -122,6 +125,11 @@ impl Page {
     /// How many pictures the page refers to.
     pub fn pictures(&self) -> usize {
         self.pictures
+    }
+
+    /// Whether every method was scored in every case.
+    pub fn has_every_score(&self) -> bool {
+        self.has_every_score
     }
 
     /// The page's text.

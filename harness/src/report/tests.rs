@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use solver::picture::{self, Picture};
 
 use super::{fake, write};
+use crate::compare::Baseline;
 
 struct Made {
     folder: tempfile::TempDir,
@@ -182,6 +183,17 @@ fn a_method_that_made_nothing_leaves_its_column_empty() {
     let row =
         between(&html, "<tr title=\"diffuse_albedo/psnr_srgb@coverage-e5:global\">", "</tr>")[0];
     assert_eq!(between(row, "<td class=\"solver\">", "</td>"), ["–"]);
+    let baseline = made.folder.path().join("report/baseline.json");
+    assert!(!baseline.exists(), "a later run would pass for want of scores");
+}
+
+#[test]
+fn the_baseline_holds_the_scores_of_every_method() {
+    let baseline = Baseline::read(&shared().folder.path().join("report/baseline.json")).unwrap();
+    let value = |id: &str| baseline.rows[id].value.unwrap();
+    let row = "diffuse_albedo/psnr_srgb@coverage-e5:global";
+    assert!((value(&format!("demo-flash/unshade/{row}")) - 32.04).abs() < 0.01);
+    assert!((value(&format!("demo-uniform/mean_texture/{row}")) - 20.0).abs() < 0.01);
 }
 
 #[test]
