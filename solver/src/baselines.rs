@@ -20,7 +20,8 @@ pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError
     let atlas = Atlas::new(&capture.mesh, size);
     let mean = |seen: &[(usize, Observation)]| {
         let total: f32 = seen.iter().map(|(_, seen)| seen.cosine).sum();
-        let colour = |(view, seen): &(usize, Observation)| seen.cosine * projections[*view].colour(seen);
+        let colour =
+            |(view, seen): &(usize, Observation)| seen.cosine * projections[*view].colour(seen);
         Some(seen.iter().map(colour).sum::<Vec3>() / total)
     };
     let colours: Vec<Option<Vec3>> = per_texel(&atlas, &projections, mean);
@@ -35,8 +36,7 @@ pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError
 /// [`mean_texture`].
 pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
     let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
-    let albedo =
-        semantic::initial_diffuse_albedo(&capture.mesh, &capture.train, &gbuffers, size);
+    let albedo = semantic::initial_diffuse_albedo(&capture.mesh, &capture.train, &gbuffers, size);
     let atlas = Atlas::new(&capture.mesh, size);
     let projections = Projection::of_views(&capture.train, &gbuffers);
     let seen = per_texel(&atlas, &projections, |_: &[(usize, Observation)]| true);

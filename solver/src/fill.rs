@@ -109,7 +109,10 @@ mod tests {
             let found = nearest[texel] as usize;
             let best = (0..known.len()).filter(|other| known[*other]);
             assert!(known[found]);
-            assert_eq!(Some(distance(texel, found)), best.map(|other| distance(texel, other)).min());
+            assert_eq!(
+                Some(distance(texel, found)),
+                best.map(|other| distance(texel, other)).min()
+            );
         }
         let mut picture = Picture::new(width, height, 2);
         for (texel, values) in picture.data.chunks_mut(2).enumerate().filter(|(t, _)| known[*t]) {

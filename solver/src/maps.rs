@@ -90,7 +90,9 @@ fn check_side(
     if (width, height) == (expected, expected) {
         return Ok(());
     }
-    let reason = format!("is {width}x{height}, expected {expected}x{expected}; maps are square and of one size");
+    let reason = format!(
+        "is {width}x{height}, expected {expected}x{expected}; maps are square and of one size"
+    );
     Err(MapsError::Size { path: path.to_path_buf(), reason })
 }
 

@@ -66,7 +66,11 @@ impl<'a> Projection<'a> {
         for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let (column, row) = (left + column, top + row);
             let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
-            if column < 0.0 || row < 0.0 || column as usize >= image.width || row as usize >= image.height {
+            if column < 0.0
+                || row < 0.0
+                || column as usize >= image.width
+                || row as usize >= image.height
+            {
                 continue;
             }
             let (column, row) = (column as usize, row as usize);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat3, Mat4, Vec2, Vec3};
 
 use crate::capture::{Camera, Mesh, View};
 use crate::gbuffer::rasterise;
@@ -23,8 +23,12 @@ pub fn square() -> Mesh {
 /// middle of the unit square, in equidistant projection. `rings` rings of 4 * `rings` points.
 pub fn dome(rings: usize) -> Mesh {
     let around = 4 * rings;
-    let mut mesh =
-        Mesh { positions: vec![Vec3::Z], normals: vec![], uvs: vec![Vec2::splat(0.5)], triangles: vec![] };
+    let mut mesh = Mesh {
+        positions: vec![Vec3::Z],
+        normals: vec![],
+        uvs: vec![Vec2::splat(0.5)],
+        triangles: vec![],
+    };
     for ring in 1..=rings {
         let share = ring as f32 / rings as f32;
         let polar = share * 0.2_f32.acos();
@@ -56,13 +60,16 @@ pub fn dome(rings: usize) -> Mesh {
 /// A square camera that looks at the origin from `position`, its field of view two units wide
 /// there at least.
 pub fn camera(name: &str, position: Vec3, size: usize) -> Camera {
+    let back = position.normalize();
+    let right = Vec3::Y.cross(back).normalize();
+    let axes = Mat3::from_cols(right, back.cross(right), back);
     Camera {
         name: name.to_owned(),
         width: size,
         height: size,
         focal: [size as f32 * position.length() / 2.5; 2],
         centre: [size as f32 / 2.0; 2],
-        camera_to_world: Mat4::look_at_rh(position, Vec3::ZERO, Vec3::Y).inverse(),
+        camera_to_world: Mat4::from_translation(position) * Mat4::from_mat3(axes),
     }
 }
 

@@ -13,19 +13,36 @@ fn capture(shade: impl Fn(Vec3) -> (Vec3, u8)) -> Capture {
     Capture::open(folder.path()).unwrap()
 }
 
+/// Between view and normal of the unit sphere, per training view.
+fn cosines(capture: &Capture, point: Vec3) -> impl Iterator<Item = f32> {
+    let eyes = capture.train.iter().map(|view| view.camera.position());
+    eyes.map(move |eye| point.normalize().dot((eye - point).normalize()))
+}
+
 #[test]
 fn a_constant_colour_stays_constant() {
     let colour = Vec3::new(0.6, 0.3, 0.2);
     let capture = capture(|_| (colour, 1));
-    for maps in [mean_texture(&capture, 48).unwrap(), semantic_initialisation(&capture, 48).unwrap()] {
+    for maps in
+        [mean_texture(&capture, 48).unwrap(), semantic_initialisation(&capture, 48).unwrap()]
+    {
         for texel in maps.diffuse_albedo.unwrap().data.chunks(3) {
             assert!((Vec3::from_slice(texel) - colour).length() < 1e-6);
         }
         assert!(maps.specular_albedo.is_none());
         assert_eq!(maps.diffuse_normal, maps.specular_normal);
-        let covered = maps.coverage.unwrap().data.iter().filter(|value| **value == 255).count();
-        let chart = std::f32::consts::PI * 0.16 * 48.0 * 48.0;
-        assert!(covered as f32 > 0.9 * chart && covered as f32 <= 1.02 * chart, "{covered}");
+        // The dome hides nothing of itself, so the cosines alone say what is seen; at 0.35 a point
+        // is more than a pixel from the silhouette, at 0.3 above the equator from the open rim.
+        let atlas = Atlas::new(&capture.mesh, 48);
+        for (index, value) in maps.coverage.unwrap().data.into_iter().enumerate() {
+            let best = cosines(&capture, atlas.positions[index]).fold(-1.0, f32::max);
+            let position = atlas.positions[index];
+            if !atlas.inside[index] || best < 0.09 {
+                assert_eq!(value, 0, "texel {index} at {position} with cosine {best}");
+            } else if best > 0.35 && position.z > 0.3 {
+                assert_eq!(value, 255, "texel {index} at {position} with cosine {best}");
+            }
+        }
     }
 }
 
@@ -36,13 +53,17 @@ fn a_smooth_texture_is_found_where_it_belongs() {
     let maps = mean_texture(&capture, 48).unwrap();
     let atlas = Atlas::new(&capture.mesh, 48);
     let coverage = maps.coverage.unwrap();
+    let mut compared = 0;
     for (index, texel) in maps.diffuse_albedo.unwrap().data.chunks(3).enumerate() {
-        // Beside the silhouette a bilinear look-up has to do with fewer than four pixels.
-        if coverage.data[index] == 255 && atlas.positions[index].z > 0.5 {
+        // Beside any view's silhouette a bilinear look-up has to do with fewer than four pixels.
+        let least = cosines(&capture, atlas.positions[index]).fold(1.0, f32::min);
+        if coverage.data[index] == 255 && least > 0.4 {
+            compared += 1;
             let error = Vec3::from_slice(texel) - paint(atlas.positions[index]).0;
             assert!(error.length() < 0.01, "texel {index}: {error}");
         }
     }
+    assert!(compared > 200, "{compared}");
 }
 
 #[test]
@@ -59,7 +80,8 @@ fn a_capture_that_does_not_meet_its_mesh_is_refused() {
 #[test]
 fn the_number_of_threads_changes_nothing() {
     let capture = capture(|p| (p.abs(), if p.y > 0.0 { 1 } else { 2 }));
-    let work = || (mean_texture(&capture, 40).unwrap(), semantic_initialisation(&capture, 40).unwrap());
+    let work =
+        || (mean_texture(&capture, 40).unwrap(), semantic_initialisation(&capture, 40).unwrap());
     let once = testing::on_threads(1, work);
     assert_eq!(testing::on_threads(2, work), once);
     assert_eq!(testing::on_threads(3, work), once);

@@ -47,7 +47,8 @@ impl Capture {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&bytes).update(&read(&transforms.mesh_path)?);
         for frame in &transforms.train {
-            let paths = [Some(&frame.image_path), Some(&frame.mask_path), frame.label_path.as_ref()];
+            let paths =
+                [Some(&frame.image_path), Some(&frame.mask_path), frame.label_path.as_ref()];
             for path in paths.into_iter().flatten() {
                 hasher.update(&read(path)?);
             }
@@ -75,10 +76,8 @@ impl Capture {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, CaptureError> {
-    std::fs::read(path).map_err(|error| CaptureError::Read {
-        path: path.to_path_buf(),
-        reason: error.to_string(),
-    })
+    std::fs::read(path)
+        .map_err(|error| CaptureError::Read { path: path.to_path_buf(), reason: error.to_string() })
 }
 
 #[cfg(test)]

@@ -58,7 +58,8 @@ fn the_hash_changes_with_every_input_and_with_nothing_else() {
 fn normals_are_computed_if_the_file_has_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mesh.obj");
-    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
     fs::write(&path, text).unwrap();
     let mesh = Mesh::open(&path).unwrap();
     assert_eq!(mesh.triangles.len(), 2, "a quadrilateral becomes two triangles");
@@ -128,17 +129,25 @@ fn every_fault_of_the_files_is_named() {
     type Fault = fn(&Path);
     let cases: [(&str, Fault); 13] = [
         ("mesh.obj: cannot be read", |folder| fs::remove_file(folder.join("mesh.obj")).unwrap()),
-        ("000.exr: cannot be read", |folder| fs::remove_file(folder.join("images/000.exr")).unwrap()),
-        ("000.png: cannot be read", |folder| fs::remove_file(folder.join("masks/000.png")).unwrap()),
-        ("000.png: cannot be read", |folder| fs::write(folder.join("labels/000.png"), "x").unwrap()),
+        ("000.exr: cannot be read", |folder| {
+            fs::remove_file(folder.join("images/000.exr")).unwrap()
+        }),
+        ("000.png: cannot be read", |folder| {
+            fs::remove_file(folder.join("masks/000.png")).unwrap()
+        }),
+        ("000.png: cannot be read", |folder| {
+            fs::write(folder.join("labels/000.png"), "x").unwrap()
+        }),
         ("masks/000.png: is 8x16, but its camera says 16x16", |folder| {
             picture::write_png_gray(&folder.join("masks/000.png"), &GrayImage::new(8, 16)).unwrap();
         }),
         ("labels/001.png: is 16x8, but", |folder| {
-            picture::write_png_gray(&folder.join("labels/001.png"), &GrayImage::new(16, 8)).unwrap();
+            picture::write_png_gray(&folder.join("labels/001.png"), &GrayImage::new(16, 8))
+                .unwrap();
         }),
         ("has no foreground", |folder| {
-            picture::write_png_gray(&folder.join("masks/001.png"), &GrayImage::new(16, 16)).unwrap();
+            picture::write_png_gray(&folder.join("masks/001.png"), &GrayImage::new(16, 16))
+                .unwrap();
         }),
         ("001.exr: NaN at column 3, row 2, channel G", |folder| {
             let mut image = Picture::new(16, 16, 3);

@@ -64,7 +64,8 @@ impl View {
         let channels = self.image.channels;
         let mut image = Picture::new(width, height, channels);
         for (index, value) in image.data.iter_mut().enumerate() {
-            let sum = |sum: f32, pixel: usize| sum + self.image.data[pixel * channels + index % channels];
+            let sum =
+                |sum: f32, pixel: usize| sum + self.image.data[pixel * channels + index % channels];
             *value = four(index / channels).into_iter().fold(0.0, sum) / 4.0;
         }
         let mut mask = GrayImage::new(width, height);

@@ -1,6 +1,7 @@
 //! The mesh in texture space: the point of the surface behind every texel.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::raster::{self, Hit};
 use crate::capture::Mesh;
@@ -28,9 +29,8 @@ impl Atlas {
     /// Rasterises the chart; where it overlaps itself, one of the triangles is taken.
     pub fn new(mesh: &Mesh, size: usize) -> Self {
         let side = size as f64;
-        let corner = |uv: &glam::Vec2| {
-            DVec3::new(f64::from(uv.x) * side, (1.0 - f64::from(uv.y)) * side, 1.0)
-        };
+        let corner =
+            |uv: &Vec2| DVec3::new(f64::from(uv.x) * side, (1.0 - f64::from(uv.y)) * side, 1.0);
         let corners: Vec<DVec3> = mesh.uvs.iter().map(corner).collect();
         let hits = raster::paint(size, size, &corners, &mesh.triangles).hits;
         let inside: Vec<bool> = hits.iter().map(Option::is_some).collect();
@@ -40,8 +40,8 @@ impl Atlas {
         let normal = |hit: Hit| mesh.normal_at(&hit);
         Self {
             size,
-            positions: nearest.iter().map(|t| at(t).map_or(Vec3::ZERO, position)).collect(),
-            normals: nearest.iter().map(|t| at(t).map_or(Vec3::Z, normal)).collect(),
+            positions: nearest.par_iter().map(|t| at(t).map_or(Vec3::ZERO, position)).collect(),
+            normals: nearest.par_iter().map(|t| at(t).map_or(Vec3::Z, normal)).collect(),
             inside,
         }
     }

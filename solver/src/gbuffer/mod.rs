@@ -56,7 +56,10 @@ impl GBuffer {
             pixels: front.iter().map(|(pixel, _)| *pixel).collect(),
             positions: front.iter().map(|(_, hit)| position(hit)).collect(),
             normals: front.iter().map(|(_, hit)| mesh.normal_at(hit)).collect(),
-            view_dirs: front.iter().map(|(_, hit)| (eye - position(hit)).normalize_or(Vec3::Z)).collect(),
+            view_dirs: front
+                .iter()
+                .map(|(_, hit)| (eye - position(hit)).normalize_or(Vec3::Z))
+                .collect(),
             uvs: front.iter().map(|(_, hit)| mesh.blend(hit, &mesh.uvs)).collect(),
             depths: front.iter().map(|(_, hit)| hit.depth).collect(),
         }
@@ -93,7 +96,8 @@ impl Mesh {
     where
         T: Copy + std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
     {
-        let [a, b, c] = self.triangles[hit.triangle as usize].map(|corner| attribute[corner as usize]);
+        let [a, b, c] =
+            self.triangles[hit.triangle as usize].map(|corner| attribute[corner as usize]);
         a * hit.barycentric.x + b * hit.barycentric.y + c * hit.barycentric.z
     }
 

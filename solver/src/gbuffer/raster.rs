@@ -43,7 +43,8 @@ pub struct Raster {
 /// one with the lower index.
 pub fn rasterise(mesh: &Mesh, camera: &Camera) -> Raster {
     let to_camera = camera.world_to_camera().as_dmat4();
-    let corners: Vec<DVec3> = mesh.positions.iter().map(|p| homogeneous(camera, &to_camera, *p)).collect();
+    let corners: Vec<DVec3> =
+        mesh.positions.iter().map(|p| homogeneous(camera, &to_camera, *p)).collect();
     paint(camera.width, camera.height, &corners, &mesh.triangles)
 }
 

@@ -68,11 +68,18 @@ fn every_pixel_inside_a_closed_fan_is_covered_and_the_back_occludes_without_a_sa
     let mut mesh = testing::dome(20);
     let camera = testing::camera("a", Vec3::new(0.0, 0.0, 3.0), 61);
     let full = GBuffer::new(&mesh, &camera, None);
-    let holes = full.pixels.windows(2).filter(|pair| pair[1] != pair[0] + 1 && pair[0] / 61 == pair[1] / 61);
+    let holes = full
+        .pixels
+        .windows(2)
+        .filter(|pair| pair[1] != pair[0] + 1 && pair[0] / 61 == pair[1] / 61);
     assert_eq!(holes.count(), 0, "a convex silhouette has no gap in a row");
     // A triangle in front of the left half that shows its back.
     let base = mesh.positions.len() as u32;
-    mesh.positions.extend([Vec3::new(0.0, -5.0, 1.5), Vec3::new(0.0, 5.0, 1.5), Vec3::new(-9.0, 0.0, 1.5)]);
+    mesh.positions.extend([
+        Vec3::new(0.0, -5.0, 1.5),
+        Vec3::new(0.0, 5.0, 1.5),
+        Vec3::new(-9.0, 0.0, 1.5),
+    ]);
     mesh.normals.extend([Vec3::Z; 3]);
     mesh.uvs.extend([Vec2::ZERO; 3]);
     let occluder = |triangle| {
@@ -91,7 +98,11 @@ fn every_pixel_inside_a_closed_fan_is_covered_and_the_back_occludes_without_a_sa
 fn a_triangle_that_passes_behind_the_camera_is_hit_in_front_of_it() {
     // A floor below the camera that reaches behind it.
     let mesh = Mesh {
-        positions: vec![Vec3::new(-50.0, -1.0, 40.0), Vec3::new(50.0, -1.0, 40.0), Vec3::new(0.0, -1.0, -60.0)],
+        positions: vec![
+            Vec3::new(-50.0, -1.0, 40.0),
+            Vec3::new(50.0, -1.0, 40.0),
+            Vec3::new(0.0, -1.0, -60.0),
+        ],
         normals: vec![Vec3::Y; 3],
         uvs: vec![Vec2::ZERO; 3],
         triangles: vec![[0, 1, 2]],

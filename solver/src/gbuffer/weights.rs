@@ -35,7 +35,11 @@ pub fn view_weights(gbuffer: &GBuffer, blur_sigma_px: f32) -> Vec<f32> {
     let covered = blurred(&covered, width, height, blur_sigma_px);
     let cosines = cosine_weights(gbuffer);
     let mean = |pixel: &u32| slope[*pixel as usize] / covered[*pixel as usize];
-    cosines.iter().zip(&gbuffer.pixels).map(|(cos, pixel)| cos / (1.0 + FALLOFF * mean(pixel))).collect()
+    cosines
+        .iter()
+        .zip(&gbuffer.pixels)
+        .map(|(cos, pixel)| cos / (1.0 + FALLOFF * mean(pixel)))
+        .collect()
 }
 
 /// Magnitude of the depth's gradient over the width of a pixel, capped, per sample.
@@ -62,8 +66,7 @@ fn blurred(plane: &[f32], width: usize, height: usize, sigma: f32) -> Vec<f32> {
         return plane.to_vec();
     }
     let reach = (3.0 * sigma).ceil() as usize;
-    let kernel: Vec<f32> =
-        (0..=reach).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
+    let kernel: Vec<f32> = (0..=reach).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
     let pass = |source: &[f32], step: usize, length: usize, place: fn(usize, usize) -> usize| {
         let value = |index: usize| {
             let at = place(index, width);

@@ -33,7 +33,9 @@ fn every_region_gets_its_colour_even_where_no_view_sees_it() {
     }
     let half: Vec<View> = views().iter().map(View::half).collect();
     let colour = Vec3::from_slice(initial(&half, 32).pixel(8, 16)) - LEFT;
-    assert!(colour.length() < 0.02, "half resolution mixes the regions at their border only");
+    // A region is ten half pixels wide; the mixed column at its border has half of the other colour.
+    let most = (LEFT - RIGHT).length() / 2.0 / 10.0;
+    assert!(colour.length() < 1.2 * most, "only the border mixes: {colour}");
 }
 
 #[test]
