@@ -63,15 +63,10 @@ pub struct RenderingConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewWeightConfig {
-    /// Use the cosine between view and normal.
-    pub cosine: bool,
-    /// Use the inverse of the blurred depth derivative.
+    /// Divide the cosine by the blurred depth derivative, see [`crate::gbuffer::view_weights`].
     pub depth: bool,
-    /// Standard deviation of its blur, pixels. Not published.
+    /// Standard deviation of the blur, pixels of the full picture. Not published.
     pub depth_blur: f32,
-    /// Added to the blurred derivative (a slope: 1 = 45 degrees) so that flat parts stay finite.
-    /// Not published.
-    pub depth_floor: f32,
 }
 
 /// Section 5.3, first paragraph.
@@ -92,8 +87,8 @@ pub struct WarmUpConfig {
     pub iterations: usize,
     /// Side of the textures, texels; 128.
     pub texture_size: usize,
-    /// Pictures are averaged over squares of this side, pixels; 2.
-    pub image_reduction: usize,
+    /// Work on pictures averaged over 2 x 2 pixels; true.
+    pub half_resolution: bool,
     /// Weight of the albedo prior, equation (2). The paper does not give it.
     pub prior: f32,
     /// Learning rate of the networks; 0.001.
@@ -158,6 +153,9 @@ pub struct AdamConfig {
     pub beta2: f32,
     /// Added to the root of the second moment; 1e-8.
     pub epsilon: f32,
+    /// Share of the learning rates at the end of a stage, reached geometrically over its last 40 %;
+    /// the paper keeps them constant.
+    pub final_share: f32,
 }
 
 /// Section 5.4. Pictures are exposed so that the largest irradiance is pi: then a Lambert
@@ -224,7 +222,6 @@ impl Config {
             ("networks.position_scale", n.position_scale),
             ("networks.normal_scale", n.normal_scale),
             ("networks.reflection_scale", n.reflection_scale),
-            ("view_weights.depth_floor", self.view_weights.depth_floor),
             ("initialisation.specular_maximum", self.initialisation.specular_maximum),
             ("fine_tuning.deviation_range", f.deviation_range),
             ("normalisation.specular_maximum", self.normalisation.specular_maximum),
@@ -249,6 +246,7 @@ impl Config {
         let fraction = |x: f32| (0.0..1.0).contains(&x);
         range("fine_tuning.deviation_blur", f.deviation_blur, |x| x <= 0.1, "0 to 0.1")?;
         range("rendering.f0", self.rendering.f0, fraction, "0 to 1")?;
+        range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
         range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
         range("adam.beta2", self.adam.beta2, fraction, "at least 0 and below 1")?;
         let side = |x: usize| (16..=8192).contains(&x);
@@ -256,7 +254,6 @@ impl Config {
         if let TextureSize::Side(texels) = f.texture_size {
             range("fine_tuning.texture_size", texels, side, "16 to 8192, or \"auto\"")?;
         }
-        range("warm_up.image_reduction", w.image_reduction, |x| (1..=16).contains(&x), "1 to 16")?;
         let percent = |x: f64| x > 0.0 && x <= 100.0;
         let normalisation = &self.normalisation;
         range("normalisation.diffuse_percentile", normalisation.diffuse_percentile, percent, "above 0, to 100")?;
@@ -276,17 +273,12 @@ impl Config {
                 reflection_scale: 1.0,
             },
             rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false },
-            view_weights: ViewWeightConfig {
-                cosine: true,
-                depth: true,
-                depth_blur: 2.0,
-                depth_floor: 0.1,
-            },
+            view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
             initialisation: InitialisationConfig { semantic: true, specular_maximum: 0.05 },
             warm_up: WarmUpConfig {
                 iterations: 2000,
                 texture_size: 128,
-                image_reduction: 2,
+                half_resolution: true,
                 prior: 0.3,
                 network_rate: 1e-3,
                 diffuse_rate: 1e-3,
@@ -303,7 +295,7 @@ impl Config {
                 specular_rate: 1e-3,
                 deviation_rate: 1e-3,
             },
-            adam: AdamConfig { beta1: 0.9, beta2: 0.999, epsilon: 1e-8 },
+            adam: AdamConfig { beta1: 0.9, beta2: 0.999, epsilon: 1e-8, final_share: 1.0 },
             normalisation: NormalisationConfig {
                 diffuse_percentile: 100.0,
                 specular_percentile: 100.0,

@@ -102,12 +102,9 @@ pub enum SolveError {
     /// The configuration is out of range.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The mesh and the masks of the training views have no pixel in common.
-    #[error(
-        "no texel of the mesh is seen in any training view; check the camera matrices (camera to \
-         world, looking down -z) and the masks"
-    )]
-    NothingVisible,
+    /// The capture shows nothing of the mesh.
+    #[error(transparent)]
+    Capture(#[from] CaptureError),
     /// The loss became NaN or infinite.
     #[error(
         "the loss of stage {stage} is {loss} at iteration {iteration}; lower that stage's rates"

@@ -1,18 +1,37 @@
-//! Decomposes pictures of a known mesh into reflectance maps.
-compile_error!("read solver/src/COORDINATION.txt first, then remove this line");
+//! Decomposes pictures of a known mesh into reflectance maps (neural shading fields).
+//!
+//! A pixel is read once in [`capture`], becomes a sample of the G-buffer, meets its weights in
+//! [`backend`], and its error ends in a texel of [`maps`].
 
 pub mod atomic;
-pub mod picture;
+pub mod backend;
 pub mod baselines;
 pub mod capture;
+pub mod config;
 pub mod error;
 pub mod fill;
 pub mod gbuffer;
+pub mod machine;
 pub mod maps;
+pub mod model;
+pub mod optimise;
+pub mod picture;
 pub mod projection;
 pub mod semantic;
-pub use capture::{Camera, Capture, Mesh, View};
-pub use error::{CaptureError, ConfigError, MapsError, SolveError};
-pub use maps::Maps;
+pub mod solution;
 #[cfg(test)]
 mod testing;
+
+pub use capture::{Camera, Capture, Mesh, View};
+pub use config::Config;
+pub use error::{CaptureError, ConfigError, MapsError, SolveError};
+pub use gbuffer::mesh_normal_map;
+pub use maps::Maps;
+pub use optimise::solve::{Progress, solve, solve_on};
+pub use solution::{Record, Solution, Timing, ViewLayers};
+
+/// The instruction set that the processor backend uses on this machine.
+pub fn simd_level() -> String {
+    let levels = backend::cpu::Level::available();
+    levels.last().map_or_else(String::new, ToString::to_string)
+}

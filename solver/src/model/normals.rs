@@ -31,9 +31,9 @@ impl DirectionScale {
     /// without it, the mesh normal serves for both.
     pub fn directions(&self, samples: &Samples, deviation: Option<&Planes>) -> Planes {
         Planes::from_fn(samples.len(), |i| {
-            let [d, b] = deviation.map_or([Vec3::ZERO; 2], |planes| split(planes.sample::<6>(i)));
-            let normal = Vec3::from(samples.normal.sample::<3>(i));
-            let view = Vec3::from(samples.view.sample::<3>(i));
+            let [d, b] = deviation.map_or([Vec3::ZERO; 2], |planes| split(planes.sample(i, 0)));
+            let normal = Vec3::from_array(samples.normal.sample(i, 0));
+            let view = Vec3::from_array(samples.view.sample(i, 0));
             let specular = (normal + d).normalize();
             let reflected = 2.0 * specular.dot(view) * specular - view;
             let diffuse = (normal + b).normalize() * self.normal;
@@ -42,26 +42,19 @@ impl DirectionScale {
     }
 
     /// Carries gradients of the directions (the first six rows of `gradient`) to the deviation and
-    /// its blur; further rows are carried over, `R` in all.
-    pub fn adjoint<const R: usize>(
-        &self,
-        samples: &Samples,
-        deviation: &Planes,
-        gradient: &Planes,
-    ) -> Planes {
+    /// its blur.
+    pub fn adjoint(&self, samples: &Samples, deviation: &Planes, gradient: &Planes) -> Planes {
         Planes::from_fn(samples.len(), |i| {
-            let [d, b] = split(deviation.sample::<6>(i));
-            let mut rows = gradient.sample::<R>(i);
-            let [by_diffuse, by_reflected] = split(gradient.sample::<6>(i));
-            let normal = Vec3::from(samples.normal.sample::<3>(i));
-            let view = Vec3::from(samples.view.sample::<3>(i));
+            let [d, b] = split(deviation.sample(i, 0));
+            let [by_diffuse, by_reflected] = split(gradient.sample(i, 0));
+            let normal = Vec3::from_array(samples.normal.sample(i, 0));
+            let view = Vec3::from_array(samples.view.sample(i, 0));
             let specular = (normal + d).normalize();
             let g = by_reflected * self.reflection;
             let by_specular = 2.0 * (specular.dot(g) * view + specular.dot(view) * g);
             let by_d = normalize_adjoint(normal + d, by_specular);
             let by_b = normalize_adjoint(normal + b, by_diffuse * self.normal);
-            rows[..6].copy_from_slice(&join(by_d, by_b));
-            rows
+            join(by_d, by_b)
         })
     }
 }

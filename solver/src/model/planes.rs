@@ -67,9 +67,9 @@ impl Planes {
         self.data[sample / BLOCK * self.rows + row].0[sample % BLOCK]
     }
 
-    /// The first `R` quantities of one sample.
-    pub fn sample<const R: usize>(&self, sample: usize) -> [f32; R] {
-        let rows = &self.data[sample / BLOCK * self.rows..];
+    /// The quantities `first..first + R` of one sample.
+    pub fn sample<const R: usize>(&self, sample: usize, first: usize) -> [f32; R] {
+        let rows = &self.data[sample / BLOCK * self.rows + first..][..R];
         std::array::from_fn(|row| rows[row].0[sample % BLOCK])
     }
 
@@ -81,6 +81,12 @@ impl Planes {
     /// The rows of all blocks, one block after the other.
     pub fn data_mut(&mut self) -> &mut [Row] {
         &mut self.data
+    }
+
+    /// Copies one quantity of other planes of as many samples.
+    pub fn copy_row(&mut self, row: usize, from: &Self, from_row: usize) {
+        let blocks = self.data.chunks_exact_mut(self.rows).zip(from.data.chunks_exact(from.rows));
+        blocks.for_each(|(to, from)| to[row] = from[from_row]);
     }
 
     /// Number of blocks.
@@ -97,7 +103,7 @@ mod tests {
     fn samples_come_back_and_the_last_block_is_padded_with_zeros() {
         let planes = Planes::from_fn(300, |i| [i as f32, -(i as f32)]);
         assert_eq!((planes.rows(), planes.len(), planes.blocks()), (2, 300, 2));
-        assert_eq!(planes.sample::<2>(299), [299.0, -299.0]);
+        assert_eq!(planes.sample::<2>(299, 0), [299.0, -299.0]);
         assert_eq!(planes.get(1, 257), -257.0);
         assert!(planes.block(1).iter().all(|row| row.0[44..].iter().all(|v| *v == 0.0)));
     }

@@ -59,16 +59,16 @@ impl Taps {
         })
     }
 
-    /// The adjoint of [`Taps::sample`]: sums the samples' gradients (their first `C` rows) into the
-    /// texels they were interpolated from.
-    pub fn gather<const C: usize>(&self, gradient: &Planes) -> Vec<f32> {
+    /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
+    /// the texels they were interpolated from.
+    pub fn gather<const C: usize>(&self, gradient: &Planes, first: usize) -> Vec<f32> {
         let mut texels = vec![0.0; self.size * self.size * C];
         texels.par_chunks_mut(self.size * C).enumerate().for_each(|(row, line)| {
             let (line, _) = line.as_chunks_mut::<C>();
             if row > 0 {
-                self.add_cells(row - 1, line, gradient, |fy| fy);
+                self.add_cells(row - 1, line, gradient, first, |fy| fy);
             }
-            self.add_cells(row, line, gradient, |fy| 1.0 - fy);
+            self.add_cells(row, line, gradient, first, |fy| 1.0 - fy);
         });
         texels
     }
@@ -78,12 +78,13 @@ impl Taps {
         row: usize,
         line: &mut [[f32; C]],
         gradient: &Planes,
+        first: usize,
         vertical: impl Fn(f32) -> f32,
     ) {
         for i in self.row_start[row]..self.row_start[row + 1] {
             let x = self.cell[i] as usize - row * self.size;
             let [fx, fy] = self.fraction[i];
-            let value = gradient.sample::<C>(i).map(|g| g * vertical(fy));
+            let value = gradient.sample::<C>(i, first).map(|g| g * vertical(fy));
             for c in 0..C {
                 line[x][c] += (1.0 - fx) * value[c];
                 line[x + 1][c] += fx * value[c];
@@ -123,7 +124,7 @@ mod tests {
         let texture: Vec<f32> = (0..16 * 16 * 3).map(|i| (i as f32 * 0.37).sin()).collect();
         let gradient = Planes::from_fn(1000, |i| [1.0, 2.0, 3.0].map(|k| (i as f32 * k).cos()));
         let sampled = taps.sample::<3>(&texture);
-        let gathered = taps.gather::<3>(&gradient);
+        let gathered = taps.gather::<3>(&gradient, 0);
         let left: f64 = (0..1000)
             .flat_map(|i| (0..3).map(move |c| (c, i)))
             .map(|(c, i)| f64::from(sampled.get(c, i)) * f64::from(gradient.get(c, i)))

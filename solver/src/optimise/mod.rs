@@ -1,0 +1,6 @@
+//! The optimisation: Adam, the stages and their order, normalisation.
+
+pub mod adam;
+pub mod normalise;
+pub mod solve;
+pub mod stage;

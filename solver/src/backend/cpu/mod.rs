@@ -1,0 +1,180 @@
+//! The processor: explicit vectors of the widest instruction set there is.
+//!
+//! Samples are worked through in chunks of [`CHUNK_BLOCKS`] blocks. A chunk's weight gradients stay
+//! in vector lanes; they are summed per chunk, and over the chunks in their order in f64, so that
+//! the number of threads has no influence. Per sample a joint pass reads 17 floats (position,
+//! directions, Fresnel factor, target, weight, albedos) and writes 4; everything else lives in
+//! about 200 KiB of scratch per thread.
+
+mod kernels;
+mod lanes;
+mod perceptron;
+mod shade;
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use self::kernels::{Inputs, Scratch};
+use self::perceptron::Packed;
+use super::{ALBEDOS, BENT, Backend, JointGradient};
+use crate::model::networks::{Network, Networks};
+use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
+use crate::model::samples::Samples;
+
+/// An instruction set that this machine has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Any machine.
+    Portable,
+    /// AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// AVX-512 F.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Level {
+    /// The levels this machine has, the slowest first.
+    pub fn available() -> Vec<Self> {
+        #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
+        let mut levels = vec![Self::Portable];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                levels.push(Self::Avx2);
+            }
+            if is_x86_feature_detected!("avx512f") {
+                levels.push(Self::Avx512);
+            }
+        }
+        levels
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => "AVX2 + FMA",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => "AVX-512",
+        })
+    }
+}
+
+/// The processor at its fastest level.
+#[derive(Clone, Copy, Debug)]
+pub struct Cpu {
+    level: Level,
+}
+
+impl Cpu {
+    /// At the fastest level.
+    pub fn new() -> Self {
+        let level = Level::available().last().copied().unwrap_or(Level::Portable);
+        Self { level }
+    }
+
+    /// At a level of [`Level::available`], which is the only place where levels come from.
+    #[cfg(test)]
+    fn at(level: Level) -> Self {
+        assert!(Level::available().contains(&level));
+        Self { level }
+    }
+}
+
+impl Default for Cpu {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn pack(networks: &Networks) -> [Packed; 3] {
+    Network::ALL.map(|network| Packed::new(networks, network))
+}
+
+/// Runs `pass` over the chunks of `out` in parallel; its results, in the chunks' order.
+fn chunks<T: Send>(
+    networks: &Networks,
+    out: &mut Planes,
+    pass: impl Fn(usize, &mut Scratch, &mut [Row]) -> T + Sync,
+) -> Vec<T> {
+    let rows = out.rows() * CHUNK_BLOCKS;
+    out.data_mut()
+        .par_chunks_mut(rows)
+        .enumerate()
+        .map_init(
+            || Scratch::new(networks),
+            |scratch, (chunk, out)| pass(chunk * CHUNK_BLOCKS, scratch, out),
+        )
+        .collect()
+}
+
+impl Backend for Cpu {
+    fn name(&self) -> String {
+        format!("cpu, {}", self.level)
+    }
+
+    fn joint(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> JointGradient {
+        let packed = &pack(networks);
+        let inputs = Inputs { packed, samples, directions, albedo };
+        let mut by_albedo = Planes::new(ALBEDOS, samples.len());
+        let parts = chunks(networks, &mut by_albedo, |first, scratch, out| {
+            let loss = kernels::joint(self.level, &inputs, first, scratch, out);
+            let sum = |lanes: &lanes::LaneSum| lanes.0.iter().sum::<f32>();
+            (loss, scratch.sums.iter().map(sum).collect::<Vec<f32>>())
+        });
+        let mut total = vec![0.0f64; networks.parameters.len()];
+        let mut loss = 0.0;
+        for (part, sums) in parts {
+            loss += part;
+            total.iter_mut().zip(sums).for_each(|(total, sum)| *total += f64::from(sum));
+        }
+        let total = total.into_iter().map(|gradient| gradient as f32).collect();
+        JointGradient { loss, networks: total, albedo: by_albedo }
+    }
+
+    fn light(&self, networks: &Networks, position: &Planes) -> Planes {
+        let packed = &pack(networks);
+        let mut light = Planes::new(networks.outputs(), position.len());
+        chunks(networks, &mut light, |first, scratch, out| {
+            kernels::light(self.level, packed, position, first, scratch, out);
+        });
+        light
+    }
+
+    fn bend(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        light: &Planes,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> (f64, Planes) {
+        let packed = &pack(networks);
+        let inputs = Inputs { packed, samples, directions, albedo };
+        let mut gradient = Planes::new(BENT, samples.len());
+        let losses = chunks(networks, &mut gradient, |first, scratch, out| {
+            kernels::bend(self.level, &inputs, light, first, scratch, out)
+        });
+        (losses.iter().sum(), gradient)
+    }
+
+    fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {
+        let packed = &pack(networks);
+        let mut shading = Planes::new(2, light.len());
+        chunks(networks, &mut shading, |first, scratch, out| {
+            kernels::shade_blocks(self.level, packed, light, directions, first, scratch, out);
+        });
+        shading
+    }
+}

@@ -1,0 +1,203 @@
+//! The passes over a chunk of samples, written once for all vector types, and the entry points
+//! that compile them for each instruction set.
+
+use super::Level;
+use super::lanes::{LaneSum, Lanes, Portable};
+use super::perceptron::{Packed, Trace, backward, forward};
+use super::shade::{self, PixelGradient, Pixels};
+use crate::backend::{ALBEDOS, BENT};
+use crate::model::networks::Networks;
+use crate::model::normals::DIRECTIONS;
+use crate::model::planes::{Planes, Row};
+use crate::model::samples::Samples;
+
+/// Buffers of one task, reused from chunk to chunk.
+pub struct Scratch {
+    light: Trace,
+    diffuse: Trace,
+    specular: Trace,
+    slopes: [Vec<Row>; 2],
+    shading: [Row; 2],
+    gradient: PixelGradient,
+    by_direction: [Row; 4],
+    /// One per network parameter.
+    pub sums: Vec<LaneSum>,
+}
+
+impl Scratch {
+    pub fn new(networks: &Networks) -> Self {
+        let slopes = vec![Row::ZERO; networks.outputs()];
+        Self {
+            light: Trace::new(networks),
+            diffuse: Trace::new(networks),
+            specular: Trace::new(networks),
+            slopes: [slopes.clone(), slopes],
+            shading: [Row::ZERO; 2],
+            gradient: PixelGradient { shading: [Row::ZERO; 2], albedo: [Row::ZERO; 4] },
+            by_direction: [Row::ZERO; 4],
+            sums: vec![LaneSum([0.0; 16]); networks.parameters.len()],
+        }
+    }
+}
+
+/// The inputs of the passes that have a target.
+pub struct Inputs<'a> {
+    pub packed: &'a [Packed; 3],
+    pub samples: &'a Samples,
+    pub directions: &'a Planes,
+    pub albedo: &'a Planes,
+}
+
+impl<'a> Inputs<'a> {
+    fn pixels(&self, block: usize) -> Pixels<'a> {
+        let Samples { fresnel, target, weight, .. } = self.samples;
+        Pixels {
+            albedo: self.albedo.block(block),
+            fresnel: &fresnel.block(block)[0],
+            target: target.block(block),
+            weight: &weight.block(block)[0],
+            scale: 1.0 / (3.0 * self.samples.len() as f32),
+        }
+    }
+}
+
+/// Activated outputs of both directional networks, and their slopes.
+#[inline(always)]
+fn kernels<S: Lanes, const C: usize>(packed: &[Packed; 3], directions: &[Row], s: &mut Scratch) {
+    forward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse);
+    forward::<S, C>(&packed[2], &directions[3..DIRECTIONS], &mut s.specular);
+    shade::softplus::<S>(s.diffuse.outputs(), &mut s.slopes[0]);
+    shade::softplus::<S>(s.specular.outputs(), &mut s.slopes[1]);
+}
+
+/// Loss, network gradients (into the scratch) and albedo gradients of the blocks from `first` on.
+#[inline(always)]
+fn joint_body<S: Lanes, const C: usize>(
+    inputs: &Inputs,
+    first: usize,
+    s: &mut Scratch,
+    out: &mut [Row],
+) -> f64 {
+    s.sums.fill(LaneSum([0.0; 16]));
+    let mut loss = 0.0;
+    for (block, out) in out.chunks_exact_mut(ALBEDOS).enumerate() {
+        let block = first + block;
+        let position = inputs.samples.position.block(block);
+        let directions = inputs.directions.block(block);
+        forward::<S, C>(&inputs.packed[0], position, &mut s.light);
+        shade::exponentials::<S>(s.light.outputs());
+        kernels::<S, C>(inputs.packed, directions, s);
+        let (light, diffuse, specular) =
+            (s.light.outputs(), s.diffuse.outputs(), s.specular.outputs());
+        shade::dot::<S>(light, diffuse, &mut s.shading[0]);
+        shade::dot::<S>(light, specular, &mut s.shading[1]);
+        loss += shade::compose::<S>(&inputs.pixels(block), &s.shading, &mut s.gradient);
+        out.copy_from_slice(&s.gradient.albedo);
+        let by_shading = &s.gradient.shading;
+        shade::vector_gradients::<S>(by_shading, &s.slopes, light, diffuse, specular);
+        let one = s.sums.len() / 3;
+        let (a, rest) = s.sums.split_at_mut(one);
+        let (b, c) = rest.split_at_mut(one);
+        backward::<S, C>(&inputs.packed[0], position, &mut s.light, Some(a), None);
+        backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, Some(b), None);
+        backward::<S, C>(&inputs.packed[2], &directions[3..], &mut s.specular, Some(c), None);
+    }
+    loss
+}
+
+/// Loss and gradients by directions and specular albedo, with frozen networks.
+#[inline(always)]
+fn bend_body<S: Lanes, const C: usize>(
+    inputs: &Inputs,
+    light: &Planes,
+    first: usize,
+    s: &mut Scratch,
+    out: &mut [Row],
+) -> f64 {
+    let mut loss = 0.0;
+    for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
+        let block = first + block;
+        let (light, directions) = (light.block(block), inputs.directions.block(block));
+        kernels::<S, C>(inputs.packed, directions, s);
+        let (diffuse, specular) = (s.diffuse.outputs(), s.specular.outputs());
+        shade::dot::<S>(light, diffuse, &mut s.shading[0]);
+        shade::dot::<S>(light, specular, &mut s.shading[1]);
+        loss += shade::compose::<S>(&inputs.pixels(block), &s.shading, &mut s.gradient);
+        let [by_diffuse, by_specular] = &s.gradient.shading;
+        shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
+        shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
+        let by_input = &mut s.by_direction;
+        backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input));
+        out[..3].copy_from_slice(&by_input[..3]);
+        backward::<S, C>(&inputs.packed[2], &directions[3..], &mut s.specular, None, Some(by_input));
+        out[3..6].copy_from_slice(&by_input[..3]);
+        out[6] = s.gradient.albedo[3];
+    }
+    loss
+}
+
+/// L(p).
+#[inline(always)]
+fn light_body<S: Lanes, const C: usize>(
+    packed: &[Packed; 3],
+    position: &Planes,
+    first: usize,
+    s: &mut Scratch,
+    out: &mut [Row],
+) {
+    let outputs = s.light.outputs().len();
+    for (block, out) in out.chunks_exact_mut(outputs).enumerate() {
+        forward::<S, C>(&packed[0], position.block(first + block), &mut s.light);
+        shade::exponentials::<S>(s.light.outputs());
+        out.copy_from_slice(s.light.outputs());
+    }
+}
+
+/// S_d and S_s.
+#[inline(always)]
+fn shade_body<S: Lanes, const C: usize>(
+    packed: &[Packed; 3],
+    light: &Planes,
+    directions: &Planes,
+    first: usize,
+    s: &mut Scratch,
+    out: &mut [Row],
+) {
+    for (block, out) in out.chunks_exact_mut(2).enumerate() {
+        let light = light.block(first + block);
+        kernels::<S, C>(packed, directions.block(first + block), s);
+        shade::dot::<S>(light, s.diffuse.outputs(), &mut out[0]);
+        shade::dot::<S>(light, s.specular.outputs(), &mut out[1]);
+    }
+}
+
+/// An entry point per instruction set; the tiles are as wide as the registers allow.
+macro_rules! entry {
+    ($name:ident, $body:ident($($arg:ident: $type:ty),*) $(-> $out:ty)?) => {
+        pub fn $name(level: Level, $($arg: $type),*) $(-> $out)? {
+            #[cfg(target_arch = "x86_64")]
+            {
+                use super::lanes::{Avx2, Avx512};
+                #[target_feature(enable = "avx512f")]
+                fn avx512($($arg: $type),*) $(-> $out)? { $body::<Avx512, 4>($($arg),*) }
+                #[target_feature(enable = "avx2,fma")]
+                fn avx2($($arg: $type),*) $(-> $out)? { $body::<Avx2, 2>($($arg),*) }
+                match level {
+                    // SAFETY: this level is only made after AVX-512 F was found.
+                    Level::Avx512 => return unsafe { avx512($($arg),*) },
+                    // SAFETY: this level is only made after AVX2 and FMA were found.
+                    Level::Avx2 => return unsafe { avx2($($arg),*) },
+                    Level::Portable => {}
+                }
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            let Level::Portable = level;
+            $body::<Portable, 2>($($arg),*)
+        }
+    };
+}
+
+entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
+entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));

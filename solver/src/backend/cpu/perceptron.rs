@@ -1,0 +1,249 @@
+//! One multilayer perceptron on a block of samples: forward, backward, weight gradients.
+//!
+//! Matrices are walked in tiles of 4 outputs x `C` vectors, whose 4 C partial sums stay in
+//! registers; weights are packed so that a tile reads them in order.
+
+use super::lanes::{LaneSum, Lanes};
+use crate::model::networks::{Network, Networks};
+use crate::model::planes::{BLOCK, Row};
+
+/// Outputs per tile.
+const TILE: usize = 4;
+
+/// A network's weights in the order of the tiles.
+pub struct Packed {
+    layers: Vec<PackedLayer>,
+}
+
+struct PackedLayer {
+    /// Tile by tile, input by input: weights to the tile's outputs.
+    forward: Vec<[f32; TILE]>,
+    bias: Vec<[f32; TILE]>,
+    /// The same of the transposed matrix, padded to whole tiles.
+    backward: Vec<[f32; TILE]>,
+}
+
+impl Packed {
+    pub fn new(networks: &Networks, network: Network) -> Self {
+        let pack = |layer: usize| {
+            let (inputs, outputs) = (networks.shape[layer], networks.shape[layer + 1]);
+            let (weights, biases) = networks.place(network, layer);
+            let (weights, biases) = (&networks.parameters[weights], &networks.parameters[biases]);
+            let at = |output: usize, input: usize| {
+                if input < inputs { weights[output * inputs + input] } else { 0.0 }
+            };
+            let tiles = |rows: usize, columns: usize, value: &dyn Fn(usize, usize) -> f32| {
+                (0..rows.div_ceil(TILE))
+                    .flat_map(|tile| (0..columns).map(move |column| (tile * TILE, column)))
+                    .map(|(row, column)| std::array::from_fn(|i| value(row + i, column)))
+                    .collect()
+            };
+            PackedLayer {
+                forward: tiles(outputs, inputs, &|output, input| at(output, input)),
+                bias: biases.as_chunks().0.to_vec(),
+                backward: tiles(inputs, outputs, &|input, output| at(output, input)),
+            }
+        };
+        Self { layers: (0..networks.layers()).map(pack).collect() }
+    }
+}
+
+/// Activations of a block, and room for gradients.
+pub struct Trace {
+    /// Outputs of every layer; of the last one, what the caller makes of them.
+    pub layers: Vec<Vec<Row>>,
+    /// Gradients of the layer at hand and of the one before.
+    delta: [Vec<Row>; 2],
+}
+
+impl Trace {
+    pub fn new(networks: &Networks) -> Self {
+        let widest = networks.shape.iter().max().map_or(0, |w| w.next_multiple_of(TILE));
+        let layers = networks.shape[1..].iter().map(|width| vec![Row::ZERO; *width]).collect();
+        Self { layers, delta: [vec![Row::ZERO; widest], vec![Row::ZERO; widest]] }
+    }
+
+    /// The last layer's outputs; for [`backward`], their gradients.
+    pub fn outputs(&mut self) -> &mut [Row] {
+        self.layers.last_mut().map_or(&mut [], Vec::as_mut_slice)
+    }
+}
+
+/// Computes all layers; ReLU between them, nothing after the last.
+#[inline(always)]
+pub fn forward<S: Lanes, const C: usize>(packed: &Packed, input: &[Row], trace: &mut Trace) {
+    let last = packed.layers.len() - 1;
+    for (index, layer) in packed.layers.iter().enumerate() {
+        let (before, rest) = trace.layers.split_at_mut(index);
+        let input = before.last().map_or(input, Vec::as_slice);
+        if index < last {
+            product::<S, C, true>(&layer.forward, &layer.bias, input, &mut rest[0]);
+        } else {
+            product::<S, C, false>(&layer.forward, &layer.bias, input, &mut rest[0]);
+        }
+    }
+}
+
+/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, in the
+/// order of the parameters) and, if asked, to the inputs (3 rows and one of padding).
+#[inline(always)]
+pub fn backward<S: Lanes, const C: usize>(
+    packed: &Packed,
+    input: &[Row],
+    trace: &mut Trace,
+    mut sums: Option<&mut [LaneSum]>,
+    by_input: Option<&mut [Row]>,
+) {
+    let [mut delta, mut next] = std::mem::take(&mut trace.delta);
+    let last = packed.layers.len() - 1;
+    delta[..trace.layers[last].len()].copy_from_slice(&trace.layers[last]);
+    for (index, layer) in packed.layers.iter().enumerate().rev() {
+        let input = if index == 0 { input } else { &trace.layers[index - 1] };
+        let outputs = trace.layers[index].len();
+        if let Some(sums) = sums.as_deref_mut() {
+            let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
+            let sums = &mut sums[before..before + layer.parameters()];
+            weight_gradient::<S>(&delta[..outputs], input, sums);
+        }
+        if index > 0 {
+            let width = input.len();
+            product::<S, C, false>(&layer.backward, &[], &delta[..outputs], &mut next[..width]);
+            gate::<S>(&mut next[..width], input);
+            std::mem::swap(&mut delta, &mut next);
+        }
+    }
+    if let Some(by_input) = by_input {
+        let outputs = trace.layers[0].len();
+        product::<S, C, false>(&packed.layers[0].backward, &[], &delta[..outputs], by_input);
+    }
+    trace.delta = [delta, next];
+}
+
+impl PackedLayer {
+    fn parameters(&self) -> usize {
+        TILE * (self.forward.len() + self.bias.len())
+    }
+}
+
+/// output = matrix x input (+ bias), optionally through ReLU.
+#[inline(always)]
+fn product<S: Lanes, const C: usize, const RELU: bool>(
+    weights: &[[f32; TILE]],
+    bias: &[[f32; TILE]],
+    input: &[Row],
+    output: &mut [Row],
+) {
+    for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
+        let weights = &weights[tile * input.len()..][..input.len()];
+        let bias = bias.get(tile).copied().unwrap_or_default();
+        let mut at = 0;
+        while at < BLOCK {
+            let mut sums = [[S::splat(0.0); C]; TILE];
+            for (sums, bias) in sums.iter_mut().zip(bias) {
+                *sums = [S::splat(bias); C];
+            }
+            for (weights, row) in weights.iter().zip(input) {
+                let mut x = [S::splat(0.0); C];
+                for (c, x) in x.iter_mut().enumerate() {
+                    *x = S::load(row, at + c * S::WIDTH);
+                }
+                for (sums, weight) in sums.iter_mut().zip(weights) {
+                    let weight = S::splat(*weight);
+                    for (sum, x) in sums.iter_mut().zip(x) {
+                        *sum = weight.mul_add(x, *sum);
+                    }
+                }
+            }
+            for (row, sums) in output.iter_mut().zip(sums) {
+                for (c, sum) in sums.into_iter().enumerate() {
+                    let value = if RELU { sum.max(S::splat(0.0)) } else { sum };
+                    value.store(row, at + c * S::WIDTH);
+                }
+            }
+            at += C * S::WIDTH;
+        }
+    }
+}
+
+/// Zeroes gradients where ReLU was closed.
+#[inline(always)]
+fn gate<S: Lanes>(delta: &mut [Row], activation: &[Row]) {
+    for (delta, activation) in delta.iter_mut().zip(activation) {
+        let mut at = 0;
+        while at < BLOCK {
+            S::load(delta, at).where_positive(S::load(activation, at)).store(delta, at);
+            at += S::WIDTH;
+        }
+    }
+}
+
+/// Adds delta x input^T and the sum of delta to the sums of weights and biases.
+#[inline(always)]
+fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [LaneSum]) {
+    let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
+    for (tile, delta) in delta.chunks_exact(TILE).enumerate() {
+        let first = tile * TILE * input.len();
+        let weights = &mut weights[first..first + TILE * input.len()];
+        let mut column = 0;
+        while column < input.len() {
+            let rest = &input[column..];
+            column += match rest.len() {
+                1 => outer::<S, 1>(delta, rest, column, weights),
+                2 => outer::<S, 2>(delta, rest, column, weights),
+                3 => outer::<S, 3>(delta, rest, column, weights),
+                _ => outer::<S, TILE>(delta, rest, column, weights),
+            };
+        }
+    }
+    for (delta, bias) in delta.iter().zip(biases) {
+        let mut sum = S::load_sum(bias);
+        let mut at = 0;
+        while at < BLOCK {
+            sum = sum.add(S::load(delta, at));
+            at += S::WIDTH;
+        }
+        sum.store_sum(bias);
+    }
+}
+
+/// One tile of the outer product, 4 x `K`; returns `K`.
+#[inline(always)]
+fn outer<S: Lanes, const K: usize>(
+    delta: &[Row],
+    input: &[Row],
+    column: usize,
+    weights: &mut [LaneSum],
+) -> usize {
+    let stride = weights.len() / TILE;
+    let (Some((delta, _)), Some((input, _))) =
+        (delta.split_first_chunk::<TILE>(), input.split_first_chunk::<K>())
+    else {
+        return K;
+    };
+    let mut sums = [[S::splat(0.0); K]; TILE];
+    for (j, sums) in sums.iter_mut().enumerate() {
+        for (k, sum) in sums.iter_mut().enumerate() {
+            *sum = S::load_sum(&weights[j * stride + column + k]);
+        }
+    }
+    let mut at = 0;
+    while at < BLOCK {
+        let mut x = [S::splat(0.0); K];
+        for (x, row) in x.iter_mut().zip(input) {
+            *x = S::load(row, at);
+        }
+        for (sums, row) in sums.iter_mut().zip(delta) {
+            let d = S::load(row, at);
+            for (sum, x) in sums.iter_mut().zip(x) {
+                *sum = d.mul_add(x, *sum);
+            }
+        }
+        at += S::WIDTH;
+    }
+    for (j, sums) in sums.into_iter().enumerate() {
+        for (k, sum) in sums.into_iter().enumerate() {
+            sum.store_sum(&mut weights[j * stride + column + k]);
+        }
+    }
+    K
+}

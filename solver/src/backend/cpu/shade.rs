@@ -1,0 +1,142 @@
+//! Shading of a block of samples and its adjoint: activations, products with the light vector,
+//! composition with the albedos, L1 loss.
+
+use super::lanes::{self, Lanes};
+use crate::model::planes::{BLOCK, Row};
+
+/// z becomes e^z.
+#[inline(always)]
+pub fn exponentials<S: Lanes>(rows: &mut [Row]) {
+    for row in rows {
+        let mut at = 0;
+        while at < BLOCK {
+            lanes::exp(S::load(row, at)).store(row, at);
+            at += S::WIDTH;
+        }
+    }
+}
+
+/// z becomes softplus(z), and `slopes` its derivative.
+#[inline(always)]
+pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
+    for (row, slopes) in rows.iter_mut().zip(slopes) {
+        let mut at = 0;
+        while at < BLOCK {
+            let (value, slope) = lanes::softplus(S::load(row, at));
+            value.store(row, at);
+            slope.store(slopes, at);
+            at += S::WIDTH;
+        }
+    }
+}
+
+/// out = sum of a x b over rows.
+#[inline(always)]
+pub fn dot<S: Lanes>(a: &[Row], b: &[Row], out: &mut Row) {
+    let mut at = 0;
+    while at < BLOCK {
+        let mut sum = S::splat(0.0);
+        for (a, b) in a.iter().zip(b) {
+            sum = S::load(a, at).mul_add(S::load(b, at), sum);
+        }
+        sum.store(out, at);
+        at += S::WIDTH;
+    }
+}
+
+/// Gradients of a kernel before its softplus: kernel = by_shading x light x slope.
+#[inline(always)]
+pub fn kernel_gradient<S: Lanes>(
+    by_shading: &Row,
+    light: &[Row],
+    slopes: &[Row],
+    kernel: &mut [Row],
+) {
+    for ((kernel, light), slopes) in kernel.iter_mut().zip(light).zip(slopes) {
+        let mut at = 0;
+        while at < BLOCK {
+            let by_kernel = S::load(by_shading, at).mul(S::load(light, at));
+            by_kernel.mul(S::load(slopes, at)).store(kernel, at);
+            at += S::WIDTH;
+        }
+    }
+}
+
+/// Gradients before the last activations of all three networks, in place of their outputs.
+#[inline(always)]
+pub fn vector_gradients<S: Lanes>(
+    by_shading: &[Row; 2],
+    slopes: &[Vec<Row>; 2],
+    light: &mut [Row],
+    diffuse: &mut [Row],
+    specular: &mut [Row],
+) {
+    for (k, light) in light.iter_mut().enumerate() {
+        let mut at = 0;
+        while at < BLOCK {
+            let [by_diffuse, by_specular] = [0, 1].map(|term| S::load(&by_shading[term], at));
+            let [slope_diffuse, slope_specular] = [0, 1].map(|term| S::load(&slopes[term][k], at));
+            let (l, d) = (S::load(light, at), S::load(&diffuse[k], at));
+            let by_light = by_diffuse.mul_add(d, by_specular.mul(S::load(&specular[k], at)));
+            l.mul(by_light).store(light, at);
+            by_diffuse.mul(l).mul(slope_diffuse).store(&mut diffuse[k], at);
+            by_specular.mul(l).mul(slope_specular).store(&mut specular[k], at);
+            at += S::WIDTH;
+        }
+    }
+}
+
+/// What a block's pixels look like and how they count.
+pub struct Pixels<'a> {
+    /// Diffuse R, G, B and specular albedo.
+    pub albedo: &'a [Row],
+    pub fresnel: &'a Row,
+    pub target: &'a [Row],
+    pub weight: &'a Row,
+    /// One over the number of terms of the mean.
+    pub scale: f32,
+}
+
+/// Gradients by the two shadings and by the albedos of a block.
+pub struct PixelGradient {
+    pub shading: [Row; 2],
+    pub albedo: [Row; 4],
+}
+
+/// The loss of A_d S_d + F A_s S_s against the target: mean of weight x |residual|. The derivative
+/// of |x| at 0 is 0.
+#[inline(always)]
+pub fn compose<S: Lanes>(
+    pixels: &Pixels,
+    shading: &[Row; 2],
+    gradient: &mut PixelGradient,
+) -> f64 {
+    let zero = S::splat(0.0);
+    let mut loss = zero;
+    let mut at = 0;
+    while at < BLOCK {
+        let (diffuse, specular) = (S::load(&shading[0], at), S::load(&shading[1], at));
+        let (fresnel, weight) = (S::load(pixels.fresnel, at), S::load(pixels.weight, at));
+        let strength = fresnel.mul(S::load(&pixels.albedo[3], at));
+        let highlight = strength.mul(specular);
+        let push = weight.mul(S::splat(pixels.scale));
+        let (mut by_highlight, mut by_diffuse) = (zero, zero);
+        for channel in 0..3 {
+            let albedo = S::load(&pixels.albedo[channel], at);
+            let target = S::load(&pixels.target[channel], at);
+            let residual = albedo.mul_add(diffuse, highlight).sub(target);
+            loss = weight.mul_add(residual.abs(), loss);
+            let sign = push.where_positive(residual).sub(push.where_positive(zero.sub(residual)));
+            by_highlight = by_highlight.add(sign);
+            by_diffuse = sign.mul_add(albedo, by_diffuse);
+            sign.mul(diffuse).store(&mut gradient.albedo[channel], at);
+        }
+        by_diffuse.store(&mut gradient.shading[0], at);
+        by_highlight.mul(strength).store(&mut gradient.shading[1], at);
+        by_highlight.mul(fresnel).mul(specular).store(&mut gradient.albedo[3], at);
+        at += S::WIDTH;
+    }
+    let mut row = Row::ZERO;
+    loss.store(&mut row, 0);
+    row.0[..S::WIDTH].iter().map(|lane| f64::from(*lane)).sum::<f64>() * f64::from(pixels.scale)
+}

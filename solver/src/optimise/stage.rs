@@ -1,0 +1,311 @@
+//! The stages of the optimisation. Each owns its optimisers and what stays fixed while it runs;
+//! another update of the state is another stage.
+
+use rayon::prelude::*;
+
+use super::adam::Adam;
+use crate::backend::{ALBEDOS, Backend};
+use crate::config::Config;
+use crate::model::blur::Blur;
+use crate::model::networks::Networks;
+use crate::model::normals::DirectionScale;
+use crate::model::planes::{BLOCK, Planes};
+use crate::model::prior::prior;
+use crate::model::samples::Samples;
+use crate::model::texture::{interleave, resample};
+
+/// Everything that is being solved for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The shading networks.
+    pub networks: Networks,
+    /// Side of the textures, texels.
+    pub size: usize,
+    /// R, G, B per texel; its scale is that of 1 / S_d.
+    pub diffuse: Vec<f32>,
+    /// One value per texel; its scale is that of 1 / S_s.
+    pub specular: Vec<f32>,
+    /// Deviation from the mesh normal, before tanh; x, y, z per texel.
+    pub deviation: Vec<f32>,
+}
+
+impl State {
+    /// Brings the textures to another size.
+    pub fn resize(&mut self, size: usize) {
+        self.diffuse = resample(&self.diffuse, self.size, 3, size);
+        self.specular = resample(&self.specular, self.size, 1, size);
+        self.deviation = resample(&self.deviation, self.size, 3, size);
+        self.size = size;
+    }
+
+    /// Diffuse and specular albedo at every sample.
+    pub fn albedo(&self, samples: &Samples) -> Planes {
+        let texture = interleave::<ALBEDOS>(&[(&self.diffuse, 3), (&self.specular, 1)]);
+        samples.taps.sample::<ALBEDOS>(&texture)
+    }
+}
+
+/// Deviations from the mesh normal: d = range x tanh(t) for the specular normal, blurred for the
+/// diffuse one (sections 4.3.2 and 5.3).
+#[derive(Clone, Debug)]
+pub struct Deviation {
+    range: f32,
+    blur: Blur,
+    /// How directions are scaled.
+    pub scale: DirectionScale,
+}
+
+impl Deviation {
+    /// For textures of side `size`.
+    pub fn new(config: &Config, size: usize) -> Self {
+        let sigma = config.fine_tuning.deviation_blur * size as f32;
+        Self {
+            range: config.fine_tuning.deviation_range,
+            blur: Blur::new(size, 3, sigma),
+            scale: DirectionScale::from(&config.networks),
+        }
+    }
+
+    /// d and its blur, 3 channels each.
+    pub fn textures(&self, state: &State) -> [Vec<f32>; 2] {
+        let sharp: Vec<f32> = state.deviation.par_iter().map(|t| self.range * t.tanh()).collect();
+        let blurred = self.blur.apply(&sharp);
+        [sharp, blurred]
+    }
+
+    /// d, its blur and the specular albedo at every sample.
+    pub fn sample(&self, state: &State, samples: &Samples) -> Planes {
+        let [sharp, blurred] = self.textures(state);
+        let texture = interleave::<7>(&[(&sharp, 3), (&blurred, 3), (&state.specular, 1)]);
+        samples.taps.sample::<7>(&texture)
+    }
+
+    /// Carries gradients by d and by its blur to the deviation texture.
+    fn adjoint(&self, state: &State, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
+        let through_blur = self.blur.adjoint(by_blurred);
+        let terms = state.deviation.par_iter().zip(by_sharp).zip(&through_blur);
+        let slope = |t: &f32| self.range * (1.0 - t.tanh().powi(2));
+        terms.map(|((t, sharp), blurred)| (sharp + blurred) * slope(t)).collect()
+    }
+}
+
+/// One stage: a number of full-batch steps on some part of the state.
+pub trait Stage {
+    /// For progress and record.
+    fn name(&self) -> String;
+    /// How many steps.
+    fn iterations(&self) -> usize;
+    /// One step, by `share` of the learning rates; the loss before it.
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
+}
+
+/// Networks and albedos together (section 4.3.1).
+pub struct WarmUp<'a> {
+    config: &'a Config,
+    samples: &'a Samples,
+    directions: Planes,
+    networks: Adam,
+    diffuse: Adam,
+    specular: Adam,
+}
+
+impl<'a> WarmUp<'a> {
+    /// A warm-up on samples whose taps are of the state's size.
+    pub fn new(config: &'a Config, samples: &'a Samples, state: &State) -> Self {
+        let (w, adam) = (&config.warm_up, &config.adam);
+        Self {
+            config,
+            samples,
+            directions: DirectionScale::from(&config.networks).directions(samples, None),
+            networks: Adam::new(adam, w.network_rate, state.networks.parameters.len()),
+            diffuse: Adam::new(adam, w.diffuse_rate, state.diffuse.len()),
+            specular: Adam::new(adam, w.specular_rate, state.specular.len()),
+        }
+    }
+}
+
+impl Stage for WarmUp<'_> {
+    fn name(&self) -> String {
+        "warm-up".to_owned()
+    }
+
+    fn iterations(&self) -> usize {
+        self.config.warm_up.iterations
+    }
+
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+        let albedo = state.albedo(self.samples);
+        let gradient = backend.joint(&state.networks, self.samples, &self.directions, &albedo);
+        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient.albedo, 0);
+        let by_specular = self.samples.taps.gather::<1>(&gradient.albedo, 3);
+        let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut by_diffuse);
+        let free = f32::NEG_INFINITY;
+        let least = least_albedo(self.config);
+        self.networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
+        self.diffuse.step(&mut state.diffuse, &by_diffuse, share, least);
+        self.specular.step(&mut state.specular, &by_specular, share, least);
+        gradient.loss + prior
+    }
+}
+
+/// Specular albedo and deviation, with frozen networks and diffuse albedo (section 4.3.2).
+pub struct Relief<'a> {
+    config: &'a Config,
+    samples: &'a Samples,
+    deviation: &'a Deviation,
+    name: String,
+    light: Planes,
+    albedo: Planes,
+    by_deviation: Adam,
+    by_specular: Adam,
+}
+
+impl<'a> Relief<'a> {
+    /// The stage of one round; L(p) and the diffuse albedo are evaluated once.
+    pub fn new(
+        config: &'a Config,
+        samples: &'a Samples,
+        deviation: &'a Deviation,
+        state: &State,
+        backend: &dyn Backend,
+        round: usize,
+    ) -> Self {
+        let (f, adam) = (&config.fine_tuning, &config.adam);
+        Self {
+            config,
+            samples,
+            deviation,
+            name: format!("normals and specular {round}"),
+            light: backend.light(&state.networks, &samples.position),
+            albedo: state.albedo(samples),
+            by_deviation: Adam::new(adam, f.deviation_rate, state.deviation.len()),
+            by_specular: Adam::new(adam, f.specular_rate, state.specular.len()),
+        }
+    }
+}
+
+impl Stage for Relief<'_> {
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn iterations(&self) -> usize {
+        self.config.fine_tuning.iterations
+    }
+
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+        let (samples, taps, scale) = (self.samples, &self.samples.taps, self.deviation.scale);
+        let bent = self.deviation.sample(state, samples);
+        self.albedo.copy_row(3, &bent, 6);
+        let directions = scale.directions(samples, Some(&bent));
+        let (loss, gradient) =
+            backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
+        let by_specular = taps.gather::<1>(&gradient, 6);
+        let gradient = scale.adjoint(samples, &bent, &gradient);
+        let (by_sharp, by_blurred) = (taps.gather::<3>(&gradient, 0), taps.gather::<3>(&gradient, 3));
+        let by_deviation = self.deviation.adjoint(state, &by_sharp, &by_blurred);
+        let least = least_albedo(self.config);
+        self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
+        self.by_specular.step(&mut state.specular, &by_specular, share, least);
+        loss
+    }
+}
+
+/// Diffuse albedo alone, with frozen shading (section 4.3.2).
+pub struct Diffuse<'a> {
+    config: &'a Config,
+    samples: &'a Samples,
+    name: String,
+    /// S_d and F A_s S_s.
+    shading: Planes,
+    by_diffuse: Adam,
+}
+
+impl<'a> Diffuse<'a> {
+    /// The stage of one round; no network is evaluated after this.
+    pub fn new(
+        config: &'a Config,
+        samples: &'a Samples,
+        deviation: &Deviation,
+        state: &State,
+        backend: &dyn Backend,
+        round: usize,
+    ) -> Self {
+        Self {
+            config,
+            samples,
+            name: format!("diffuse {round}"),
+            shading: layers(samples, deviation, state, backend),
+            by_diffuse: Adam::new(
+                &config.adam,
+                config.fine_tuning.diffuse_rate,
+                state.diffuse.len(),
+            ),
+        }
+    }
+}
+
+impl Stage for Diffuse<'_> {
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn iterations(&self) -> usize {
+        self.config.fine_tuning.iterations
+    }
+
+    fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
+        let albedo = self.samples.taps.sample::<3>(&state.diffuse);
+        let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
+        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
+        let weight = self.config.fine_tuning.prior;
+        let prior = prior(&state.diffuse, state.size, weight, &mut by_diffuse);
+        self.by_diffuse.step(&mut state.diffuse, &by_diffuse, share, least_albedo(self.config));
+        loss + prior
+    }
+}
+
+/// The diffuse shading S_d and the specular layer F A_s S_s at every sample.
+pub fn layers(
+    samples: &Samples,
+    deviation: &Deviation,
+    state: &State,
+    backend: &dyn Backend,
+) -> Planes {
+    let bent = deviation.sample(state, samples);
+    let directions = deviation.scale.directions(samples, Some(&bent));
+    let light = backend.light(&state.networks, &samples.position);
+    let shading = backend.shade(&state.networks, &light, &directions);
+    Planes::from_fn(samples.len(), |i| {
+        let [diffuse, specular] = shading.sample(i, 0);
+        [diffuse, samples.fresnel.get(0, i) * bent.get(6, i) * specular]
+    })
+}
+
+/// Loss and gradient by the sampled diffuse albedo, with the shading known.
+fn diffuse_gradient(samples: &Samples, shading: &Planes, albedo: &Planes) -> (f64, Planes) {
+    let scale = 1.0 / (3.0 * samples.len() as f32);
+    let mut gradient = Planes::new(3, samples.len());
+    let block = |(block, out): (usize, &mut [crate::model::planes::Row])| {
+        let (shading, albedo) = (shading.block(block), albedo.block(block));
+        let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0].0);
+        let mut loss = 0.0f64;
+        for (channel, out) in out.iter_mut().enumerate() {
+            for lane in 0..BLOCK {
+                let diffuse = shading[0].0[lane];
+                let model = albedo[channel].0[lane] * diffuse + shading[1].0[lane];
+                let residual = model - target[channel].0[lane];
+                let sign = if residual == 0.0 { 0.0 } else { residual.signum() };
+                loss += f64::from(weight[lane] * residual.abs());
+                out.0[lane] = weight[lane] * scale * sign * diffuse;
+            }
+        }
+        loss
+    };
+    let losses: Vec<f64> = gradient.data_mut().par_chunks_mut(3).enumerate().map(block).collect();
+    (losses.iter().sum::<f64>() * f64::from(scale), gradient)
+}
+
+fn least_albedo(config: &Config) -> f32 {
+    if config.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
+}

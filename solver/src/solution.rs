@@ -1,0 +1,120 @@
+//! What a solve leaves behind: maps, withheld views, the record, and how long it took.
+
+use std::path::Path;
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::atomic::{self, Folder};
+use crate::config::Config;
+use crate::error::MapsError;
+use crate::maps::Maps;
+use crate::picture::{self, Picture};
+
+/// The result of [`crate::solve`].
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The reflectance maps, normalised.
+    pub maps: Maps,
+    /// Every withheld view as the networks see it.
+    pub views: Vec<ViewLayers>,
+    /// Everything needed to get the same solution again, and the losses.
+    pub record: Record,
+    /// Wall times.
+    pub timing: Timing,
+}
+
+/// A synthesised view: linear radiance in the pictures' exposure, black where there is no mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewLayers {
+    /// The frame's name.
+    pub name: String,
+    /// Nine channels, see [`ViewLayers::CHANNELS`]; the first three are the sum of the others.
+    pub picture: Picture,
+}
+
+impl ViewLayers {
+    /// Channel names, in order.
+    pub const CHANNELS: [&str; 9] = [
+        "R",
+        "G",
+        "B",
+        "diffuse.R",
+        "diffuse.G",
+        "diffuse.B",
+        "specular.R",
+        "specular.G",
+        "specular.B",
+    ];
+}
+
+/// The content of `solve.json`; nothing in it depends on the time or the number of threads.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Record {
+    /// "unshade".
+    pub solver: String,
+    /// Of this crate.
+    pub version: String,
+    /// Of the networks' initial weights.
+    pub seed: u64,
+    /// Every value of the configuration.
+    pub config: Config,
+    /// Device and instruction set.
+    pub backend: String,
+    /// BLAKE3 of all files that were read.
+    pub input: String,
+    /// Side of the maps, texels.
+    pub texture_size: usize,
+    /// Pixels of the fine-tuning.
+    pub samples: usize,
+    /// What the solved diffuse albedo was multiplied with.
+    pub diffuse_scale: f32,
+    /// What the solved specular albedo was multiplied with.
+    pub specular_scale: f32,
+    /// The stages in their order.
+    pub stages: Vec<StageRecord>,
+}
+
+/// One stage of the record.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StageRecord {
+    /// Its name.
+    pub name: String,
+    /// Loss before every step.
+    pub loss: Vec<f64>,
+}
+
+/// The content of `timing.json`: seconds per stage, in their order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Timing {
+    /// Stage name to seconds.
+    pub seconds: Map<String, Value>,
+}
+
+impl Solution {
+    /// Writes the maps folder with `views/`, `solve.json` and `timing.json`, completely or not at
+    /// all.
+    pub fn write(&self, folder: &Path) -> Result<(), MapsError> {
+        let io = |source| MapsError::Io { path: folder.to_path_buf(), source };
+        let partial = Folder::begin(folder).map_err(io)?;
+        let path = partial.path();
+        self.maps.write_into(path)?;
+        if !self.views.is_empty() {
+            let views = path.join("views");
+            std::fs::create_dir(&views).map_err(io)?;
+            for view in &self.views {
+                let file = views.join(format!("{}.exr", view.name));
+                picture::write_exr(&file, &view.picture, &ViewLayers::CHANNELS)?;
+            }
+        }
+        write_json(&path.join("solve.json"), &self.record)?;
+        write_json(&path.join("timing.json"), &self.timing)?;
+        partial.commit().map_err(io)
+    }
+}
+
+fn write_json(path: &Path, content: &impl Serialize) -> Result<(), MapsError> {
+    let io = |source| MapsError::Io { path: path.to_path_buf(), source };
+    let text = serde_json::to_string_pretty(content).map_err(|error| io(error.into()))?;
+    atomic::write_file(path, text.as_bytes()).map_err(io)
+}
