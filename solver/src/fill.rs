@@ -105,8 +105,8 @@ mod tests {
         let distance = |a: usize, b: usize| {
             (a % width).abs_diff(b % width).pow(2) + (a / width).abs_diff(b / width).pow(2)
         };
-        for texel in 0..known.len() {
-            let found = nearest[texel] as usize;
+        for (texel, found) in nearest.iter().enumerate() {
+            let found = *found as usize;
             let best = (0..known.len()).filter(|other| known[*other]);
             assert!(known[found]);
             assert_eq!(
