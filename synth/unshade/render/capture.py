@@ -16,11 +16,11 @@ from ..face import Face, build_face
 from ..fingerprint import fingerprint
 from ..scene_file import Light, Scene
 from . import lights
-from .folder import ResumableFolder
+from .folder import ResumableFolder, content_hash
 from .llvm import Choice
 from .mesh_file import obj_text
 from .passes import Layers, render_layers, seed_of
-from .pictures import read_gray, read_exr, write_exr, write_gray, write_text
+from .pictures import read_gray, read_rgb, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
 from .rigs import Camera, cameras
 from .scene import ChartMaps, HeadScene, LitHead
@@ -52,9 +52,8 @@ class Capture:
             render=replace(scene.render, variant=choice.variant),
             versions=versions(choice),
         )
-        sources = [Path(light.path).read_bytes() for light in scene.lights if light.path]
-        key = f"{scene_text(self.stated)}\n{fingerprint()}\n{seed_of(*sources)}"
-        self.folder = ResumableFolder(out, key)
+        environments = [content_hash(Path(light.path)) for light in scene.lights if light.path]
+        self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint()}\n{environments}")
         self.path = self.folder.path
         self.truth = self.path / "truth"
         self.cameras = cameras(scene.rig, scene.render.width, scene.render.height)
@@ -92,7 +91,7 @@ class Capture:
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
         for light in self.scene.lights:
             if light.path:
-                picture = lights.read_rgb(light.path).clip(0)
+                picture = read_rgb(light.path).clip(0)
                 write_exr(self.truth / _ENVIRONMENTS / f"{light.name}.exr", {"": picture})
 
     def _write_views(self, face: Face, head: HeadScene) -> None:
@@ -170,11 +169,11 @@ def transforms_text(rig: list[Camera]) -> str:
 def versions(choice: Choice) -> dict[str, str]:
     """The ``[versions]`` of a capture's scene."""
     try:
-        own = importlib.metadata.version("unshade")
+        unshade = importlib.metadata.version("unshade")
     except importlib.metadata.PackageNotFoundError:
-        own = "source tree"
+        unshade = "source tree"
     known = {
-        "unshade": own,
+        "unshade": unshade,
         "mitsuba": mi.__version__,
         "drjit": dr.__version__,
         "variant": choice.variant,

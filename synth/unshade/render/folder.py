@@ -16,6 +16,11 @@ from ..errors import StorageError
 _KEY_FILE = "key.txt"
 
 
+def content_hash(path: Path) -> str:
+    """Hash of a file's bytes, or ``none`` where there is no file."""
+    return hashlib.blake2b(path.read_bytes(), digest_size=16).hexdigest() if path.is_file() else "none"
+
+
 class ResumableFolder:
     """``target`` under construction in ``path``."""
 

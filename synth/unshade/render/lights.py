@@ -20,6 +20,7 @@ import numpy as np
 from ..errors import SceneError
 from ..scene_file import Light
 from .pictures import read_rgb
+from .rigs import EMILY_OFFSET
 from .split import LambertLight
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -190,7 +191,8 @@ def studio() -> Panels:
 
 def flash() -> Panels:
     """The flash of Digital Emily 2: place and 1.75 : 1 shape from its public scene."""
-    return Panels((Panel.facing_head([0.127, 0.428, 1.259], 0.14, 0.08, 1.0),))
+    place = EMILY_OFFSET + [0.127, 0.428, 1.259]
+    return Panels((Panel.facing_head(place, 0.14, 0.08, 1.0),))
 
 
 def environment(light: Light) -> Environment:

@@ -14,7 +14,7 @@ from ..fingerprint import fingerprint
 from ..scene_file import Scene
 from . import lights
 from .capture import Progress, layer_channels
-from .folder import ResumableFolder
+from .folder import ResumableFolder, content_hash
 from .passes import render_layers, seed_of
 from .pictures import read_exr, write_exr, write_text
 from .rigs import cameras
@@ -50,8 +50,7 @@ def relight(
     chart_maps = read_maps(maps, warn)
     render = scene.render
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
-    contents = [(maps / f"{name}.exr") for name in _FILES]
-    hashes = [seed_of(path.read_bytes()) if path.exists() else None for path in contents]
+    hashes = [content_hash(maps / f"{name}.exr") for name in _FILES]
     folder = ResumableFolder(
         out, f"{scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     )

@@ -107,7 +107,7 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
 
 
 _FACE = np.array([0.0, 0.0, 0.06])
-"""What a phone is pointed at: the middle of the face, seen from the head's centre (m)."""
+"""What cameras are pointed at: the middle of the face, seen from the head's centre (m)."""
 
 _ELEVATION_SHARE = 0.6
 """A walk around a face moves more sideways than up and down."""
@@ -151,6 +151,12 @@ _EMILY_MIRRORED = (3, 5)
 _EMILY_WITHHELD = 2
 """The frontal view, which the others surround."""
 
+_EMILY_CENTRE = np.array([0.0, 0.046, -0.027])
+"""Where the optical axes of these cameras meet to within 25 mm (m, in the data set's frame)."""
+
+EMILY_OFFSET = _FACE - _EMILY_CENTRE
+"""From the data set's frame to ours: the axes then meet in the middle of the face."""
+
 _EMILY_ASPECT = 1.5
 """Height : width of its 24 x 36 mm portrait film."""
 
@@ -165,4 +171,5 @@ def _emily(height: int):
     for i in order:
         position, target, fov = poses[i]
         half_height = _EMILY_ASPECT * math.tan(math.radians(fov) / 2)
-        yield position, target, height / 2 / half_height, i != _EMILY_WITHHELD
+        focal = height / 2 / half_height
+        yield position + EMILY_OFFSET, target + EMILY_OFFSET, focal, i != _EMILY_WITHHELD
