@@ -110,23 +110,18 @@ impl CaseView {
         };
         let mut solves = Vec::new();
         let mut hashes = Vec::new();
-        for method in &methods {
-            if let Some(maps) = &method.maps {
-                solves
-                    .extend(Solve::read(method.column.entrant.title(), &maps.join("solve.json"))?);
+        for Method { column, maps, .. } in &methods {
+            if let Some(maps) = maps {
+                solves.extend(Solve::read(column.entrant.title(), &maps.join("solve.json"))?);
             }
-            let data = match below(&method.column.entrant.scores) {
-                Some(path) if path.exists() => {
-                    let target = format!(
-                        "data/{anchor}/{}.json",
-                        plates::file_name(&method.column.entrant.id)
-                    );
-                    copy(&path, &root.join(&target))?;
-                    Some(target)
-                }
-                _ => None,
-            };
-            hashes.push(Hashes::of(method.column, data));
+            let mut data = None;
+            if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
+                let name = plates::file_name(&column.entrant.id);
+                let target = format!("data/{anchor}/{name}.json");
+                copy(&path, &root.join(&target))?;
+                data = Some(target);
+            }
+            hashes.push(Hashes::of(column, data));
         }
         Ok(Self {
             id: case.id.clone(),

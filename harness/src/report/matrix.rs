@@ -98,9 +98,11 @@ fn matrix(face: &str, cases: &[Source]) -> Option<Matrix> {
 }
 
 fn block(case: &Source, lights: &[&str]) -> Block {
-    // What the panel shows, whose plate it is, and the subject, light and scale of its numbers.
-    let mut kinds = vec![("View synthesis, same light".to_owned(), "view", None)];
-    kinds.push(("Maps relit, same light".to_owned(), "relit", Some(case.light)));
+    // What the panel shows, and the subject and light of its plate and numbers.
+    let mut kinds = vec![
+        ("View synthesis, same light".to_owned(), "view", None),
+        ("Maps relit, same light".to_owned(), "relit", Some(case.light)),
+    ];
     for light in lights.iter().filter(|light| **light != case.light) {
         kinds.push((format!("Maps relit, opposite light: {light}"), "relit", Some(light)));
     }

@@ -106,8 +106,6 @@ pub struct ReportSummary {
     pub index: PathBuf,
     /// Captures that were compared.
     pub cases: usize,
-    /// Pictures in the folder.
-    pub pictures: usize,
     /// What a later run is compared with; absent while a method has no scores.
     pub baseline: Option<PathBuf>,
 }
@@ -138,7 +136,6 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
     Ok(ReportSummary {
         index: out.join("index.html"),
         cases: manifest.cases.len(),
-        pictures: page.pictures(),
         baseline: page.has_every_score().then(|| out.join(BASELINE)),
     })
 }

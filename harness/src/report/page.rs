@@ -1,7 +1,6 @@
 //! Everything the page shows, gathered from a run and laid out by the templates.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -15,7 +14,7 @@ use super::summary::{SummaryCase, summary};
 use super::table::Column;
 use super::{MARK, ReportError, metric, tone};
 use crate::metrics::{METRICS, Metric};
-use crate::score::Scores;
+use crate::score::{Protocol, Scores};
 
 /// The page as the templates see it.
 #[derive(Serialize)]
@@ -28,14 +27,11 @@ pub(super) struct Page {
     matrices: Vec<Matrix>,
     cases: Vec<CaseView>,
     metrics: Vec<Definition>,
-    /// Name and statements of each protocol that the scores were made by.
-    protocols: Vec<(String, Vec<String>)>,
+    protocols: Vec<Protocol>,
     versions: Vec<(String, String)>,
     suite_toml: Option<String>,
     times: Times,
     has_every_score: bool,
-    #[serde(skip)]
-    pictures: usize,
 }
 
 #[derive(Serialize)]
@@ -69,62 +65,39 @@ struct TimeRow {
 impl Page {
     /// Reads the run, and writes the pictures and the scores below `root`.
     pub fn make(run: &Path, manifest: &RunFile, root: &Path) -> Result<Self, ReportError> {
-        let mut page = Self {
+        let scores = manifest.cases.iter().map(|case| read_scores(run, case));
+        let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
+        let pairs = manifest.cases.iter().zip(&scores);
+        let columns: Vec<Vec<Column>> = pairs.map(|(case, scores)| columns(case, scores)).collect();
+        let (mut summaries, mut cases) = (Vec::new(), Vec::new());
+        for (case, columns) in manifest.cases.iter().zip(&columns) {
+            summaries.push(summary(case, columns));
+            cases.push(CaseView::make(run, case, columns, root)?);
+        }
+        let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
+        let sources = pairs.map(|((case, view), columns)| matrix::Source {
+            face: &case.face,
+            light: &case.light,
+            columns,
+            plates: &view.views,
+            input: view.main_input(),
+        });
+        let matrices = matrix::matrices(&sources.collect::<Vec<_>>());
+        Ok(Self {
             title: manifest.title.clone().unwrap_or_else(|| manifest.suite.clone()),
             suite: manifest.suite.clone(),
             heat: tone::heat_gradient(),
             mark: MARK,
-            summary: Vec::new(),
-            matrices: Vec::new(),
-            cases: Vec::new(),
+            summary: summaries,
+            matrices,
+            cases,
             metrics: METRICS.iter().map(Definition::of).collect(),
-            protocols: Vec::new(),
+            protocols: protocols(scores.iter().flatten().flatten()),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
             times: Times::read(run, manifest)?,
-            has_every_score: false,
-            pictures: 0,
-        };
-        let scores = manifest.cases.iter().map(|case| read_scores(run, case));
-        let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
-        let columns: Vec<Vec<Column>> = manifest
-            .cases
-            .iter()
-            .zip(&scores)
-            .map(|(case, scores)| columns(case, scores))
-            .collect();
-        for (case, columns) in manifest.cases.iter().zip(&columns) {
-            page.summary.push(summary(case, columns));
-            page.cases.push(CaseView::make(run, case, columns, root)?);
-        }
-        let sources: Vec<matrix::Source> = manifest
-            .cases
-            .iter()
-            .zip(&page.cases)
-            .zip(&columns)
-            .map(|((case, view), columns)| matrix::Source {
-                face: &case.face,
-                light: &case.light,
-                columns,
-                plates: &view.views,
-                input: view.main_input(),
-            })
-            .collect();
-        page.matrices = matrix::matrices(&sources);
-        for scores in scores.iter().flatten().flatten() {
-            if !page.protocols.iter().any(|(id, _)| *id == scores.protocol.id) {
-                page.protocols
-                    .push((scores.protocol.id.clone(), scores.protocol.statements.clone()));
-            }
-        }
-        page.has_every_score = scores.iter().flatten().all(Option::is_some);
-        page.pictures = count_pictures(&root.join("pictures"))?;
-        Ok(page)
-    }
-
-    /// How many pictures the page refers to.
-    pub fn pictures(&self) -> usize {
-        self.pictures
+            has_every_score: scores.iter().flatten().all(Option::is_some),
+        })
     }
 
     /// Whether every method was scored in every case.
@@ -161,6 +134,17 @@ fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportErr
         _ => Ok(None),
     };
     case.solvers.iter().map(read).collect()
+}
+
+/// Each protocol once, in the order in which the scores name them.
+fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
+    let mut protocols: Vec<Protocol> = Vec::new();
+    for Scores { protocol, .. } in scores {
+        if !protocols.contains(protocol) {
+            protocols.push(protocol.clone());
+        }
+    }
+    protocols
 }
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
@@ -215,19 +199,4 @@ impl Times {
         }
         Ok(Self { stages, total: format!("{total:.1}") })
     }
-}
-
-fn count_pictures(folder: &Path) -> Result<usize, ReportError> {
-    let mut count = 0;
-    let list = |folder: &Path| -> Result<Vec<PathBuf>, ReportError> {
-        if !folder.is_dir() {
-            return Ok(Vec::new());
-        }
-        let entries = fs::read_dir(folder).map_err(|error| ReportError::read(folder, error))?;
-        Ok(entries.flatten().map(|entry| entry.path()).collect())
-    };
-    for case in list(folder)? {
-        count += list(&case)?.len();
-    }
-    Ok(count)
 }

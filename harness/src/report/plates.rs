@@ -157,7 +157,7 @@ impl Studio<'_> {
     pub fn inputs(&self) -> Result<Vec<Input>, ReportError> {
         let input = |frame: &Frame| {
             let raster = tone::colour(&picture::read_exr_rgb(&frame.image)?, 1.0);
-            let tile = self.save(&format!("input-{}", frame.name), &raster)?;
+            let tile = self.save("input", &frame.name, &raster)?;
             Ok(Input { title: format!("input view {}", frame.name), tile })
         };
         self.frames.train.par_iter().map(input).collect()
@@ -184,7 +184,7 @@ impl Studio<'_> {
         Ok(Strip {
             title: subject.title.clone(),
             input: subject.input,
-            truth: self.save(&format!("truth-{}", subject.name), &truth)?,
+            truth: self.save("truth", &subject.name, &truth)?,
             errors,
             entries,
         })
@@ -197,7 +197,8 @@ impl Studio<'_> {
         made: &Picture,
         caption: String,
     ) -> Result<Entry, ReportError> {
-        let name = format!("{}-{}", method.column.entrant.id, subject.name);
+        // A method may be called "truth" or "input" too.
+        let group = format!("by-{}", file_name(&method.column.entrant.id));
         let mut factors = vec![Some(1.0)];
         if subject.scaled {
             factors.push(method.column.factor());
@@ -211,17 +212,17 @@ impl Studio<'_> {
             errors.push(match field {
                 Some(field) => {
                     let raster = tone::false_colour(&field, subject.measure.top());
-                    Some(self.save(&format!("{name}-error{index}"), &raster)?)
+                    Some(self.save(&group, &format!("{}-error{index}", subject.name), &raster)?)
                 }
                 None => None,
             });
         }
-        let picture = Some(self.save(&name, &subject.show.raster(made))?);
+        let picture = Some(self.save(&group, &subject.name, &subject.show.raster(made))?);
         Ok(Entry { picture, caption, errors })
     }
 
-    fn save(&self, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
-        let src = format!("{}/{}.png", self.folder, file_name(name));
+    fn save(&self, group: &str, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
+        let src = format!("{}/{group}/{}.png", self.folder, file_name(name));
         let path = self.root.join(&src);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;

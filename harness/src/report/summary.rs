@@ -71,9 +71,8 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
         KeyLight::None => vec![None],
         KeyLight::Own => vec![Some(own)],
         KeyLight::Other => {
-            let rows = column.scores.map_or(&[][..], |scores| &scores.rows);
             let mut lights: Vec<Option<&str>> =
-                rows.iter().map(|row| row.light.as_deref()).collect();
+                column.rows().iter().map(|row| row.light.as_deref()).collect();
             lights.sort();
             lights.dedup();
             lights.retain(|light| light.is_some_and(|light| light != own));

@@ -1,7 +1,7 @@
 //! The table of a case: one row per subject, metric, region and scale mode; one column per
 //! method. A score that does not exist stays empty, it never becomes a number.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use serde::Serialize;
 
@@ -19,7 +19,12 @@ pub(super) struct Column<'a> {
     pub scores: Option<&'a Scores>,
 }
 
-impl Column<'_> {
+impl<'a> Column<'a> {
+    /// Every row; none without scores.
+    pub fn rows(&self) -> &'a [Row] {
+        self.scores.map_or(&[], |scores| &scores.rows)
+    }
+
     /// The one factor of the diffuse albedo.
     pub fn factor(&self) -> Option<f64> {
         Some(self.scores?.scale.as_ref()?.global)
@@ -32,8 +37,8 @@ impl Column<'_> {
         light: Option<&str>,
         metric: &str,
         scale: &str,
-    ) -> Option<&Row> {
-        self.scores?.rows.iter().find(|row| {
+    ) -> Option<&'a Row> {
+        self.rows().iter().find(|row| {
             row.subject == subject
                 && row.light.as_deref() == light
                 && row.metric == metric
@@ -43,10 +48,9 @@ impl Column<'_> {
     }
 
     /// The row of the trivial answer that a map's row has to beat.
-    fn trivial(&self, row: &Row) -> Option<&Row> {
+    fn trivial(&self, row: &Row) -> Option<&'a Row> {
         let subject = metric::trivial(&row.subject)?;
-        let rows = &self.scores?.rows;
-        rows.iter().find(|other| {
+        self.rows().iter().find(|other| {
             other.subject == subject
                 && (&other.metric, &other.region, &other.label, &other.scale)
                     == (&row.metric, &row.region, &row.label, &row.scale)
@@ -111,8 +115,12 @@ pub(super) fn complete(columns: &[Column], own_light: &str) -> Table {
 
 fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Table {
     let mut ids = HashSet::new();
-    let rows = columns.iter().filter_map(|column| column.scores).flat_map(|scores| &scores.rows);
-    let mut keys: Vec<&Row> = rows.filter(|row| keep(row) && ids.insert(row.id())).collect();
+    let all = columns.iter().flat_map(Column::rows);
+    let mut keys: Vec<&Row> = all.filter(|row| keep(row) && ids.insert(row.id())).collect();
+    let by_id: Vec<HashMap<String, &Row>> = columns
+        .iter()
+        .map(|column| column.rows().iter().map(|row| (row.id(), row)).collect())
+        .collect();
     let mut groups: Vec<Group> = Vec::new();
     keys.sort_by_key(|row| group_order(row, own_light));
     for key in keys {
@@ -121,7 +129,7 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
             groups.push(Group { title, rows: Vec::new() });
         }
         if let Some(group) = groups.last_mut() {
-            group.rows.push(line(key, columns));
+            group.rows.push(line(key, columns, &by_id));
         }
     }
     let columns = columns
@@ -134,15 +142,12 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
     Table { columns, groups }
 }
 
-fn line(key: &Row, columns: &[Column]) -> Line {
+fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line {
     // A metric of another version of the scoring is shown by its id alone.
     let known = Metric::find(&key.metric).ok();
     let unit = known.map_or("", |metric| metric.unit);
     let id = key.id();
-    let rows: Vec<Option<&Row>> = columns
-        .iter()
-        .map(|column| column.scores?.rows.iter().find(|row| row.id() == id))
-        .collect();
+    let rows: Vec<Option<&Row>> = by_id.iter().map(|rows| rows.get(&id).copied()).collect();
     let trivial = columns.iter().find_map(|column| column.trivial(key)?.value);
     let value = |row: &Option<&Row>| row.and_then(|row| row.value);
     let decimals = decimals(unit, rows.iter().filter_map(value).chain(trivial));
