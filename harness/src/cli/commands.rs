@@ -5,10 +5,11 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use solver::atomic;
 
 use super::progress::Progress;
 use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, Verb, doctor};
-use crate::compare;
+use crate::compare::{Baseline, Tolerances, compare};
 use crate::score;
 use crate::report;
 use crate::suite::{self, Observer, RunError, Suite, Tools};
@@ -97,4 +98,18 @@ fn run_suite(suite: &Path, out: &Path) -> Result<u8, RunError> {
     eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
     println!("{}", summary.report.display());
     Ok(DONE)
+}
+
+fn compare_run(arguments: &CompareArgs) -> Result<u8, RunError> {
+    let tolerances = match &arguments.tolerances {
+        Some(path) => Tolerances::read(path)?,
+        None => Tolerances::built_in()?,
+    };
+    let current = Baseline::of_run(&arguments.run)?;
+    let comparison = compare(&current, &Baseline::read(&arguments.baseline)?, &tolerances)?;
+    if let Some(path) = &arguments.junit {
+        atomic::write_file(path, comparison.junit()?.as_bytes())?;
+    }
+    print!("{}", comparison.table());
+    Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
 }

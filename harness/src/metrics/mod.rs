@@ -21,14 +21,16 @@ mod pair;
 mod quantity;
 mod region;
 mod registry;
+mod resample;
 mod scale;
 mod statistic;
 
 pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
 pub use error::MetricError;
 pub use pair::Pair;
-pub use quantity::Quantity;
+pub use quantity::{Quantity, RELATIVE_OFFSET};
 pub use region::{Region, black_outside};
 pub use registry::{Direction, METRICS, Metric};
+pub use resample::resample;
 pub use scale::{Scale, ScaleMode};
 pub use statistic::{Sample, Statistic};

@@ -4,8 +4,8 @@ use super::colour::{ciede2000, lab, srgb, typology_angle};
 use super::neighbourhood::{flip, high_pass, log, log_luminances, low_pass_error, ssim};
 use super::{MetricError, Pair};
 
-/// Keeps the relative error finite in the dark (facts of the protocol: (p-g)² / (g+.01)²).
-const RELATIVE_OFFSET: f64 = 0.01;
+/// Keeps the relative squared error finite in the dark.
+pub const RELATIVE_OFFSET: f64 = 0.01;
 
 /// A per-pixel quantity; x of one or (x, y) of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

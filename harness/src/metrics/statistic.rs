@@ -13,6 +13,9 @@ const RESAMPLES: usize = 1000;
 /// Every interval draws the same blocks, so that scores of two methods are compared in pairs.
 const SEED: u64 = 2023;
 
+/// Bins of a quantile's interval, each with as many values.
+const BINS: usize = 1024;
+
 /// How the values of a region are summarised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Statistic {
@@ -170,37 +173,35 @@ fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(sorted[low] + (sorted[high] - sorted[low]) * place.fract())
 }
 
-/// Sorts once; a resample then only weighs each value by how often its block was drawn.
+/// Counts how many values of each block fall between a thousand quantiles of all values, so that
+/// a resample adds counts instead of sorting.
 fn quantile_interval(samples: &[Sample], share: f64) -> Option<[f64; 2]> {
-    let mut values: Vec<(f64, (usize, usize))> = samples
-        .iter()
-        .enumerate()
-        .flat_map(|(picture, sample)| {
-            let places = sample.blocks.iter().map(move |block| (picture, *block));
-            sample.values.iter().copied().zip(places)
-        })
-        .collect();
-    let mut blocks: Vec<(usize, usize)> = values.iter().map(|(_, block)| *block).collect();
-    blocks.sort_unstable();
-    blocks.dedup();
+    let mut values: Vec<(f64, usize)> = Vec::new();
+    let mut blocks = 0;
+    for sample in samples {
+        values.extend(sample.values.iter().zip(&sample.blocks).map(|(v, block)| (*v, blocks + block)));
+        blocks += sample.blocks.iter().max().map_or(0, |last| last + 1);
+    }
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut sizes = vec![0_u32; blocks.len()];
-    let sorted: Vec<(f64, usize)> = values
-        .into_iter()
-        .filter_map(|(value, block)| Some((value, blocks.binary_search(&block).ok()?)))
-        .inspect(|(_, block)| sizes[*block] += 1)
-        .collect();
-    let mut times = vec![0_u32; blocks.len()];
-    percentiles(blocks.len(), |drawn| {
-        times.fill(0);
-        drawn.iter().for_each(|i| times[*i] += 1);
-        let total: u32 = times.iter().zip(&sizes).map(|(times, size)| times * size).sum();
-        let wanted = share * f64::from(total);
+    let bins: Vec<&[(f64, usize)]> = values.chunks(values.len().div_ceil(BINS).max(1)).collect();
+    let mut counts = vec![vec![0_u32; bins.len()]; blocks];
+    for (bin, values) in bins.iter().enumerate() {
+        values.iter().for_each(|(_, block)| counts[*block][bin] += 1);
+    }
+    counts.retain(|of_block| of_block.iter().any(|count| *count > 0));
+    let mut sums = vec![0; bins.len()];
+    percentiles(counts.len(), |drawn| {
+        sums.fill(0);
+        for block in drawn {
+            sums.iter_mut().zip(&counts[*block]).for_each(|(sum, count)| *sum += count);
+        }
+        let wanted = share * f64::from(sums.iter().sum::<u32>());
         let mut seen = 0;
-        sorted.iter().find_map(|(value, block)| {
-            seen += times[*block];
-            (f64::from(seen) >= wanted && times[*block] > 0).then_some(*value)
-        })
+        let bin = sums.iter().position(|count| {
+            seen += count;
+            *count > 0 && f64::from(seen) >= wanted
+        })?;
+        Some(bins[bin][bins[bin].len() / 2].0)
     })
 }
 

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use super::capture::Capture;
 use super::errors::{named_error, raise};
 use super::maps::Maps;
+use crate::compare::{self as comparing, Baseline, Tolerances};
 use crate::{cli, report, score};
 
 /// Runs the command line and returns its exit code.
@@ -83,4 +84,18 @@ pub(super) fn score_json(
 pub(super) fn write_report(py: Python<'_>, run: PathBuf, out: PathBuf) -> PyResult<()> {
     py.detach(|| report::write(&run, &out)).map_err(raise)?;
     Ok(())
+}
+
+/// True if no score of a run is worse than its baseline beyond the tolerance.
+#[pyfunction]
+#[pyo3(signature = (run, baseline, tolerances=None))]
+pub(super) fn compare(run: PathBuf, baseline: PathBuf, tolerances: Option<PathBuf>) -> PyResult<bool> {
+    let tolerances = match tolerances {
+        Some(path) => Tolerances::read(&path),
+        None => Tolerances::built_in(),
+    }
+    .map_err(raise)?;
+    let current = Baseline::of_run(&run).map_err(raise)?;
+    let baseline = Baseline::read(&baseline).map_err(raise)?;
+    Ok(comparing::compare(&current, &baseline, &tolerances).map_err(raise)?.passed())
 }

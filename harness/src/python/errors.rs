@@ -25,6 +25,7 @@ named! {
     SolveError => "SolveError",
     ScoreError => "ScoreError",
     RunError => "UnshadeError",
+    crate::compare::CompareError => "CompareError",
     crate::metrics::MetricError => "MetricError",
     crate::report::ReportError => "ReportError",
 }

@@ -7,6 +7,7 @@ mod record;
 mod run;
 mod scene;
 
+pub use content::hash_path;
 pub use entrant::{mean_texture, solve};
 pub use file::{Case, Entrant, Method, Suite};
 pub use run::{Observer, RunError, RunSummary, Tools, relight, run, synth};

@@ -17,6 +17,7 @@ use super::entrant;
 use super::file::{Case, Entrant, Method, Suite};
 use super::record::Records;
 use super::scene::{Scene, SceneError};
+use crate::compare::CompareError;
 use crate::report::{self, ReportError};
 use crate::score::{self, ScoreError};
 use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
@@ -47,6 +48,8 @@ pub enum RunError {
     Score(#[from] ScoreError),
     #[error(transparent)]
     Report(#[from] ReportError),
+    #[error(transparent)]
+    Compare(#[from] CompareError),
     #[error("solver {name}: {reason}")]
     Program { name: String, reason: String },
     #[error("{0}: another run is using this folder; wait for it or choose another")]
