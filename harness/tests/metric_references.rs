@@ -47,9 +47,8 @@ fn pictures() -> Pictures {
         let base = 0.06 + 0.5 * triangle(x * (c + 2) + 3 * y, 67) * triangle(y * 2 + c * 11, 53);
         base + 0.02 * noise(x, y, c)
     };
-    let highlight = |x: usize, y: usize| {
-        f32::from(u8::from((30..33).contains(&y) && (40..44).contains(&x)))
-    };
+    let highlight =
+        |x: usize, y: usize| f32::from(u8::from((30..33).contains(&y) && (40..44).contains(&x)));
     let normal = |x, y, c| match c {
         0 => (triangle(x, 37) - 0.5) as f32,
         1 => (triangle(y, 29) - 0.5) as f32,

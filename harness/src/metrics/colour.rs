@@ -45,7 +45,8 @@ pub fn ciede2000(first: [f64; 3], second: [f64; 3]) -> f64 {
     let stretch = 1.5 - 0.5 * power7(mean_chroma);
     let polar = |[lightness, a, b]: [f64; 3]| {
         let a = a * stretch;
-        let hue = if a == 0.0 && b == 0.0 { 0.0 } else { b.atan2(a).to_degrees().rem_euclid(360.0) };
+        let hue =
+            if a == 0.0 && b == 0.0 { 0.0 } else { b.atan2(a).to_degrees().rem_euclid(360.0) };
         (lightness, a.hypot(b), hue)
     };
     let ((l1, c1, h1), (l2, c2, h2)) = (polar(first), polar(second));

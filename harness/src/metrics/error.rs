@@ -10,7 +10,9 @@ pub enum MetricError {
         region: String,
     },
     /// Two pictures that must agree in size do not.
-    #[error("{what} is {found_width}x{found_height}, the truth {width}x{height}; resample it first")]
+    #[error(
+        "{what} is {found_width}x{found_height}, the truth {width}x{height}; resample it first"
+    )]
     Size {
         /// Which picture differs.
         what: &'static str,
@@ -34,7 +36,9 @@ pub enum MetricError {
         found: usize,
     },
     /// A value inside the region is NaN or infinite.
-    #[error("the {what} is {value} at column {x}, row {y}, channel {channel}; mend or mask the pixel")]
+    #[error(
+        "the {what} is {value} at column {x}, row {y}, channel {channel}; mend or mask the pixel"
+    )]
     NotFinite {
         /// Which picture.
         what: &'static str,

@@ -11,18 +11,21 @@ pub(super) fn gaussian(
     sigma: f64,
     radius: usize,
 ) -> Vec<f64> {
-    let weights: Vec<f64> =
-        (0..=2 * radius).map(|i| (-0.5 * ((i as f64 - radius as f64) / sigma).powi(2)).exp()).collect();
+    let weights: Vec<f64> = (0..=2 * radius)
+        .map(|i| (-0.5 * ((i as f64 - radius as f64) / sigma).powi(2)).exp())
+        .collect();
     let total: f64 = weights.iter().sum();
     let weights: Vec<f64> = weights.iter().map(|w| w / total).collect();
     let columns = mirrored(width, radius);
     let rows = mirrored(height, radius);
     let mut across = vec![0.0; values.len()];
-    across.par_chunks_exact_mut(width).zip(values.par_chunks_exact(width)).for_each(|(out, row)| {
-        for (x, out) in out.iter_mut().enumerate() {
-            *out = weights.iter().zip(&columns[x..]).map(|(w, &from)| w * row[from]).sum();
-        }
-    });
+    across.par_chunks_exact_mut(width).zip(values.par_chunks_exact(width)).for_each(
+        |(out, row)| {
+            for (x, out) in out.iter_mut().enumerate() {
+                *out = weights.iter().zip(&columns[x..]).map(|(w, &from)| w * row[from]).sum();
+            }
+        },
+    );
     let mut down = vec![0.0; values.len()];
     down.par_chunks_exact_mut(width).enumerate().for_each(|(y, out)| {
         for (w, &from) in weights.iter().zip(&rows[y..]) {

@@ -26,7 +26,8 @@ impl<'a> Pair<'a> {
         check_size("prediction", (prediction.width, prediction.height), truth)?;
         check_size("region", region.size(), truth)?;
         if prediction.channels != truth.channels {
-            let expected = if truth.channels == 1 { "1 (as the truth)" } else { "3 (as the truth)" };
+            let expected =
+                if truth.channels == 1 { "1 (as the truth)" } else { "3 (as the truth)" };
             let found = prediction.channels;
             return Err(MetricError::Channels { metric: "a pair", expected, found });
         }

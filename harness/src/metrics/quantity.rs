@@ -46,7 +46,11 @@ pub enum Quantity {
 
 impl Quantity {
     /// One or two numbers per pixel of the region, in its order. `metric` is named in errors.
-    pub(super) fn measure(self, pair: &Pair, metric: &'static str) -> Result<Vec<f64>, MetricError> {
+    pub(super) fn measure(
+        self,
+        pair: &Pair,
+        metric: &'static str,
+    ) -> Result<Vec<f64>, MetricError> {
         let needs = |input| MetricError::Needs { metric, input };
         self.check_channels(pair, metric)?;
         Ok(match self {
@@ -144,8 +148,7 @@ fn angle_degrees(a: [f64; 3], b: [f64; 3]) -> f64 {
     if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
         return 90.0;
     }
-    let cross =
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     dot(cross, cross).sqrt().atan2(dot(a, b)).to_degrees()
 }
 

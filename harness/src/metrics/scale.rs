@@ -66,8 +66,7 @@ impl Scale {
             let ratios: Vec<f64> =
                 values.iter().filter(|(p, _)| *p > 0.0).map(|(p, g)| g / p).collect();
             scale.channel[channel] = positive(Statistic::Ratio.value([products.as_slice()]))?;
-            scale.median[channel] =
-                positive(Statistic::Quantile(0.5).value([ratios.as_slice()]))?;
+            scale.median[channel] = positive(Statistic::Quantile(0.5).value([ratios.as_slice()]))?;
         }
         Ok(scale)
     }

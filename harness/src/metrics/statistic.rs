@@ -179,7 +179,9 @@ fn quantile_interval(samples: &[Sample], share: f64) -> Option<[f64; 2]> {
     let mut values: Vec<(f64, usize)> = Vec::new();
     let mut blocks = 0;
     for sample in samples {
-        values.extend(sample.values.iter().zip(&sample.blocks).map(|(v, block)| (*v, blocks + block)));
+        values.extend(
+            sample.values.iter().zip(&sample.blocks).map(|(v, block)| (*v, blocks + block)),
+        );
         blocks += sample.blocks.iter().max().map_or(0, |last| last + 1);
     }
     values.sort_by(|a, b| a.0.total_cmp(&b.0));

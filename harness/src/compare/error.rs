@@ -1,0 +1,59 @@
+//! What keeps a run from being compared.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::metrics::MetricError;
+use crate::score::ScoreError;
+
+/// Why there is no verdict; each message is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// A file cannot be read or written.
+    #[error("{path}: {reason}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// A file is not what it should be.
+    #[error("{path}: cannot be understood: {reason}")]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// What the parser said, on one line.
+        reason: String,
+    },
+    /// A baseline or a run without scores would pass whatever happens.
+    #[error("{0}: has no scores to compare; run the suite to its end")]
+    Empty(PathBuf),
+    /// A row has no tolerance.
+    #[error("no rule of the tolerances matches {0}; add one, rows = \"*\" matches everything")]
+    NoRule(String),
+    /// A row's metric is not one of this version.
+    #[error("{id}: {source}")]
+    Metric {
+        /// The row.
+        id: String,
+        /// Which metric.
+        source: MetricError,
+    },
+    /// A scores file of the run is broken.
+    #[error(transparent)]
+    Scores(#[from] ScoreError),
+    /// The verdicts cannot be written as XML.
+    #[error("the JUnit file cannot be made: {0}")]
+    Junit(#[from] quick_junit::SerializeError),
+}
+
+impl CompareError {
+    pub(super) fn io(path: &Path, reason: io::Error) -> Self {
+        Self::Io { path: path.to_path_buf(), reason }
+    }
+
+    pub(super) fn text(path: &Path, reason: impl ToString) -> Self {
+        let reason = reason.to_string().trim().replace('\n', " ");
+        Self::Text { path: path.to_path_buf(), reason }
+    }
+}

@@ -1,0 +1,89 @@
+//! From pairs of pictures to rows of the scores.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::ScoreError;
+use super::scores::Row;
+use crate::metrics::{Metric, Pair, Quantity, Sample};
+
+/// What the rows of one comparison have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Heading<'a> {
+    pub subject: &'a str,
+    pub light: Option<&'a str>,
+    pub scale: &'a str,
+    pub label: Option<&'a str>,
+    /// Side of the blocks of the bootstrap.
+    pub block: usize,
+}
+
+/// A pair, and the frame that it shows (none for maps).
+pub(super) struct Compared<'a> {
+    pub frame: Option<&'a str>,
+    pub pair: Pair<'a>,
+}
+
+/// Quantities that rendering noise alone would give, per pixel of all frames.
+pub(super) type Floors = HashMap<Quantity, Vec<f64>>;
+
+/// One row per metric, pooled over the pairs.
+pub(super) fn rows(
+    heading: Heading,
+    metrics: &[&str],
+    compared: &[Compared],
+    floors: &Floors,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of(heading.subject);
+    // Metrics of one quantity (FLIP's mean and percentile, all of the angle) share its samples.
+    let mut measured: HashMap<Quantity, Vec<Sample>> = HashMap::new();
+    let mut rows = Vec::with_capacity(metrics.len());
+    for id in metrics {
+        let metric = Metric::find(id).map_err(&wrong)?;
+        if !measured.contains_key(&metric.quantity) {
+            let samples = compared
+                .iter()
+                .map(|Compared { pair, .. }| {
+                    let blocks = pair.region().blocks(heading.block).collect();
+                    Ok(Sample { values: metric.measure(pair)?, blocks })
+                })
+                .collect::<Result<_, _>>()
+                .map_err(&wrong)?;
+            measured.insert(metric.quantity, samples);
+        }
+        let samples = &measured[&metric.quantity];
+        let floor = floors.get(&metric.quantity);
+        rows.push(row(heading, metric, compared, samples, floor.map(Vec::as_slice)));
+    }
+    Ok(rows)
+}
+
+fn row(
+    heading: Heading,
+    metric: &Metric,
+    compared: &[Compared],
+    samples: &[Sample],
+    floor: Option<&[f64]>,
+) -> Row {
+    let statistic = metric.statistic;
+    let owned = |text: Option<&str>| text.map(str::to_owned);
+    let per_frame: BTreeMap<String, f64> = compared
+        .iter()
+        .zip(samples)
+        .filter_map(|(compared, sample)| {
+            Some((compared.frame?.to_owned(), statistic.value([sample.values.as_slice()])?))
+        })
+        .collect();
+    Row {
+        subject: heading.subject.to_owned(),
+        metric: metric.id.to_owned(),
+        scale: heading.scale.to_owned(),
+        region: compared.first().map_or("", |first| first.pair.region().name()).to_owned(),
+        label: owned(heading.label),
+        light: owned(heading.light),
+        value: statistic.value(samples.iter().map(|sample| sample.values.as_slice())),
+        ci95: statistic.interval(samples),
+        n: samples.iter().map(|sample| sample.blocks.len() as u64).sum(),
+        floor: floor.and_then(|floor| statistic.value([floor])),
+        per_frame,
+    }
+}
