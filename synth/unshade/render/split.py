@@ -58,9 +58,8 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
     everything = mi.BSDFContext()
     lambert = mi.BSDFContext()
     lambert.type_mask = +mi.BSDFFlags.DiffuseReflection
-    first = head.ray_intersect_preliminary(ray, coherent=True)
-    active = first.is_valid()
-    pi = first
+    pi = head.ray_intersect_preliminary(ray, coherent=True)
+    active = pi.is_valid()
     ray = mi.Ray3f(ray)
     depth = mi.UInt32(0)
     throughput, share = mi.Color3f(1), mi.Color3f(1)
