@@ -210,7 +210,11 @@ pub(super) fn decimals(unit: &str, values: impl Iterator<Item = f64>) -> usize {
         return 2;
     }
     let largest = values.map(f64::abs).fold(0.0, f64::max);
-    if largest == 0.0 { 3 } else { (2.0 - largest.log10().floor()).clamp(1.0, 6.0) as usize }
+    // Shares and correlations that reach one keep the decimals of those below.
+    match if largest < 2.0 { largest.min(0.99) } else { largest } {
+        0.0 => 3,
+        largest => (2.0 - largest.log10().floor()).clamp(1.0, 6.0) as usize,
+    }
 }
 
 /// Subjects in the order of the walk from maps to pictures; the capture's own light first.
@@ -226,5 +230,29 @@ fn group_title(row: &Row, own_light: &str) -> String {
         None => subject.to_owned(),
         Some(light) if light == own_light => format!("{subject}, {light} (the capture's light)"),
         Some(light) => format!("{subject}, {light}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_three_digits_and_a_unit_its_own_decimals() {
+        let shown_as = |unit, value: f64| shown(Some(value), decimals(unit, [value].into_iter()));
+        assert_eq!(shown_as("dB", 28.114), "28.11");
+        assert_eq!(shown_as("", 0.0031), "0.00310");
+        assert_eq!(shown_as("", 1.0), "1.000");
+        assert_eq!(shown_as("", 5.712), "5.71");
+        assert_eq!(shown_as("", 0.0), "0.000");
+        assert_eq!(shown(None, 2), EMPTY);
+    }
+
+    #[test]
+    fn the_best_is_the_one_in_the_metric_s_direction() {
+        assert_eq!(best(Direction::Higher, &[1.0, 3.0, 2.0]), Some(3.0));
+        assert_eq!(best(Direction::Lower, &[1.0, 3.0, 2.0]), Some(1.0));
+        assert_eq!(best(Direction::One, &[0.7, 1.2, 2.0]), Some(1.2));
+        assert_eq!(best(Direction::Higher, &[1.0]), None);
     }
 }
