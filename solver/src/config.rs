@@ -114,6 +114,9 @@ pub struct FineTuningConfig {
     pub prior: f32,
     /// Largest component of the deviation from the mesh normal; 0.5.
     pub deviation_range: f32,
+    /// Standard deviation of the blur from the optimised texture to the specular deviation, as a
+    /// fraction of the texture's side; the paper has none, so 0.
+    pub deviation_smoothing: f32,
     /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
     /// texture's side. Not published.
     pub deviation_blur: f32,
@@ -236,7 +239,6 @@ impl Config {
             ("warm_up.diffuse_rate", w.diffuse_rate),
             ("warm_up.specular_rate", w.specular_rate),
             ("fine_tuning.prior", f.prior),
-            ("fine_tuning.deviation_blur", f.deviation_blur),
             ("fine_tuning.diffuse_rate", f.diffuse_rate),
             ("fine_tuning.specular_rate", f.specular_rate),
             ("fine_tuning.deviation_rate", f.deviation_rate),
@@ -244,7 +246,9 @@ impl Config {
             range(key, value, |x| x >= 0.0 && x.is_finite(), "zero or positive")?;
         }
         let fraction = |x: f32| (0.0..1.0).contains(&x);
-        range("fine_tuning.deviation_blur", f.deviation_blur, |x| x <= 0.1, "0 to 0.1")?;
+        let narrow = |x: f32| (0.0..=0.1).contains(&x);
+        range("fine_tuning.deviation_smoothing", f.deviation_smoothing, narrow, "0 to 0.1")?;
+        range("fine_tuning.deviation_blur", f.deviation_blur, narrow, "0 to 0.1")?;
         range("rendering.f0", self.rendering.f0, fraction, "0 to 1")?;
         range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
         range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
@@ -290,6 +294,7 @@ impl Config {
                 texture_size: TextureSize::Side(2048),
                 prior: 0.0,
                 deviation_range: 0.5,
+                deviation_smoothing: 0.0,
                 deviation_blur: 0.004,
                 diffuse_rate: 1e-3,
                 specular_rate: 1e-3,
@@ -316,6 +321,7 @@ impl Config {
         config.warm_up.specular_rate = 2e-5;
         config.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
         config.fine_tuning.prior = 0.3;
+        config.fine_tuning.deviation_smoothing = 0.004;
         config.fine_tuning.specular_rate = 1e-4;
         config.fine_tuning.deviation_rate = 3e-4;
         config.normalisation.diffuse_percentile = 99.9;

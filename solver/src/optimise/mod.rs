@@ -4,3 +4,6 @@ pub mod adam;
 pub mod normalise;
 pub mod solve;
 pub mod stage;
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::normalise::Scales;
-use super::stage::{Deviation, Diffuse, Relief, Stage, State, WarmUp, layers};
+use super::stage::{Bend, Deviation, Diffuse, Relief, Stage, State, WarmUp, layers};
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
 use crate::capture::{Capture, View};
@@ -249,7 +249,7 @@ fn to_maps(
         let normals = atlas.normals.iter().zip(texture.chunks_exact(3));
         normals.flat_map(|(n, d)| (n + glam::Vec3::from_slice(d)).normalize().to_array()).collect()
     };
-    let [sharp, blurred] = deviation.textures(state);
+    let Bend { sharp, blurred } = deviation.textures(state);
     let coverage = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
     Maps {
         diffuse_albedo: picture(3, scaled(&state.diffuse, scales.diffuse)),

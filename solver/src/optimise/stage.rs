@@ -45,47 +45,70 @@ impl State {
     }
 }
 
-/// Deviations from the mesh normal: d = range x tanh(t) for the specular normal, blurred for the
-/// diffuse one (sections 4.3.2 and 5.3).
+/// Deviations from the mesh normal: d = range x tanh(smoothed t) for the specular normal, blurred
+/// for the diffuse one (sections 4.3.2 and 5.3; the paper does not smooth).
 #[derive(Clone, Debug)]
 pub struct Deviation {
     range: f32,
+    smoothing: Blur,
     blur: Blur,
     /// How directions are scaled.
     pub scale: DirectionScale,
 }
 
+/// The textures d and blur(d), 3 channels each.
+pub struct Bend {
+    /// For the specular normal.
+    pub sharp: Vec<f32>,
+    /// For the diffuse normal.
+    pub blurred: Vec<f32>,
+}
+
 impl Deviation {
     /// For textures of side `size`.
     pub fn new(config: &Config, size: usize) -> Self {
-        let sigma = config.fine_tuning.deviation_blur * size as f32;
+        let fine = &config.fine_tuning;
+        let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
         Self {
-            range: config.fine_tuning.deviation_range,
-            blur: Blur::new(size, 3, sigma),
+            range: fine.deviation_range,
+            smoothing: blur(fine.deviation_smoothing),
+            blur: blur(fine.deviation_blur),
             scale: DirectionScale::from(&config.networks),
         }
     }
 
-    /// d and its blur, 3 channels each.
-    pub fn textures(&self, state: &State) -> [Vec<f32>; 2] {
-        let sharp: Vec<f32> = state.deviation.par_iter().map(|t| self.range * t.tanh()).collect();
+    /// d and its blur.
+    pub fn textures(&self, state: &State) -> Bend {
+        let mut sharp = self.smoothing.apply(&state.deviation);
+        sharp.par_chunks_mut(1 << 14).for_each(|values| {
+            values.iter_mut().for_each(|t| *t = self.range * tanh(*t));
+        });
         let blurred = self.blur.apply(&sharp);
-        [sharp, blurred]
-    }
-
-    /// d, its blur and the specular albedo at every sample.
-    pub fn sample(&self, state: &State, samples: &Samples) -> Planes {
-        let [sharp, blurred] = self.textures(state);
-        let texture = interleave::<7>(&[(&sharp, 3), (&blurred, 3), (&state.specular, 1)]);
-        samples.taps.sample::<7>(&texture)
+        Bend { sharp, blurred }
     }
 
     /// Carries gradients by d and by its blur to the deviation texture.
-    fn adjoint(&self, state: &State, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
-        let through_blur = self.blur.adjoint(by_blurred);
-        let terms = state.deviation.par_iter().zip(by_sharp).zip(&through_blur);
-        let slope = |t: &f32| self.range * (1.0 - t.tanh().powi(2));
-        terms.map(|((t, sharp), blurred)| (sharp + blurred) * slope(t)).collect()
+    pub fn adjoint(&self, bend: &Bend, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
+        let mut gradient = self.blur.adjoint(by_blurred);
+        gradient.par_iter_mut().zip(by_sharp).zip(&bend.sharp).for_each(|((g, by_sharp), d)| {
+            // The derivative of d = range x tanh(t), by d.
+            *g = (*g + by_sharp) * (self.range - d * d / self.range);
+        });
+        self.smoothing.adjoint(&gradient)
+    }
+}
+
+/// Accurate to about 1e-7 absolute, and fast: the textures have millions of texels.
+fn tanh(x: f32) -> f32 {
+    1.0 - 2.0 / ((2.0 * x).exp() + 1.0)
+}
+
+impl Bend {
+    /// d, its blur and the specular albedo at every sample.
+    pub fn sample(&self, state: &State, samples: &Samples) -> Planes {
+        let parts: [(&[f32], usize); 3] =
+            [(&self.sharp, 3), (&self.blurred, 3), (&state.specular, 1)];
+        samples.taps.sample::<7>(&interleave::<7>(&parts))
     }
 }
 
@@ -122,6 +145,25 @@ impl<'a> WarmUp<'a> {
             specular: Adam::new(adam, w.specular_rate, state.specular.len()),
         }
     }
+
+    /// Loss and its gradient.
+    pub(super) fn gradient(&self, state: &State, backend: &dyn Backend) -> WarmUpGradient {
+        let (samples, taps) = (self.samples, &self.samples.taps);
+        let joint =
+            backend.joint(&state.networks, samples, &self.directions, &state.albedo(samples));
+        let mut diffuse = taps.gather::<3>(&joint.albedo, 0);
+        let specular = taps.gather::<1>(&joint.albedo, 3);
+        let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut diffuse);
+        WarmUpGradient { loss: joint.loss + prior, networks: joint.networks, diffuse, specular }
+    }
+}
+
+/// Gradients of the warm-up's loss.
+pub(super) struct WarmUpGradient {
+    pub loss: f64,
+    pub networks: Vec<f32>,
+    pub diffuse: Vec<f32>,
+    pub specular: Vec<f32>,
 }
 
 impl Stage for WarmUp<'_> {
@@ -134,17 +176,13 @@ impl Stage for WarmUp<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let albedo = state.albedo(self.samples);
-        let gradient = backend.joint(&state.networks, self.samples, &self.directions, &albedo);
-        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient.albedo, 0);
-        let by_specular = self.samples.taps.gather::<1>(&gradient.albedo, 3);
-        let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut by_diffuse);
+        let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
         let least = least_albedo(self.config);
         self.networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
-        self.diffuse.step(&mut state.diffuse, &by_diffuse, share, least);
-        self.specular.step(&mut state.specular, &by_specular, share, least);
-        gradient.loss + prior
+        self.diffuse.step(&mut state.diffuse, &gradient.diffuse, share, least);
+        self.specular.step(&mut state.specular, &gradient.specular, share, least);
+        gradient.loss
     }
 }
 
@@ -182,6 +220,26 @@ impl<'a> Relief<'a> {
             by_specular: Adam::new(adam, f.specular_rate, state.specular.len()),
         }
     }
+
+    /// Loss and its gradients by deviation and specular albedo.
+    pub(super) fn gradient(
+        &mut self,
+        state: &State,
+        backend: &dyn Backend,
+    ) -> (f64, Vec<f32>, Vec<f32>) {
+        let (samples, taps, scale) = (self.samples, &self.samples.taps, self.deviation.scale);
+        let bend = self.deviation.textures(state);
+        let bent = bend.sample(state, samples);
+        self.albedo.copy_row(3, &bent, 6);
+        let directions = scale.directions(samples, Some(&bent));
+        let (loss, gradient) =
+            backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
+        let by_specular = taps.gather::<1>(&gradient, 6);
+        let gradient = scale.adjoint(samples, &bent, &gradient);
+        let by_sharp = taps.gather::<3>(&gradient, 0);
+        let by_blurred = taps.gather::<3>(&gradient, 3);
+        (loss, self.deviation.adjoint(&bend, &by_sharp, &by_blurred), by_specular)
+    }
 }
 
 impl Stage for Relief<'_> {
@@ -194,16 +252,7 @@ impl Stage for Relief<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let (samples, taps, scale) = (self.samples, &self.samples.taps, self.deviation.scale);
-        let bent = self.deviation.sample(state, samples);
-        self.albedo.copy_row(3, &bent, 6);
-        let directions = scale.directions(samples, Some(&bent));
-        let (loss, gradient) =
-            backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
-        let by_specular = taps.gather::<1>(&gradient, 6);
-        let gradient = scale.adjoint(samples, &bent, &gradient);
-        let (by_sharp, by_blurred) = (taps.gather::<3>(&gradient, 0), taps.gather::<3>(&gradient, 3));
-        let by_deviation = self.deviation.adjoint(state, &by_sharp, &by_blurred);
+        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         let least = least_albedo(self.config);
         self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
         self.by_specular.step(&mut state.specular, &by_specular, share, least);
@@ -243,6 +292,16 @@ impl<'a> Diffuse<'a> {
             ),
         }
     }
+
+    /// Loss and its gradient by the diffuse albedo.
+    pub(super) fn gradient(&self, state: &State) -> (f64, Vec<f32>) {
+        let albedo = self.samples.taps.sample::<3>(&state.diffuse);
+        let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
+        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
+        let weight = self.config.fine_tuning.prior;
+        let prior = prior(&state.diffuse, state.size, weight, &mut by_diffuse);
+        (loss + prior, by_diffuse)
+    }
 }
 
 impl Stage for Diffuse<'_> {
@@ -255,13 +314,9 @@ impl Stage for Diffuse<'_> {
     }
 
     fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
-        let albedo = self.samples.taps.sample::<3>(&state.diffuse);
-        let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
-        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
-        let weight = self.config.fine_tuning.prior;
-        let prior = prior(&state.diffuse, state.size, weight, &mut by_diffuse);
+        let (loss, by_diffuse) = self.gradient(state);
         self.by_diffuse.step(&mut state.diffuse, &by_diffuse, share, least_albedo(self.config));
-        loss + prior
+        loss
     }
 }
 
@@ -272,7 +327,7 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let bent = deviation.sample(state, samples);
+    let bent = deviation.textures(state).sample(state, samples);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);

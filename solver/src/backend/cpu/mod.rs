@@ -178,3 +178,6 @@ impl Backend for Cpu {
         shading
     }
 }
+
+#[cfg(test)]
+mod tests;

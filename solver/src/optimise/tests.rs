@@ -1,0 +1,307 @@
+//! Gradients of the stages through textures, taps, blur and normals; and whole solves of a small
+//! scene whose answer is known.
+
+use std::ops::ControlFlow;
+
+use glam::{Vec2, Vec3};
+
+use super::solve::solve;
+use super::stage::{Deviation, Diffuse, Relief, State, WarmUp};
+use crate::backend::cpu::Cpu;
+use crate::capture::{Capture, View};
+use crate::config::{Config, TextureSize};
+use crate::error::{CaptureError, SolveError};
+use crate::gbuffer::GBuffer;
+use crate::model::networks::Networks;
+use crate::model::samples::{SampleSpace, Samples};
+use crate::picture;
+use crate::solution::Solution;
+use crate::testing;
+
+/// Side of the textures in the gradient tests.
+const SIDE: usize = 16;
+
+/// Labelled regions of the dome with their reflectance.
+const REGIONS: [(u8, Vec3); 3] = [
+    (1, Vec3::new(0.6, 0.4, 0.3)),
+    (2, Vec3::new(0.45, 0.25, 0.22)),
+    (3, Vec3::new(0.2, 0.15, 0.12)),
+];
+
+fn region(position: Vec3) -> (u8, Vec3) {
+    REGIONS[match (position.truncate().length(), position.x) {
+        (radius, _) if radius < 0.3 => 1,
+        (_, x) if x < -0.45 => 2,
+        _ => 0,
+    }]
+}
+
+/// The unit dome under one soft light from the upper right; its largest irradiance is pi.
+fn lit(position: Vec3) -> (Vec3, u8) {
+    let (label, albedo) = region(position);
+    let light = Vec3::new(0.4, 0.5, 0.77).normalize();
+    (albedo * (0.25 + 0.75 * position.dot(light).max(0.0)), label)
+}
+
+fn views(count: usize, size: usize) -> Vec<View> {
+    let mesh = testing::dome(24);
+    testing::rig(count, size).iter().map(|camera| testing::view(&mesh, camera, lit)).collect()
+}
+
+/// A capture folder with five training views and one withheld.
+fn capture(folder: &std::path::Path) -> Capture {
+    testing::write_capture(folder, &testing::dome(24), &views(6, 48), 1);
+    Capture::open(folder).unwrap()
+}
+
+fn small() -> Config {
+    let mut config = Config::default();
+    config.warm_up.iterations = 500;
+    config.warm_up.texture_size = 64;
+    config.fine_tuning.iterations = 40;
+    config.fine_tuning.rounds = 1;
+    config.fine_tuning.texture_size = TextureSize::Side(64);
+    config
+}
+
+fn silent(_: &crate::Progress) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+struct Problem {
+    config: Config,
+    samples: Samples,
+    state: State,
+}
+
+/// Samples of two small views with black targets: no residual is near the kink of |x|.
+fn problem() -> Problem {
+    let mut config = Config::default();
+    config.fine_tuning.deviation_blur = 0.08;
+    config.fine_tuning.deviation_smoothing = 0.05;
+    config.warm_up.prior = 20.0;
+    config.fine_tuning.prior = 20.0;
+    let mesh = testing::dome(12);
+    let mut views = views(2, 24);
+    views.iter_mut().for_each(|view| view.image.data.fill(0.0));
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let space = SampleSpace::new(&mesh, &config);
+    let samples = space.training(&views, &gbuffers, &config.view_weights, SIDE);
+    let noise = |count: usize, low: f32, high: f32| -> Vec<f32> {
+        (0..count).map(|i| low + (high - low) * (i as f32 * 12.9898).sin().abs()).collect()
+    };
+    let texels = SIDE * SIDE;
+    let state = State {
+        networks: Networks::new(&config.networks, 5),
+        size: SIDE,
+        diffuse: noise(3 * texels, 0.1, 0.9),
+        specular: noise(texels, 0.2, 0.6),
+        deviation: noise(3 * texels, -0.4, 0.4),
+    };
+    Problem { config, samples, state }
+}
+
+/// Central differences of an f32 computation: the step balances rounding and curvature.
+fn assert_gradient(
+    what: &str,
+    state: &State,
+    gradient: &[f32],
+    field: fn(&mut State) -> &mut Vec<f32>,
+    step: f32,
+    loss: impl Fn(&State) -> f64,
+) {
+    let largest = gradient.iter().fold(0.0f32, |m, g| m.max(g.abs()));
+    let strong = gradient.iter().enumerate().filter(|(_, g)| g.abs() > 0.3 * largest);
+    let picked: Vec<usize> = strong.map(|(at, _)| at).step_by(7).take(12).collect();
+    assert!(picked.len() >= 3, "{what}: only {} strong gradients", picked.len());
+    for at in picked {
+        let moved = |step: f32| {
+            let mut moved = state.clone();
+            field(&mut moved)[at] += step;
+            loss(&moved)
+        };
+        let expected = (moved(step) - moved(-step)) / (2.0 * f64::from(step));
+        let error = (f64::from(gradient[at]) - expected).abs();
+        assert!(
+            error < 0.01 * f64::from(largest),
+            "{what} {at}: {} instead of {expected}",
+            gradient[at]
+        );
+    }
+}
+
+#[test]
+fn warm_up_gradients_reach_networks_and_textures() {
+    let Problem { config, samples, state } = problem();
+    let backend = Cpu::new();
+    let stage = WarmUp::new(&config, &samples, &state);
+    let gradient = stage.gradient(&state, &backend);
+    let loss = |state: &State| stage.gradient(state, &backend).loss;
+    assert_gradient("diffuse", &state, &gradient.diffuse, |s| &mut s.diffuse, 2e-3, loss);
+    assert_gradient("specular", &state, &gradient.specular, |s| &mut s.specular, 1e-2, loss);
+    fn networks(state: &mut State) -> &mut Vec<f32> {
+        &mut state.networks.parameters
+    }
+    assert_gradient("networks", &state, &gradient.networks, networks, 1e-3, loss);
+}
+
+#[test]
+fn relief_gradients_pass_through_reflection_normals_tanh_and_blur() {
+    let Problem { config, samples, state } = problem();
+    let backend = Cpu::new();
+    let deviation = Deviation::new(&config, SIDE);
+    let stage = || Relief::new(&config, &samples, &deviation, &state, &backend, 1);
+    let (_, by_deviation, by_specular) = stage().gradient(&state, &backend);
+    let loss = |state: &State| stage().gradient(state, &backend).0;
+    assert_gradient("deviation", &state, &by_deviation, |s| &mut s.deviation, 5e-2, loss);
+    assert_gradient("specular", &state, &by_specular, |s| &mut s.specular, 1e-2, loss);
+}
+
+#[test]
+fn diffuse_gradients_include_the_prior() {
+    let Problem { config, samples, state } = problem();
+    let backend = Cpu::new();
+    let deviation = Deviation::new(&config, SIDE);
+    let stage = Diffuse::new(&config, &samples, &deviation, &state, &backend, 1);
+    let (_, gradient) = stage.gradient(&state);
+    let loss = |state: &State| stage.gradient(state).0;
+    assert_gradient("diffuse", &state, &gradient, |s| &mut s.diffuse, 2e-3, loss);
+}
+
+/// The stages must agree about the same model: the loss with frozen networks is that of the
+/// warm-up with the same state, as long as nothing is bent.
+#[test]
+fn the_stages_see_the_same_loss() {
+    let Problem { mut config, samples, mut state } = problem();
+    config.warm_up.prior = 0.0;
+    config.fine_tuning.prior = 0.0;
+    state.deviation.fill(0.0);
+    let backend = Cpu::new();
+    let deviation = Deviation::new(&config, SIDE);
+    let joint = WarmUp::new(&config, &samples, &state).gradient(&state, &backend).loss;
+    let relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1)
+        .gradient(&state, &backend)
+        .0;
+    let diffuse =
+        Diffuse::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state).0;
+    assert!((relief / joint - 1.0).abs() < 1e-5, "{relief} {joint}");
+    assert!((diffuse / joint - 1.0).abs() < 1e-5, "{diffuse} {joint}");
+}
+
+/// Mean squared error to decibels.
+fn decibels(errors: &[f32]) -> f32 {
+    -10.0 * (errors.iter().map(|e| e * e).sum::<f32>() / errors.len() as f32).log10()
+}
+
+#[test]
+fn a_known_scene_is_recovered_and_its_withheld_view_predicted() {
+    let folder = tempfile::tempdir().unwrap();
+    let solution = solve(&capture(folder.path()), &small(), &mut silent).unwrap();
+
+    let albedo = solution.maps.diffuse_albedo.as_ref().unwrap();
+    let coverage = solution.maps.coverage.as_ref().unwrap();
+    let size = albedo.width;
+    let mut errors = vec![];
+    for at in (0..size * size).filter(|at| coverage.data[*at] == 255) {
+        let uv = Vec2::new((at % size) as f32 + 0.5, (at / size) as f32 + 0.5) / size as f32;
+        let chart = Vec2::new(uv.x - 0.5, 0.5 - uv.y) / 0.4;
+        let polar = chart.length() * 0.2f32.acos();
+        let position = (chart.normalize() * polar.sin()).extend(polar.cos());
+        let truth = region(position).1;
+        // Edges of regions are as sharp as the views' pixels; they are not what is tested here.
+        let near = |d: Vec2| region(position + d.extend(0.0)).1 == truth;
+        if [Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y].iter().all(|d| near(*d * 0.08)) {
+            errors.extend((Vec3::from_slice(&albedo.data[3 * at..]) - truth).to_array());
+        }
+    }
+    assert!(errors.len() > 3000, "{}", errors.len());
+    assert!(decibels(&errors) > 27.0, "albedo: {} dB", decibels(&errors));
+
+    let withheld = &views(6, 48)[5];
+    let picture = &solution.views[0].picture;
+    let mut errors = vec![];
+    for at in (0..48 * 48).filter(|at| withheld.mask.data[*at] == 255) {
+        let pixel = &picture.data[9 * at..][..9];
+        for channel in 0..3 {
+            assert!((pixel[channel] - pixel[3 + channel] - pixel[6 + channel]).abs() < 1e-5);
+            errors.push(pixel[channel] - withheld.image.data[3 * at + channel]);
+        }
+    }
+    assert!(decibels(&errors) > 32.0, "withheld view: {} dB", decibels(&errors));
+    assert_eq!(solution.views[0].name, withheld.camera.name);
+}
+
+/// The same bytes for any number of threads, without `truth`, and nothing else in the folder.
+#[test]
+fn solutions_do_not_depend_on_the_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = capture(&folder.path().join("capture"));
+    assert!(!folder.path().join("capture/truth").exists());
+    let mut config = small();
+    config.warm_up.iterations = 20;
+    config.fine_tuning.iterations = 5;
+    let run = |threads: usize| -> Solution {
+        testing::on_threads(threads, || solve(&capture, &config, &mut silent).unwrap())
+    };
+    let first = run(1);
+    for threads in [2, 3] {
+        let other = run(threads);
+        assert_eq!(first.maps, other.maps, "{threads} threads");
+        assert_eq!(first.views, other.views, "{threads} threads");
+        assert_eq!(first.record, other.record, "{threads} threads");
+    }
+    let target = folder.path().join("maps");
+    first.write(&target).unwrap();
+    let mut names: Vec<String> = std::fs::read_dir(&target)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let expected = [
+        "coverage.png",
+        "diffuse_albedo.exr",
+        "diffuse_normal.exr",
+        "solve.json",
+        "specular_albedo.exr",
+        "specular_normal.exr",
+        "timing.json",
+        "views",
+    ];
+    assert_eq!(names, expected);
+    let channels = picture::exr_channel_names(&target.join("views/005.exr")).unwrap();
+    assert_eq!(channels.len(), 9);
+    let record: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(target.join("solve.json")).unwrap()).unwrap();
+    assert_eq!(record["stages"][0]["loss"].as_array().unwrap().len(), 20);
+    assert_eq!(record["config"]["seed"], 0);
+}
+
+#[test]
+fn a_solve_can_be_stopped_and_refuses_what_it_cannot_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut capture = capture(folder.path());
+    let mut calls = 0;
+    let stopped = solve(&capture, &small(), &mut |progress| {
+        calls += 1;
+        assert_eq!((progress.iteration, progress.total), (calls, 580));
+        if calls == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(stopped, Err(SolveError::Interrupted)));
+
+    let mut wild = small();
+    wild.warm_up.network_rate = 1e30;
+    let error = solve(&capture, &wild, &mut silent).unwrap_err().to_string();
+    assert!(error.contains("stage warm-up") && error.contains("rates"), "{error}");
+
+    let mut wrong = small();
+    wrong.networks.width = 3;
+    let error = solve(&capture, &wrong, &mut silent).unwrap_err();
+    assert!(matches!(error, SolveError::Config(_)), "{error}");
+
+    // Cameras that look away from the mesh.
+    for view in &mut capture.train {
+        view.mask.data.fill(0);
+    }
+    let error = solve(&capture, &small(), &mut silent).unwrap_err();
+    assert!(matches!(error, SolveError::Capture(CaptureError::NothingVisible(_))), "{error}");
+}
