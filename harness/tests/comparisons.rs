@@ -1,5 +1,7 @@
 //! `unshade compare`: what moved is judged by direction and tolerance, and told as text and XML.
 
+#![allow(clippy::unwrap_used)]
+
 use std::fs;
 
 use harness::compare::{Baseline, CompareError, Entry, Tolerances, Verdict, compare};

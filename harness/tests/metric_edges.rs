@@ -1,5 +1,7 @@
 //! What the metrics do where there is nothing to measure, or nothing to measure with.
 
+#![allow(clippy::unwrap_used)]
+
 use harness::metrics::{Metric, MetricError, Pair, Region, Scale};
 use solver::picture::{GrayImage, Picture};
 

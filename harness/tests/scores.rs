@@ -1,5 +1,7 @@
 //! Scores of a capture whose every value is a formula: what is planted must be found.
 
+#![allow(clippy::unwrap_used)]
+
 mod noise;
 mod plane;
 

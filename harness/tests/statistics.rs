@@ -1,6 +1,8 @@
 //! Confidence intervals contain the true value as often as they say, also where neighbouring
 //! pixels err together.
 
+#![allow(clippy::unwrap_used)]
+
 mod noise;
 
 use harness::metrics::{Sample, Statistic};

@@ -115,7 +115,8 @@ fn compare(
             noise_floor::add_frame(&mut floors, total, variance, found.variance.as_ref(), region);
         }
     }
-    let parts: [(fn(&Render) -> &Option<Picture>, &[&str]); 3] = [
+    type Part = (fn(&Render) -> &Option<Picture>, &'static [&'static str]);
+    let parts: [Part; 3] = [
         (|render| &render.total, &PICTURE),
         (|render| &render.diffuse, &LAYER),
         (|render| &render.specular, &LAYER),

@@ -1,10 +1,11 @@
 //! From pairs of pictures to rows of the scores.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
 use super::ScoreError;
 use super::scores::Row;
-use crate::metrics::{Metric, Pair, Quantity, Sample};
+use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample};
 
 /// What the rows of one comparison have in common.
 #[derive(Clone, Copy, Debug)]
@@ -39,22 +40,28 @@ pub(super) fn rows(
     let mut rows = Vec::with_capacity(metrics.len());
     for id in metrics {
         let metric = Metric::find(id).map_err(&wrong)?;
-        if !measured.contains_key(&metric.quantity) {
-            let samples = compared
-                .iter()
-                .map(|Compared { pair, .. }| {
-                    let blocks = pair.region().blocks(heading.block).collect();
-                    Ok(Sample { values: metric.measure(pair)?, blocks })
-                })
-                .collect::<Result<_, _>>()
-                .map_err(&wrong)?;
-            measured.insert(metric.quantity, samples);
-        }
-        let samples = &measured[&metric.quantity];
+        let samples = match measured.entry(metric.quantity) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => {
+                place.insert(sample(metric, compared, heading.block).map_err(&wrong)?)
+            }
+        };
         let floor = floors.get(&metric.quantity);
         rows.push(row(heading, metric, compared, samples, floor.map(Vec::as_slice)));
     }
     Ok(rows)
+}
+
+fn sample(
+    metric: &Metric,
+    compared: &[Compared],
+    block: usize,
+) -> Result<Vec<Sample>, MetricError> {
+    let of_pair = |Compared { pair, .. }: &Compared| {
+        let blocks = pair.region().blocks(block).collect();
+        Ok(Sample { values: metric.measure(pair)?, blocks })
+    };
+    compared.iter().map(of_pair).collect()
 }
 
 fn row(
