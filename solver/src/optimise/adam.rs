@@ -46,7 +46,9 @@ impl Adam {
                 for ((p, g), (m, v)) in parameters.iter_mut().zip(gradient).zip(moments) {
                     *m = beta1 * *m + (1.0 - beta1) * g;
                     *v = beta2 * *v + (1.0 - beta2) * g * g;
-                    *p = (*p - rate * *m / (v.sqrt() * root + epsilon)).max(least);
+                    let moved = *p - rate * *m / (v.sqrt() * root + epsilon);
+                    // Unlike max, this lets a NaN through, which the loss then shows.
+                    *p = if moved < least { least } else { moved };
                 }
             });
     }

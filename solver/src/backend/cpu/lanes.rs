@@ -36,9 +36,9 @@ pub trait Lanes: Copy {
     fn div(self, b: Self) -> Self;
     /// self * b + c, rounded once where the hardware can.
     fn mul_add(self, b: Self, c: Self) -> Self;
-    /// The larger one.
+    /// The larger one; `b` if either is NaN.
     fn max(self, b: Self) -> Self;
-    /// The smaller one.
+    /// The smaller one; `b` if either is NaN.
     fn min(self, b: Self) -> Self;
     /// Without its sign.
     fn abs(self) -> Self;
@@ -53,7 +53,8 @@ pub trait Lanes: Copy {
 /// e^x, relative error about 1e-7; x is clamped to [-87, 88].
 #[inline(always)]
 pub fn exp<S: Lanes>(x: S) -> S {
-    let x = x.max(S::splat(-87.0)).min(S::splat(88.0));
+    // In this order a NaN passes through, so that a diverged solve shows in its loss.
+    let x = S::splat(88.0).min(S::splat(-87.0).max(x));
     let n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
     // ln 2 in two parts, the first with so few bits that its product with n is exact.
     let r = n.mul_add(S::splat(-0.693_359_4), x);

@@ -156,7 +156,7 @@ fn product<S: Lanes, const C: usize, const RELU: bool>(
             }
             for (row, sums) in output.iter_mut().zip(sums) {
                 for (c, sum) in sums.into_iter().enumerate() {
-                    let value = if RELU { sum.max(S::splat(0.0)) } else { sum };
+                    let value = if RELU { S::splat(0.0).max(sum) } else { sum };
                     value.store(row, at + c * S::WIDTH);
                 }
             }
