@@ -241,7 +241,8 @@ fn a_worse_albedo_turns_red_and_no_change_never_does() {
     let noise: Vec<f64> = (0..SIDE * SIDE).map(|_| noise()).collect();
     let texel =
         |u: f64, v: f64| (((1.0 - v) * SIDE as f64) as usize * SIDE) + (u * SIDE as f64) as usize;
-    let worse: [(&str, &dyn Fn(f64, f64) -> [f64; 3], &str); 3] = [
+    type Change<'a> = (&'a str, &'a dyn Fn(f64, f64) -> [f64; 3], &'a str);
+    let worse: [Change; 3] = [
         (
             "brighter by 2 %",
             &|u, v| recovered(u, v).map(|a| 1.02 * a),
