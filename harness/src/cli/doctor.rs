@@ -28,12 +28,12 @@ pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
         }
     };
     let mut complete = true;
-    for part in found["parts"].as_array().into_iter().flatten() {
+    for part in found["checks"].as_array().into_iter().flatten() {
         let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();
         if part["ok"].as_bool().unwrap_or(false) {
             println!("{:<10} {}", text("name"), text("found"));
         } else {
-            complete &= !part["needed"].as_bool().unwrap_or(true);
+            complete = false;
             println!("{:<10} MISSING: {}; {}", text("name"), text("found"), text("mend"));
         }
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -67,6 +68,11 @@ def relight(
         progress(done, len(jobs), f"view {view.name} in {light.name}, scale {scale}")
         path = folder.path / scale / light.name / f"{view.name}.exr"
         if path.exists():
+            continue
+        twin = next((name for name in scales if scales[name] == scales[scale]), scale)
+        if twin != scale:  # the same factor gives the same picture
+            path.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(folder.path / twin / light.name / path.name, path)
             continue
         if scale != current:
             head.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
