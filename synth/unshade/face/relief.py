@@ -15,7 +15,7 @@ from .strokes import Sketch
 UNDULATION_MM = 0.17
 """Standard deviation of the unevenness at 2 to 9 mm: fat, muscle and follicles under the skin.
 
-With it the specular normals lie about 4 degrees from those of the smooth mesh, as those of a
+With it the specular normals lie about 3 degrees from those of the smooth mesh, as those of a
 scanned face do from its multi-view-stereo mesh."""
 
 
