@@ -117,6 +117,9 @@ pub struct FineTuningConfig {
     /// Standard deviation of the blur from the optimised texture to the specular deviation, as a
     /// fraction of the texture's side; the paper has none, so 0.
     pub deviation_smoothing: f32,
+    /// Standard deviation of a second, wider blur that is subtracted, as a fraction of the texture's
+    /// side: relief coarser than this is left to the mesh. 0 subtracts nothing, as in the paper.
+    pub deviation_extent: f32,
     /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
     /// texture's side. Not published.
     pub deviation_blur: f32,
@@ -248,6 +251,7 @@ impl Config {
         let fraction = |x: f32| (0.0..1.0).contains(&x);
         let narrow = |x: f32| (0.0..=0.1).contains(&x);
         range("fine_tuning.deviation_smoothing", f.deviation_smoothing, narrow, "0 to 0.1")?;
+        range("fine_tuning.deviation_extent", f.deviation_extent, narrow, "0 to 0.1")?;
         range("fine_tuning.deviation_blur", f.deviation_blur, narrow, "0 to 0.1")?;
         range("rendering.f0", self.rendering.f0, fraction, "0 to 1")?;
         range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
@@ -295,6 +299,7 @@ impl Config {
                 prior: 0.0,
                 deviation_range: 0.5,
                 deviation_smoothing: 0.0,
+                deviation_extent: 0.0,
                 deviation_blur: 0.004,
                 diffuse_rate: 1e-3,
                 specular_rate: 1e-3,
@@ -313,6 +318,7 @@ impl Config {
     /// fine-tuning, and sturdier normalisation.
     fn unshade() -> Self {
         let mut config = Self::paper();
+        config.view_weights.depth = false;
         config.networks.normal_scale = 2.0;
         config.networks.reflection_scale = 2.0;
         config.rendering.positive_albedo = true;
@@ -321,9 +327,10 @@ impl Config {
         config.warm_up.specular_rate = 2e-5;
         config.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
         config.fine_tuning.prior = 0.3;
-        config.fine_tuning.deviation_smoothing = 0.004;
+        config.fine_tuning.deviation_smoothing = 0.002;
+        config.fine_tuning.deviation_extent = 0.008;
         config.fine_tuning.specular_rate = 1e-4;
-        config.fine_tuning.deviation_rate = 3e-4;
+        config.fine_tuning.deviation_rate = 5e-5;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
         config

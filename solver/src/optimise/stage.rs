@@ -45,12 +45,14 @@ impl State {
     }
 }
 
-/// Deviations from the mesh normal: d = range x tanh(smoothed t) for the specular normal, blurred
-/// for the diffuse one (sections 4.3.2 and 5.3; the paper does not smooth).
+/// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
+/// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
+/// difference of a narrow and a wide blur: coarse relief is the mesh's, the finest is noise.
 #[derive(Clone, Debug)]
 pub struct Deviation {
     range: f32,
-    smoothing: Blur,
+    narrow: Blur,
+    wide: Option<Blur>,
     blur: Blur,
     /// How directions are scaled.
     pub scale: DirectionScale,
@@ -71,7 +73,8 @@ impl Deviation {
         let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
         Self {
             range: fine.deviation_range,
-            smoothing: blur(fine.deviation_smoothing),
+            narrow: blur(fine.deviation_smoothing),
+            wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
             blur: blur(fine.deviation_blur),
             scale: DirectionScale::from(&config.networks),
         }
@@ -79,7 +82,7 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, state: &State) -> Bend {
-        let mut sharp = self.smoothing.apply(&state.deviation);
+        let mut sharp = self.band(&state.deviation, Blur::apply);
         sharp.par_chunks_mut(1 << 14).for_each(|values| {
             values.iter_mut().for_each(|t| *t = self.range * tanh(*t));
         });
@@ -94,7 +97,17 @@ impl Deviation {
             // The derivative of d = range x tanh(t), by d.
             *g = (*g + by_sharp) * (self.range - d * d / self.range);
         });
-        self.smoothing.adjoint(&gradient)
+        self.band(&gradient, Blur::adjoint)
+    }
+
+    /// B or its transpose.
+    fn band(&self, texture: &[f32], blur: fn(&Blur, &[f32]) -> Vec<f32>) -> Vec<f32> {
+        let mut band = blur(&self.narrow, texture);
+        if let Some(wide) = &self.wide {
+            let coarse = blur(wide, texture);
+            band.par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
+        }
+        band
     }
 }
 

@@ -79,6 +79,7 @@ fn problem() -> Problem {
     let mut config = Config::default();
     config.fine_tuning.deviation_blur = 0.08;
     config.fine_tuning.deviation_smoothing = 0.05;
+    config.fine_tuning.deviation_extent = 0.1;
     config.warm_up.prior = 20.0;
     config.fine_tuning.prior = 20.0;
     let mesh = testing::dome(12);
