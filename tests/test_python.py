@@ -1,0 +1,148 @@
+"""The Python package as its users meet it."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import unshade
+from skimage.metrics import peak_signal_noise_ratio
+
+README = Path(__file__).parents[1] / "README.md"
+CASE = "tiny-studio"
+
+
+def test_a_capture_hands_out_arrays(tiny_run: Path) -> None:
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    assert len(capture.train) == 4 and len(capture.withheld) == 1
+    name = capture.train[0]
+    image, mask = capture.image(name), capture.mask(name)
+    assert image.shape == (96, 96, 3) and image.dtype == np.float32
+    assert mask.shape == (96, 96) and set(np.unique(mask)) == {0, 255}
+    camera = capture.camera(capture.withheld[0])
+    rotation = camera["camera_to_world"][:3, :3]
+    np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-5)
+    mesh = capture.mesh
+    assert mesh["triangles"].max() < len(mesh["vertices"]) == len(mesh["uvs"])
+    # A vertex in the middle of the face is seen where the camera says it is.
+    front = mesh["vertices"][mesh["normals"][:, 2] > 0.99].mean(0)
+    camera = capture.camera(name)
+    local = np.linalg.inv(camera["camera_to_world"]) @ np.append(front, 1)
+    x, y = np.array(camera["centre"]) + camera["focal"] * local[:2] / -local[2] * [1, -1]
+    assert mask[int(y), int(x)] == 255
+
+
+def test_maps_survive_a_round_trip(tmp_path: Path) -> None:
+    albedo = np.random.default_rng(0).random((8, 8, 3), dtype=np.float32)
+    unshade.Maps(diffuse_albedo=albedo, specular_albedo=albedo[..., 0]).write(tmp_path / "maps")
+    back = unshade.Maps.read(tmp_path / "maps")
+    np.testing.assert_array_equal(back.diffuse_albedo, albedo)
+    np.testing.assert_array_equal(back.specular_albedo, albedo[..., 0])
+    assert back.diffuse_normal is None
+
+
+def test_metrics_agree_with_scikit_image() -> None:
+    random = np.random.default_rng(1)
+    truth = random.random((32, 40, 3), dtype=np.float32)
+    noisy = truth + random.normal(0, 0.05, truth.shape).astype(np.float32)
+    mask = np.zeros((32, 40), bool)
+    mask[4:20, 6:30] = True
+    expected = peak_signal_noise_ratio(truth[mask].astype(float), noisy[mask].astype(float), data_range=1)
+    assert unshade.metrics.psnr_lin(noisy, truth, mask) == pytest.approx(expected, abs=1e-9)
+    assert unshade.metrics.psnr_lin(0.5 * truth, truth, scale="global") > 90
+    assert unshade.metrics.pearson(np.ones_like(truth[..., 0]), truth[..., 0]) is None
+    assert "sRGB" in unshade.metrics.psnr_srgb.__doc__
+
+
+def test_scores_are_those_of_the_command_line(tiny_run: Path) -> None:
+    maps = tiny_run / "maps" / CASE / "quick"
+    relit = tiny_run / "relit" / CASE / "quick"
+    scores = unshade.score(tiny_run / "captures" / CASE, maps, relit=relit)
+    written = json.loads((tiny_run / "scores" / CASE / "quick.json").read_text())
+    assert scores["rows"] == written["rows"]
+
+
+def test_a_callback_hears_and_stops_a_solve(tiny_run: Path) -> None:
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    heard = []
+
+    def progress(stage: str, iteration: int, total: int, loss: float) -> None:
+        heard.append((stage, iteration, total, loss))
+        if iteration == 3:
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        unshade.solve(capture, config="fast", progress=progress)
+    assert [iteration for _, iteration, _, _ in heard] == [1, 2, 3]
+
+
+def test_errors_have_names_and_one_line(tiny_run: Path, tmp_path: Path) -> None:
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    wrong = {
+        unshade.errors.CaptureError: lambda: unshade.Capture(tmp_path),
+        unshade.errors.MapsError: lambda: unshade.Maps(diffuse_albedo=np.zeros((2, 3, 3), np.float32)),
+        unshade.errors.ConfigError: lambda: unshade.solve(capture, config="papre"),
+        unshade.errors.MetricError: lambda: unshade.metrics.psnr_lin(
+            np.zeros((2, 2), np.float32), np.zeros((3, 3), np.float32)
+        ),
+        unshade.errors.ScoreError: lambda: unshade.score(capture.path, tmp_path),
+    }
+    for kind, call in wrong.items():
+        with pytest.raises(kind) as caught:
+            call()
+        assert isinstance(caught.value, unshade.errors.UnshadeError)
+        assert "\n" not in str(caught.value)
+
+
+def test_the_renderers_exception_keeps_its_name(tmp_path: Path) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'format = 1\nname = "x"\nface = {name = "x", seed = 1}\n'
+        'light = {name = "l", kind = "candle"}\nrig = {name = "r", kind = "phone"}\n'
+        "[render]\nwidth = 16\nheight = 16\n"
+    )
+    with pytest.raises(unshade.errors.SceneError, match="candle"):
+        unshade.synth(scene, tmp_path / "capture")
+    assert not (tmp_path / "capture").exists()
+
+
+def test_a_python_function_joins_a_suite(tiny_run: Path, tmp_path: Path) -> None:
+    """Someone else's solver, blind to the truth, in five lines of TOML."""
+    (tmp_path / "grey.py").write_text(
+        "import numpy as np, unshade\n"
+        "def solve(capture):\n"
+        "    assert not (capture.path / 'truth').exists()\n"
+        "    return unshade.Maps(diffuse_albedo=np.full((16, 16, 3), 0.3, np.float32))\n"
+    )
+    from unshade import plugin
+
+    maps = tmp_path / "maps"
+    import shutil
+
+    blind = tmp_path / "blind"
+    shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(tmp_path)
+        plugin.main("grey:solve", str(blind), str(maps))
+    scores = unshade.score(tiny_run / "captures" / CASE, maps)
+    subjects = {row["subject"] for row in scores["rows"]}
+    # What the function did not recover is absent, never scored as zero.
+    assert "diffuse_albedo" in subjects and "specular_albedo" not in subjects
+
+
+def test_the_readmes_python_runs(tiny_run: Path, tmp_path: Path) -> None:
+    """The snippet of the README, on the tiny capture in place of the demo's."""
+    (snippet,) = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+    capture = tiny_run / "captures" / CASE
+    snippet = snippet.replace(
+        'unshade.synth("scenes/demo.toml", "capture")', f"unshade.Capture({str(capture)!r})"
+    )
+    assert str(capture) in snippet
+    snippet = snippet.replace('"capture"', repr(str(capture)))
+    for folder in ("maps", "relit"):
+        snippet = snippet.replace(f'"{folder}"', repr(str(tmp_path / folder)))
+    snippet = snippet.replace('config="unshade"', 'config="fast"')
+    exec(compile(snippet, "README.md", "exec"), {})
