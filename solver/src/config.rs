@@ -193,7 +193,8 @@ impl Config {
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         let toml_error = |error: &dyn std::fmt::Display| {
             let message = error.to_string();
-            let lines: Vec<&str> = message.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
+            let lines: Vec<&str> =
+                message.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
             ConfigError::Toml(lines.join(" "))
         };
         let mut given: Table = toml::from_str(text).map_err(|error| toml_error(&error))?;
@@ -264,8 +265,18 @@ impl Config {
         }
         let percent = |x: f64| x > 0.0 && x <= 100.0;
         let normalisation = &self.normalisation;
-        range("normalisation.diffuse_percentile", normalisation.diffuse_percentile, percent, "above 0, to 100")?;
-        range("normalisation.specular_percentile", normalisation.specular_percentile, percent, "above 0, to 100")
+        range(
+            "normalisation.diffuse_percentile",
+            normalisation.diffuse_percentile,
+            percent,
+            "above 0, to 100",
+        )?;
+        range(
+            "normalisation.specular_percentile",
+            normalisation.specular_percentile,
+            percent,
+            "above 0, to 100",
+        )
     }
 
     /// Every value the paper's; what it does not publish is said above, value by value.
@@ -320,16 +331,16 @@ impl Config {
         let mut config = Self::paper();
         config.view_weights.depth = false;
         config.networks.normal_scale = 2.0;
-        config.networks.reflection_scale = 2.0;
+        config.networks.reflection_scale = 3.0;
         config.rendering.positive_albedo = true;
-        config.warm_up.network_rate = 3e-3;
+        config.warm_up.network_rate = 8e-3;
         config.warm_up.diffuse_rate = 3e-4;
-        config.warm_up.specular_rate = 2e-5;
+        config.warm_up.specular_rate = 5e-5;
         config.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
         config.fine_tuning.prior = 0.3;
         config.fine_tuning.deviation_smoothing = 0.002;
         config.fine_tuning.deviation_extent = 0.008;
-        config.fine_tuning.specular_rate = 1e-4;
+        config.fine_tuning.specular_rate = 1e-5;
         config.fine_tuning.deviation_rate = 5e-5;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
@@ -359,7 +370,9 @@ fn overlay(below: &mut Table, above: Table) {
         match (below.get_mut(&key), value) {
             (Some(Value::Table(old)), Value::Table(new)) => overlay(old, new),
             // A rate written as `1` is as good as `1.0`.
-            (Some(old @ Value::Float(_)), Value::Integer(number)) => *old = Value::Float(number as f64),
+            (Some(old @ Value::Float(_)), Value::Integer(number)) => {
+                *old = Value::Float(number as f64)
+            }
             (_, value) => {
                 below.insert(key, value);
             }
@@ -373,7 +386,11 @@ fn range<T: ToString + Copy>(
     allowed: impl Fn(T) -> bool,
     range: &'static str,
 ) -> Result<(), ConfigError> {
-    if allowed(value) { Ok(()) } else { Err(ConfigError::Range { key, value: value.to_string(), range }) }
+    if allowed(value) {
+        Ok(())
+    } else {
+        Err(ConfigError::Range { key, value: value.to_string(), range })
+    }
 }
 
 #[cfg(test)]
@@ -407,7 +424,10 @@ mod tests {
         assert!(message("[warm_up]\niterations = 1.5").contains("iterations"));
         assert!(message("base = \"papper\"").contains("papper"));
         assert!(message("[fine_tuning]\ntexture_size = \"big\"").contains("auto"));
-        assert!(message("[networks]\nwidth = 10").contains("networks.width is 10, but must be a multiple of 4"));
+        assert!(
+            message("[networks]\nwidth = 10")
+                .contains("networks.width is 10, but must be a multiple of 4")
+        );
         assert!(message("[adam]\nbeta1 = 1.0").contains("adam.beta1"));
         assert!(!message("x = [").contains('\n'));
     }
