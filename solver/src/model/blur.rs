@@ -18,7 +18,8 @@ impl Blur {
     /// `sigma` is the standard deviation in texels; zero leaves textures as they are.
     pub fn new(size: usize, channels: usize, sigma: f32) -> Self {
         let reach = (3.0 * sigma).ceil() as usize;
-        let weight = |d: usize| if d == 0 { 1.0 } else { (-0.5 * (d as f32 / sigma).powi(2)).exp() };
+        let weight =
+            |d: usize| if d == 0 { 1.0 } else { (-0.5 * (d as f32 / sigma).powi(2)).exp() };
         let kernel: Vec<f32> = (0..=reach).map(weight).collect();
         let inside = |at: usize| {
             let (first, last) = (at.saturating_sub(reach), (at + reach).min(size - 1));

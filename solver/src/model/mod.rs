@@ -1,6 +1,7 @@
 //! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
 pub mod blur;
+pub mod deviation;
 pub mod networks;
 pub mod normals;
 pub mod planes;

@@ -5,8 +5,8 @@
 use glam::Vec3;
 
 use super::planes::Planes;
-use crate::config::NetworkConfig;
 use super::samples::Samples;
+use crate::config::NetworkConfig;
 
 /// Rows of the directions: scaled diffuse normal, then scaled reflected direction.
 pub const DIRECTIONS: usize = 6;

@@ -46,7 +46,8 @@ mod tests {
         assert_eq!(percentile(values.clone(), 100.0), 5.0);
         assert_eq!(percentile(values.clone(), 50.0), 2.5);
         assert_eq!(percentile(vec![], 50.0), 0.0);
-        let scales = Scales::new(&Config::preset("paper").unwrap().normalisation, values, vec![0.1]);
+        let scales =
+            Scales::new(&Config::preset("paper").unwrap().normalisation, values, vec![0.1]);
         assert_eq!(scales, Scales { diffuse: 5.0, specular: 0.5 });
         let dark = Scales::new(&Config::default().normalisation, vec![1.0], vec![0.0]);
         assert_eq!(dark.specular, 0.0);

@@ -6,15 +6,16 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::normalise::Scales;
-use super::stage::{Bend, Deviation, Diffuse, Relief, Stage, State, WarmUp, layers};
+use super::stage::{Diffuse, Relief, Stage, State, WarmUp, layers};
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
-use crate::capture::{Capture, View};
+use crate::capture::{Camera, Capture, View};
 use crate::config::{Config, TextureRule, TextureSize};
 use crate::error::{CaptureError, SolveError};
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;
+use crate::model::deviation::{Bend, Deviation};
 use crate::model::networks::Networks;
 use crate::model::samples::SampleSpace;
 use crate::picture::{GrayImage, Picture};
@@ -249,7 +250,7 @@ fn to_maps(
         let normals = atlas.normals.iter().zip(texture.chunks_exact(3));
         normals.flat_map(|(n, d)| (n + glam::Vec3::from_slice(d)).normalize().to_array()).collect()
     };
-    let Bend { sharp, blurred } = deviation.textures(state);
+    let Bend { sharp, blurred } = deviation.textures(&state.deviation);
     let coverage = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
     Maps {
         diffuse_albedo: picture(3, scaled(&state.diffuse, scales.diffuse)),
@@ -268,15 +269,16 @@ fn withheld_views(
     state: &State,
     backend: &dyn Backend,
 ) -> Vec<ViewLayers> {
-    let synthesise = |camera: &crate::capture::Camera| {
+    let synthesise = |camera: &Camera| {
         let gbuffer = GBuffer::new(&capture.mesh, camera, None);
         let samples = space.withheld(&gbuffer, state.size);
         let shading = layers(&samples, deviation, state, backend);
         let albedo = state.albedo(&samples);
-        let mut picture = Picture::new(camera.width, camera.height, ViewLayers::CHANNELS.len());
+        let channels = ViewLayers::CHANNELS.len();
+        let mut picture = Picture::new(camera.width, camera.height, channels);
         for (i, pixel) in samples.pixel.iter().enumerate() {
             let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
-            let out = &mut picture.data[*pixel as usize * 9..][..9];
+            let out = &mut picture.data[*pixel as usize * channels..][..channels];
             for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
                 out[channel] = albedo * diffuse + specular;
                 out[3 + channel] = albedo * diffuse;

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use super::adam::Adam;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
-use crate::model::blur::Blur;
+use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::{BLOCK, Planes};
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
@@ -42,86 +42,6 @@ impl State {
     pub fn albedo(&self, samples: &Samples) -> Planes {
         let texture = interleave::<ALBEDOS>(&[(&self.diffuse, 3), (&self.specular, 1)]);
         samples.taps.sample::<ALBEDOS>(&texture)
-    }
-}
-
-/// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
-/// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
-/// difference of a narrow and a wide blur: coarse relief is the mesh's, the finest is noise.
-#[derive(Clone, Debug)]
-pub struct Deviation {
-    range: f32,
-    narrow: Blur,
-    wide: Option<Blur>,
-    blur: Blur,
-    /// How directions are scaled.
-    pub scale: DirectionScale,
-}
-
-/// The textures d and blur(d), 3 channels each.
-pub struct Bend {
-    /// For the specular normal.
-    pub sharp: Vec<f32>,
-    /// For the diffuse normal.
-    pub blurred: Vec<f32>,
-}
-
-impl Deviation {
-    /// For textures of side `size`.
-    pub fn new(config: &Config, size: usize) -> Self {
-        let fine = &config.fine_tuning;
-        let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
-        Self {
-            range: fine.deviation_range,
-            narrow: blur(fine.deviation_smoothing),
-            wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
-            blur: blur(fine.deviation_blur),
-            scale: DirectionScale::from(&config.networks),
-        }
-    }
-
-    /// d and its blur.
-    pub fn textures(&self, state: &State) -> Bend {
-        let mut sharp = self.band(&state.deviation, Blur::apply);
-        sharp.par_chunks_mut(1 << 14).for_each(|values| {
-            values.iter_mut().for_each(|t| *t = self.range * tanh(*t));
-        });
-        let blurred = self.blur.apply(&sharp);
-        Bend { sharp, blurred }
-    }
-
-    /// Carries gradients by d and by its blur to the deviation texture.
-    pub fn adjoint(&self, bend: &Bend, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
-        let mut gradient = self.blur.adjoint(by_blurred);
-        gradient.par_iter_mut().zip(by_sharp).zip(&bend.sharp).for_each(|((g, by_sharp), d)| {
-            // The derivative of d = range x tanh(t), by d.
-            *g = (*g + by_sharp) * (self.range - d * d / self.range);
-        });
-        self.band(&gradient, Blur::adjoint)
-    }
-
-    /// B or its transpose.
-    fn band(&self, texture: &[f32], blur: fn(&Blur, &[f32]) -> Vec<f32>) -> Vec<f32> {
-        let mut band = blur(&self.narrow, texture);
-        if let Some(wide) = &self.wide {
-            let coarse = blur(wide, texture);
-            band.par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
-        }
-        band
-    }
-}
-
-/// Accurate to about 1e-7 absolute, and fast: the textures have millions of texels.
-fn tanh(x: f32) -> f32 {
-    1.0 - 2.0 / ((2.0 * x).exp() + 1.0)
-}
-
-impl Bend {
-    /// d, its blur and the specular albedo at every sample.
-    pub fn sample(&self, state: &State, samples: &Samples) -> Planes {
-        let parts: [(&[f32], usize); 3] =
-            [(&self.sharp, 3), (&self.blurred, 3), (&state.specular, 1)];
-        samples.taps.sample::<7>(&interleave::<7>(&parts))
     }
 }
 
@@ -241,8 +161,8 @@ impl<'a> Relief<'a> {
         backend: &dyn Backend,
     ) -> (f64, Vec<f32>, Vec<f32>) {
         let (samples, taps, scale) = (self.samples, &self.samples.taps, self.deviation.scale);
-        let bend = self.deviation.textures(state);
-        let bent = bend.sample(state, samples);
+        let bend = self.deviation.textures(&state.deviation);
+        let bent = bend.sample(&state.specular, samples);
         self.albedo.copy_row(3, &bent, 6);
         let directions = scale.directions(samples, Some(&bent));
         let (loss, gradient) =
@@ -340,7 +260,7 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let bent = deviation.textures(state).sample(state, samples);
+    let bent = deviation.textures(&state.deviation).sample(&state.specular, samples);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);
@@ -354,18 +274,19 @@ pub fn layers(
 fn diffuse_gradient(samples: &Samples, shading: &Planes, albedo: &Planes) -> (f64, Planes) {
     let scale = 1.0 / (3.0 * samples.len() as f32);
     let mut gradient = Planes::new(3, samples.len());
-    let block = |(block, out): (usize, &mut [crate::model::planes::Row])| {
+    let block = |(block, out): (usize, &mut [Row])| {
         let (shading, albedo) = (shading.block(block), albedo.block(block));
-        let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0].0);
+        let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0]);
         let mut loss = 0.0f64;
-        for (channel, out) in out.iter_mut().enumerate() {
-            for lane in 0..BLOCK {
-                let diffuse = shading[0].0[lane];
-                let model = albedo[channel].0[lane] * diffuse + shading[1].0[lane];
+        for lane in 0..BLOCK {
+            let [diffuse, specular] = [shading[0].0[lane], shading[1].0[lane]];
+            let weight = weight.0[lane];
+            for (channel, out) in out.iter_mut().enumerate() {
+                let model = albedo[channel].0[lane] * diffuse + specular;
                 let residual = model - target[channel].0[lane];
                 let sign = if residual == 0.0 { 0.0 } else { residual.signum() };
-                loss += f64::from(weight[lane] * residual.abs());
-                out.0[lane] = weight[lane] * scale * sign * diffuse;
+                loss += f64::from(weight * residual.abs());
+                out.0[lane] = weight * scale * sign * diffuse;
             }
         }
         loss

@@ -6,12 +6,13 @@ use std::ops::ControlFlow;
 use glam::{Vec2, Vec3};
 
 use super::solve::solve;
-use super::stage::{Deviation, Diffuse, Relief, State, WarmUp};
+use super::stage::{Diffuse, Relief, State, WarmUp};
 use crate::backend::cpu::Cpu;
 use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
 use crate::error::{CaptureError, SolveError};
 use crate::gbuffer::GBuffer;
+use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
 use crate::picture;

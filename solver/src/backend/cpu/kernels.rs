@@ -129,7 +129,13 @@ fn bend_body<S: Lanes, const C: usize>(
         let by_input = &mut s.by_direction;
         backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input));
         out[..3].copy_from_slice(&by_input[..3]);
-        backward::<S, C>(&inputs.packed[2], &directions[3..], &mut s.specular, None, Some(by_input));
+        backward::<S, C>(
+            &inputs.packed[2],
+            &directions[3..],
+            &mut s.specular,
+            None,
+            Some(by_input),
+        );
         out[3..6].copy_from_slice(&by_input[..3]);
         out[6] = s.gradient.albedo[3];
     }
@@ -183,9 +189,9 @@ macro_rules! entry {
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2($($arg: $type),*) $(-> $out)? { $body::<Avx2, 2>($($arg),*) }
                 match level {
-                    // SAFETY: this level is only made after AVX-512 F was found.
+                    // SAFETY: levels come from `Level::available`, which found AVX-512 F.
                     Level::Avx512 => return unsafe { avx512($($arg),*) },
-                    // SAFETY: this level is only made after AVX2 and FMA were found.
+                    // SAFETY: levels come from `Level::available`, which found AVX2 and FMA.
                     Level::Avx2 => return unsafe { avx2($($arg),*) },
                     Level::Portable => {}
                 }

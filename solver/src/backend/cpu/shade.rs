@@ -106,11 +106,7 @@ pub struct PixelGradient {
 /// The loss of A_d S_d + F A_s S_s against the target: mean of weight x |residual|. The derivative
 /// of |x| at 0 is 0.
 #[inline(always)]
-pub fn compose<S: Lanes>(
-    pixels: &Pixels,
-    shading: &[Row; 2],
-    gradient: &mut PixelGradient,
-) -> f64 {
+pub fn compose<S: Lanes>(pixels: &Pixels, shading: &[Row; 2], gradient: &mut PixelGradient) -> f64 {
     let zero = S::splat(0.0);
     let mut loss = zero;
     let mut at = 0;

@@ -29,7 +29,9 @@ fn samples(weighted: &[usize]) -> Samples {
         view: planes::<3>(3, -1.0, 1.0),
         fresnel: planes::<1>(4, 0.04, 1.0),
         target: planes::<3>(5, 0.0, 2.0),
-        weight: Planes::from_fn(LEN, |i| [if weighted.contains(&i) { 1.0 + noise(9, i) } else { 0.0 }]),
+        weight: Planes::from_fn(LEN, |i| {
+            [if weighted.contains(&i) { 1.0 + noise(9, i) } else { 0.0 }]
+        }),
         taps: Taps::sorted(16, &[]).0,
         pixel: vec![0; LEN],
     }
@@ -109,27 +111,34 @@ fn assert_close(got: f32, expected: f64, scale: f64, what: &str) {
     assert!(error <= 2e-5 * scale, "{what}: {got} instead of {expected} (scale {scale})");
 }
 
+/// Two shapes: the published one, and one with other numbers of layers and neurons.
 #[test]
 fn joint_gradients_match_central_differences_for_every_kind_of_parameter() {
+    let mut narrow = Config::default().networks;
+    (narrow.width, narrow.hidden_layers, narrow.outputs) = (20, 3, 4);
+    check_joint(&networks());
+    check_joint(&Networks::new(&narrow, 2));
+}
+
+fn check_joint(networks: &Networks) {
     let (samples, directions, albedo) =
         (samples(&CHECKED), planes::<DIRECTIONS>(20, -1.0, 1.0), planes::<4>(30, 0.1, 1.0));
-    let networks = networks();
     let p: Vec<f64> = networks.parameters.iter().map(|w| f64::from(*w)).collect();
     let points: Vec<Point> =
         CHECKED.iter().map(|i| point(&samples, &directions, &albedo, *i)).collect();
     for level in Level::available() {
-        let got = Cpu::at(level).joint(&networks, &samples, &directions, &albedo);
-        assert!((got.loss / loss(&networks, &p, &points) - 1.0).abs() < 1e-5, "{level}");
+        let got = Cpu::at(level).joint(networks, &samples, &directions, &albedo);
+        assert!((got.loss / loss(networks, &p, &points) - 1.0).abs() < 1e-5, "{level}");
         let largest = got.networks.iter().fold(0.0f32, |m, g| m.max(g.abs()));
         assert!(largest > 0.0);
         for network in Network::ALL {
-            for layer in 0..3 {
+            for layer in 0..networks.layers() {
                 let (weights, biases) = networks.place(network, layer);
                 for at in weights.step_by(5).chain(biases) {
                     let expected = central(|step| {
                         let mut moved = p.clone();
                         moved[at] += step;
-                        loss(&networks, &moved, &points)
+                        loss(networks, &moved, &points)
                     });
                     let what = format!("{level} {network:?} layer {layer} parameter {at}");
                     assert_close(got.networks[at], expected, f64::from(largest), &what);
@@ -141,7 +150,7 @@ fn joint_gradients_match_central_differences_for_every_kind_of_parameter() {
                 let expected = central(|step| {
                     let mut moved = points.clone();
                     moved[index].albedo[row] += step;
-                    loss(&networks, &p, &moved)
+                    loss(networks, &p, &moved)
                 });
                 let what = format!("{level} albedo {row} of sample {i}");
                 assert_close(got.albedo.get(row, i), expected, expected.abs().max(1e-6), &what);

@@ -1,0 +1,89 @@
+//! The deviation texture: from what is optimised to what bends the normals, and back.
+
+use rayon::prelude::*;
+
+use super::blur::Blur;
+use super::normals::DirectionScale;
+use super::planes::Planes;
+use super::samples::Samples;
+use super::texture::interleave;
+use crate::config::Config;
+
+/// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
+/// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
+/// difference of a narrow and a wide blur: coarse relief is the mesh's, the finest is noise.
+#[derive(Clone, Debug)]
+pub struct Deviation {
+    range: f32,
+    narrow: Blur,
+    wide: Option<Blur>,
+    blur: Blur,
+    /// How directions are scaled.
+    pub scale: DirectionScale,
+}
+
+/// The textures d and blur(d), 3 channels each.
+pub struct Bend {
+    /// For the specular normal.
+    pub sharp: Vec<f32>,
+    /// For the diffuse normal.
+    pub blurred: Vec<f32>,
+}
+
+impl Deviation {
+    /// For textures of side `size`.
+    pub fn new(config: &Config, size: usize) -> Self {
+        let fine = &config.fine_tuning;
+        let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
+        Self {
+            range: fine.deviation_range,
+            narrow: blur(fine.deviation_smoothing),
+            wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
+            blur: blur(fine.deviation_blur),
+            scale: DirectionScale::from(&config.networks),
+        }
+    }
+
+    /// d and its blur.
+    pub fn textures(&self, deviation: &[f32]) -> Bend {
+        let mut sharp = self.band(deviation, Blur::apply);
+        sharp.par_chunks_mut(1 << 14).for_each(|values| {
+            values.iter_mut().for_each(|t| *t = self.range * tanh(*t));
+        });
+        let blurred = self.blur.apply(&sharp);
+        Bend { sharp, blurred }
+    }
+
+    /// Carries gradients by d and by its blur to the deviation texture.
+    pub fn adjoint(&self, bend: &Bend, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
+        let mut gradient = self.blur.adjoint(by_blurred);
+        gradient.par_iter_mut().zip(by_sharp).zip(&bend.sharp).for_each(|((g, by_sharp), d)| {
+            // The derivative of d = range x tanh(t), by d.
+            *g = (*g + by_sharp) * (self.range - d * d / self.range);
+        });
+        self.band(&gradient, Blur::adjoint)
+    }
+
+    /// B or its transpose.
+    fn band(&self, texture: &[f32], blur: fn(&Blur, &[f32]) -> Vec<f32>) -> Vec<f32> {
+        let mut band = blur(&self.narrow, texture);
+        if let Some(wide) = &self.wide {
+            let coarse = blur(wide, texture);
+            band.par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
+        }
+        band
+    }
+}
+
+/// Accurate to about 1e-7 absolute, and fast: the textures have millions of texels.
+fn tanh(x: f32) -> f32 {
+    1.0 - 2.0 / ((2.0 * x).exp() + 1.0)
+}
+
+impl Bend {
+    /// d, its blur and the specular albedo at every sample.
+    pub fn sample(&self, specular: &[f32], samples: &Samples) -> Planes {
+        let parts: [(&[f32], usize); 3] = [(&self.sharp, 3), (&self.blurred, 3), (specular, 1)];
+        samples.taps.sample::<7>(&interleave::<7>(&parts))
+    }
+}
