@@ -77,6 +77,11 @@ pub struct InitialisationConfig {
     pub semantic: bool,
     /// The brightest initial specular albedo; 0.05.
     pub specular_maximum: f32,
+    /// Seeds of the networks that are tried, from `seed` on; the one with the lowest loss is
+    /// taken. 1, as in the paper, tries none.
+    pub starts: usize,
+    /// Steps of the warm-up that each of them is given.
+    pub start_iterations: usize,
 }
 
 /// Section 4.3.1.
@@ -108,7 +113,7 @@ pub struct FineTuningConfig {
     /// Full-batch steps per stage; 250.
     pub iterations: usize,
     /// Side of the textures; 2048, or "auto": the power of two nearest to one texel per pixel
-    /// of the training views, from 128 to 2048.
+    /// of the training views, from 512 (coarser maps lose the mesh normal) to 2048.
     pub texture_size: TextureSize,
     /// Weight of the albedo prior in the diffuse stages; the paper has it in the warm-up only.
     pub prior: f32,
@@ -293,7 +298,12 @@ impl Config {
             },
             rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false },
             view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
-            initialisation: InitialisationConfig { semantic: true, specular_maximum: 0.05 },
+            initialisation: InitialisationConfig {
+                semantic: true,
+                specular_maximum: 0.05,
+                starts: 1,
+                start_iterations: 500,
+            },
             warm_up: WarmUpConfig {
                 iterations: 2000,
                 texture_size: 128,
@@ -333,7 +343,9 @@ impl Config {
         config.networks.normal_scale = 2.0;
         config.networks.reflection_scale = 3.0;
         config.rendering.positive_albedo = true;
-        config.warm_up.network_rate = 8e-3;
+        // Some weights never learn the highlights, and the loss shows it early.
+        config.initialisation.starts = 4;
+        config.warm_up.network_rate = 5e-3;
         config.warm_up.diffuse_rate = 3e-4;
         config.warm_up.specular_rate = 5e-5;
         config.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
@@ -341,7 +353,7 @@ impl Config {
         config.fine_tuning.deviation_smoothing = 0.002;
         config.fine_tuning.deviation_extent = 0.008;
         config.fine_tuning.specular_rate = 1e-5;
-        config.fine_tuning.deviation_rate = 5e-5;
+        config.fine_tuning.deviation_rate = 2e-5;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
         config
@@ -350,6 +362,7 @@ impl Config {
     /// `unshade` with fewer iterations and texels.
     fn fast() -> Self {
         let mut config = Self::unshade();
+        config.initialisation.start_iterations = 150;
         config.warm_up.iterations = 500;
         config.fine_tuning.rounds = 1;
         config.fine_tuning.iterations = 100;

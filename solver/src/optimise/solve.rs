@@ -17,7 +17,7 @@ use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;
 use crate::model::deviation::{Bend, Deviation};
 use crate::model::networks::Networks;
-use crate::model::samples::SampleSpace;
+use crate::model::samples::{SampleSpace, Samples};
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
 use crate::semantic;
@@ -79,6 +79,7 @@ pub fn solve_on(
     }
     let mut state = initial_state(capture, &gbuffers, config);
     run.lap("preparation");
+    state.networks = run.best_start(config, &samples, &state)?;
     run.stage(&mut WarmUp::new(config, &samples, &state), &mut state)?;
     drop(samples);
 
@@ -137,13 +138,14 @@ struct Run<'a, 'b> {
 
 impl<'a, 'b> Run<'a, 'b> {
     fn new(config: &Config, backend: &'a dyn Backend, progress: &'a mut Callback<'b>) -> Self {
-        let fine = &config.fine_tuning;
+        let (fine, first) = (&config.fine_tuning, &config.initialisation);
+        let trials = if first.starts > 1 { first.starts * first.start_iterations } else { 0 };
         Self {
             backend,
             progress,
             final_share: config.adam.final_share,
             done: 0,
-            total: config.warm_up.iterations + 2 * fine.rounds * fine.iterations,
+            total: trials + config.warm_up.iterations + 2 * fine.rounds * fine.iterations,
             stages: vec![],
             timing: Timing::default(),
             lap: Instant::now(),
@@ -157,27 +159,64 @@ impl<'a, 'b> Run<'a, 'b> {
         self.lap = now;
     }
 
+    /// The initial weights from which a short warm-up comes furthest.
+    fn best_start(
+        &mut self,
+        config: &Config,
+        samples: &Samples,
+        state: &State,
+    ) -> Result<Networks, SolveError> {
+        let first = &config.initialisation;
+        let mut trial = config.clone();
+        trial.warm_up.iterations = first.start_iterations;
+        let mut best = (f64::INFINITY, state.networks.clone());
+        for start in 0..if first.starts > 1 { first.starts } else { 0 } {
+            let networks = Networks::new(&config.networks, config.seed + start as u64);
+            let mut state = State { networks: networks.clone(), ..state.clone() };
+            let mut warm_up = WarmUp::new(&trial, samples, &state);
+            let losses = self.steps(&format!("start {}", start + 1), &mut warm_up, &mut state)?;
+            let tail = &losses[losses.len() - losses.len().div_ceil(10)..];
+            let loss = tail.iter().sum::<f64>() / tail.len() as f64;
+            if loss < best.0 {
+                best = (loss, networks);
+            }
+        }
+        self.lap("starts");
+        Ok(best.1)
+    }
+
     fn stage(&mut self, stage: &mut dyn Stage, state: &mut State) -> Result<(), SolveError> {
         let name = stage.name();
+        let loss = self.steps(&name, stage, state)?;
+        self.lap(&name);
+        self.stages.push(StageRecord { name, loss });
+        Ok(())
+    }
+
+    /// Does a stage's steps and returns the losses.
+    fn steps(
+        &mut self,
+        name: &str,
+        stage: &mut dyn Stage,
+        state: &mut State,
+    ) -> Result<Vec<f64>, SolveError> {
         let iterations = stage.iterations();
         let mut losses = Vec::with_capacity(iterations);
         for iteration in 1..=iterations {
             let share = share(self.final_share, iteration, iterations);
             let loss = stage.step(state, self.backend, share);
             if !loss.is_finite() {
-                return Err(SolveError::NotFinite { stage: name, iteration, loss });
+                return Err(SolveError::NotFinite { stage: name.to_owned(), iteration, loss });
             }
             losses.push(loss);
             self.done += 1;
             let (iteration, total) = (self.done, self.total);
-            let progress = Progress { stage: &name, iteration, total, loss };
+            let progress = Progress { stage: name, iteration, total, loss };
             if (self.progress)(&progress).is_break() {
                 return Err(SolveError::Interrupted);
             }
         }
-        self.lap(&name);
-        self.stages.push(StageRecord { name, loss: losses });
-        Ok(())
+        Ok(losses)
     }
 }
 
@@ -194,7 +233,7 @@ fn texture_size(size: TextureSize, pixels: usize) -> usize {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => {
             let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
-            2usize.pow(exponent.clamp(7, 11))
+            2usize.pow(exponent.clamp(9, 11))
         }
     }
 }
