@@ -113,7 +113,8 @@ pub struct FineTuningConfig {
     /// Full-batch steps per stage; 250.
     pub iterations: usize,
     /// Side of the textures; 2048, or "auto": the power of two nearest to one texel per pixel
-    /// of the training views, from 512 (coarser maps lose the mesh normal) to 2048.
+    /// of the training views, from 128 to 2048; maps are then written with 512 texels or more, since
+    /// coarser ones lose the mesh normal.
     pub texture_size: TextureSize,
     /// Weight of the albedo prior in the diffuse stages; the paper has it in the warm-up only.
     pub prior: f32,

@@ -63,7 +63,7 @@ pub struct Record {
     pub backend: String,
     /// BLAKE3 of all files that were read.
     pub input: String,
-    /// Side of the maps, texels.
+    /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
     /// Pixels of the fine-tuning.
     pub samples: usize,

@@ -10,8 +10,8 @@ use solver::atomic;
 use super::progress::Progress;
 use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, Verb, doctor};
 use crate::compare::{Baseline, Tolerances, compare};
-use crate::score;
 use crate::report;
+use crate::score;
 use crate::suite::{self, Observer, RunError, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 

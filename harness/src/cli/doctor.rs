@@ -19,14 +19,15 @@ pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
         let kind = if adapter.software { "software, never chosen" } else { "GPU" };
         println!("gpu        {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
     }
-    let found = match run_stage(&tools.interpreter, "doctor", &[], &tools.interrupt, &mut |_, _, _| {}) {
-        Ok(found) => found,
-        Err(StageError::Interrupted) => return Err(RunError::Interrupted),
-        Err(error) => {
-            println!("renderer   MISSING: {error}");
-            return Ok(CHECK_FAILED);
-        }
-    };
+    let found =
+        match run_stage(&tools.interpreter, "doctor", &[], &tools.interrupt, &mut |_, _, _| {}) {
+            Ok(found) => found,
+            Err(StageError::Interrupted) => return Err(RunError::Interrupted),
+            Err(error) => {
+                println!("renderer   MISSING: {error}");
+                return Ok(CHECK_FAILED);
+            }
+        };
     let mut complete = true;
     for part in found["checks"].as_array().into_iter().flatten() {
         let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();

@@ -17,7 +17,8 @@ pub(super) fn picture_to_array<'py>(
     picture: &Picture,
 ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
     let shape = (picture.height, picture.width, picture.channels);
-    let array = Array3::from_shape_vec(shape, picture.data.clone()).map_err(shape_error)?.into_dyn();
+    let array =
+        Array3::from_shape_vec(shape, picture.data.clone()).map_err(shape_error)?.into_dyn();
     let array = if picture.channels == 1 {
         array.index_axis_move(numpy::ndarray::Axis(2), 0)
     } else {

@@ -89,7 +89,11 @@ pub(super) fn write_report(py: Python<'_>, run: PathBuf, out: PathBuf) -> PyResu
 /// True if no score of a run is worse than its baseline beyond the tolerance.
 #[pyfunction]
 #[pyo3(signature = (run, baseline, tolerances=None))]
-pub(super) fn compare(run: PathBuf, baseline: PathBuf, tolerances: Option<PathBuf>) -> PyResult<bool> {
+pub(super) fn compare(
+    run: PathBuf,
+    baseline: PathBuf,
+    tolerances: Option<PathBuf>,
+) -> PyResult<bool> {
     let tolerances = match tolerances {
         Some(path) => Tolerances::read(&path),
         None => Tolerances::built_in(),

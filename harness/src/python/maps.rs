@@ -25,7 +25,8 @@ fn map_from(name: &str, channels: usize, array: Given) -> PyResult<Option<Pictur
     let picture = arrays::picture_from_array(name, &array)?;
     if picture.channels != channels || picture.width != picture.height {
         let (w, h, c) = (picture.width, picture.height, picture.channels);
-        let reason = format!("{name}: is {h} x {w} x {c}; it must be square with {channels} channels");
+        let reason =
+            format!("{name}: is {h} x {w} x {c}; it must be square with {channels} channels");
         return Err(named_error("MapsError", &reason));
     }
     Ok(Some(picture))

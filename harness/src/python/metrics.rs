@@ -35,7 +35,8 @@ pub(super) fn measure(
         Some(mask) => {
             let inside = mask_from_array("mask", &mask)?;
             if inside.len() != width * height {
-                let reason = format!("mask: has {} pixels, the truth {height} x {width}", inside.len());
+                let reason =
+                    format!("mask: has {} pixels, the truth {height} x {width}", inside.len());
                 return Err(named_error("MetricError", &reason));
             }
             let data = inside.into_iter().map(|inside| if inside { 255 } else { 0 }).collect();
@@ -46,7 +47,10 @@ pub(super) fn measure(
     let region = region.map_err(raise)?;
     let pair = Pair::new(&prediction, &truth, &region).map_err(raise)?;
     let mode = ScaleMode::ALL.into_iter().find(|mode| mode.id() == scale).ok_or_else(|| {
-        named_error("MetricError", &format!("no scale mode {scale:?}: none, global, channel, median"))
+        named_error(
+            "MetricError",
+            &format!("no scale mode {scale:?}: none, global, channel, median"),
+        )
     })?;
     let pair = match mode {
         ScaleMode::None => pair,

@@ -32,9 +32,7 @@ pub(super) fn relight(
 /// Runs a suite, resuming it, and returns its report's page.
 #[pyfunction]
 pub(super) fn run(py: Python<'_>, suite: PathBuf, out: PathBuf) -> PyResult<PathBuf> {
-    watched(py, |tools| {
-        Ok(suite::run(&Suite::open(&suite)?, &out, tools, &mut Silent)?.report)
-    })
+    watched(py, |tools| Ok(suite::run(&Suite::open(&suite)?, &out, tools, &mut Silent)?.report))
 }
 
 struct Silent;
@@ -51,7 +49,8 @@ fn watched<T: Send>(
     work: impl FnOnce(&Tools) -> Result<T, RunError> + Send,
 ) -> PyResult<T> {
     let python: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
-    let tools = Tools { interpreter: Interpreter::at(Path::new(&python)), interrupt: Interrupt::default() };
+    let tools =
+        Tools { interpreter: Interpreter::at(Path::new(&python)), interrupt: Interrupt::default() };
     let mut signal = Ok(());
     let result = py.detach(|| {
         thread::scope(|scope| {

@@ -177,7 +177,11 @@ fn cases_of(
             let id = format!("{}-{}", scene.name_of("face"), scene.name_of("light"));
             check_id(path, &id)?;
             if cases.iter().any(|case| case.id == id) {
-                return Err(SceneError::value(path, "faces", format!("{id} occurs twice; rename one")));
+                return Err(SceneError::value(
+                    path,
+                    "faces",
+                    format!("{id} occurs twice; rename one"),
+                ));
             }
             let mut scene = scene;
             scene.table.insert("name".to_owned(), Value::String(id.clone()));
@@ -275,7 +279,11 @@ mod tests {
     fn scenes(folder: &Path) {
         write(folder, "face.toml", "name = \"ada\"\nseed = 3\n");
         write(folder, "lights/key.toml", "name = \"key\"\nkind = \"studio\"\n");
-        write(folder, "lights/hall.toml", "name = \"hall\"\nkind = \"envmap\"\npath = \"hall.exr\"\n");
+        write(
+            folder,
+            "lights/hall.toml",
+            "name = \"hall\"\nkind = \"envmap\"\npath = \"hall.exr\"\n",
+        );
         write(
             folder,
             "scene.toml",
@@ -329,7 +337,10 @@ mod tests {
             (head, "solver: is missing; write [[solver]] tables"),
             (&*format!("{head}[[solver]]\nname = \"a b\"\n"), "cannot name a folder"),
             (&*format!("{head}[[solver]]\nname = \"a\"\nthreads = 2\n"), "unknown field `threads`"),
-            (&*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"), "no.toml: cannot be read"),
+            (
+                &*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"),
+                "no.toml: cannot be read",
+            ),
         ] {
             let path = write(root.path(), "suite.toml", text);
             let error = Suite::open(&path).unwrap_err().to_string();

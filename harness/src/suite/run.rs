@@ -117,7 +117,10 @@ pub fn run(
     let records = Records::open(out)?;
     let mut stages = Stages { out, tools, observer, records, ran: 0, skipped: 0, total };
     let manifest = manifest(suite, &renderer);
-    atomic::write_file(&out.join("run.json"), &serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?)?;
+    atomic::write_file(
+        &out.join("run.json"),
+        &serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?,
+    )?;
     for case in &suite.cases {
         let capture = stages.capture(case, &renderer)?;
         for entrant in &suite.entrants {
@@ -220,7 +223,8 @@ impl Stages<'_> {
         let path = self.out.join("captures").join(&case.id);
         let id = format!("capture/{}", case.id);
         self.stage(&id, &["capture", renderer, &scene, &lights], path, |path, tools, step| {
-            let arguments = words(&[("--scene", scene_file.as_os_str()), ("--out", path.as_os_str())]);
+            let arguments =
+                words(&[("--scene", scene_file.as_os_str()), ("--out", path.as_os_str())]);
             run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
             Ok(())
         })

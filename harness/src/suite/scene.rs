@@ -56,9 +56,9 @@ impl Scene {
         check_format(path, &table)?;
         check_keys(path, &table, &["format", "name", "face", "light", "relight", "rig", "render"])?;
         for key in ["face", "light", "rig"] {
-            let value = table
-                .remove(key)
-                .ok_or_else(|| SceneError::value(path, key, "is missing; name a file or write a table"))?;
+            let value = table.remove(key).ok_or_else(|| {
+                SceneError::value(path, key, "is missing; name a file or write a table")
+            })?;
             table.insert(key.to_owned(), Value::Table(resolve(path, key, value)?));
         }
         let relight = match table.remove("relight") {
@@ -143,7 +143,11 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
         _ => return Err(SceneError::value(from, key, "must be a file name or a table")),
     };
     if !matches!(table.get("name"), Some(Value::String(_))) {
-        return Err(SceneError::value(&origin, "name", format!("is missing; give the {key} a name")));
+        return Err(SceneError::value(
+            &origin,
+            "name",
+            format!("is missing; give the {key} a name"),
+        ));
     }
     // A picture that a light names lies beside the file that names it.
     if let Some(Value::String(path)) = table.get_mut("path") {
@@ -167,7 +171,9 @@ pub(super) fn read_toml(path: &Path) -> Result<Table, SceneError> {
 pub(super) fn check_format(path: &Path, table: &Table) -> Result<(), SceneError> {
     match table.get("format") {
         Some(Value::Integer(1)) => Ok(()),
-        Some(other) => Err(SceneError::value(path, "format", format!("is {other}; this version reads 1"))),
+        Some(other) => {
+            Err(SceneError::value(path, "format", format!("is {other}; this version reads 1")))
+        }
         None => Err(SceneError::value(path, "format", "is missing; write format = 1")),
     }
 }

@@ -49,9 +49,20 @@ pub enum StageError {
 #[derive(Deserialize)]
 #[serde(tag = "event", rename_all = "lowercase")]
 enum Event {
-    Progress { done: u64, total: u64, #[serde(default)] what: String },
-    Warning { message: String },
-    Error { #[serde(default)] kind: String, message: String },
+    Progress {
+        done: u64,
+        total: u64,
+        #[serde(default)]
+        what: String,
+    },
+    Warning {
+        message: String,
+    },
+    Error {
+        #[serde(default)]
+        kind: String,
+        message: String,
+    },
     Result(Value),
 }
 
@@ -147,7 +158,9 @@ mod tests {
         std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
         let mut done = Vec::new();
-        let result = run_stage(&Interpreter::at(&path), "synth", &[], interrupt, &mut |d, _, _| done.push(d));
+        let result = run_stage(&Interpreter::at(&path), "synth", &[], interrupt, &mut |d, _, _| {
+            done.push(d)
+        });
         (result, done)
     }
 
@@ -162,14 +175,16 @@ mod tests {
 
     #[test]
     fn the_childs_own_line_is_the_error() {
-        let script = r#"echo '{"event":"error","kind":"SceneError","message":"no such light"}'; exit 2"#;
+        let script =
+            r#"echo '{"event":"error","kind":"SceneError","message":"no such light"}'; exit 2"#;
         let (result, _) = run_script(script, &Interrupt::default());
         assert_eq!(result.unwrap_err().to_string(), "no such light");
     }
 
     #[test]
     fn a_child_that_dies_is_reported_with_its_last_words() {
-        let (result, _) = run_script("echo first >&2; echo LLVM ERROR >&2; exit 134", &Interrupt::default());
+        let (result, _) =
+            run_script("echo first >&2; echo LLVM ERROR >&2; exit 134", &Interrupt::default());
         let error = result.unwrap_err().to_string();
         assert!(error.contains("LLVM ERROR") && error.contains("134"), "{error}");
     }

@@ -96,17 +96,21 @@ pub fn solve_on(
         run.stage(&mut diffuse, &mut state)?;
     }
 
-    let atlas = Atlas::new(mesh, size);
     let projections = Projection::of_views(&capture.train, &gbuffers);
-    let seen = per_texel(&atlas, &projections, |_| true);
+    let seen = per_texel(&Atlas::new(mesh, size), &projections, |_| true);
     fill_unseen(&mut state, &seen);
     let shading = layers(&samples, &deviation, &state, backend);
     let shading = (0..samples.len()).map(|i| shading.get(0, i)).collect();
     let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
     let specular = covered.map(|(value, _)| *value).collect();
     let scales = Scales::new(&config.normalisation, shading, specular);
-    let maps = to_maps(&state, &deviation, &atlas, &seen, scales);
     let views = withheld_views(capture, &space, &deviation, &state, backend);
+
+    let map_size = map_size(config.fine_tuning.texture_size, size);
+    state.resize(map_size);
+    let atlas = Atlas::new(mesh, map_size);
+    let seen = per_texel(&atlas, &projections, |_| true);
+    let maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
     run.lap("maps and views");
     let record = Record {
         solver: "unshade".to_owned(),
@@ -233,8 +237,17 @@ fn texture_size(size: TextureSize, pixels: usize) -> usize {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => {
             let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
-            2usize.pow(exponent.clamp(9, 11))
+            2usize.pow(exponent.clamp(7, 11))
         }
+    }
+}
+
+/// Maps from few pixels are written larger than they were solved, for the sake of the mesh normal
+/// in them.
+fn map_size(size: TextureSize, solved: usize) -> usize {
+    match size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => solved.max(512),
     }
 }
 
