@@ -1,4 +1,4 @@
-# make demo · make test · make bench: each does all set-up that it needs.
+# make demo · make test: each does all set-up that it needs.
 # Needs Rust, Python 3.10+ with pip, a C compiler and make; no root.
 
 PYTHON ?= python3
