@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from ..scene_file import FORMAT, Light, Rig, Scene
+from ..scene_file import FORMAT, Light, Scene
 
 
 def scene_text(scene: Scene) -> str:
     """TOML that `scene_file.read_scene` reads back to an equal scene."""
     tables: list[tuple[str, Mapping[str, Any]]] = [
         ("face", scene.face.to_table()),
-        ("light", _light_table(scene.light)),
-        ("rig", _rig_table(scene.rig)),
+        ("light", scene.light.to_table()),
+        ("rig", scene.rig.to_table()),
         ("render", asdict(scene.render)),
+        ("image_formation", scene.formation.to_table()),
+        ("captured_mesh", scene.captured_mesh.to_table()),
         ("versions", scene.versions),
     ]
     blocks = [f"format = {FORMAT}\nname = {_value(scene.name)}\n"]
     blocks += [f"[{name}]\n{_lines(table)}" for name, table in tables if table]
-    blocks += [f"[[relight]]\n{_lines(_light_table(light))}" for light in scene.relight]
+    blocks += [f"[[relight]]\n{_lines(light.to_table())}" for light in scene.relight]
     return "\n".join(blocks)
 
 
@@ -33,19 +35,6 @@ def with_own_pictures(scene: Scene, folder: Path) -> Scene:
         return replace(light, path=str(folder / f"{light.name}.exr")) if light.path else light
 
     return replace(scene, light=moved(scene.light), relight=tuple(map(moved, scene.relight)))
-
-
-def _light_table(light: Light) -> dict[str, Any]:
-    table = {key: value for key, value in asdict(light).items() if value is not None}
-    if light.kind != "envmap":
-        del table["rotation_degrees"]
-    return table
-
-
-def _rig_table(rig: Rig) -> dict[str, Any]:
-    if rig.kind == "phone":
-        return asdict(rig)
-    return {field.name: getattr(rig, field.name) for field in fields(Rig) if field.name in ("name", "kind")}
 
 
 def _lines(table: Mapping[str, Any]) -> str:

@@ -1,0 +1,14 @@
+"""The resolved scene file: one TOML text that says all that a capture depends on."""
+
+from .captured_mesh import CapturedMesh
+from .face import AnyHead
+from .formation import Formation
+from .light import LIGHT_KINDS, Light
+from .render import VARIANTS, Render, passes_for
+from .rig import RIG_KINDS, Rig
+from .scene import FORMAT, Scene, parse_scene, read_scene
+
+__all__ = [
+    "FORMAT", "LIGHT_KINDS", "RIG_KINDS", "VARIANTS", "AnyHead", "CapturedMesh", "Formation", "Light", "Render", "Rig", "Scene",
+    "parse_scene", "passes_for", "read_scene",
+]  # fmt: skip
