@@ -12,7 +12,7 @@ from unshade.errors import PictureError, SceneError
 from unshade.render import lights
 from unshade.render.passes import render_layers
 from unshade.render.pictures import write_exr
-from unshade.render.rigs import Camera, look_at
+from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import Light
 

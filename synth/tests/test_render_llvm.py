@@ -111,7 +111,7 @@ llvm.activate = lambda choice: None
 import render_toy, numpy as np
 from unshade.render import lights
 from unshade.render.passes import render_layers
-from unshade.render.rigs import Camera, look_at
+from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.probes import view_through_centres
 face = render_toy.toy_face()

@@ -11,7 +11,8 @@ import mitsuba as mi
 from unshade.render.capture import transforms_text
 from unshade.render.mesh_file import obj_text
 from unshade.render.probes import TexelVisibility, nearest_texels, view_through_centres
-from unshade.render.rigs import Camera, cameras, look_at
+from unshade.render.camera import Camera, look_at
+from unshade.render.rigs import cameras
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import Rig
 

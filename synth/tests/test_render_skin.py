@@ -103,7 +103,7 @@ def test_furnace_on_a_head():
     coupling exceed it at grazing angles only."""
     from unshade.render.lights import Dome
     from unshade.render.passes import render_layers
-    from unshade.render.rigs import Camera, look_at
+    from unshade.render.camera import Camera, look_at
     from unshade.render.scene import ChartMaps, HeadScene
 
     face = render_toy.toy_face()

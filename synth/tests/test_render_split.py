@@ -9,7 +9,7 @@ import mitsuba as mi
 
 from unshade.render import lights
 from unshade.render.passes import render_layers
-from unshade.render.rigs import Camera, look_at
+from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import passes_for
 

@@ -22,7 +22,8 @@ from .mesh_file import obj_text
 from .passes import Layers, render_layers, seed_of
 from .pictures import read_gray, read_rgb, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
-from .rigs import Camera, cameras
+from .camera import Camera
+from .rigs import cameras
 from .scene import ChartMaps, HeadScene, LitHead
 from .scene_text import scene_text, with_own_pictures
 

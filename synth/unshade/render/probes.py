@@ -13,7 +13,7 @@ import numpy as np
 
 from ..face import Chart
 from ..face.texels import rasterise
-from .rigs import Camera
+from .camera import Camera
 from .scene import HeadScene
 
 _LIFT = 2e-5

@@ -1,100 +1,13 @@
-"""Cameras: where they stand, and what a scene's rig makes of them.
-
-A camera is a pinhole with square pixels. Its matrix maps camera to world with OpenGL axes
-(x right, y up, looking down -z); pixel (i, j) has its centre at (i + .5, j + .5), row 0 at
-the top.
-"""
+"""What cameras a scene's rig stands for, and where they stand."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-import mitsuba as mi
 import numpy as np
 
-from ..scene_file import Rig, passes_for
-
-_UP = np.array([0.0, 1.0, 0.0])
-
-
-@dataclass(frozen=True)
-class Camera:
-    """One camera: name of its frame, pixels, focal length in pixels, 4x4 camera to world."""
-
-    name: str
-    width: int
-    height: int
-    focal: float
-    matrix: np.ndarray
-    train: bool
-
-    @property
-    def position(self) -> np.ndarray:
-        return self.matrix[:3, 3]
-
-    def pixel_directions(self) -> np.ndarray:
-        """Unit directions [height * width, 3] through the pixel centres, row by row."""
-        x = (np.arange(self.width) + 0.5 - self.width / 2) / self.focal
-        y = (self.height / 2 - np.arange(self.height) - 0.5) / self.focal
-        x, y = np.meshgrid(x, y)
-        local = np.stack([x, y, np.full_like(x, -1.0)], -1).reshape(-1, 3)
-        local /= np.linalg.norm(local, axis=1, keepdims=True)
-        return local @ self.matrix[:3, :3].T
-
-    def project(self, points: np.ndarray) -> np.ndarray:
-        """Pixel coordinates [N, 2] (x right, y down) of world points [N, 3] in front."""
-        local = (points - self.position) @ self.matrix[:3, :3]
-        plane = self.focal * local[:, :2] / -local[:, 2:]
-        return np.stack([plane[:, 0] + self.width / 2, self.height / 2 - plane[:, 1]], 1)
-
-    def frame(self) -> dict:
-        """The camera's entry in ``transforms.json``."""
-        return {
-            "name": self.name,
-            "file_path": f"images/{self.name}.exr",
-            "mask_path": f"masks/{self.name}.png",
-            "label_path": f"labels/{self.name}.png",
-            "w": self.width,
-            "h": self.height,
-            "fl_x": self.focal,
-            "fl_y": self.focal,
-            "cx": self.width / 2,
-            "cy": self.height / 2,
-            "transform_matrix": self.matrix.tolist(),
-        }
-
-    def sensor(self, samples: int):
-        """The camera in Mitsuba, whose own axes are x left, y up, z forward."""
-        to_world = self.matrix @ np.diag([-1.0, 1.0, -1.0, 1.0])
-        return mi.load_dict(
-            {
-                "type": "perspective",
-                "fov": math.degrees(2 * math.atan(self.width / 2 / self.focal)),
-                "fov_axis": "x",
-                "to_world": mi.ScalarTransform4f(to_world),
-                "near_clip": 0.01,
-                "far_clip": 100.0,
-                "film": {
-                    "type": "hdrfilm",
-                    "width": self.width,
-                    "height": self.height,
-                    "rfilter": {"type": "box"},
-                },
-                "sampler": {"type": "multijitter", "sample_count": samples // passes_for(samples)},
-            }
-        )
-
-
-def look_at(position: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """Camera-to-world matrix (OpenGL axes) of an upright camera."""
-    back = position - target
-    back = back / np.linalg.norm(back)
-    right = np.cross(_UP, back)
-    right /= np.linalg.norm(right)
-    matrix = np.eye(4)
-    matrix[:3] = np.stack([right, np.cross(back, right), back, position], 1)
-    return matrix
+from ..scene_file import Rig
+from .camera import Camera, look_at
 
 
 def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
