@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.metadata
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,20 +14,20 @@ import numpy as np
 from ..face import Face, build_face
 from ..fingerprint import fingerprint
 from ..scene_file import Light, Scene
-from . import lights
 from .folder import ResumableFolder, content_hash
+from .layers import Layers
 from .llvm import Choice
 from .mesh_file import obj_text
-from .passes import Layers, render_layers, seed_of
+from .meter import Meter, Progress
+from .passes import seed_of
+from .picture_store import PictureStore
 from .pictures import read_gray, read_rgb, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
 from .camera import Camera
 from .rigs import cameras
-from .scene import ChartMaps, HeadScene, LitHead
+from .scene import ChartMaps
 from .scene_text import scene_text, with_own_pictures
-
-Progress = Callable[[int, int, str], None]
-"""Steps done, steps in all, and what the next one is."""
+from .shots import Shots
 
 _ENVIRONMENTS = Path("lights")
 """Where the environment maps of a capture lie, seen from its ``truth/scene.toml``."""
@@ -59,28 +58,24 @@ class Capture:
         self.truth = self.path / "truth"
         self.cameras = cameras(scene.rig, scene.render.width, scene.render.height)
         self.tests = [camera for camera in self.cameras if not camera.train]
-        self._steps = 2 + len(self.cameras) + len(self.tests) * len(scene.relight)
-        self._done = 0
-        self._progress = progress
+        render = scene.render
+        pictures = len(self.cameras) + len(self.tests) * len(scene.relight)
+        self.meter = Meter(progress, pictures, render.width * render.height * render.samples)
 
     def write(self) -> None:
-        self._step("face")
+        self.meter.note("face")
         face = build_face(self.scene.face)
-        head = HeadScene(face.chart, face.parts, ChartMaps.truth(face))
+        shots = Shots(face, ChartMaps.truth(face), self.stated.render, PictureStore.of_user())
         self._write_mesh_and_maps(face)
-        self._write_views(face, head)
+        self._write_views(face, shots)
         for light in self.scene.relight:
-            self._write_relit(face, head, light)
-        self._step("visibility")
-        self._write_coverage(face, head)
+            self._write_relit(shots, light)
+        self.meter.note("visibility")
+        self._write_coverage(face, shots)
         write_text(self.path / "transforms.json", transforms_text(self.cameras))
         write_text(self.truth / "scene.toml", scene_text(self.stated))
         self.folder.commit()
-        self._progress(self._steps, self._steps, "capture")
-
-    def _step(self, what: str) -> None:
-        self._progress(self._done, self._steps, what)
-        self._done += 1
+        self.meter.note("capture")
 
     def _write_mesh_and_maps(self, face: Face) -> None:
         maps = face.maps
@@ -95,51 +90,43 @@ class Capture:
                 picture = read_rgb(light.path).clip(0)
                 write_exr(self.truth / _ENVIRONMENTS / f"{light.name}.exr", {"": picture})
 
-    def _write_views(self, face: Face, head: HeadScene) -> None:
+    def _write_views(self, face: Face, shots: Shots) -> None:
         own = self.scene.light
-        model = lights.exposed(own, face.chart.vertices, face.chart.normals)
-        write_exr(self.truth / "light.exr", {"": model.latlong()})
-        lit = head.lit(model)
+        write_exr(self.truth / "light.exr", {"": shots.light(own).latlong()})
         for camera in self.cameras:
-            self._step(f"view {camera.name}")
             name = camera.name
+            report = self.meter.begin(f"view {name}")
             image = self.path / "images" / f"{name}.exr"
             if image.exists():
                 continue
-            centres = view_through_centres(head, camera)
+            centres = view_through_centres(shots.head, camera)
             labels = np.where(centres.mask, nearest_texels(face.maps.labels, centres.uv), 0)
             write_gray(self.path / "masks" / f"{name}.png", np.where(centres.mask, 255, 0).astype(np.uint8))
             write_gray(self.path / "labels" / f"{name}.png", labels.astype(np.uint8))
-            layers = self._render(lit, camera, own)
-            write_exr(self.truth / "layers" / f"{name}.exr", layer_channels(layers))
+            layers = shots.layers(own, camera, self._seed(own, camera), report)
+            write_exr(self.truth / "layers" / f"{name}.exr", layers.channels())
             if not camera.train:
-                write_exr(self._relit_path(own, camera), {"": layers.total, **layer_channels(layers)})
+                self._write_true(own, camera, layers)
             # Last, since it marks the view as finished.
             write_exr(image, {"": layers.total})
 
-    def _write_relit(self, face: Face, head: HeadScene, light: Light) -> None:
-        model = lights.exposed(light, face.chart.vertices, face.chart.normals)
-        lit = head.lit(model)
+    def _write_relit(self, shots: Shots, light: Light) -> None:
         for camera in self.tests:
-            self._step(f"view {camera.name} in {light.name}")
-            path = self._relit_path(light, camera)
-            if not path.exists():
-                layers = self._render(lit, camera, light)
-                write_exr(path, {"": layers.total, **layer_channels(layers)})
+            report = self.meter.begin(f"view {camera.name} in {light.name}")
+            if not self._relit_path(light, camera).exists():
+                self._write_true(light, camera, shots.layers(light, camera, self._seed(light, camera), report))
 
-    def _render(self, lit: LitHead, camera: Camera, light: Light) -> Layers:
-        render = self.scene.render
-        return render_layers(
-            lit, camera.sensor(render.samples),
-            samples=render.samples, depth=render.depth,
-            seed=seed_of("truth", render.seed, light.name, camera.name),
-        )  # fmt: skip
+    def _write_true(self, light: Light, camera: Camera, layers: Layers) -> None:
+        write_exr(self._relit_path(light, camera), {"": layers.total, **layers.channels()})
+
+    def _seed(self, light: Light, camera: Camera) -> int:
+        return seed_of("truth", self.scene.render.seed, light.name, camera.name)
 
     def _relit_path(self, light: Light, camera: Camera) -> Path:
         return self.truth / "relit" / light.name / f"{camera.name}.exr"
 
-    def _write_coverage(self, face: Face, head: HeadScene) -> None:
-        visibility = TexelVisibility(head, face.chart, self.scene.face.texture_size)
+    def _write_coverage(self, face: Face, shots: Shots) -> None:
+        visibility = TexelVisibility(shots.head, face.chart, self.scene.face.texture_size)
         views = sum(
             visibility.seen_by(camera, read_gray(self.path / "masks" / f"{camera.name}.png") > 0).astype(int)
             for camera in self.cameras
@@ -147,11 +134,6 @@ class Capture:
         )
         write_gray(self.truth / "views.png", views.clip(0, 255).astype(np.uint8))
         write_gray(self.truth / "coverage.png", np.where(views > 0, 255, 0).astype(np.uint8))
-
-
-def layer_channels(layers: Layers) -> dict[str, np.ndarray]:
-    """The channels that describe how a picture came about."""
-    return {"diffuse": layers.diffuse, "specular": layers.specular, "variance": layers.variance}
 
 
 def transforms_text(rig: list[Camera]) -> str:

@@ -13,14 +13,15 @@ from ..errors import MapsError
 from ..face import build_face
 from ..fingerprint import fingerprint
 from ..scene_file import Scene
-from . import lights
-from .capture import Progress, layer_channels
 from .folder import ResumableFolder, content_hash
-from .passes import render_layers, seed_of
+from .meter import Meter, Progress
+from .passes import seed_of
+from .picture_store import PictureStore
 from .pictures import read_exr, write_exr, write_text
 from .rigs import cameras
-from .scene import ChartMaps, HeadScene
+from .scene import ChartMaps
 from .scene_text import scene_text
+from .shots import Shots
 
 _FILES = {
     "diffuse_albedo": "RGB",
@@ -56,37 +57,30 @@ def relight(
         out, f"{scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     )
     jobs = [(scale, light, view) for scale in scales for light in scene.lights for view in views]
-    progress(0, len(jobs), "face")
+    meter = Meter(progress, len(jobs), render.width * render.height * render.samples)
+    meter.note("face")
     face = build_face(scene.face)
-    head = HeadScene(face.chart, face.parts, chart_maps)
-    lit = {
-        light.name: head.lit(lights.exposed(light, face.chart.vertices, face.chart.normals))
-        for light in scene.lights
-    }
+    shots = Shots(face, chart_maps, render, PictureStore.of_user())
     current = None
-    for done, (scale, light, view) in enumerate(jobs):
-        progress(done, len(jobs), f"view {view.name} in {light.name}, scale {scale}")
+    for scale, light, view in jobs:
+        report = meter.begin(f"view {view.name} in {light.name}, scale {scale}")
         path = folder.path / scale / light.name / f"{view.name}.exr"
         if path.exists():
             continue
-        twin = next((name for name in scales if scales[name] == scales[scale]), scale)
+        twin = next(name for name in scales if scales[name] == scales[scale])
         if twin != scale:  # the same factor gives the same picture
             path.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(folder.path / twin / light.name / path.name, path)
             continue
         if scale != current:
-            head.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
+            shots.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
             current = scale
-        layers = render_layers(
-            lit[light.name], view.sensor(render.samples),
-            samples=render.samples, depth=render.depth,
-            seed=seed_of("relit", render.seed, seed_offset, light.name, view.name),
-        )  # fmt: skip
-        write_exr(path, {"": layers.total, **layer_channels(layers)})
+        layers = shots.layers(light, view, seed_of("relit", render.seed, seed_offset, light.name, view.name), report)
+        write_exr(path, {"": layers.total, **layers.channels()})
     document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
     write_text(folder.path / "relit.json", json.dumps(document, indent=1) + "\n")
     folder.commit()
-    progress(len(jobs), len(jobs), "relit")
+    meter.note("relit")
 
 
 def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:

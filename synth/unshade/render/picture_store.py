@@ -1,0 +1,90 @@
+"""Rendered pictures kept by content, so that only what changed is rendered again.
+
+A picture's key is the hash of all that decides it (`content_key`): shapes, maps, light,
+camera, samples, seed, and the renderer's own sources and versions. So a store is never
+wrong, only full: the pictures that were used longest ago make room.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import zipfile
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import StorageError
+from ..face.cache import cache_folder
+from .layers import Layers
+
+SWITCH = "UNSHADE_RENDER_CACHE"
+"""Environment variable: a folder, or ``off``."""
+
+LIMIT_BYTES = 4 << 30
+
+
+class PictureStore:
+    """``folder`` None keeps nothing."""
+
+    def __init__(self, folder: Path | None, limit_bytes: int = LIMIT_BYTES) -> None:
+        self.folder = folder
+        self.limit_bytes = limit_bytes
+
+    @classmethod
+    def of_user(cls) -> PictureStore:
+        """The store of this machine's user: `cache_folder`, or what `SWITCH` says."""
+        said = os.environ.get(SWITCH)
+        if said == "off":
+            return cls(None)
+        return cls(Path(said) if said else cache_folder() / "renders")
+
+    def get(self, key: str) -> Layers | None:
+        """The picture of this key, if it is there and whole."""
+        if self.folder is None:
+            return None
+        path = self._path(key)
+        try:
+            with np.load(path, allow_pickle=False) as stored:
+                layers = Layers(**{field.name: stored[field.name] for field in fields(Layers)})
+            os.utime(path)
+        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+            return None
+        return layers
+
+    def put(self, key: str, layers: Layers) -> None:
+        """Keeps a picture. Raises `StorageError` if the folder cannot be written."""
+        if self.folder is None:
+            return
+        path = self._path(key)
+        partial = path.with_name(f"{path.name}.{os.getpid()}.partial")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            with partial.open("wb") as file:
+                np.savez(file, **{field.name: getattr(layers, field.name) for field in fields(Layers)})
+            os.replace(partial, path)
+            self._make_room()
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                partial.unlink()
+            raise StorageError(
+                f"{self.folder}: cannot keep a picture: {error.strerror}; make room, let {SWITCH} name another folder, or {SWITCH}=off"
+            ) from error
+
+    def _path(self, key: str) -> Path:
+        return self.folder / f"{key}.npz"
+
+    def _make_room(self) -> None:
+        files = []
+        for path in self.folder.glob("*.npz"):
+            with contextlib.suppress(OSError):  # another process may be making room too
+                state = path.stat()
+                files.append((state.st_mtime_ns, state.st_size, path))
+        excess = sum(size for _, size, _ in files) - self.limit_bytes
+        for _, size, path in sorted(files):
+            if excess <= 0:
+                break
+            with contextlib.suppress(OSError):
+                path.unlink()
+            excess -= size

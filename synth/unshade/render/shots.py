@@ -1,0 +1,71 @@
+"""Pictures of one head in any light from any camera, each rendered once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from ..face import Face
+from ..fingerprint import fingerprint
+from ..scene_file import Light, Render
+from . import lights
+from .camera import Camera
+from .content_key import content_key
+from .layers import Layers
+from .passes import render_layers
+from .picture_store import PictureStore
+from .scene import ChartMaps, HeadScene, LitHead
+
+
+class Shots:
+    """``face`` with ``maps`` on its chart. Nothing is loaded into the renderer before the
+    first picture that the store does not hold."""
+
+    def __init__(self, face: Face, maps: ChartMaps, render: Render, store: PictureStore) -> None:
+        self._face = face
+        self._maps = maps
+        self._render = render
+        self._store = store
+        self._models: dict[str, lights.AnyLight] = {}
+        self._lit: dict[str, LitHead] = {}
+        self._shapes_key = content_key(fingerprint(), face.chart, face.parts, render)
+        self._maps_key = content_key(maps)
+
+    @cached_property
+    def head(self) -> HeadScene:
+        return HeadScene(self._face.chart, self._face.parts, self._maps)
+
+    def light(self, light: Light) -> lights.AnyLight:
+        """The light, exposed for this face."""
+        if light.name not in self._models:
+            chart = self._face.chart
+            self._models[light.name] = lights.exposed(light, chart.vertices, chart.normals)
+        return self._models[light.name]
+
+    def set_diffuse_albedo(self, albedo: np.ndarray) -> None:
+        """Replaces the diffuse albedo [N, N, 3] for the pictures to come."""
+        self._maps = replace(self._maps, diffuse_albedo=albedo)
+        self._maps_key = content_key(self._maps)
+        if "head" in self.__dict__:
+            self.head.set_diffuse_albedo(albedo)
+
+    def layers(self, light: Light, camera: Camera, seed: int, report: Callable[[int, int], None]) -> Layers:
+        """One picture; ``report`` hears of samples done and in all."""
+        key = content_key(self._shapes_key, self._maps_key, self.light(light), camera, seed)
+        kept = self._store.get(key)
+        if kept is None:
+            kept = self._render_anew(light, camera, seed)
+            self._store.put(key, kept)
+        report(1, 1)
+        return kept
+
+    def _render_anew(self, light: Light, camera: Camera, seed: int) -> Layers:
+        if light.name not in self._lit:
+            self._lit[light.name] = self.head.lit(self.light(light))
+        render = self._render
+        return render_layers(
+            self._lit[light.name], camera.sensor(render.samples), samples=render.samples, depth=render.depth, seed=seed,
+        )  # fmt: skip
