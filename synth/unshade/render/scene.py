@@ -21,14 +21,16 @@ class ChartMaps:
     """What the chart is made of; square arrays of any size, texel row 0 at v = 1.
 
     ``diffuse_albedo`` [N, N, 3] linear Rec.709, ``specular_albedo`` [N, N] (0 to 0.05),
-    normals [N, N, 3] in object space. Without ``specular_albedo`` there are no highlights;
-    without a normal map the mesh's own normal serves.
+    normals [N, N, 3] in object space, ``roughness`` [N, N, 3]: GGX alpha of lobe 1, of lobe 2,
+    share of lobe 1. Without ``specular_albedo`` there are no highlights; without a normal map
+    the mesh's own normal serves, without ``roughness`` the standard lobes of the skin.
     """
 
     diffuse_albedo: np.ndarray
     specular_albedo: np.ndarray | None = None
     diffuse_normal: np.ndarray | None = None
     specular_normal: np.ndarray | None = None
+    roughness: np.ndarray | None = None
 
     @classmethod
     def truth(cls, face: Face) -> ChartMaps:
@@ -52,16 +54,17 @@ class HeadScene:
     """
 
     def __init__(self, chart: Chart, parts: list[Part], maps: ChartMaps) -> None:
-        self.skin = mi.load_dict(
-            {
-                "type": "skin",
-                "diffuse": _texture(maps.diffuse_albedo),
-                "specular": _texture(_or_zero(maps.specular_albedo, 1)),
-                # A texel without direction means the mesh's own normal.
-                "diffuse_normal": _texture(_or_zero(maps.diffuse_normal, 3)),
-                "specular_normal": _texture(_or_zero(maps.specular_normal, 3)),
-            }
-        )
+        skin = {
+            "type": "skin",
+            "diffuse": _texture(maps.diffuse_albedo),
+            "specular": _texture(_or_zero(maps.specular_albedo, 1)),
+            # A texel without direction means the mesh's own normal.
+            "diffuse_normal": _texture(_or_zero(maps.diffuse_normal, 3)),
+            "specular_normal": _texture(_or_zero(maps.specular_normal, 3)),
+        }
+        if maps.roughness is not None:
+            skin["roughness"] = _texture(maps.roughness)
+        self.skin = mi.load_dict(skin)
         self.chart = _mesh("chart", chart, self.skin, uv=chart.uv)
         self._shapes = {"chart": self.chart} | {part.name: _part(part) for part in parts}
         self.dark = mi.load_dict({"type": "scene", **self._shapes})

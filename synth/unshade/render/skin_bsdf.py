@@ -7,6 +7,7 @@ Lambert on the diffuse normal, two GGX lobes with Schlick's Fresnel term on the 
 normal. rho_s reads as reflectance at normal incidence (0 to 0.05): the paper's product of
 a specular albedo and a Fresnel term with F0 = 0.04.
 
+The lobes have the standard roughness, one of their own, or one that varies over the skin.
 Normals come from textures in object space, which is world space here, and go through the
 interaction's frame; so no tangent frame, and thus no tessellation, enters the material.
 Without a texture, or where a texel holds no direction, the interpolated mesh normal serves.
@@ -25,6 +26,10 @@ LOBE_ALPHAS = (0.15, 0.35)
 
 LOBE_WEIGHTS = (0.5, 0.5)
 """Shares of the two lobes, equal as in the shaders of Digital Emily 2."""
+
+MIN_ALPHA = 0.02
+"""Lobes of a roughness map are at least this rough: sharper than any skin or tear film, and
+wide enough that half vectors in single precision resolve them."""
 
 _MIN_COS = 1e-4
 _SPECULAR_SHARE = (0.15, 0.85)
@@ -45,18 +50,19 @@ def _safe_ratio(numerator, denominator):
 class SkinBSDF(mi.BSDF):
     """Plugin ``skin``: textures ``diffuse`` (RGB) and ``specular`` (scalar), optional
     textures ``diffuse_normal`` and ``specular_normal`` (xyz, object space, raw), optional
+    texture ``roughness`` (GGX alpha of lobe 1, of lobe 2, share of lobe 1; raw) or optional
     ``alpha`` (both lobes get this roughness: the wet eye)."""
 
     def __init__(self, props):
         mi.BSDF.__init__(self, props)
         self.diffuse = props.get_unbounded_texture("diffuse")
         self.specular = props.get_unbounded_texture("specular")
-        self.diffuse_normal, self.specular_normal = (
+        self.diffuse_normal, self.specular_normal, self.roughness = (
             props.get_unbounded_texture(name) if name in props else None
-            for name in ("diffuse_normal", "specular_normal")
+            for name in ("diffuse_normal", "specular_normal", "roughness")
         )
         alpha = props.get("alpha", 0.0)
-        self.alphas = (alpha, alpha) if alpha > 0 else LOBE_ALPHAS
+        self.lobes = tuple(zip((alpha, alpha) if alpha > 0 else LOBE_ALPHAS, LOBE_WEIGHTS))
         varying = mi.BSDFFlags.FrontSide | mi.BSDFFlags.SpatiallyVarying
         self.m_components = [
             mi.BSDFFlags.DiffuseReflection | varying,
@@ -73,19 +79,28 @@ class SkinBSDF(mi.BSDF):
         n *= dr.rsqrt(dr.select(known, length2, 1))
         return mi.Normal3f(dr.select(known, n, mi.Vector3f(0, 0, 1)))
 
+    def _lobes(self, si, active):
+        """GGX alpha and share of both lobes."""
+        if self.roughness is None:
+            return self.lobes
+        first, second, share = mi.Vector3f(self.roughness.eval_3(si, active))
+        share = dr.clip(share, 0, 1)
+        return (dr.clip(first, MIN_ALPHA, 1), share), (dr.clip(second, MIN_ALPHA, 1), 1 - share)
+
     def _surface(self, si, active):
-        """Colours, specular reflectance, diffuse normal, specular frame, geometric normal."""
+        """Colours, specular reflectance, diffuse normal, specular frame, geometric normal, lobes."""
         return (
             self.diffuse.eval(si, active),
             self.specular.eval_1(si, active),
             self._normal(self.diffuse_normal, si, active),
             mi.Frame3f(self._normal(self.specular_normal, si, active)),
             si.to_local(si.n),
+            self._lobes(si, active),
         )
 
     def _specular_share(self, ctx, si, surface):
         """Probability to sample the specular lobes; 0 where they are out of sight."""
-        rho_d, rho_s, _, frame, _ = surface
+        rho_d, rho_s, _, frame, _, _ = surface
         if not ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 1):
             return mi.Float(0)
         seen = dr.dot(frame.n, si.wi) > _MIN_COS
@@ -96,7 +111,7 @@ class SkinBSDF(mi.BSDF):
         return dr.select(seen & (rho_s > 0), dr.clip(share, *_SPECULAR_SHARE), 0)
 
     def _evaluate(self, ctx, si, wo, active, surface):
-        rho_d, rho_s, n_d, frame, n_g = surface
+        rho_d, rho_s, n_d, frame, n_g, lobes = surface
         # Sidedness is judged by the triangle, not the interpolated normal, which leans
         # away from the eye at silhouettes and would leave black pixels there.
         active = active & (dr.dot(n_g, si.wi) > 0) & (dr.dot(n_g, wo) > 0)
@@ -111,7 +126,7 @@ class SkinBSDF(mi.BSDF):
             ok = (v.z > _MIN_COS) & (l.z > 0)
             h = dr.normalize(v + l)
             sampled, reflected = mi.Float(0), mi.Float(0)
-            for alpha, weight in zip(self.alphas, LOBE_WEIGHTS):
+            for alpha, weight in lobes:
                 lobe = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, alpha, True)
                 # Density of visible normals times 1/(4 h.l); the lobe's value is the same
                 # but for the masking of the outgoing direction.
@@ -123,15 +138,15 @@ class SkinBSDF(mi.BSDF):
         return dr.select(active, value, 0), dr.select(active, pdf, 0)
 
     def _sample(self, ctx, si, sample1, sample2, active, surface):
-        _, _, n_d, frame, _ = surface
+        _, _, n_d, frame, _, ((alpha_1, share_1), (alpha_2, _)) = surface
         share = self._specular_share(ctx, si, surface)
         specular = sample1 < share
         # The rest of the first random number picks the lobe.
-        first = _safe_ratio(sample1, share) < LOBE_WEIGHTS[0]
-        alpha = dr.select(first, mi.Float(self.alphas[0]), mi.Float(self.alphas[1]))
-        lobes = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, alpha, True)
+        first = _safe_ratio(sample1, share) < share_1
+        alpha = dr.select(first, mi.Float(alpha_1), mi.Float(alpha_2))
+        lobe = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, alpha, True)
         v = frame.to_local(si.wi)
-        h, _ = lobes.sample(v, sample2)
+        h, _ = lobe.sample(v, sample2)
         l = mi.reflect(v, h)
         diffuse_wo = mi.Frame3f(n_d).to_world(mi.warp.square_to_cosine_hemisphere(sample2))
         bs = dr.zeros(mi.BSDFSample3f)
@@ -174,7 +189,7 @@ class SkinBSDF(mi.BSDF):
         return self.diffuse.eval(si, active)
 
     def traverse(self, callback):
-        for name in ("diffuse", "specular", "diffuse_normal", "specular_normal"):
+        for name in ("diffuse", "specular", "diffuse_normal", "specular_normal", "roughness"):
             texture = getattr(self, name)
             if texture is not None:
                 callback.put(name, texture, mi.ParamFlags.Differentiable)
