@@ -56,9 +56,21 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--seed-offset", type=int, default=0)
     relight.set_defaults(stage=_relight)
 
+    describe = verbs.add_parser("describe", help="say what a scene stands for")
+    describe.add_argument("--scene", type=Path, required=True)
+    describe.set_defaults(stage=_describe)
+
+    sheet = verbs.add_parser("contact-sheet", help="render sampled identities into one picture")
+    sheet.add_argument("--count", type=int, required=True)
+    sheet.add_argument("--seed", type=int, required=True)
+    sheet.add_argument("--out", type=Path, required=True)
+    sheet.set_defaults(stage=_contact_sheet)
+
     doctor = verbs.add_parser("doctor", help="say what rendering finds on this machine")
     doctor.set_defaults(stage=_doctor)
-    for verb in (synth, relight, doctor):
+    physics = verbs.add_parser("physics", help="check the renderer against physics")
+    physics.set_defaults(stage=_physics)
+    for verb in (synth, relight, describe, sheet, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -99,6 +111,36 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _describe(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+    from .scene_file import read_scene
+
+    scene = read_scene(options.scene)
+    _activate(llvm.choose(scene.render.variant))
+    from .render.describe import describe
+
+    return {"text": describe(scene)}
+
+
+def _contact_sheet(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+
+    _activate(llvm.choose())
+    from .render.contact_sheet import contact_sheet
+
+    contact_sheet(options.count, options.out, options.seed, _progress)
+    return {"picture": str(options.out)}
+
+
+def _physics(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+
+    _activate(llvm.choose())
+    from .render.physics import examine
+
+    return {"checks": examine(_progress)}
 
 
 def _doctor(options: argparse.Namespace) -> dict[str, Any]:

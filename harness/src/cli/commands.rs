@@ -8,7 +8,7 @@ use std::time::Instant;
 use solver::atomic;
 
 use super::progress::Progress;
-use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, Verb, doctor};
+use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, doctor};
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
 use crate::score;
@@ -17,9 +17,7 @@ use crate::synth::{Interpreter, Interrupt};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
-        Verb::Synth { scene, out } => {
-            alone("synth", |tools, step| suite::synth(&scene, &out, tools, step))?;
-        }
+        Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => {
             alone("solve", |tools, step| solve(&arguments, tools, step))?;
         }
@@ -35,7 +33,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             println!("{}", out.join("index.html").display());
         }
         Verb::Compare(arguments) => return compare_run(&arguments),
-        Verb::Doctor => return doctor::examine(&tools()),
+        Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)
 }
@@ -64,6 +62,23 @@ fn alone(
     }
     progress.finish();
     result
+}
+
+fn synth(arguments: SynthArgs) -> Result<(), RunError> {
+    // The parser lets no other combination through.
+    match (arguments.scene, arguments.contact_sheet, arguments.out) {
+        (_, Some(count), Some(out)) => alone("contact sheet", |tools, step| {
+            suite::contact_sheet(count, arguments.seed, &out, tools, step)
+        }),
+        (Some(scene), _, Some(out)) => {
+            alone("synth", |tools, step| suite::synth(&scene, &out, tools, step))
+        }
+        (Some(scene), ..) => {
+            println!("{}", suite::describe(&scene, &tools())?);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
 }
 
 fn solve(

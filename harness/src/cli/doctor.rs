@@ -2,12 +2,13 @@
 
 use serde_json::Value;
 
+use super::progress::Progress;
 use super::{CHECK_FAILED, DONE};
-use crate::suite::{RunError, Tools};
+use crate::suite::{Observer, RunError, Tools};
 use crate::synth::{StageError, run_stage};
 
 /// Prints one line a part; exit code 1 if something that a run needs is missing.
-pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
+pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
     println!("unshade    {}", env!("CARGO_PKG_VERSION"));
     println!("python     {}", tools.interpreter.path().display());
     println!("cpu        {} threads, {}", rayon::current_num_threads(), solver::simd_level());
@@ -19,15 +20,33 @@ pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
         let kind = if adapter.software { "software, never chosen" } else { "GPU" };
         println!("gpu        {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
     }
-    let found =
-        match run_stage(&tools.interpreter, "doctor", &[], &tools.interrupt, &mut |_, _, _| {}) {
-            Ok(found) => found,
-            Err(StageError::Interrupted) => return Err(RunError::Interrupted),
-            Err(error) => {
-                println!("renderer   MISSING: {error}");
-                return Ok(CHECK_FAILED);
-            }
-        };
+    let mut complete = checks(tools, "doctor", &mut |_, _, _| {})?;
+    if complete && physics {
+        let mut progress = Progress::new();
+        progress.stage_begins("physics", 0, 1);
+        let held = checks(tools, "physics", &mut |done, total, what| {
+            progress.step(done, total, what);
+        });
+        progress.finish();
+        complete = held?;
+    }
+    Ok(if complete { DONE } else { CHECK_FAILED })
+}
+
+/// Runs the checks of one stage and prints a line for each; whether all hold.
+fn checks(
+    tools: &Tools,
+    stage: &str,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<bool, RunError> {
+    let found = match run_stage(&tools.interpreter, stage, &[], &tools.interrupt, step) {
+        Ok(found) => found,
+        Err(StageError::Interrupted) => return Err(RunError::Interrupted),
+        Err(error) => {
+            println!("renderer   FAILED: {error}");
+            return Ok(false);
+        }
+    };
     let mut complete = true;
     for part in found["checks"].as_array().into_iter().flatten() {
         let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();
@@ -35,8 +54,8 @@ pub(super) fn examine(tools: &Tools) -> Result<u8, RunError> {
             println!("{:<10} {}", text("name"), text("found"));
         } else {
             complete = false;
-            println!("{:<10} MISSING: {}; {}", text("name"), text("found"), text("mend"));
+            println!("{:<10} FAILED: {}; {}", text("name"), text("found"), text("mend"));
         }
     }
-    Ok(if complete { DONE } else { CHECK_FAILED })
+    Ok(complete)
 }

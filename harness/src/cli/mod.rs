@@ -25,14 +25,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Render a capture with its truth.
-    Synth {
-        /// What to render.
-        scene: PathBuf,
-        /// The capture's folder.
-        #[arg(short, long)]
-        out: PathBuf,
-    },
+    /// Render a capture with its truth, say what a scene stands for, or show many faces.
+    Synth(SynthArgs),
     /// Recover reflectance maps from a capture.
     Solve(SolveArgs),
     /// Render recovered maps in the capture's lights.
@@ -77,7 +71,31 @@ enum Verb {
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
     /// Say what this machine has, and what is missing with the mend.
-    Doctor,
+    Doctor {
+        /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.
+        #[arg(long)]
+        physics: bool,
+    },
+}
+
+#[derive(Args)]
+struct SynthArgs {
+    /// What to render.
+    #[arg(required_unless_present = "contact_sheet")]
+    scene: Option<PathBuf>,
+    /// The capture's folder, or the contact sheet's PNG.
+    #[arg(short, long, required_unless_present = "describe")]
+    out: Option<PathBuf>,
+    /// Render nothing; print face, cameras, and each light's mean, maximum and colour.
+    #[arg(long, conflicts_with_all = ["out", "contact_sheet"], requires = "scene")]
+    describe: bool,
+    /// Render this many sampled identities into one picture instead.
+    #[arg(long, value_name = "N", conflicts_with = "scene",
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    contact_sheet: Option<u32>,
+    /// Which identities the contact sheet samples.
+    #[arg(long, default_value_t = 0, requires = "contact_sheet")]
+    seed: u64,
 }
 
 #[derive(Args)]

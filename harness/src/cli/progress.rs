@@ -30,7 +30,7 @@ impl Progress {
             let run = all.add(ProgressBar::new(0));
             run.set_style(style("{bar:30} {pos}/{len} stages  {elapsed}"));
             let stage = all.add(ProgressBar::new(0));
-            stage.set_style(style("{bar:30} {pos}/{len} {prefix}: {msg}  ({eta} left)"));
+            stage.set_style(style("{bar:30} {percent:>3}% {prefix}: {msg}  ({eta} left)"));
             run.enable_steady_tick(Duration::from_millis(500));
             Bars { run, stage }
         });

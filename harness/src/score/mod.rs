@@ -26,7 +26,7 @@ pub use scores::{Inputs, RegionSize, Row, Scores};
 use crate::suite::hash_path;
 use geometry::Geometry;
 use pictures::Frame;
-use truth::Truth;
+use truth::{Identity, Truth};
 
 /// Scores a maps folder, and the pictures relit with it, against the capture's truth.
 ///
@@ -34,7 +34,7 @@ use truth::Truth;
 /// is refused.
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
     let truth = Truth::open(capture)?;
-    let (face, light) = truth::identity(capture)?;
+    let Identity { face, light, protocol } = Identity::read(capture)?;
     let found = Maps::read(maps)?;
     let scale =
         found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
@@ -59,7 +59,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         face,
         light,
         solver: solver_name(maps)?,
-        protocol: Protocol::current(),
+        protocol,
         inputs,
         scale,
         regions,

@@ -9,11 +9,12 @@ use solver::atomic::Folder;
 use super::ScoreError;
 use super::truth::{self, present};
 
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
     "diffuse_albedo.exr",
     "specular_albedo.exr",
     "diffuse_normal.exr",
     "specular_normal.exr",
+    "roughness.exr",
     "coverage.png",
 ];
 

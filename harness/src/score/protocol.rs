@@ -18,20 +18,37 @@ pub struct Protocol {
 }
 
 impl Protocol {
-    /// The protocol of this version.
-    pub fn current() -> Self {
-        let statements = [
-            "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
-            "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
-            "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
-            "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
-            "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered anew with the scaled albedo; no picture is ever scaled.",
-            "A metric that is not defined (the correlation with a constant) is null. A subject whose map, view or picture a solver did not write has no rows.",
-            "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks (32x32 texels, 16x16 pixels, pooled over frames), fixed seed. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
-            "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
-            "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
-            "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",
-        ];
-        Self { id: "unshade-1".to_owned(), statements: statements.map(str::to_owned).to_vec() }
+    /// The protocol of this version for a truth that `render` says how it was rendered: a scene's
+    /// table of that name.
+    pub fn of(render: Option<&toml::Table>) -> Self {
+        let mut id = "unshade-1".to_owned();
+        let mut statements = STATEMENTS.map(str::to_owned).to_vec();
+        let said = |key: &str| render?.get(key)?.as_str();
+        if let Some(tier @ ("diffusion" | "volume")) = said("tier") {
+            id.push_str(&format!(" {tier}"));
+            statements.push(format!(
+                "tier {tier}: the light that the truth's skin scatters leaves it elsewhere, and so does that of relit maps; such scores are no others' equals."
+            ));
+        }
+        if let Some(denoiser @ "oidn") = said("denoise") {
+            id.push_str(&format!(" {denoiser}"));
+            statements.push(format!(
+                "denoise {denoiser}: true and relit pictures were denoised; their floors are those of the pictures before, so a perfect solver may score above them, and detail finer than the noise is the denoiser's."
+            ));
+        }
+        Self { id, statements }
     }
 }
+
+const STATEMENTS: [&str; 10] = [
+    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
+    "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
+    "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
+    "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
+    "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered anew with the scaled albedo; no picture is ever scaled.",
+    "A metric that is not defined (the correlation with a constant) is null. A subject whose map, view or picture a solver did not write has no rows.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks (32x32 texels, 16x16 pixels, pooled over frames), fixed seed. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
+    "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
+    "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
+    "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",
+];

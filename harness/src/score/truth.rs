@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use solver::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
+use super::protocol::Protocol;
 use crate::metrics::Region;
 
 /// The mend for a truth that lacks something.
@@ -66,17 +67,29 @@ impl Truth {
     }
 }
 
-/// Names of the face and of the light.
-pub(super) fn identity(capture: &Path) -> Result<(String, String), ScoreError> {
-    let path = present(folder(capture)?.join("scene.toml"), AGAIN)?;
-    let text = fs::read_to_string(&path).map_err(|error| ScoreError::io(&path, error))?;
-    let scene: toml::Table = text.parse().map_err(|error| ScoreError::text(&path, error))?;
-    let name = |section: &str| {
-        let name = scene.get(section).and_then(|table| table.get("name")?.as_str());
-        name.map(str::to_owned)
-            .ok_or_else(|| ScoreError::text(&path, format!("{section}.name is missing")))
-    };
-    Ok((name("face")?, name("light")?))
+/// What a truth says of itself.
+pub(super) struct Identity {
+    /// The face's name.
+    pub face: String,
+    /// The light's name.
+    pub light: String,
+    /// How it is to be scored.
+    pub protocol: Protocol,
+}
+
+impl Identity {
+    pub fn read(capture: &Path) -> Result<Self, ScoreError> {
+        let path = present(folder(capture)?.join("scene.toml"), AGAIN)?;
+        let text = fs::read_to_string(&path).map_err(|error| ScoreError::io(&path, error))?;
+        let scene: toml::Table = text.parse().map_err(|error| ScoreError::text(&path, error))?;
+        let name = |section: &str| {
+            let name = scene.get(section).and_then(|table| table.get("name")?.as_str());
+            name.map(str::to_owned)
+                .ok_or_else(|| ScoreError::text(&path, format!("{section}.name is missing")))
+        };
+        let protocol = Protocol::of(scene.get("render").and_then(|table| table.as_table()));
+        Ok(Self { face: name("face")?, light: name("light")?, protocol })
+    }
 }
 
 /// `truth/relit/<light>`: the lights, sorted.

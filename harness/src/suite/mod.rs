@@ -10,5 +10,7 @@ mod scene;
 pub use content::hash_path;
 pub use entrant::{mean_texture, solve};
 pub use file::{Case, Entrant, Method, Suite};
-pub use run::{Observer, RunError, RunSummary, Tools, relight, run, synth};
+pub use run::{
+    Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
+};
 pub use scene::{Scene, SceneError};

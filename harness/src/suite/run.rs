@@ -5,7 +5,7 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -216,13 +216,13 @@ impl Stages<'_> {
 
     fn capture(&mut self, case: &Case, renderer: &str) -> Result<Output, RunError> {
         let scene = case.scene.to_toml().map_err(io::Error::other)?;
-        let lights = light_files(case)?;
+        let files = file_contents(&case.scene)?;
         let scene_file = self.out.join("captures").join(format!("{}.toml", case.id));
         fs::create_dir_all(self.out.join("captures"))?;
         atomic::write_file(&scene_file, scene.as_bytes())?;
         let path = self.out.join("captures").join(&case.id);
         let id = format!("capture/{}", case.id);
-        self.stage(&id, &["capture", renderer, &scene, &lights], path, |path, tools, step| {
+        self.stage(&id, &["capture", renderer, &scene, &files], path, |path, tools, step| {
             let arguments =
                 words(&[("--scene", scene_file.as_os_str()), ("--out", path.as_os_str())]);
             run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
@@ -282,18 +282,41 @@ pub fn synth(
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
-    if let Some(folder) = out.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    let mut resolved = out.as_os_str().to_os_string();
-    resolved.push(".scene.partial");
-    atomic::write_file(Path::new(&resolved), text.as_bytes())?;
-    let arguments = words(&[("--scene", &resolved), ("--out", out.as_os_str())]);
-    let result = run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step);
-    fs::remove_file(&resolved)?;
-    result?;
+    let scene = resolved(scene)?;
+    let arguments = words(&[("--scene", scene.path().as_os_str()), ("--out", out.as_os_str())]);
+    run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
     Ok(())
+}
+
+/// What the scene file `scene` stands for, in words: face, cameras, and each light in numbers.
+pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
+    let scene = resolved(scene)?;
+    let arguments = words(&[("--scene", scene.path().as_os_str())]);
+    let silent = &mut |_, _, _: &str| {};
+    let said = run_stage(&tools.interpreter, "describe", &arguments, &tools.interrupt, silent)?;
+    Ok(said["text"].as_str().unwrap_or_default().to_owned())
+}
+
+/// Renders `count` sampled identities into one PNG.
+pub fn contact_sheet(
+    count: u32,
+    seed: u64,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let (count, seed) = (OsString::from(count.to_string()), OsString::from(seed.to_string()));
+    let arguments = words(&[("--count", &count), ("--seed", &seed), ("--out", out.as_os_str())]);
+    run_stage(&tools.interpreter, "contact-sheet", &arguments, &tools.interrupt, step)?;
+    Ok(())
+}
+
+/// The scene file with all that it refers to, in a file that lives as long as the result.
+fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
+    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
+    let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".toml").tempfile()?;
+    file.write_all(text.as_bytes())?;
+    Ok(file)
 }
 
 /// Renders `maps` in the capture's lights, as they are and after the one global factor.
@@ -317,20 +340,16 @@ pub fn relight(
     Ok(())
 }
 
-/// The content of every picture that the case's lights name.
-fn light_files(case: &Case) -> Result<String, RunError> {
-    let own = case.scene.table.get("light").and_then(|light| light.as_table().cloned());
-    let mut hashes = Vec::new();
-    for light in own.iter().chain(&case.scene.relight()) {
-        if let Some(path) = light.get("path").and_then(|path| path.as_str()) {
-            let path = Path::new(path);
-            hashes.push(hash_path(path).map_err(|error| SceneError::Read {
-                path: path.to_path_buf(),
-                reason: error.to_string(),
-            })?);
-        }
-    }
-    Ok(hashes.join(" "))
+/// The content of every file that the scene names.
+fn file_contents(scene: &Scene) -> Result<String, SceneError> {
+    let hashes: Result<Vec<_>, _> = scene
+        .files()
+        .into_iter()
+        .map(|path| {
+            hash_path(&path).map_err(|error| SceneError::Read { path, reason: error.to_string() })
+        })
+        .collect();
+    Ok(hashes?.join(" "))
 }
 
 fn words(pairs: &[(&str, &std::ffi::OsStr)]) -> Vec<OsString> {

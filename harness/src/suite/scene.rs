@@ -42,6 +42,30 @@ impl SceneError {
     }
 }
 
+const KEYS: [&str; 9] = [
+    "format",
+    "name",
+    "face",
+    "light",
+    "relight",
+    "rig",
+    "render",
+    "image_formation",
+    "captured_mesh",
+];
+
+/// Keys of faces and lights that name files, which lie beside the file that names them.
+const FILES: [&str; 8] = [
+    "path",
+    "mesh",
+    "diffuse_albedo",
+    "specular_albedo",
+    "diffuse_normal",
+    "specular_normal",
+    "roughness",
+    "labels",
+];
+
 /// A scene whose face, lights and rig are spelt out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -54,7 +78,7 @@ impl Scene {
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let mut table = read_toml(path)?;
         check_format(path, &table)?;
-        check_keys(path, &table, &["format", "name", "face", "light", "relight", "rig", "render"])?;
+        check_keys(path, &table, &KEYS)?;
         for key in ["face", "light", "rig"] {
             let value = table.remove(key).ok_or_else(|| {
                 SceneError::value(path, key, "is missing; name a file or write a table")
@@ -96,6 +120,16 @@ impl Scene {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// Every file that the face and the lights name.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let own = ["face", "light"].into_iter().filter_map(|key| self.table.get(key)?.as_table());
+        let relight = self.relight();
+        own.chain(&relight)
+            .flat_map(|table| FILES.iter().filter_map(|key| table.get(*key)?.as_str()))
+            .map(PathBuf::from)
+            .collect()
     }
 
     /// This scene with another face.
@@ -149,10 +183,11 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
             format!("is missing; give the {key} a name"),
         ));
     }
-    // A picture that a light names lies beside the file that names it.
-    if let Some(Value::String(path)) = table.get_mut("path") {
-        let beside = origin.parent().unwrap_or(Path::new("")).join(&*path);
-        *path = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
+    for key in FILES {
+        if let Some(Value::String(path)) = table.get_mut(key) {
+            let beside = origin.parent().unwrap_or(Path::new("")).join(&*path);
+            *path = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
+        }
     }
     Ok(table)
 }
