@@ -10,16 +10,110 @@ from typing import Any
 
 from ..errors import SceneError
 from .checks import choice, folder_name, known_keys, number, text
+from .settings import colour, flag, integer, names, one_of, read_settings, real
 
-LIGHT_KINDS = ("dome", "studio", "flash", "envmap")
+HADAMARD_ORDERS = (2, 4, 8, 16, 32, 64)
+
+
+@dataclass(frozen=True)
+class KeyLight:
+    """One square softbox to a side of the face; nothing fills the shadow.
+
+    Azimuth 0 is in front of the face, 90 at its left hand (+X); elevation 90 is above.
+    """
+
+    azimuth_degrees: float = real(60, -180, 180)
+    elevation_degrees: float = real(20, -85, 85)
+    distance_metres: float = real(1.5, 0.4, 100)
+    size_metres: float = real(0.5, 0.01, 10)
+
+
+@dataclass(frozen=True)
+class TwoColours:
+    """Two square softboxes of unlike colour (linear Rec.709) at either hand of the face."""
+
+    left: tuple[float, float, float] = colour(1.0, 0.42, 0.16)
+    right: tuple[float, float, float] = colour(0.22, 0.48, 1.0)
+    azimuth_degrees: float = real(55, 0, 180)
+    elevation_degrees: float = real(10, -85, 85)
+    distance_metres: float = real(1.5, 0.4, 100)
+    size_metres: float = real(0.6, 0.01, 10)
+
+
+@dataclass(frozen=True)
+class Sun:
+    """A clear day: the sun's disc, the sky about it, and a grey ground that they light.
+
+    ``turbidity`` is Hosek and Wilkie's: 2 clear mountain air, 10 haze. A ``ground_albedo``
+    of 0 leaves all below the horizon black.
+    """
+
+    azimuth_degrees: float = real(40, -180, 180)
+    elevation_degrees: float = real(35, 2, 90)
+    turbidity: float = real(3, 1, 10)
+    ground_albedo: float = real(0.2, 0, 1)
+
+
+@dataclass(frozen=True)
+class PointLight:
+    """A glowing ball as small as a bare LED."""
+
+    azimuth_degrees: float = real(-35, -180, 180)
+    elevation_degrees: float = real(25, -90, 90)
+    distance_metres: float = real(1.0, 0.4, 100)
+    radius_metres: float = real(0.004, 0.0005, 0.05)
+
+
+@dataclass(frozen=True)
+class Gradient:
+    """A spherical gradient (Ma et al. 2007): (1 + d . axis) / 2 over directions d, or the full sphere."""
+
+    axis: str = one_of("full", "x+", "x-", "y+", "y-", "z+", "z-")
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """Light from a part of the sphere's directions, none from the rest.
+
+    ``half``: the half sphere around ``axis``. ``stripes``: ``count`` bands of equal solid
+    angle across ``axis``, every other one lit, beginning at the axis. ``hadamard``: the
+    sphere in ``order`` cells of equal solid angle, lit where row ``index`` of the
+    Hadamard matrix of that order (Sylvester's) is +1; row 0 is the full sphere.
+    ``inverse`` swaps lit and dark.
+    """
+
+    pattern: str = one_of("half", "stripes", "hadamard")
+    axis: str = one_of("x+", "x-", "y+", "y-", "z+", "z-")
+    count: int = integer(8, 2, 64)
+    order: int = integer(16, 2, 64)
+    index: int = integer(1, 0, 63)
+    inverse: bool = flag(False)
+
+
+SETTINGS: dict[str, type] = {
+    "key": KeyLight,
+    "two-colour": TwoColours,
+    "sun": Sun,
+    "point": PointLight,
+    "gradient": Gradient,
+    "pattern": Pattern,
+}
+"""Kinds with parameters of their own."""
+
+AnySettings = KeyLight | TwoColours | Sun | PointLight | Gradient | Pattern
+LIGHT_KINDS = ("dome", "studio", "flash", "envmap", *SETTINGS)
 
 
 @dataclass(frozen=True)
 class Light:
     """One light. ``exposure`` 1 makes the largest irradiance on the face pi.
 
+    The kinds ``gradient`` and ``pattern`` are parts of a light stage's sphere: 1 makes the
+    whole sphere's irradiance pi, so that all parts share one exposure.
+
     ``path``, ``rotation_degrees`` (about +Y, turning +Z towards +X) and ``clamp`` (the
-    largest radiance that is kept, in the picture's own units) belong to ``envmap``.
+    largest radiance that is kept, in the picture's own units) belong to ``envmap``;
+    ``settings`` to the kinds of `SETTINGS`.
     """
 
     name: str
@@ -28,23 +122,35 @@ class Light:
     path: str | None = None
     rotation_degrees: float = 0.0
     clamp: float | None = None
+    settings: AnySettings | None = None
+
+    def __post_init__(self) -> None:
+        if self.settings is None and self.kind in SETTINGS:
+            object.__setattr__(self, "settings", SETTINGS[self.kind]())
 
     def to_table(self) -> dict[str, Any]:
-        table = {key: value for key, value in asdict(self).items() if value is not None}
-        if self.kind != "envmap":
-            del table["rotation_degrees"]
+        table = {"name": self.name, "kind": self.kind, "exposure": self.exposure}
+        if self.kind == "envmap":
+            table |= {"path": self.path, "rotation_degrees": self.rotation_degrees}
+            if self.clamp is not None:
+                table["clamp"] = self.clamp
+        if self.settings is not None:
+            table |= asdict(self.settings)
         return table
 
 
 def parse_light(table: Mapping[str, Any], place: str, folder: Path) -> Light:
     kind = choice(table, "kind", LIGHT_KINDS, place)
-    own = ("path", "rotation_degrees", "clamp") if kind == "envmap" else ()
+    own = ("path", "rotation_degrees", "clamp") if kind == "envmap" else names(SETTINGS[kind]) if kind in SETTINGS else ()
     known_keys(table, ("name", "kind", "exposure", *own), place)
     path = None
     if kind == "envmap":
         path = str(folder / text(table, "path", place))
         if not Path(path).is_file():
             raise SceneError(f"path in {place}: there is no picture {path}; name a lat-long EXR or HDR file")
+    settings = read_settings(SETTINGS[kind], table, place) if kind in SETTINGS else None
+    if isinstance(settings, Pattern):
+        _check_pattern(settings, place)
     return Light(
         name=folder_name(table, place),
         kind=kind,
@@ -52,4 +158,16 @@ def parse_light(table: Mapping[str, Any], place: str, folder: Path) -> Light:
         path=path,
         rotation_degrees=number(table, "rotation_degrees", place, 0.0),
         clamp=number(table, "clamp", place, math.inf, above=0.0) if "clamp" in table else None,
+        settings=settings,
     )
+
+
+def _check_pattern(pattern: Pattern, place: str) -> None:
+    if pattern.pattern != "hadamard":
+        return
+    if pattern.order not in HADAMARD_ORDERS:
+        raise SceneError(f"order in {place} is {pattern.order}; use one of {', '.join(map(str, HADAMARD_ORDERS))}")
+    if pattern.index >= pattern.order:
+        raise SceneError(f"index in {place} is {pattern.index}, but order {pattern.order} has rows 0 to {pattern.order - 1}")
+    if pattern.index == 0 and pattern.inverse:
+        raise SceneError(f"index 0 in {place} is the full sphere, and its inverse is dark; use another row")

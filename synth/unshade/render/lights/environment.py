@@ -1,0 +1,80 @@
+"""Light from infinitely far, as a lat-long picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import mitsuba as mi
+import numpy as np
+
+from ...errors import SceneError
+from ...scene_file import Light
+from ..pictures import read_rgb
+from ..split import LambertLight
+from .conventions import LUMINANCE, directions, solid_angles
+
+
+@dataclass(frozen=True)
+class Environment:
+    """A lat-long picture [H, W, 3] float32 at infinity."""
+
+    picture: np.ndarray
+    lambert_light = LambertLight.BLEND
+
+    def scaled(self, factor: float) -> Environment:
+        return Environment((self.picture * factor).astype(np.float32))
+
+    def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+        towards, energy = self._blocks()
+        total = np.zeros((len(normals), 3))
+        for start in range(0, len(normals), 4096):
+            part = slice(start, start + 4096)
+            total[part] = (normals[part] @ towards.T).clip(0) @ energy
+        return total
+
+    def _blocks(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mean directions and energies (radiance x solid angle, RGB) of blocks of texels.
+
+        A block is at most 3 degrees wide: over it the cosine is as good as linear.
+        """
+        height, width = self.picture.shape[:2]
+        direction, _ = directions(height, width, 1)
+        solid = solid_angles(height, width)
+        energy = self.picture.astype(np.float64) * solid[:, None, None]
+        weight = energy @ LUMINANCE + 1e-12 * solid[:, None]
+        for axis, most in ((0, 64), (1, 128)):
+            starts = np.unique(np.arange(most) * energy.shape[axis] // most)
+            moment = np.add.reduceat(direction * weight[..., None], starts, axis)
+            energy, weight = (np.add.reduceat(a, starts, axis) for a in (energy, weight))
+            direction = moment / weight[..., None]
+        direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        return direction.reshape(-1, 3), energy.reshape(-1, 3)
+
+    def brightest(self) -> np.ndarray:
+        texels = self.picture.reshape(-1, 3).astype(float)
+        return texels[(texels @ LUMINANCE).argmax()]
+
+    def emitters(self) -> dict[str, Any]:
+        return {"environment": {"type": "envmap", "bitmap": mi.Bitmap(self.picture)}}
+
+    def latlong(self) -> np.ndarray:
+        return self.picture
+
+
+def environment(light: Light) -> Environment:
+    """A light's lat-long file: negatives to 0, clamped, turned about +Y."""
+    picture = read_rgb(light.path)
+    height, width = picture.shape[:2]
+    if height < 3 or width < 3:
+        raise SceneError(f"{light.path}: an environment map of {width} x {height} is too small; use 3 x 3 or more")
+    picture = picture.clip(0, light.clamp)
+    if not picture.any():
+        raise SceneError(f"{light.path}: the environment map is black; use one with light in it")
+    # Turning +Z towards +X lowers the azimuth, so a texel is read from further right.
+    shift = light.rotation_degrees / 360 * width
+    whole = math.floor(shift)
+    near = np.roll(picture, -whole, 1)
+    turned = near + (np.roll(near, -1, 1) - near) * (shift - whole)
+    return Environment(turned.astype(np.float32))
