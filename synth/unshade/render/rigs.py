@@ -11,12 +11,14 @@ from .camera import Camera, look_at
 
 
 def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
-    """The rig's cameras: training views first, withheld ones last."""
-    poses = _phone(rig, width, height) if rig.kind == "phone" else _emily(height)
-    return [
-        Camera(f"{number:03d}", width, height, focal, look_at(position, target), train)
-        for number, (position, target, focal, train) in enumerate(poses)
+    """The rig's cameras: training views first, withheld ones last, each group in the order
+    of the names. Naming other withheld views leaves every camera where it is."""
+    poses = _POSES[rig.kind](rig, width, height)
+    views = [
+        Camera(name, width, height, focal, look_at(position, target), train if rig.withheld is None else name not in rig.withheld)
+        for name, (position, target, focal, train) in zip(rig.view_names(), poses, strict=True)
     ]
+    return sorted(views, key=lambda view: not view.train)
 
 
 _FACE = np.array([0.0, 0.0, 0.06])
@@ -27,11 +29,15 @@ _ELEVATION_SHARE = 0.6
 
 
 def _phone(rig: Rig, width: int, height: int):
-    """A walk around the face at arm's length: a 26 mm-equivalent picture cropped to the
-    head. Azimuths and elevations are stratified, then jittered; withheld views lie in the
-    inner half of the range."""
+    """A walk around the face at arm's length. Azimuths and elevations are stratified, then
+    jittered; withheld views lie in the inner half of the range.
+
+    The default 25 degrees at 0.55 m are what a phone's main camera (26 mm equivalent, 49.6
+    degrees across its shorter side) shows in the middle 48 % of its frame, cropped to the
+    head; perspective depends on the distance alone. ``equivalent_mm = 26`` keeps the frame.
+    """
     rng = np.random.default_rng(rig.seed)
-    focal = min(width, height) / 2 / math.tan(math.radians(rig.fov_degrees) / 2)
+    focal = _focal(rig, width, height)
     for count, reach, train in ((rig.train, 1.0, True), (rig.test, 0.5, False)):
         sideways = 2 * (np.arange(count) + rng.uniform(0, 1, count)) / max(count, 1) - 1
         upwards = 2 * (rng.permutation(count) + rng.uniform(0, 1, count)) / max(count, 1) - 1
@@ -41,9 +47,65 @@ def _phone(rig: Rig, width: int, height: int):
             # An ellipse, so that no corner view leaves the permitted angle.
             elevation = reach * _ELEVATION_SHARE * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
-            level = math.cos(elevation)
-            away = np.array([level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)])
-            yield _FACE + distance * away, _FACE + rng.uniform(-0.008, 0.008, 3), focal, train
+            yield _FACE + distance * _away(azimuth, elevation), _FACE + rng.uniform(-0.008, 0.008, 3), focal, train
+
+
+_DESKTOP = (
+    # azimuth, elevation (degrees, seen from the face), distance (share of the rig's)
+    (-45.0, 4.0, 1.0),
+    (-20.0, 20.0, 1.0),
+    (0.0, -14.0, 0.95),
+    (20.0, 20.0, 1.0),
+    (45.0, 4.0, 1.0),
+    (0.0, 6.0, 1.0),  # withheld: the frontal view, which the others surround
+)
+"""Five cameras on two desk stands and a monitor's rim, and a sixth that judges them."""
+
+_DESKTOP_PLAY = (0.010, 0.008)
+"""By how much (m) a camera of a desk rig misses its nominal place, and its aim the face's middle."""
+
+
+def _desktop(rig: Rig, width: int, height: int):
+    """A small fixed rig of five cameras for training; no two seeds mount it quite alike."""
+    rng = np.random.default_rng(rig.seed)
+    place_play, aim_play = _DESKTOP_PLAY
+    focal = _focal(rig, width, height)
+    for number, (azimuth, elevation, share) in enumerate(_DESKTOP):
+        away = _away(math.radians(azimuth), math.radians(elevation))
+        position = _FACE + rig.distance_metres * share * away + rng.uniform(-place_play, place_play, 3)
+        yield position, _FACE + rng.uniform(-aim_play, aim_play, 3), focal, number < len(_DESKTOP) - 1
+
+
+_GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
+
+
+def _dome(rig: Rig, width: int, height: int):
+    """Views spread evenly over a cap of a sphere in front of the face: Vogel's spiral (1979),
+    turned by the seed. Withheld views are taken evenly from the middle to the rim."""
+    count = rig.train + rig.test
+    turn = np.random.default_rng(rig.seed).uniform(0, 2 * math.pi)
+    share = (np.arange(count) + 0.5) / count
+    # Equal steps of height on the sphere enclose equal solid angles.
+    cosine = 1 - share * (1 - math.cos(math.radians(rig.max_angle_degrees)))
+    sine = np.sqrt(1 - cosine**2)
+    around = turn + _GOLDEN_ANGLE * np.arange(count)
+    away = np.stack([sine * np.cos(around), sine * np.sin(around), cosine], 1)
+    withheld = ((np.arange(rig.test) + 0.5) / max(rig.test, 1) * count).astype(int)
+    training = np.setdiff1d(np.arange(count), withheld)
+    focal = _focal(rig, width, height)
+    for number in (*training, *withheld):
+        yield _FACE + rig.distance_metres * away[number], _FACE, focal, number not in withheld
+
+
+def _focal(rig: Rig, width: int, height: int) -> float:
+    """Focal length in pixels."""
+    return min(width, height) / 2 / math.tan(math.radians(rig.short_side_degrees) / 2)
+
+
+def _away(azimuth: float, elevation: float) -> np.ndarray:
+    """Unit direction from the face: azimuth 0 in front, positive towards +X (radians)."""
+    level = math.cos(elevation)
+    return np.array([level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)])
 
 
 _EMILY = (
@@ -74,7 +136,7 @@ _EMILY_ASPECT = 1.5
 """Height : width of its 24 x 36 mm portrait film."""
 
 
-def _emily(height: int):
+def _emily(rig: Rig, width: int, height: int):
     """The light stage's rig. The film's full height is kept at any picture shape, so 2 : 3
     pictures show the whole film and others are cropped or widened sideways."""
     poses = [(np.array(at) / 100, np.array(to) / 100, fov) for at, to, fov in _EMILY]
@@ -86,3 +148,7 @@ def _emily(height: int):
         half_height = _EMILY_ASPECT * math.tan(math.radians(fov) / 2)
         focal = height / 2 / half_height
         yield position + EMILY_OFFSET, target + EMILY_OFFSET, focal, i != _EMILY_WITHHELD
+
+
+_POSES = {"phone": _phone, "emily": _emily, "desktop": _desktop, "dome": _dome}
+"""Position, target, focal length (pixels) and use of each view of a kind, in order."""

@@ -2,19 +2,41 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from ..errors import SceneError
 from .checks import choice, known_keys, number, text, whole
 
-RIG_KINDS = ("phone", "emily")
+_OPTICS = ("seed", "distance_metres", "fov_degrees")
+_KEYS = {
+    "phone": ("train", "test", "max_angle_degrees", *_OPTICS),
+    "emily": (),
+    "desktop": _OPTICS,
+    "dome": ("train", "test", "max_angle_degrees", *_OPTICS),
+}
+"""Keys of each kind, as they are written."""
+
+RIG_KINDS = tuple(_KEYS)
+
+_DEFAULTS: dict[str, dict[str, Any]] = {
+    "desktop": {"distance_metres": 0.7, "fov_degrees": 22.0},
+    "dome": {"train": 24, "test": 3, "max_angle_degrees": 60.0, "distance_metres": 0.9, "fov_degrees": 17.0},
+}
+"""Where a kind's defaults differ from those of `Rig`."""
 
 
 @dataclass(frozen=True)
 class Rig:
-    """The cameras. All but ``name`` and ``kind`` belong to ``phone``."""
+    """The cameras; which keys belong to which kind: see `_KEYS`.
+
+    ``fov_degrees`` is the angle of the picture's shorter side. In its place,
+    ``equivalent_mm`` may name the focal length of a 24 x 36 mm camera whose whole frame is
+    kept. ``withheld`` names the views that are not for training; absent, each kind
+    withholds its own.
+    """
 
     name: str
     kind: str
@@ -24,32 +46,87 @@ class Rig:
     seed: int = 0
     distance_metres: float = 0.55
     fov_degrees: float = 25.0
+    equivalent_mm: float | None = None
+    withheld: tuple[str, ...] | None = None
 
     def to_table(self) -> dict[str, Any]:
-        table = asdict(self)
-        return table if self.kind == "phone" else {"name": self.name, "kind": self.kind}
+        table = {key: getattr(self, key) for key in ("name", "kind", *_KEYS[self.kind])}
+        if self.equivalent_mm is not None:
+            del table["fov_degrees"]
+            table["equivalent_mm"] = self.equivalent_mm
+        if self.withheld is not None:
+            table["withheld"] = list(self.withheld)
+        return table
+
+    @property
+    def short_side_degrees(self) -> float:
+        """Angle of view of the picture's shorter side."""
+        if self.equivalent_mm is None:
+            return self.fov_degrees
+        return math.degrees(2 * math.atan(12 / self.equivalent_mm))
+
+    def view_names(self) -> tuple[str, ...]:
+        """Names of all views, in the order of the rig."""
+        return tuple(f"{number:03d}" for number in range(self._view_count()))
+
+    def _view_count(self) -> int:
+        return {"emily": 9, "desktop": 6}.get(self.kind, self.train + self.test)
 
 
 def parse_rig(table: Mapping[str, Any], place: str) -> Rig:
     kind = choice(table, "kind", RIG_KINDS, place)
-    if kind != "phone":
-        known_keys(table, ("name", "kind"), place)
-        return Rig(name=text(table, "name", place), kind=kind)
-    known_keys(table, [field.name for field in fields(Rig)], place)
+    own = _KEYS[kind]
+    known_keys(table, ("name", "kind", *own, *(("equivalent_mm",) if own else ()), "withheld"), place)
+    defaults = _DEFAULTS.get(kind, {})
+
+    def real(key: str) -> float:
+        return number(table, key, place, defaults.get(key, getattr(Rig, key)), above=0.0)
+
+    def count(key: str, low: int, high: int) -> int:
+        return whole(table, key, place, defaults.get(key, getattr(Rig, key)), low, high)
+
     rig = Rig(
         name=text(table, "name", place),
         kind=kind,
-        train=whole(table, "train", place, Rig.train, 1, 900),
-        test=whole(table, "test", place, Rig.test, 0, 90),
-        max_angle_degrees=number(table, "max_angle_degrees", place, Rig.max_angle_degrees, above=0.0),
-        seed=whole(table, "seed", place, Rig.seed, 0, 2**63 - 1),
-        distance_metres=number(table, "distance_metres", place, Rig.distance_metres, above=0.0),
-        fov_degrees=number(table, "fov_degrees", place, Rig.fov_degrees, above=0.0),
+        train=count("train", 1, 900),
+        test=count("test", 0, 90),
+        max_angle_degrees=real("max_angle_degrees"),
+        seed=count("seed", 0, 2**63 - 1),
+        distance_metres=real("distance_metres"),
+        fov_degrees=real("fov_degrees"),
+        equivalent_mm=number(table, "equivalent_mm", place, math.inf, above=0.0) if "equivalent_mm" in table else None,
+        withheld=_withheld(table, place),
     )
-    if rig.max_angle_degrees > 90:
-        raise SceneError(f"max_angle_degrees in {place} is {rig.max_angle_degrees:g}; use at most 90")
+    if "equivalent_mm" in table and "fov_degrees" in table:
+        raise SceneError(f"{place} has both equivalent_mm and fov_degrees, which say the same; keep one")
+    widest = 90 if kind == "phone" else 85
+    if rig.max_angle_degrees > widest:
+        raise SceneError(f"max_angle_degrees in {place} is {rig.max_angle_degrees:g}; use at most {widest}")
     if rig.distance_metres < 0.25:
         raise SceneError(f"distance_metres in {place} is {rig.distance_metres:g}; use at least 0.25, outside the head")
     if rig.fov_degrees >= 150:
         raise SceneError(f"fov_degrees in {place} is {rig.fov_degrees:g}; use less than 150")
+    if rig.equivalent_mm is not None and rig.equivalent_mm < 4:
+        raise SceneError(f"equivalent_mm in {place} is {rig.equivalent_mm:g}; use at least 4")
+    _check_withheld(rig, place)
     return rig
+
+
+def _withheld(table: Mapping[str, Any], place: str) -> tuple[str, ...] | None:
+    if "withheld" not in table:
+        return None
+    names = table["withheld"]
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise SceneError(f"withheld in {place} is {names!r}; use a list of views, as withheld = [\"003\", \"007\"]")
+    if len(set(names)) < len(names):
+        raise SceneError(f"withheld in {place} names a view twice; name it once")
+    return tuple(names)
+
+
+def _check_withheld(rig: Rig, place: str) -> None:
+    views = rig.view_names()
+    for name in rig.withheld or ():
+        if name not in views:
+            raise SceneError(f"withheld in {place} names {name!r}, but the views are {views[0]} to {views[-1]}")
+    if len(rig.withheld or ()) == len(views):
+        raise SceneError(f"withheld in {place} names all {len(views)} views; leave at least one for training")
