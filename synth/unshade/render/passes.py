@@ -9,13 +9,15 @@ seeds give equal bytes.
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from ..formation.lens import Lens
 from ..scene_file import passes_for
+from .layers import Layers
 from .scene import LitHead
 from .split import split_radiance
 from .split_scalar import split_radiance_scalar
@@ -24,47 +26,50 @@ _MAX_LANES = 1 << 21
 """Camera rays in flight, which bounds memory to about a gigabyte."""
 
 
-@dataclass(frozen=True)
-class Layers:
-    """One rendered picture: arrays [height, width, 3], linear Rec.709 radiance, float32."""
-
-    diffuse: np.ndarray
-    specular: np.ndarray
-    variance: np.ndarray
-    """Variance of the mean of the total."""
-
-    @property
-    def total(self) -> np.ndarray:
-        """The picture: the exact sum of its layers."""
-        return self.diffuse + self.specular
-
-
 def seed_of(*parts: object) -> int:
     """A 32-bit seed that depends on every part and nothing else."""
     text = "\0".join(str(part) for part in parts)
     return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=4).digest(), "little")
 
 
-def render_layers(lit: LitHead, sensor, *, samples: int, depth: int, seed: int) -> Layers:
-    """Renders ``sensor`` with ``samples`` per pixel in all; ``passes_for`` must allow them."""
+def render_layers(
+    lit: LitHead,
+    sensor,
+    *,
+    samples: int,
+    depth: int,
+    seed: int,
+    lens: Lens | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Layers:
+    """Renders ``sensor`` with ``samples`` per pixel in all; ``passes_for`` must allow them.
+
+    With a ``lens``, film, pixels and samples are the sensor's, and the rays the lens's own.
+    ``progress`` hears how many samples of all are done, before the first and after each band.
+    """
     passes = passes_for(samples)
     width, height = sensor.film().size()
     rows = max(1, _MAX_LANES // (width * samples))
     band = _render_band if dr.is_jit_v(mi.Float) else _render_band_slowly
-    bands = [
-        band(
-            lit, sensor, samples // passes, passes, depth, seed_of(seed, top),
-            top, min(rows, height - top),
-        )
-        for top in range(0, height, rows)
-    ]
+    bands = []
+    for top in range(0, height, rows):
+        if progress:
+            progress(top * width * samples, height * width * samples)
+        bands.append(
+            band(
+                lit, sensor, lens, samples // passes, passes, depth, seed_of(seed, top),
+                top, min(rows, height - top),
+            )
+        )  # fmt: skip
+    if progress:
+        progress(height * width * samples, height * width * samples)
     picture = np.concatenate(bands)
     mean = picture.mean(2).astype(np.float32)
     variance = (picture[..., :3] + picture[..., 3:]).var(2, ddof=1) / passes
     return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32))
 
 
-def _render_band(lit, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
+def _render_band(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> np.ndarray:
     """Layers [rows, width, passes, 6] of some rows, float64."""
     width, height = sensor.film().size()
     lanes = width * rows * passes * samples
@@ -78,7 +83,11 @@ def _render_band(lit, sensor, samples, passes, depth, seed, top, rows) -> np.nda
     column = index - row * dr.opaque(mi.UInt32, width)
     corner = mi.Point2f(mi.Float(column), mi.Float(row + dr.opaque(mi.UInt32, top)))
     size = mi.Vector2f(dr.opaque(mi.Float, width), dr.opaque(mi.Float, height))
-    ray, _ = sensor.sample_ray(0.0, 0.5, (corner + sampler.next_2d()) / size, mi.Point2f(0.5))
+    film = corner + sampler.next_2d()
+    if lens is None:
+        ray, _ = sensor.sample_ray(0.0, 0.5, film / size, mi.Point2f(0.5))
+    else:
+        ray = lens.ray(film.x, film.y, sampler)
     diffuse, specular = split_radiance(
         lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light
     )
@@ -89,7 +98,7 @@ def _render_band(lit, sensor, samples, passes, depth, seed, top, rows) -> np.nda
     return means.reshape(rows, width, passes, 6)
 
 
-def _render_band_slowly(lit, sensor, samples, passes, depth, seed, top, rows) -> np.ndarray:
+def _render_band_slowly(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> np.ndarray:
     """The same, sample by sample, for variants without a compiler."""
     width, height = sensor.film().size()
     sampler = sensor.sampler()
@@ -99,8 +108,11 @@ def _render_band_slowly(lit, sensor, samples, passes, depth, seed, top, rows) ->
         sampler.seed(seed_of(seed, row, column, number))
         for _ in range(samples):
             jitter = sampler.next_2d()
-            position = mi.Point2f((column + jitter.x) / width, (top + row + jitter.y) / height)
-            ray, _ = sensor.sample_ray(0.0, 0.5, position, mi.Point2f(0.5))
+            x, y = column + jitter.x, top + row + jitter.y
+            if lens is None:
+                ray, _ = sensor.sample_ray(0.0, 0.5, mi.Point2f(x / width, y / height), mi.Point2f(0.5))
+            else:
+                ray = lens.ray(x, y, sampler)
             layers = split_radiance_scalar(
                 lit.scene, lit.dark, sampler, ray, depth, lit.lambert_light
             )

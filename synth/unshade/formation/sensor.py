@@ -1,0 +1,59 @@
+"""The sensor: exposure, photons, saturation, reading, code values, and back to radiance."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import PictureError
+from ..scene_file import Formation
+
+
+def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
+    """The picture [H, W, 3] (linear radiance, float32) that a sensor makes of ``radiance``.
+
+    In the order of the light's way (the photon transfer model of Janesick, "Photon Transfer",
+    2007, and of EMVA 1288): exposure; counting of photons (Poisson); saturation at the full
+    well, which is the white level; read noise (Gaussian); the converter's range; code
+    values. Then the code is decoded and the exposure divided out. Without black level the
+    converter cuts negative readings off, so that noise brightens what is nearly black.
+
+    Equal seeds give equal bytes. Raises `PictureError` where ``radiance`` is not finite.
+    """
+    if not np.isfinite(radiance).all():
+        raise PictureError("a rendered picture holds NaN or infinity, which no sensor can be exposed to; render it again with another seed")
+    if formation.white_level is None:
+        return radiance
+    scale = 2.0**formation.exposure_stops / formation.white_level
+    signal = radiance.astype(np.float64) * scale
+    if formation.full_well_electrons is not None:
+        signal = _read(signal, formation.full_well_electrons, formation.read_noise_electrons, np.random.default_rng(seed))
+    signal = signal.clip(0, 1)
+    if formation.bits is not None:
+        signal = _quantised(signal, formation.bits, formation.transfer)
+    return (signal / scale).astype(np.float32)
+
+
+def _read(signal: np.ndarray, full_well: float, read_noise: float, rng: np.random.Generator) -> np.ndarray:
+    """Shares of the full well after counting, saturation and reading."""
+    expected = signal.clip(0) * full_well
+    # So far above saturation the count does not matter, and the generator has its limits.
+    electrons = rng.poisson(np.minimum(expected, 2 * full_well + 1000)).astype(np.float64)
+    electrons = np.minimum(electrons, full_well)
+    return (electrons + read_noise * rng.standard_normal(signal.shape)) / full_well
+
+
+def _quantised(signal: np.ndarray, bits: int, transfer: str) -> np.ndarray:
+    """Values 0 to 1 at the nearest code of the transfer curve."""
+    largest = 2**bits - 1
+    if transfer == "linear":
+        return np.rint(signal * largest) / largest
+    return _srgb_decoded(np.rint(_srgb_encoded(signal) * largest) / largest)
+
+
+def _srgb_encoded(linear: np.ndarray) -> np.ndarray:
+    """IEC 61966-2-1."""
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0031308) ** (1 / 2.4) - 0.055)
+
+
+def _srgb_decoded(encoded: np.ndarray) -> np.ndarray:
+    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
