@@ -11,7 +11,7 @@ from .eyes import make_eyes
 from .geometry import Chart, Geometry, Part, part_mesh, place
 from .hair import HairStyle, hair_style
 from .head import Head
-from .identity import shape
+from .identity import pose, shape
 from .paint import Maps, paint_maps
 from .pigment import skin_colour
 from .regions import find_regions
@@ -40,13 +40,13 @@ def build_face(spec: FaceSpec) -> Face:
     Raises `FaceError` where the head data is missing.
     """
     head = load_head()
-    geometry = place(head, shape(head, spec))
+    geometry = place(head, shape(head, spec), pose(head, spec))
     style = hair_style(spec)
     _, mesh = part_mesh(geometry, head.part_chart)
     return Face(
         spec=spec,
         chart=Chart(uv=head.chart_uv.astype(np.float32), **mesh),
-        parts=_occluders(head, geometry, style, spec) + make_eyes(geometry.eyes, spec),
+        parts=_occluders(head, geometry, style, spec) + make_eyes(geometry.eyes, geometry.gaze, spec),
         maps=paint_maps(head, geometry, style, spec),
     )
 

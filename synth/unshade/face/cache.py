@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import base_mesh, chart, head, subdivide
+from . import base_mesh, chart, expression, head, subdivide
 from .head import Head, make_head
 
 
@@ -26,7 +26,7 @@ def cache_folder() -> Path:
 
 def _key() -> str:
     digest = hashlib.blake2b(digest_size=12)
-    for module in (base_mesh, chart, head, subdivide):
+    for module in (base_mesh, chart, expression, head, subdivide):
         digest.update(Path(module.__file__).read_bytes())
     for package in ("numpy", "scipy", "libigl"):
         digest.update(importlib.metadata.version(package).encode())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from . import eyeball
 from .geometry import Part, vertex_normals
 from .noise import smooth_noise
 from .regions import smoothstep
@@ -12,10 +13,8 @@ from .spec import FaceSpec, stream
 _RINGS, _SEGMENTS = 96, 128
 _TEXTURE = (320, 512)
 
-# Angles (degrees) from the optical axis: a limbus of 11.7 mm and a pupil of 4 mm on a 24 mm eye.
-_IRIS, _PUPIL = 27.0, 9.0
-_BULGE = 0.035
-"""Height of the cornea over the sphere, in radii; half the natural one, so that it clears the lids."""
+# Angles (degrees) from the optical axis. The pupil is a third as wide as the iris: indoor light.
+_IRIS, _PUPIL = eyeball.IRIS, eyeball.IRIS / 3
 
 _EYE_SPECULAR = 0.025
 """Reflectance of the tear film at normal incidence (n = 1.376)."""
@@ -28,8 +27,8 @@ _IRIS_ODDS = {
 }  # fmt: skip
 
 
-def make_eyes(spheres: np.ndarray, spec: FaceSpec) -> list[Part]:
-    """Left and right eyeball for spheres (2,4) of centre and radius (m), looking along +Z.
+def make_eyes(spheres: np.ndarray, gaze: np.ndarray, spec: FaceSpec) -> list[Part]:
+    """Left and right eyeball for spheres (2,4) of centre and radius (m), turned by `gaze` (2,3,3) from +Z.
 
     The texture's v runs from 1 at the front pole to 0 at the back, u once round the axis.
     """
@@ -38,7 +37,7 @@ def make_eyes(spheres: np.ndarray, spec: FaceSpec) -> list[Part]:
     polar = polar * (0.35 + 0.65 * polar / np.pi)
     theta, phi = np.meshgrid(polar, around, indexing="ij")
     outward = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
-    radius = 1 + _BULGE * smoothstep(1.25 * _IRIS, 0.0, np.degrees(theta))
+    surface = (outward * eyeball.height(theta)[..., None]).reshape(-1, 3)
     uv = np.stack([phi / (2 * np.pi), 1 - theta / np.pi], axis=-1).reshape(-1, 2).astype(np.float32)
     i, j = np.meshgrid(np.arange(_RINGS), np.arange(_SEGMENTS), indexing="ij")
     a = (i * (_SEGMENTS + 1) + j).ravel()
@@ -46,7 +45,7 @@ def make_eyes(spheres: np.ndarray, spec: FaceSpec) -> list[Part]:
     # The triangles that vanish at the poles are left out.
     front, back = (i > 0).ravel(), (i < _RINGS - 1).ravel()
     triangles = np.concatenate([np.stack([a, b, b + 1], 1)[back], np.stack([a, b + 1, a + 1], 1)[front]])
-    normals = vertex_normals((outward * radius[..., None]).reshape(-1, 3), triangles).reshape(outward.shape)
+    normals = vertex_normals(surface, triangles).reshape(outward.shape)
     # The seam and the poles are several vertices at one point: give them one normal.
     seam = normals[:, 0] + normals[:, -1]
     normals[:, 0] = normals[:, -1] = seam / np.linalg.norm(seam, axis=-1, keepdims=True)
@@ -55,14 +54,14 @@ def make_eyes(spheres: np.ndarray, spec: FaceSpec) -> list[Part]:
     return [
         Part(
             name=name,
-            vertices=(sphere[:3] + sphere[3] * (outward * radius[..., None]).reshape(-1, 3)).astype(np.float32),
-            normals=normals.reshape(-1, 3).astype(np.float32),
+            vertices=(sphere[:3] + sphere[3] * surface @ turn.T).astype(np.float32),
+            normals=(normals.reshape(-1, 3) @ turn.T).astype(np.float32),
             triangles=triangles.astype(np.uint32),
             diffuse=diffuse,
             specular=specular,
             uv=uv,
         )
-        for name, sphere in zip(("eye_left", "eye_right"), spheres)
+        for name, sphere, turn in zip(("eye_left", "eye_right"), spheres, gaze)
     ]
 
 

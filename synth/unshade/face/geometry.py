@@ -6,7 +6,9 @@ import dataclasses
 
 import numpy as np
 
+from .eyeball import rotation
 from .head import Head, fit_sphere
+from .lid_motion import close_lids, lift_lids
 
 EYES_TO_ORIGIN = 0.07
 """The world's origin lies this far (m) behind the midpoint of the eyes' centres: near the centre of the head."""
@@ -45,24 +47,56 @@ class Part:
 
 @dataclasses.dataclass(frozen=True)
 class Geometry:
-    """Subdivided joined mesh in world metres: `positions` and `normals` (V,3) f64; `eyes` (2,4) spheres, left first."""
+    """Subdivided joined mesh in world metres: `positions` and `normals` (V,3) f64; `eyes` (2,4) spheres, left first.
+
+    `gaze` (2,3,3) the eyeballs' rotations, whose last column is the line of sight; `base`
+    (B,3) the base positions, those inside the mouth among them.
+    """
 
     positions: np.ndarray
     normals: np.ndarray
     eyes: np.ndarray
+    gaze: np.ndarray
+    base: np.ndarray
 
 
-def place(head: Head, base: np.ndarray) -> Geometry:
+@dataclasses.dataclass(frozen=True)
+class Pose:
+    """An expression of one identity: `base` (B,3) m without blinking; how far each eye closes, (2,), left first,
+    and `closing` (2,B,3) m, where the head data's targets move the lids."""
+
+    base: np.ndarray
+    blink: np.ndarray
+    closing: np.ndarray
+
+
+def place(head: Head, neutral: np.ndarray, pose: Pose | None = None) -> Geometry:
     """Subdivide base positions (B,3) and put the head at the origin.
 
-    Normals are those of the joined mesh, so parts meet without a seam.
+    `neutral` decides where the head and its eyeballs are, `pose` what it does, if it does
+    anything. Normals are those of the joined mesh, so parts meet without a seam.
     """
-    eyes = np.stack([fit_sphere(base[e]) for e in head.eyes])
+    eyes = np.stack([fit_sphere(neutral[e]) for e in head.eyes])
     origin = eyes[:, :3].mean(axis=0) - [0, 0, EYES_TO_ORIGIN]
     eyes[:, :3] -= origin
-    positions = head.refine(base) - origin
+    positions, gaze, base = head.refine(neutral) - origin, np.stack([np.eye(3)] * 2), neutral
+    if pose is not None:
+        base = pose.base
+        gaze = np.stack([rotation(neutral[e], base[e]) for e in head.eyes])
+        positions = _posed(head, positions, head.refine(base) - origin, pose, eyes, gaze)
     triangles = np.concatenate([head.part_chart, head.part_rest, head.part_mouth, head.part_sockets])
-    return Geometry(positions, vertex_normals(positions, triangles), eyes)
+    return Geometry(positions, vertex_normals(positions, triangles), eyes, gaze, base - origin)
+
+
+def _posed(head: Head, resting: np.ndarray, moved: np.ndarray, pose: Pose, eyes: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+    """Positions (V,3) of an expression with lids that neither sink into the eyeballs nor miss each other."""
+    socket = np.unique(head.part_sockets)
+    for eye, turn, weight, offset in zip(eyes, gaze, pose.blink, pose.closing):
+        if weight > 0:
+            moved = lift_lids(resting, moved, head.part_chart, socket, eye, turn)
+            moved = close_lids(moved, head.refine(offset), weight, head.part_chart, eye, turn)
+        moved = lift_lids(resting, moved, head.part_chart, socket, eye, turn)
+    return moved
 
 
 def vertex_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:

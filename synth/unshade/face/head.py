@@ -11,9 +11,10 @@ from scipy.spatial import cKDTree
 
 from . import base_mesh
 from .chart import boundary_loops, unwrap
+from .expression import UNITS, target
 from .subdivide import subdivide, triangulate
 
-JAW = "faceunits/jawOpen"
+JAW = target("jawOpen")
 PARTS = ("chart", "rest", "mouth", "sockets")
 LEVELS = 2
 
@@ -24,6 +25,10 @@ LOCAL_FOLDERS = ("head", "nose", "mouth", "eyes", "chin", "cheek", "forehead", "
 _ISLANDS = {"head": (0.82, 0.5), "mouth": (0.84, 0.07), "socket_l": (0.04, 0.59), "socket_r": (0.12, 0.59), "body": (0.4, 0.6)}
 # Neck and shoulders: the body above this height and within this half width (m).
 _SHOULDER_HEIGHT, _SHOULDER_HALF_WIDTH = 0.52, 0.17
+# Left half of the teeth bands from the midline back, counted in their own groups: the rim in the gum, the biting edge.
+_GUM_RIM = (1, 0, 2, 3, 4, 5, 6, 7, 8)
+_UPPER_RIMS = (_GUM_RIM, (9, 26, 11, 10, 25, 18, 17, 16, 20))
+_LOWER_RIMS = (_GUM_RIM, (18, 9, 10, 11, 12, 13, 14, 15, 16))
 # The chart ends behind the ears and, over the forehead, leans back with the skull (m).
 _CHART_DEPTH, _CHART_CROWN = 0.04, 0.775
 
@@ -33,7 +38,9 @@ class Head:
     """Identity-independent arrays; B base vertices, V subdivided ones, C of them in the chart.
 
     `base` (B,3) m; `refine_*` the CSR matrix (V,B) of the subdivision; `eyes` (2,E) base
-    indices of the eyeballs, left first; `target_names` and `targets_*` the CSR matrix
+    indices of the eyeballs, left first; `arches` (2,2,17) those of the upper and the lower
+    dental arch, each at the gum's far rim and at the biting edge, from right to left;
+    `tongue` (F,4) quads of base vertices; `target_names` and `targets_*` the CSR matrix
     (T,3B) of the morph targets in metres; `template` (V,3) and `eye_template` (2,4: centre,
     radius) the average young head in PAINT coordinates: millimetres from the midpoint of
     the eyes' centres. `part_<name>` (F,3) triangles of subdivided vertices. The chart:
@@ -46,6 +53,8 @@ class Head:
     refine_indices: np.ndarray
     refine_indptr: np.ndarray
     eyes: np.ndarray
+    arches: np.ndarray
+    tongue: np.ndarray
     target_names: np.ndarray
     targets_data: np.ndarray
     targets_indices: np.ndarray
@@ -100,13 +109,14 @@ def make_head() -> Head:
     mesh = base_mesh.read_base_mesh()
     quads, uv_quads, part = _select(mesh)
     eyes = np.stack([np.unique(mesh.quads[mesh.groups == f"helper-{s}-eye"]) for s in "lr"])
-    used = np.unique(np.r_[quads.ravel(), eyes.ravel()])
+    arches, tongue = _dental_arches(mesh), mesh.quads[mesh.groups == "helper-tongue"]
+    used = np.unique(np.concatenate([part.ravel() for part in (quads, eyes, arches, tongue)]))
     compact = np.full(len(mesh.vertices), -1)
     # Head vertices first: only they are subdivided.
     skin = np.unique(quads)
     order = np.r_[skin, np.setdiff1d(used, skin)]
     compact[order] = np.arange(len(order))
-    quads, eyes = compact[quads], compact[eyes]
+    quads, eyes, arches, tongue = (compact[part] for part in (quads, eyes, arches, tongue))
     base = mesh.vertices[order]
     names, targets = _targets(compact, len(base))
 
@@ -116,7 +126,7 @@ def make_head() -> Head:
 
     blank = np.zeros(0)
     head = Head(
-        base, refine.data, refine.indices, refine.indptr, eyes, names, targets.data, targets.indices, targets.indptr,
+        base, refine.data, refine.indices, refine.indptr, eyes, arches, tongue, names, targets.data, targets.indices, targets.indptr,
         np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), blank, blank, blank, blank,
     )  # fmt: skip
     young = head.morph(average_weights())
@@ -167,6 +177,19 @@ def _select(mesh: base_mesh.BaseMesh) -> tuple[np.ndarray, np.ndarray, np.ndarra
     return quads[keep], uv_quads[keep], part[keep]
 
 
+def _dental_arches(mesh: base_mesh.BaseMesh) -> np.ndarray:
+    """Vertices (2,2,17) of the bands that stand for the teeth; see `Head.arches`."""
+    arches = []
+    for helper, rims in (("upper", _UPPER_RIMS), ("lower", _LOWER_RIMS)):
+        own = np.unique(mesh.quads[mesh.groups == f"helper-{helper}-teeth"])
+        tree = cKDTree(mesh.vertices[own])
+        for rim in rims:
+            left = own[list(rim)]
+            right = own[tree.query(mesh.vertices[left[1:]] * [-1, 1, 1])[1]]
+            arches.append(np.r_[right[::-1], left])
+    return np.array(arches).reshape(2, 2, -1)
+
+
 def _chart(young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray) -> tuple[np.ndarray, ...]:
     """Base vertices of the chart (N,), ascending, their chart UV and their native UV (N,2)."""
     vertices, first = np.unique(quads, return_index=True)
@@ -187,7 +210,9 @@ def _targets(compact: np.ndarray, count: int) -> tuple[np.ndarray, sp.csr_matrix
     ]  # fmt: skip
     local = [f"{folder}/{name}" for folder in LOCAL_FOLDERS for name in base_mesh.target_names(folder)]
     asymmetry = [f"asym/{name}" for name in base_mesh.target_names("asym") if name.startswith("asym-")]
-    names, columns, values, starts = macro + local + asymmetry + [JAW], [], [], [0]
+    # The jaw, which shapes every face, keeps its place in the sum.
+    units = [JAW] + [target(unit) for unit in UNITS if target(unit) != JAW]
+    names, columns, values, starts = macro + local + asymmetry + units, [], [], [0]
     for name in names:
         index, offset = base_mesh.read_target(name)
         kept = compact[index] >= 0

@@ -6,6 +6,8 @@ import itertools
 
 import numpy as np
 
+from .expression import target
+from .geometry import Pose
 from .head import ETHNIC, JAW, LOCAL_FOLDERS, Head
 from .spec import FaceSpec, stream
 
@@ -16,6 +18,8 @@ _ASYMMETRY_SD = 0.10
 
 _JAW = -0.05
 """Closes the lips, which the neutral head holds slightly apart."""
+
+_BLINKS = ("eyeBlinkLeft", "eyeBlinkRight")
 
 # Local parameters that distort sooner than the rest, and the factor that tames each.
 _DAMPED = (
@@ -79,6 +83,23 @@ def local_weights(names: list[str], seed: int) -> dict[str, float]:
     return weights
 
 
+def identity_weights(head: Head, spec: FaceSpec) -> dict[str, float]:
+    """Weights of all targets of the neutral face."""
+    return macro_weights(spec) | local_weights(list(head.target_names), spec.seed) | {JAW: _JAW}
+
+
 def shape(head: Head, spec: FaceSpec) -> np.ndarray:
-    """Base positions (B,3) in metres of the identity, in the coordinates of the head data."""
-    return head.morph(macro_weights(spec) | local_weights(list(head.target_names), spec.seed) | {JAW: _JAW})
+    """Base positions (B,3) in metres of the identity without expression, in the coordinates of the head data."""
+    return head.morph(identity_weights(head, spec))
+
+
+def pose(head: Head, spec: FaceSpec) -> Pose | None:
+    """The expression of the specification; none for the neutral face."""
+    if not spec.expression:
+        return None
+    units = dict(spec.expression)
+    blink = np.array([units.pop(unit, 0.0) for unit in _BLINKS])
+    weights = identity_weights(head, spec)
+    for unit, weight in units.items():
+        weights[target(unit)] = weights.get(target(unit), 0.0) + weight
+    return Pose(head.morph(weights), blink, np.stack([head.morph({target(unit): 1.0}) - head.base for unit in _BLINKS]))

@@ -1,4 +1,4 @@
-"""The visible margin of the eyelids: where the skin meets the eyeball."""
+"""The eyelids: their visible margin, where the skin meets the eyeball, and how they slide over it."""
 
 from __future__ import annotations
 
@@ -9,22 +9,34 @@ from scipy.spatial import cKDTree
 
 
 def margin_distance(positions: np.ndarray, triangles: np.ndarray, eyes: np.ndarray) -> np.ndarray:
-    """Distance (C,) in metres from chart vertices (C,3) to the lid margins of both eyes (2,4).
-
-    The chart runs on under the lids, into the eyeball: the margin is the curve in which
-    the rim of each eye hole's submerged skin crosses the sphere. Skin that dips into the
-    sphere elsewhere (a deep fold) is no margin.
-    """
-    edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    """Distance (C,) in metres from chart vertices (C,3) to the lid margins of both eyes (2,4)."""
     curves = []
     for eye in eyes:
         gap = np.linalg.norm(positions - eye[:3], axis=1) - eye[3]
-        under = gap < 0
-        wet = edges[under[edges].all(axis=1)]
-        graph = sp.coo_matrix((np.ones(len(wet)), wet.T), shape=(len(gap),) * 2)
-        group = connected_components(graph, directed=False)[1]
-        hidden = under & (group == np.bincount(group[under]).argmax())
-        crossing = edges[hidden[edges].sum(axis=1) == 1]
-        share = gap[crossing[:, 0]] / (gap[crossing[:, 0]] - gap[crossing[:, 1]])
-        curves.append(positions[crossing[:, 0]] * (1 - share[:, None]) + positions[crossing[:, 1]] * share[:, None])
+        crossing, share, _ = margin(triangles, gap)
+        curves.append(between(positions, crossing, share))
     return cKDTree(np.concatenate(curves)).query(positions)[0]
+
+
+def margin(triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The margin of one eye's lids: edges (K,2) that cross it, the shares (K,) of the way where, and the hidden rim (C,) bool.
+
+    `gap` (C,) is the distance of the chart's vertices from the eyeball's surface. The chart
+    runs on under the lids, into the eyeball: the margin is the curve in which the rim of
+    each eye hole's submerged skin crosses the surface. Skin that dips into the eyeball
+    elsewhere (a deep fold) is no margin.
+    """
+    edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    under = gap < 0
+    wet = edges[under[edges].all(axis=1)]
+    graph = sp.coo_matrix((np.ones(len(wet)), wet.T), shape=(len(gap),) * 2)
+    group = connected_components(graph, directed=False)[1]
+    hidden = under & (group == np.bincount(group[under]).argmax())
+    crossing = edges[hidden[edges].sum(axis=1) == 1]
+    return crossing, gap[crossing[:, 0]] / (gap[crossing[:, 0]] - gap[crossing[:, 1]]), hidden
+
+
+def between(values: np.ndarray, crossing: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Values (C,...) of vertices at the points `share` (K,) of the way along edges (K,2)."""
+    share = share.reshape(-1, *[1] * (values.ndim - 1))
+    return values[crossing[:, 0]] * (1 - share) + values[crossing[:, 1]] * share

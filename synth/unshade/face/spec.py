@@ -12,6 +12,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import UnshadeError
+from .expression import UNITS, Expression
+
+YOUNGEST, OLDEST = 20.0, 70.0
+"""Years at `age` 0 and 1."""
 
 FITZPATRICK = ("I", "II", "III", "IV", "V", "VI")
 ETHNICITIES = ("african", "asian", "caucasian")
@@ -34,10 +38,12 @@ def stream(seed: int, *names: str) -> np.random.Generator:
 class FaceSpec:
     """One identity, complete: nothing is left to be drawn but shape and paint details.
 
-    `gender` runs from 0 (female) to 1 (male), `age` from 0 (young adult) to 1 (old),
-    `weight` from 0 (thin) to 1 (heavy); `ethnicity` holds the shares (african, asian,
-    caucasian) of the shape and sums to 1; `fitzpatrick` is the skin type I to VI,
-    independent of the shape; `texture_size` is the side of the truth maps in texels.
+    `gender` runs from 0 (female) to 1 (male), `age` from 0 (20 years) to 1 (70 years, see
+    `years`), `weight` from 0 (thin) to 1 (heavy); `ethnicity` holds the shares (african,
+    asian, caucasian) of the shape and sums to 1; `fitzpatrick` is the skin type I to VI,
+    independent of the shape; `texture_size` is the side of the truth maps in texels;
+    `expression` is what the face does, nothing by default: it moves the surface and leaves
+    the identity, the chart's UV and the colours alone.
     """
 
     name: str
@@ -48,6 +54,21 @@ class FaceSpec:
     ethnicity: tuple[float, float, float]
     weight: float
     texture_size: int = 512
+    expression: Expression = ()
+
+    @property
+    def years(self) -> float:
+        """Age in years: linear from 20 to 70 over `age` 0 to 1."""
+        return YOUNGEST + (OLDEST - YOUNGEST) * self.age
+
+    @classmethod
+    def sample(cls, seed: int, **fixed: Any) -> FaceSpec:
+        """The identity of a seed: shares of ethnicity (Dirichlet 0.6), gender, age and weight,
+        and a skin type that is independent of them; shape and asymmetry follow the same seed.
+
+        `fixed` are fields as a `[face]` table writes them, in place of drawn ones.
+        """
+        return cls.from_table({"name": f"face{seed:04d}", "seed": seed} | fixed)
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any], *, place: str = "[face]") -> FaceSpec:
@@ -83,12 +104,16 @@ class FaceSpec:
             ethnicity=_ethnicity(table, seed, place),
             weight=share("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
             texture_size=size,
+            expression=_expression(table.get("expression", {}), place),
         )
 
     def to_table(self) -> dict[str, Any]:
         """The complete table: `from_table(spec.to_table()) == spec`."""
         table = dataclasses.asdict(self)
         table["ethnicity"] = dict(zip(ETHNICITIES, self.ethnicity))
+        table["expression"] = dict(self.expression)
+        if not self.expression:
+            del table["expression"]
         return table
 
 
@@ -112,6 +137,19 @@ def _number(value: Any, key: str, low: float, high: float, place: str) -> float:
     if not number or not low <= value <= high:
         raise FaceError(f"{key} in {place} is {value!r}; use a number from {low:g} to {high:g}")
     return float(value)
+
+
+def _expression(units: Any, place: str) -> Expression:
+    if not isinstance(units, Mapping):
+        raise FaceError(f"expression in {place} is no table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}")
+    for unit in units:
+        if unit not in UNITS:
+            # Case and underscores are the usual slips.
+            names = {name.lower(): name for name in UNITS}
+            near = names[difflib.get_close_matches(str(unit).replace("_", "").lower(), names, 1, 0.0)[0]]
+            raise FaceError(f"unknown key '{unit}' in expression of {place}; did you mean '{near}'?")
+    weights = {unit: _number(units[unit], f"expression.{unit}", 0.0, 1.0, place) for unit in sorted(units)}
+    return tuple((unit, weight) for unit, weight in weights.items() if weight > 0)
 
 
 def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, float, float]:
