@@ -17,6 +17,7 @@ from .pigment import skin_colour
 from .regions import find_regions
 from .skin import base_pigments, head_colour
 from .spec import FaceSpec
+from .teeth import make_mouth
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +47,7 @@ def build_face(spec: FaceSpec) -> Face:
     return Face(
         spec=spec,
         chart=Chart(uv=head.chart_uv.astype(np.float32), **mesh),
-        parts=_occluders(head, geometry, style, spec) + make_eyes(geometry.eyes, geometry.gaze, spec),
+        parts=_occluders(head, geometry, style, spec) + make_mouth(head, geometry, spec) + make_eyes(geometry.eyes, geometry.gaze, spec),
         maps=paint_maps(head, geometry, style, spec),
     )
 
