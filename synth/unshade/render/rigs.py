@@ -21,7 +21,7 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
     return sorted(views, key=lambda view: not view.train)
 
 
-_FACE = np.array([0.0, 0.0, 0.06])
+FACE_CENTRE = np.array([0.0, 0.0, 0.06])
 """What cameras are pointed at: the middle of the face, seen from the head's centre (m)."""
 
 _ELEVATION_SHARE = 0.6
@@ -47,7 +47,7 @@ def _phone(rig: Rig, width: int, height: int):
             # An ellipse, so that no corner view leaves the permitted angle.
             elevation = reach * _ELEVATION_SHARE * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
-            yield _FACE + distance * _away(azimuth, elevation), _FACE + rng.uniform(-0.008, 0.008, 3), focal, train
+            yield FACE_CENTRE + distance * _away(azimuth, elevation), FACE_CENTRE + rng.uniform(-0.008, 0.008, 3), focal, train
 
 
 _DESKTOP = (
@@ -72,8 +72,8 @@ def _desktop(rig: Rig, width: int, height: int):
     focal = _focal(rig, width, height)
     for number, (azimuth, elevation, share) in enumerate(_DESKTOP):
         away = _away(math.radians(azimuth), math.radians(elevation))
-        position = _FACE + rig.distance_metres * share * away + rng.uniform(-place_play, place_play, 3)
-        yield position, _FACE + rng.uniform(-aim_play, aim_play, 3), focal, number < len(_DESKTOP) - 1
+        position = FACE_CENTRE + rig.distance_metres * share * away + rng.uniform(-place_play, place_play, 3)
+        yield position, FACE_CENTRE + rng.uniform(-aim_play, aim_play, 3), focal, number < len(_DESKTOP) - 1
 
 
 _GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
@@ -94,7 +94,7 @@ def _dome(rig: Rig, width: int, height: int):
     training = np.setdiff1d(np.arange(count), withheld)
     focal = _focal(rig, width, height)
     for number in (*training, *withheld):
-        yield _FACE + rig.distance_metres * away[number], _FACE, focal, number not in withheld
+        yield FACE_CENTRE + rig.distance_metres * away[number], FACE_CENTRE, focal, number not in withheld
 
 
 def _focal(rig: Rig, width: int, height: int) -> float:
@@ -129,7 +129,7 @@ _EMILY_WITHHELD = 2
 _EMILY_CENTRE = np.array([0.0, 0.046, -0.027])
 """Where the optical axes of these cameras meet to within 25 mm (m, in the data set's frame)."""
 
-EMILY_OFFSET = _FACE - _EMILY_CENTRE
+EMILY_OFFSET = FACE_CENTRE - _EMILY_CENTRE
 """From the data set's frame to ours: the axes then meet in the middle of the face."""
 
 _EMILY_ASPECT = 1.5

@@ -1,0 +1,119 @@
+"""What a scene will be, in words and numbers, before anything is rendered."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from ..face import Face
+from ..face.spec import FaceSpec
+from ..heads import build_head
+from ..scene_file import Light, Scene
+from . import lights
+from .camera import Camera
+from .colour_temperature import correlated_kelvin
+from .lights.conventions import LUMINANCE, solid_angles
+from .rigs import FACE_CENTRE, cameras
+
+_SMALL_TEXTURE = 64
+"""Maps are not described, so they need no detail."""
+
+
+def describe(scene: Scene) -> str:
+    """A text of the face, the cameras and, per light, of what it sends.
+
+    Radiances are in the units of the pictures, after exposure; means are over all
+    directions, weighed by solid angle. Raises what building the face or the lights raises.
+    """
+    face = build_head(dataclasses.replace(scene.face, texture_size=_SMALL_TEXTURE))
+    views = cameras(scene.rig, scene.render.width, scene.render.height)
+    blocks = [
+        f"scene {scene.name}",
+        "\n".join(["face", *_face(scene, face)]),
+        "\n".join([f"rig {scene.rig.name} ({scene.rig.kind})", *_cameras(views)]),
+        "\n".join(["lights", *_lights(scene, face)]),
+        "\n".join(["render", *_render(scene, views)]),
+    ]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _face(scene: Scene, face: Face) -> list[str]:
+    head = scene.face
+    size = 1000 * np.ptp(face.chart.vertices, axis=0)
+    lines = [f"  name             {head.name}"]
+    if isinstance(head, FaceSpec):
+        lines += [
+            f"  generated        seed {head.seed}, skin type {head.fitzpatrick}",
+            f"  gender, age, weight  {head.gender:.2f}, {head.age:.2f}, {head.weight:.2f}",
+        ]
+    else:
+        lines += [f"  files            {', '.join(head.files().values())}"]
+    return [
+        *lines,
+        f"  chart            {len(face.chart.vertices)} vertices, {len(face.chart.triangles)} triangles, "
+        f"{size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm",
+        f"  other parts      {', '.join(part.name for part in face.parts) or 'none'}",
+        f"  maps             {head.texture_size} x {head.texture_size} texels",
+    ]
+
+
+def _cameras(views: list[Camera]) -> list[str]:
+    rows = [("view", "use", "azimuth", "elevation", "distance", "field of view")]
+    for view in views:
+        x, y, z = view.position - FACE_CENTRE
+        distance = math.sqrt(x * x + y * y + z * z)
+        wide, high = (math.degrees(2 * math.atan(side / 2 / view.focal)) for side in (view.width, view.height))
+        azimuth, elevation = math.degrees(math.atan2(x, z)), math.degrees(math.asin(y / distance))
+        use = "training" if view.train else "withheld"
+        rows.append((view.name, use, f"{azimuth:+.1f}°", f"{elevation:+.1f}°", f"{distance:.3f} m", f"{wide:.1f}° x {high:.1f}°"))
+    return _table(rows)
+
+
+def _lights(scene: Scene, face: Face) -> list[str]:
+    rows = [("light", "use", "kind", "mean radiance", "maximum", "max/mean", "colour R:G:B", "CCT", "most on face")]
+    for light in scene.lights:
+        use = "capture" if light is scene.light else "relit"
+        rows.append((light.name, use, light.kind, *_light(light, face)))
+    return _table(rows)
+
+
+def _light(light: Light, face: Face) -> tuple[str, ...]:
+    """Mean and maximum radiance (luminance), their ratio, the mean's colour, and the largest irradiance."""
+    model = lights.exposed(light, face.chart.vertices, face.chart.normals)
+    mean = mean_radiance(model)
+    front = face.chart.normals[:, 2] > 0
+    falls = model.irradiance(face.chart.vertices[front].astype(float), face.chart.normals[front].astype(float)) @ LUMINANCE
+    brightest = float(model.brightest() @ LUMINANCE)
+    level = float(mean @ LUMINANCE)
+    kelvin = correlated_kelvin(mean)
+    return (
+        f"{level:.4g}", f"{brightest:.4g}", f"{brightest / level:.4g}", ":".join(f"{c:.3f}" for c in mean / mean[1]) if mean[1] > 0 else "-",
+        f"{kelvin:.0f} K" if kelvin else "-", f"{falls.max() / math.pi:.3f} pi",
+    )  # fmt: skip
+
+
+def mean_radiance(model: lights.AnyLight) -> np.ndarray:
+    """Mean radiance [3] over all directions from the head's centre, weighed by solid angle."""
+    picture = model.latlong().astype(np.float64)
+    height, width = picture.shape[:2]
+    return np.einsum("jic,j->c", picture, solid_angles(height, width)) / (4 * math.pi)
+
+
+def _render(scene: Scene, views: list[Camera]) -> list[str]:
+    render = scene.render
+    withheld = sum(not view.train for view in views)
+    pictures = len(views) + withheld * len(scene.relight)
+    settings = dataclasses.asdict(render)
+    size = f"{settings.pop('width')} x {settings.pop('height')} pixels"
+    return [
+        f"  pictures         {pictures} of {size}: {len(views)} views, {withheld} withheld ones in {len(scene.relight)} other lights",
+        f"  camera rays      {pictures * render.width * render.height * render.samples:.3g}",
+        *(f"  {key:<16} {value}" for key, value in settings.items()),
+    ]
+
+
+def _table(rows: list[tuple[str, ...]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
