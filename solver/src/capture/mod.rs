@@ -1,6 +1,7 @@
 //! A capture folder: opened and checked here, once, for everyone.
 
 mod camera;
+mod lens;
 mod mesh;
 mod transforms;
 mod view;
@@ -26,7 +27,8 @@ pub struct Capture {
     pub mesh: Mesh,
     /// The training views, in the order of `train_filenames`.
     pub train: Vec<View>,
-    /// The withheld cameras, in the order of `test_filenames`.
+    /// The withheld cameras, in the order of `test_filenames`; pinholes like all others, since
+    /// lenses are taken out of the pictures when they are opened.
     pub withheld: Vec<Camera>,
     hash: String,
 }

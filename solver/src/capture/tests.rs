@@ -99,8 +99,9 @@ fn broken(break_it: impl FnOnce(&Path, &mut Value)) -> String {
 
 #[test]
 fn every_fault_of_the_transforms_is_named() {
-    let cases: [(&str, Value, &str); 17] = [
-        ("/camera_model", json!("OPENCV"), "\"OPENCV\"; undistort"),
+    let cases: [(&str, Value, &str); 18] = [
+        ("/camera_model", json!("FISHEYE"), "\"FISHEYE\"; undistort"),
+        ("/camera_model", json!(7), "invalid type"),
         ("/train_filenames", json!([]), "train_filenames is empty"),
         ("/train_filenames/0", json!("images/9.exr"), "no frame has file_path images/9.exr"),
         ("/test_filenames/0", json!("images/000.exr"), "\"000\" is listed twice"),
@@ -177,4 +178,41 @@ fn every_fault_of_the_files_is_named() {
     }
     let message = Capture::open(Path::new("/nowhere")).unwrap_err().to_string();
     assert!(message.contains("/nowhere/transforms.json: cannot be read"), "{message}");
+}
+
+#[test]
+fn lens_terms_need_a_model_that_has_them() {
+    let with = |model: &str, key: &str, value: f64| {
+        broken(|_, transforms| {
+            transforms["camera_model"] = json!(model);
+            transforms["frames"][1][key] = json!(value);
+        })
+    };
+    assert!(with("PINHOLE", "k1", 0.1).contains("camera_model is PINHOLE; state OPENCV"));
+    assert!(with("OPENCV", "k3", 0.1).contains("k3 and k4 are not supported"));
+    assert!(with("OPENCV", "p1", f64::NAN).contains("invalid type"), "JSON writes NaN as null");
+    let beside = broken(|_, transforms| {
+        transforms["camera_model"] = json!("OPENCV");
+        transforms["k1"] = json!(0.1);
+    });
+    assert!(beside.contains("write them into every frame"), "{beside}");
+}
+
+#[test]
+fn lenses_are_taken_out_on_opening() {
+    let folder = tempfile::tempdir().unwrap();
+    let views = written(folder.path());
+    let path = folder.path().join("transforms.json");
+    let mut transforms: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    transforms["camera_model"] = json!("OPENCV");
+    fs::write(&path, transforms.to_string()).unwrap();
+    assert_eq!(Capture::open(folder.path()).unwrap().train, views[..2], "terms left out are zero");
+    transforms["frames"][1]["k1"] = json!(-0.2);
+    transforms["frames"][2]["k1"] = json!(-0.2);
+    fs::write(&path, transforms.to_string()).unwrap();
+    let capture = Capture::open(folder.path()).unwrap();
+    assert_eq!(capture.train[0], views[0]);
+    assert_eq!(capture.train[1].camera, views[1].camera);
+    assert_ne!(capture.train[1].image, views[1].image);
+    assert_eq!(capture.withheld, [views[2].camera.clone()]);
 }

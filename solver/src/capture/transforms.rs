@@ -7,6 +7,7 @@ use glam::{Mat3, Mat4};
 use serde::Deserialize;
 
 use super::Camera;
+use super::lens::Distortion;
 
 /// How far `transform_matrix` may be from a rotation, per entry of RᵀR - 1: single precision and
 /// six printed digits pass, a scale or a shear does not.
@@ -14,7 +15,10 @@ const RIGID_TOLERANCE: f32 = 1e-3;
 
 /// One frame: a camera and its files, not opened.
 pub(super) struct Frame {
+    /// The camera once its lens is taken out.
     pub camera: Camera,
+    /// The lens; `None` for a pinhole.
+    pub distortion: Option<Distortion>,
     pub image_path: PathBuf,
     pub mask_path: PathBuf,
     pub label_path: Option<PathBuf>,
@@ -35,6 +39,20 @@ struct File {
     train_filenames: Vec<PathBuf>,
     #[serde(default)]
     test_filenames: Vec<PathBuf>,
+    #[serde(flatten)]
+    lens: LensTerms,
+}
+
+/// Terms of the lens as nerfstudio writes them; those that are absent are zero.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct LensTerms {
+    k1: f64,
+    k2: f64,
+    k3: f64,
+    k4: f64,
+    p1: f64,
+    p2: f64,
 }
 
 #[derive(Deserialize)]
@@ -49,6 +67,8 @@ struct FileFrame {
     fl_y: f32,
     cx: f32,
     cy: f32,
+    #[serde(flatten)]
+    lens: LensTerms,
     transform_matrix: [[f32; 4]; 4],
 }
 
@@ -56,9 +76,18 @@ impl Transforms {
     /// Parses the content of the file in the capture folder `root`; the error is the reason alone.
     pub fn parse(root: &Path, bytes: &[u8]) -> Result<Self, String> {
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
-        if file.camera_model != "PINHOLE" {
-            let model = &file.camera_model;
-            return Err(format!("camera model {model:?}; undistort to PINHOLE first"));
+        let distorted = match file.camera_model.as_str() {
+            "PINHOLE" => false,
+            "OPENCV" => true,
+            model => {
+                return Err(format!(
+                    "camera model {model:?}; undistort to PINHOLE first, or state OPENCV with k1, \
+                     k2, p1, p2"
+                ));
+            }
+        };
+        if file.lens.any() {
+            return Err("k1 to p2 stand beside the frames; write them into every frame".to_owned());
         }
         if file.train_filenames.is_empty() {
             return Err("train_filenames is empty; name at least one picture".to_owned());
@@ -72,7 +101,7 @@ impl Transforms {
                     format!("{list}: no frame has file_path {shown}; add it or drop the name")
                 })?;
                 let frame =
-                    found.resolve(root).map_err(|reason| format!("frame {shown}: {reason}"))?;
+                    found.resolve(root, distorted).map_err(|reason| format!("frame {shown}: {reason}"))?;
                 if !names.insert(frame.camera.name.clone()) {
                     let name = &frame.camera.name;
                     return Err(format!(
@@ -92,9 +121,15 @@ impl Transforms {
 }
 
 impl FileFrame {
-    fn resolve(&self, root: &Path) -> Result<Frame, String> {
+    fn resolve(&self, root: &Path, distorted: bool) -> Result<Frame, String> {
+        if self.lens.any() && !distorted {
+            return Err("has lens distortion, but camera_model is PINHOLE; state OPENCV, or drop \
+                        k1 to p2"
+                .to_owned());
+        }
         Ok(Frame {
             camera: self.camera()?,
+            distortion: self.lens.distortion()?,
             image_path: inside(root, &self.file_path)?,
             mask_path: inside(root, &self.mask_path)?,
             label_path: self.label_path.as_ref().map(|path| inside(root, path)).transpose()?,
@@ -132,6 +167,20 @@ impl FileFrame {
             centre: [self.cx, self.cy],
             camera_to_world: matrix,
         })
+    }
+}
+
+impl LensTerms {
+    fn any(&self) -> bool {
+        [self.k1, self.k2, self.k3, self.k4, self.p1, self.p2].iter().any(|term| *term != 0.0)
+    }
+
+    fn distortion(&self) -> Result<Option<Distortion>, String> {
+        if self.k3 != 0.0 || self.k4 != 0.0 {
+            return Err("k3 and k4 are not supported; undistort to PINHOLE first".to_owned());
+        }
+        let Self { k1, k2, p1, p2, .. } = *self;
+        Ok(self.any().then_some(Distortion { k1, k2, p1, p2 }))
     }
 }
 

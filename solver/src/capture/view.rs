@@ -22,7 +22,7 @@ pub struct View {
 
 impl View {
     pub(super) fn open(frame: &Frame) -> Result<Self, CaptureError> {
-        let Frame { camera, image_path, mask_path, label_path } = frame;
+        let Frame { camera, distortion, image_path, mask_path, label_path } = frame;
         let check = |path: &Path, width: usize, height: usize| {
             if (width, height) == (camera.width, camera.height) {
                 return Ok(());
@@ -43,12 +43,17 @@ impl View {
         for value in &mut mask.data {
             *value = if *value >= 128 { 255 } else { 0 };
         }
-        if !mask.data.contains(&255) {
+        let labels = label_path.as_deref().map(gray).transpose()?;
+        let taken = Self { camera: camera.clone(), image, mask, labels };
+        let view = match distortion {
+            Some(lens) => lens.undistort(&taken),
+            None => taken,
+        };
+        if !view.mask.data.contains(&255) {
             let reason = "has no foreground (255); drop the frame or mend the mask".to_owned();
             return Err(CaptureError::Frame { path: mask_path.clone(), reason });
         }
-        let labels = label_path.as_deref().map(gray).transpose()?;
-        Ok(Self { camera: camera.clone(), image, mask, labels })
+        Ok(view)
     }
 
     /// The view at half resolution: the picture is averaged over 2 by 2 pixels, a pixel is valid
