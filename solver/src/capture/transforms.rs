@@ -100,8 +100,9 @@ impl Transforms {
                 let found = found.ok_or_else(|| {
                     format!("{list}: no frame has file_path {shown}; add it or drop the name")
                 })?;
-                let frame =
-                    found.resolve(root, distorted).map_err(|reason| format!("frame {shown}: {reason}"))?;
+                let frame = found
+                    .resolve(root, distorted)
+                    .map_err(|reason| format!("frame {shown}: {reason}"))?;
                 if !names.insert(frame.camera.name.clone()) {
                     let name = &frame.camera.name;
                     return Err(format!(
