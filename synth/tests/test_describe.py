@@ -17,8 +17,9 @@ from unshade.scene_file import parse_scene
 FACE = render_toy.toy_face()
 
 
-@pytest.fixture
-def described(monkeypatch):
+@pytest.fixture(scope="module")
+def described():
+    monkeypatch = pytest.MonkeyPatch()
     monkeypatch.setattr(module, "build_head", lambda spec: FACE)
     table = render_toy.toy_table() | {
         "relight": [
@@ -28,7 +29,8 @@ def described(monkeypatch):
             {"name": "x", "kind": "gradient", "axis": "x+"},
         ],
     }
-    return describe(parse_scene(table, "scene", None))
+    yield describe(parse_scene(table, "scene", None))
+    monkeypatch.undo()
 
 
 def row(text: str, name: str) -> list[str]:

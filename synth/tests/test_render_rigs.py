@@ -15,6 +15,7 @@ from unshade.render.camera import Camera, look_at
 from unshade.render.rigs import cameras
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import Rig
+from unshade.scene_file.rig import parse_rig
 
 FACE = render_toy.toy_face()
 HEAD = HeadScene(FACE.chart, FACE.parts, ChartMaps.truth(FACE))
@@ -60,6 +61,68 @@ def test_emily_is_the_public_rig_and_two_mirrors():
         # The middle of the face lies in the middle of the film, and all of it on it.
         off = camera.project(np.array([[0.0, 0.0, 0.06]]))[0] - [100, 150]
         assert np.abs(off).max() < 22
+
+
+def rig_of(kind, **keys):
+    return parse_rig({"name": kind, "kind": kind} | keys, "rig")
+
+
+def from_face(views):
+    """Unit directions and distances from the middle of the face."""
+    away = np.array([view.position - [0, 0, 0.06] for view in views])
+    distance = np.linalg.norm(away, axis=1)
+    return away / distance[:, None], distance
+
+
+def test_a_phone_at_arms_length_may_keep_its_whole_frame():
+    """26 mm equivalent: 24 mm of film across the shorter side; 25 degrees are its middle half."""
+    whole, cropped = (cameras(rig_of("phone", **keys), 60, 80)[0] for keys in ({"equivalent_mm": 26}, {}))
+    assert whole.focal / 60 == pytest.approx(26 / 24)
+    assert cropped.focal / whole.focal == pytest.approx(1 / 0.48, rel=0.01)
+    assert (whole.matrix == cropped.matrix).all()
+    _, distance = from_face(cameras(rig_of("phone", train=40), 60, 80))
+    assert 0.52 <= distance.min() and distance.max() <= 0.58
+
+
+def test_the_desktop_rig_surrounds_its_withheld_view():
+    views = cameras(rig_of("desktop", seed=3), 64, 64)
+    assert [view.train for view in views] == [True] * 5 + [False]
+    away, distance = from_face(views)
+    assert np.abs(distance - 0.7).max() < 0.06
+    assert abs(away[5, 0]) < 0.03 and (away[:5, 0] < -0.6).any() and (away[:5, 0] > 0.6).any()
+    assert away[:5, 1].min() < away[5, 1] < away[:5, 1].max()
+    # The whole head is in every picture.
+    corners = np.array([[x, y, 0.05] for x in (-0.08, 0.08) for y in (-0.11, 0.11)])
+    assert all((view.project(corners) > 0).all() and (view.project(corners) < 64).all() for view in views)
+    other = cameras(rig_of("desktop", seed=4), 64, 64)
+    assert all(0 < np.abs(a.position - b.position).max() < 0.021 for a, b in zip(views, other))
+
+
+@pytest.mark.parametrize("train, test", [(5, 0), (24, 3), (97, 10)])
+def test_a_dome_covers_its_cap_evenly(train, test):
+    views = cameras(rig_of("dome", train=train, test=test, max_angle_degrees=60, seed=7), 64, 64)
+    assert sum(view.train for view in views) == train and len(views) == train + test
+    away, distance = from_face(views)
+    np.testing.assert_allclose(distance, 0.9)
+    angle = np.degrees(np.arccos(away[:, 2]))
+    assert angle.max() <= 60
+    # Equal areas hold equal counts: half the views lie in the inner half of the cap's area.
+    inner = np.degrees(np.arccos((1 + 0.5) / 2))
+    assert abs((angle < inner).sum() - (train + test) / 2) <= 1
+    # No two views are much nearer than a grid of this density has them: a cap of 60 degrees is pi sr.
+    nearest = np.arccos((away @ away.T - 2 * np.eye(len(away))).max(1).clip(-1, 1))
+    spacing = math.sqrt(math.pi / len(away))
+    assert nearest.min() > 0.7 * spacing and nearest.max() < 1.7 * spacing
+
+
+@pytest.mark.parametrize("kind", ["phone", "emily", "desktop", "dome"])
+def test_named_views_are_withheld_and_all_cameras_stay(kind):
+    default = {view.name: view for view in cameras(rig_of(kind), 64, 64)}
+    views = cameras(rig_of(kind, withheld=["003", "001"]), 64, 64)
+    assert [view.name for view in views if not view.train] == ["001", "003"]
+    assert not views[-1].train and views[0].train
+    assert {view.name for view in views} == set(default)
+    assert all((view.matrix == default[view.name].matrix).all() for view in views)
 
 
 @pytest.mark.parametrize("size", [(48, 32), (32, 48), (40, 40)])

@@ -83,14 +83,16 @@ def _light(light: Light, face: Face) -> tuple[str, ...]:
     """Mean and maximum radiance (luminance), their ratio, the mean's colour, and the largest irradiance."""
     model = lights.exposed(light, face.chart.vertices, face.chart.normals)
     mean = mean_radiance(model)
-    front = face.chart.normals[:, 2] > 0
-    falls = model.irradiance(face.chart.vertices[front].astype(float), face.chart.normals[front].astype(float)) @ LUMINANCE
+    # Parts of a light stage's sphere share its exposure; all other lights have theirs.
+    most = light.exposure * math.pi
+    if isinstance(model, lights.StagePattern):
+        most = lights.largest_irradiance(model, face.chart.vertices, face.chart.normals)
     brightest = float(model.brightest() @ LUMINANCE)
     level = float(mean @ LUMINANCE)
     kelvin = correlated_kelvin(mean)
     return (
         f"{level:.4g}", f"{brightest:.4g}", f"{brightest / level:.4g}", ":".join(f"{c:.3f}" for c in mean / mean[1]) if mean[1] > 0 else "-",
-        f"{kelvin:.0f} K" if kelvin else "-", f"{falls.max() / math.pi:.3f} pi",
+        f"{kelvin:.0f} K" if kelvin else "-", f"{most / math.pi:.3f} pi",
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from ...errors import SceneError
 from ...scene_file import Light
 from .conventions import LATLONG, LUMINANCE
 from .dome import Dome
-from .environment import Environment, environment
+from .envmap import Environment, environment
 from .panels import Panel, Panels, flash, key, studio, two_colours
 from .point import Ball, point
 from .sphere import StagePattern, gradient, pattern
@@ -28,7 +28,7 @@ AnyLight = Dome | Panels | Environment | SunSky | Ball
 
 __all__ = [
     "LATLONG", "LUMINANCE", "AnyLight", "Ball", "Dome", "Environment", "Panel", "Panels", "StagePattern", "SunSky",
-    "environment", "exposed", "flash", "studio", "unexposed",
+    "environment", "exposed", "flash", "largest_irradiance", "studio", "unexposed",
 ]  # fmt: skip
 
 _MODELS = {
@@ -56,9 +56,14 @@ def exposed(light: Light, vertices: np.ndarray, normals: np.ndarray) -> AnyLight
     if isinstance(model, StagePattern):
         # Part of a sphere that has radiance 1 where it is on: its irradiance is pi already.
         return model.scaled(light.exposure)
-    front = normals[:, 2] > 0
-    irradiance = model.irradiance(vertices[front].astype(float), normals[front].astype(float))
-    largest = float((irradiance @ LUMINANCE).max())
+    largest = largest_irradiance(model, vertices, normals)
     if not largest > 0:
         raise SceneError(f"light {light.name!r} does not reach the face's front; turn it or choose another")
     return model.scaled(light.exposure * math.pi / largest)
+
+
+def largest_irradiance(model: AnyLight, vertices: np.ndarray, normals: np.ndarray) -> float:
+    """Rec.709 luminance of the largest unoccluded irradiance over the chart's front-facing normals."""
+    front = normals[:, 2] > 0
+    irradiance = model.irradiance(vertices[front].astype(float), normals[front].astype(float))
+    return float((irradiance @ LUMINANCE).max())

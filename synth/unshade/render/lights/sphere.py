@@ -11,7 +11,7 @@ import numpy as np
 from ...scene_file.light import Gradient, Pattern
 from .conventions import LATLONG, averaged, directions
 from .dome import Dome
-from .environment import Environment
+from .envmap import Environment
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 _FINE = 4

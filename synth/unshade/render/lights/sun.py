@@ -19,7 +19,7 @@ import numpy as np
 from ...scene_file.light import Sun
 from ..split import LambertLight
 from .conventions import LATLONG, LUMINANCE, around, deposit, directions, rgb
-from .environment import Environment
+from .envmap import Environment
 
 APERTURE_DEGREES = 0.5358
 """The sun's angular diameter, the plugin's default."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import mitsuba as mi
@@ -24,14 +24,15 @@ class Environment:
     lambert_light = LambertLight.BLEND
 
     def scaled(self, factor: float) -> Environment:
-        return Environment((self.picture * factor).astype(np.float32))
+        return replace(self, picture=(self.picture * factor).astype(np.float32))
 
     def irradiance(self, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
         towards, energy = self._blocks()
         total = np.zeros((len(normals), 3))
         for start in range(0, len(normals), 4096):
             part = slice(start, start + 4096)
-            total[part] = (normals[part] @ towards.T).clip(0) @ energy
+            cosine = normals[part] @ towards.T
+            total[part] = cosine.clip(0, out=cosine) @ energy
         return total
 
     def _blocks(self) -> tuple[np.ndarray, np.ndarray]:
