@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 
 from .noise import octaves
-from .regions import bump, pair, smoothstep
+from .regions import Regions, bump, pair, smoothstep
 from .spec import FaceSpec, stream
 from .strokes import Sketch
 
@@ -42,7 +42,7 @@ def hair_style(spec: FaceSpec) -> HairStyle:
     manly = float(smoothstep(0.5, 0.9, np.float64(spec.gender)))
     return HairStyle(
         scalp=shade + grey * (_GREY - shade),
-        brow=0.8 * shade + 0.35 * grey * (_GREY - shade),
+        brow=0.85 * shade + 0.6 * grey * (_GREY - shade),
         recession=manly * (3.0 + 12.0 * spec.age * rng.uniform()) + rng.normal(0.0, 2.0),
         beard=manly * rng.uniform(0.25, 0.85),
     )
@@ -68,53 +68,78 @@ def scalp_grain(points: np.ndarray, finest: float, seed: int) -> np.ndarray:
     return np.clip(1 + 0.03 * octaves(points, 1.2, 2, finest, stream(seed, "stubble")), 0.5, 1.07)
 
 
-def beard_cover(points: np.ndarray, lips: np.ndarray, style: HairStyle) -> np.ndarray:
+def beard_cover(regions: Regions, style: HairStyle) -> np.ndarray:
     """Share (M,) of shaven beard: jaw, chin and upper lip."""
+    points = regions.points
     if style.beard == 0:
         return np.zeros(len(points), dtype=np.float32)
-    x, y, z = points.T
-    jaw = smoothstep(-38, -72, y + 0.32 * np.abs(x)) * smoothstep(-80, -40, z) * smoothstep(-120, -104, y)
     lip = bump(points, (0, -54, 36), (22, 6, 16))
     # Little grows beside the middle of the lower lip.
     bare = pair(points, (16, -84, 26), (9, 5, 14))
-    return (style.beard * np.clip(np.maximum(0.85 * jaw, lip) - 0.3 * bare, 0, 1) * (1 - lips)).astype(np.float32)
+    return (style.beard * np.clip(np.maximum(0.85 * regions.jaw, lip) - 0.3 * bare, 0, 1) * (1 - regions.lips)).astype(np.float32)
 
 
 def draw_brows(sketch: Sketch, points: np.ndarray, texel: float, spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:
     """Share (M,) of each texel that brow hairs cover, and the brows' outline (M,) 0 to 1.
 
     Hairs grow up at the nose, then lean outward and down along the arch; hairs of the
-    upper edge lean down, those of the lower edge up, so that they meet in a ridge.
+    upper edge lean down, those of the lower edge up, so that they meet in a ridge. They
+    stand thick along the ridge and thin out to both edges and ends. The two brows of a
+    face differ a little in height, arch and hairs.
     """
     rng = stream(spec.seed, "brows")
     base = 18.0 + rng.uniform(-1.5, 1.5) - 1.5 * spec.gender
     rise = rng.uniform(4.0, 7.0) - 2.0 * spec.gender
     thickness = rng.uniform(0.8, 1.2) * (0.82 + 0.42 * spec.gender)
     density = rng.uniform(0.85, 1.2) * (1 - 0.25 * spec.age)
-    inner, length = 11.5, 41.0
-
-    def arch(t):
-        return base + rise * np.sin(0.5 * np.pi * np.minimum(t / 0.72, 1.0)) - 24.0 * np.maximum(t - 0.70, 0.0)
-
-    def half_width(t):
-        return 4.0 * thickness * (1 - 0.72 * t**1.5) * (0.75 + 0.25 * np.minimum(t / 0.15, 1.0))
-
-    place = (np.abs(points[:, 0]) - inner) / length
-    t = np.clip(place, 0, 1)
-    across = np.abs(points[:, 1] - arch(t)) / half_width(t)
-    ends = smoothstep(-0.06, 0.08, place) * smoothstep(1.1, 0.9, place) * (points[:, 2] > -30)
-    outline = smoothstep(1.25, 0.7, across) * ends
-    # Short hair and shadow between the strokes.
-    bare = 1 - 0.3 * density * outline
+    bare, outline = np.ones(len(points)), np.zeros(len(points))
+    patchy = 1 + 0.35 * octaves(points, 2.5, 2, texel, stream(spec.seed, "brow shade"))
     for side in (-1.0, 1.0):
-        for _ in range(int(520 * density)):
-            t = rng.beta(1.1, 1.25)
-            off = np.clip(rng.normal(0, 0.5), -1.15, 1.15)
-            root = np.array([side * (inner + length * t), arch(t) + off * half_width(t)])
-            lean = 75 - 70 * min(1.5 * t, 1.0) - 24 * max(t - 0.6, 0.0) / 0.4 - 26 * off + rng.normal(0, 9)
-            bend = np.radians([lean, lean - rng.uniform(5, 22)])
-            step = 0.5 * rng.uniform(4.5, 8.5) * (1 - 0.25 * t) * np.stack([side * np.cos(bend), np.sin(bend)], axis=1)
-            curve = np.stack([root, root + step[0], root + step[0] + step[1]])
-            index, cover = sketch.coverage(curve, rng.uniform(0.16, 0.28), texel)
-            bare[index] *= 1 - 0.85 * cover
+        own = stream(spec.seed, "brow", "right" if side < 0 else "left")
+        brow = Brow(base + own.normal(0, 0.5), rise + own.normal(0, 0.4), 4.0 * thickness * own.uniform(0.95, 1.05))
+        across, place = brow.place(side * points[:, 0], points[:, 1])
+        ends = smoothstep(-0.08, 0.12, place) * smoothstep(1.08, 0.86, place) * (points[:, 2] > -30)
+        here = smoothstep(1.25, 0.7, np.abs(across)) * ends
+        outline = np.maximum(outline, here)
+        # Fine hair between the drawn ones, and its shadow.
+        bare *= 1 - np.clip(0.34 * density * patchy * np.exp(-((across / 0.75) ** 2)) * ends, 0, 0.8)
+        for _ in range(int(430 * density)):
+            curve, width = brow.hair(own)
+            index, cover = sketch.coverage(curve * [side, 1], width, texel)
+            bare[index] *= 1 - 0.75 * cover
     return (1 - bare).astype(np.float32), outline.astype(np.float32)
+
+
+@dataclasses.dataclass(frozen=True)
+class Brow:
+    """Course of one brow over the frontal plane of the template, in mm: `base` height, `rise` of the arch, `half` its half height."""
+
+    base: float
+    rise: float
+    half: float
+    inner: float = 11.5
+    length: float = 41.0
+
+    def arch(self, t: np.ndarray) -> np.ndarray:
+        """Height of the ridge at a share of the way from nose to temple."""
+        return self.base + self.rise * np.sin(0.5 * np.pi * np.minimum(t / 0.72, 1.0)) - 24.0 * np.maximum(t - 0.70, 0.0)
+
+    def half_height(self, t: np.ndarray) -> np.ndarray:
+        return self.half * (1 - 0.66 * t**1.5) * (0.75 + 0.25 * np.minimum(t / 0.15, 1.0))
+
+    def place(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Offset from the ridge in half heights, and share of the way along it, at distance `x` from the midline."""
+        along = (x - self.inner) / self.length
+        t = np.clip(along, 0, 1)
+        return (y - self.arch(t)) / self.half_height(t), along
+
+    def hair(self, rng: np.random.Generator) -> tuple[np.ndarray, float]:
+        """One hair: polyline (3,2) on the +x side and its width at the root."""
+        t = rng.beta(1.2, 1.35)
+        # Short of the inner end there is room for fewer rows.
+        off = np.clip(rng.normal(0, 0.48), -1.2, 1.2) * (0.5 + 0.5 * min(t / 0.2, 1.0))
+        root = np.array([self.inner + self.length * t, self.arch(t) + off * self.half_height(t)])
+        lean = 75 - 70 * min(1.5 * t, 1.0) - 24 * max(t - 0.6, 0.0) / 0.4 - 26 * off + rng.normal(0, 11)
+        bend = np.radians([lean, lean - rng.uniform(5, 22)])
+        step = 0.5 * rng.uniform(4.0, 8.0) * (1 - 0.25 * t) * np.stack([np.cos(bend), np.sin(bend)], axis=1)
+        return np.stack([root, root + step[0], root + step[0] + step[1]]), rng.uniform(0.13, 0.24)

@@ -13,8 +13,10 @@ from .head import Head
 from .labels import Label
 from .lids import margin_distance
 from .normals import DIFFUSION_MM, relief_normals, smoothed, tangents
+from .pores import stubble_roots
 from .regions import Regions, find_regions, sample_masks, smoothstep
 from .relief import draw_relief
+from .roughness import draw_roughness
 from .skin import Pigments, base_pigments, chart_colour, draw_marks
 from .spec import FaceSpec
 from .strokes import Sketch
@@ -29,7 +31,9 @@ class Maps:
     lookup at the rim meets no black. `diffuse_albedo` (N,N,3) f32 linear Rec.709;
     `specular_albedo` (N,N) f32, reflectance at normal incidence, 0 to 0.05; `specular_normal`
     and `diffuse_normal` (N,N,3) f32 unit vectors in object space (= world); `labels` (N,N) u8,
-    ids of `Label`, 0 outside; `inside` (N,N) bool: the texel's centre lies in the chart.
+    ids of `Label`, 0 outside; `inside` (N,N) bool: the texel's centre lies in the chart;
+    `roughness` (N,N,3) f32: GGX alphas of the two specular lobes and the share of the first
+    (None: `roughness.NOMINAL` everywhere).
     """
 
     diffuse_albedo: np.ndarray
@@ -38,6 +42,7 @@ class Maps:
     diffuse_normal: np.ndarray
     labels: np.ndarray
     inside: np.ndarray
+    roughness: np.ndarray | None = None
 
 
 # Detail of the chart fades out over this distance (mm) from its outer rim.
@@ -64,9 +69,12 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     rims = _rims(texels, 1000 * margin_distance(positions, triangles, geometry.eyes), head.rim_mm, regions)
     sketch = Sketch(points, (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70))
     brow, brow_outline = draw_brows(sketch, points, texel, spec)
-    cover = {"brow": brow, "scalp": scalp, "beard": beard_cover(points, regions.lips, style)}
+    cover = {"brow": brow, "scalp": scalp, "beard": beard_cover(regions, style)}
     labels = _labels(regions, scalp, brow_outline)
-    relief = draw_relief(regions, np.stack([u, v], axis=1) * np.float32(scale), sketch, brow, texel, spec)
+    places = np.stack([u, v], axis=1) * np.float32(scale)
+    relief = draw_relief(regions, places, sketch, brow, texel, spec)
+    shaven = np.flatnonzero(cover["beard"])
+    cover["beard"][shaven] = np.minimum(cover["beard"][shaven] * stubble_roots(places[shaven], texel, spec), 1.8)
     marks = draw_marks(points, texels, sites, uv, texel, spec)
     hairy = np.flatnonzero(scalp)
     stubble = 1 - rims["outer"][hairy] * (1 - scalp_grain(points[hairy], 2 * texel, spec.seed))
@@ -89,6 +97,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
         diffuse_normal=extended(relief_normals(blurred, texels, nearest, smooth, du, dv)),
         labels=texels.image(labels),
         inside=texels.inside,
+        roughness=extended(draw_roughness(regions, relief, cover, rims, texel, spec)),
     )
 
 

@@ -3,8 +3,9 @@
 A thin pigmented epidermis (Kubelka-Munk layer, K = 2 mua and S = 3/4 mus') lies on a
 bloody dermis without end. Sources: absorption of melanosomes and of bloodless skin,
 S. L. Jacques, "Skin Optics", Oregon Medical Laser Center News, Jan 1998
-(omlc.org/news/jan98/skinoptics.html); scattering of skin, Jacques 2013, "Optical
-properties of biological tissues: a review", table 2; haemoglobin, S. Prahl's compilation
+(omlc.org/news/jan98/skinoptics.html); scattering of skin, S. L. Jacques, "Optical
+properties of biological tissues: a review", Phys. Med. Biol. 58 (2013) R37, equation 2 and
+table 2 (data: omlc.org/news/dec14/Jacques_PMB2013); haemoglobin, S. Prahl's compilation
 (omlc.org/spectra/hemoglobin); diffuse reflectance of the dermis, the dipole of Jensen
 et al. 2001, section 2.4. Spectra become linear Rec.709 under D65 through the CIE 1931
 observer.
@@ -35,18 +36,25 @@ _D65 = np.array([
     71.6091,
 ])  # fmt: skip
 
+# Reduced scattering of skin, the mean of table 2 over the cited samples (dermis of Salomatina et al.
+# 2006: 43.6, .41, .562; their epidermis: 66.7, .29, .689): at 500 nm in cm-1, the share of Rayleigh
+# scattering in it, and the power of the rest.
+_SCATTERING_AT_500, _RAYLEIGH_SHARE, _MIE_POWER = 48.0, 0.409, 0.702
+
 _EPIDERMIS_CM = 0.006
 _HAEMOGLOBIN_GRAMS = 150.0  # per litre of whole blood
 _HAEMOGLOBIN_MOLAR = 64500.0  # g/mol
 _OXYGENATION = 0.75
 _REFRACTIVE_INDEX = 1.4
 
-MELANOSOMES = {"I": 0.0215, "II": 0.0353, "III": 0.0525, "IV": 0.0744, "V": 0.1275, "VI": 0.222}
+MELANOSOMES = {"I": 0.0200, "II": 0.0333, "III": 0.0495, "IV": 0.0705, "V": 0.1191, "VI": 0.2102}
 """Volume fraction of melanosomes per Fitzpatrick type; Jacques gives 1.3-6.3 % for light,
-11-16 % for moderately and 18-43 % for darkly pigmented adults."""
+11-16 % for moderately and 18-43 % for darkly pigmented adults. With these the base tones lie
+in the middle of the six groups of the individual typology angle."""
 
-BLOOD = {"I": 0.0075, "II": 0.0075, "III": 0.0078, "IV": 0.0080, "V": 0.0080, "VI": 0.0080}
-"""Volume fraction of blood in the dermis, cheeks and lips not counted."""
+BLOOD = {"I": 0.0115, "II": 0.0115, "III": 0.0120, "IV": 0.0125, "V": 0.0130, "VI": 0.0140}
+"""Volume fraction of blood in the dermis of the face, flushed regions and lips not counted; what fits
+the colour of foreheads and cheeks (Xiao et al. 2017), twice that of the arm (Alaluf et al. 2002)."""
 
 MELANIN_LIMIT, BLOOD_LIMIT = 0.6, 0.12
 """Largest fractions that `skin_colour` tabulates."""
@@ -82,9 +90,14 @@ def reflectance(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
     extinction = _OXYGENATION * _OXY + (1 - _OXYGENATION) * _DEOXY
     whole_blood = np.log(10) * extinction * _HAEMOGLOBIN_GRAMS / _HAEMOGLOBIN_MOLAR
     absorption = blood * whole_blood + (1 - blood) * baseline
-    relative = WAVELENGTHS / 500
-    scattering = 48.0 * (0.409 * relative**-4.0 + 0.591 * relative**-0.702)
+    scattering = reduced_scattering(WAVELENGTHS)
     return _layer(epidermis, scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
+
+
+def reduced_scattering(wavelengths: np.ndarray) -> np.ndarray:
+    """Reduced scattering coefficient of skin in cm-1 at wavelengths in nm: Rayleigh and Mie part."""
+    relative = wavelengths / 500
+    return _SCATTERING_AT_500 * (_RAYLEIGH_SHARE * relative**-4.0 + (1 - _RAYLEIGH_SHARE) * relative**-_MIE_POWER)
 
 
 def _layer(absorption: np.ndarray, scattering: np.ndarray, thickness: float, below: np.ndarray) -> np.ndarray:

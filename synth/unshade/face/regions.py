@@ -32,9 +32,13 @@ def smoothstep(low: float, high: float, value: np.ndarray) -> np.ndarray:
     return t * t * (3 - 2 * t)
 
 
+_LIPS_MEET_Y = -66.6
+"""Height (mm) at which upper and lower lip of the template touch."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Regions:
-    """Fields (M,) f32 in 0..1 at `points` (M,3). Those from masks (`lips`, `lids`, `ears`) are 0 off the chart."""
+    """Fields (M,) f32 in 0..1 at `points` (M,3). Those from masks (`lips`, `lower_lip`, `lids`, `ears`) are 0 off the chart."""
 
     points: np.ndarray
     nose: np.ndarray
@@ -46,7 +50,12 @@ class Regions:
     chin: np.ndarray
     ear_flush: np.ndarray
     oily: np.ndarray
+    wings: np.ndarray
+    perioral: np.ndarray
+    temple: np.ndarray
+    jaw: np.ndarray
     lips: np.ndarray
+    lower_lip: np.ndarray
     lids: np.ndarray
     ears: np.ndarray
 
@@ -56,6 +65,7 @@ def find_regions(points: np.ndarray, masks: dict[str, np.ndarray] | None = None)
     nose = bump(points, (0, -36, 43), (16, 12, 16))
     forehead = bump(points, (0, 50, 12), (46, 24, 40))
     chin = bump(points, (0, -96, 22), (18, 10, 20))
+    x, y, z = np.abs(points[:, 0]), points[:, 1], points[:, 2]
     none = np.zeros(len(points), dtype=np.float32)
     masks = masks or {"lips": none, "eyelids": none, "ears": none}
     return Regions(
@@ -69,7 +79,12 @@ def find_regions(points: np.ndarray, masks: dict[str, np.ndarray] | None = None)
         chin=chin,
         ear_flush=pair(points, (77, -20, -68), (8, 26, 20)),
         oily=np.clip(nose + 0.8 * forehead + 0.6 * chin + 0.5 * bump(points, (0, -12, 30), (8, 22, 20)), 0, 1),
+        wings=pair(points, (17, -42, 32), (4, 7, 10)),
+        perioral=bump(points, (0, -66, 28), (27, 17, 24)),
+        temple=pair(points, (62, 22, -22), (14, 26, 26)),
+        jaw=smoothstep(-40, -78, y + 0.32 * x) * smoothstep(-80, -40, z) * smoothstep(-124, -104, y),
         lips=masks["lips"],
+        lower_lip=masks["lips"] * smoothstep(_LIPS_MEET_Y + 0.8, _LIPS_MEET_Y - 0.8, y),
         lids=masks["eyelids"],
         ears=masks["ears"],
     )
@@ -82,10 +97,14 @@ def _nose_outline(points: np.ndarray) -> np.ndarray:
     return smoothstep(1.0, -1.0, np.abs(x) - half_width) * (z > 0)
 
 
+# In pixels. The border of the lips runs out over about a millimetre.
+_OUTLINE_BLUR = {"lips": 2.0, "eyelids": 1.0, "ears": 1.0}
+
+
 @functools.cache
 def _mask(name: str) -> np.ndarray:
     """Region mask of the head data; the lips span some sixty of its pixels, so outlines are blurred."""
-    return gaussian_filter(base_mesh.read_region(name), 1.0)
+    return gaussian_filter(base_mesh.read_region(name), _OUTLINE_BLUR[name])
 
 
 def sample_masks(native_uv: np.ndarray) -> dict[str, np.ndarray]:

@@ -14,8 +14,11 @@ from .relief import Relief
 from .spec import FaceSpec, stream
 from .texels import Texels
 
-_SPECULAR = 0.026
-"""Reflectance of skin at normal incidence away from oily regions; F0 of n = 1.4 is 0.028."""
+_SPECULAR = 0.027
+"""Reflectance of skin at normal incidence away from oily regions.
+
+F0 of n = 1.4 is 0.028; over the face it runs from 0.02 to 0.04, highest in the oily T-zone
+(specular albedo of Ghosh et al. 2010 and of Digital Emily)."""
 
 SPECULAR_LIMIT = 0.05
 
@@ -31,19 +34,27 @@ class Pigments:
 def base_pigments(regions: Regions, spec: FaceSpec) -> Pigments:
     """Slowly varying pigments, the same function on the chart and on the rest of the head.
 
-    Variations of melanin shrink with its amount: dark skin is even, not blotchy.
+    Regions differ by about as much in every skin type: forehead, temples, lids and the
+    skin round eyes and mouth hold more melanin than the cheeks, nose and cheeks more blood
+    than the forehead. Patches without a place shrink with the amount of melanin: dark skin
+    is even, not blotchy.
     """
     rng = stream(spec.seed, "complexion")
     flush, rings, sun, thin = rng.uniform((0.6, 0.2, 0.4, 0.5), (1.3, 1.0, 1.0, 1.0))
-    even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
+    tone = np.exp(np.clip(stream(spec.seed, "tone").normal(0, 0.06), -0.12, 0.12))
     patches = octaves(regions.points, 40.0, 3, 8.0, stream(spec.seed, "melanin patches"))
     glow = octaves(regions.points, 34.0, 3, 8.0, stream(spec.seed, "blood patches"))
-    melanin = 1 + even * (
-        0.04 * patches + 0.14 * sun * regions.forehead - 0.08 * regions.cheek + 0.26 * rings * regions.under_eye + 0.08 * regions.upper_lid
-    )
-    blood = 1 + 0.10 * glow + flush * (0.75 * regions.nose + 0.80 * regions.cheek + 0.25 * regions.chin)
-    blood += 0.45 * regions.ear_flush + 0.35 * thin * regions.under_eye + 0.35 * regions.upper_lid - 0.12 * regions.forehead
-    return Pigments(MELANOSOMES[spec.fitzpatrick] * melanin, BLOOD[spec.fitzpatrick] * blood)
+    melanin = 1 + _evenness(spec) * 0.045 * patches
+    melanin += sun * (0.14 * regions.forehead + 0.08 * regions.temple) - 0.09 * regions.cheek + 0.05 * regions.jaw
+    melanin += 0.26 * rings * regions.under_eye + 0.14 * regions.upper_lid + 0.12 * rings * regions.perioral
+    blood = 1 + 0.10 * glow + flush * (0.70 * regions.nose + 0.75 * regions.cheek + 0.25 * regions.chin + 0.30 * regions.wings)
+    blood += 0.45 * regions.ear_flush + 0.35 * thin * regions.under_eye + 0.40 * regions.upper_lid
+    blood -= 0.16 * regions.forehead + 0.12 * regions.perioral
+    return Pigments(MELANOSOMES[spec.fitzpatrick] * tone * melanin, BLOOD[spec.fitzpatrick] * blood)
+
+
+def _evenness(spec: FaceSpec) -> float:
+    return 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
 
 
 def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:
@@ -51,7 +62,7 @@ def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.
     pigments = base_pigments(regions, spec)
     colour = skin_colour(pigments.melanin, pigments.blood)
     scalp = scalp_cover(regions.points, style, spec.seed)
-    return _with_hair(colour, scalp, style.scalp), _specular_base(regions, scalp)
+    return _with_hair(colour, scalp, style.scalp), _specular_base(regions, scalp, spec)
 
 
 def chart_colour(
@@ -72,29 +83,32 @@ def chart_colour(
     `wet`, the shares of lash line and waterline; `texel` in mm. Detail fades towards the outer rim, where the rest of the head takes over.
     """
     fade = rims["outer"]
-    even = 1 / (1 + 6 * MELANOSOMES[spec.fitzpatrick])
-    fine = octaves(regions.points, 6.0, 3, 2 * texel, stream(spec.seed, "fine melanin"))
-    mottle = octaves(regions.points, 5.0, 2, 2 * texel, stream(spec.seed, "fine blood"))
+    even = _evenness(spec)
+    fine = octaves(regions.points, 6.0, 4, 2 * texel, stream(spec.seed, "fine melanin"))
+    mottle = octaves(regions.points, 5.0, 3, 2 * texel, stream(spec.seed, "fine blood"))
     lips = regions.lips * fade
-    melanin = pigments.melanin * (1 + fade * even * 0.045 * fine) + fade * marks
-    blood = pigments.blood * (1 + fade * (0.09 * mottle + 0.35 * relief.creases))
+    melanin = pigments.melanin * (1 + fade * even * (0.05 + 0.04 * spec.age) * fine) + fade * marks
+    blood = pigments.blood * (1 + fade * (0.11 * mottle + 0.45 * relief.creases))
     flesh = stream(spec.seed, "lip colour").uniform(0.8, 1.25)
-    # Lips: vessels show through a thin epidermis; pale skin's lips are more pigmented than the rest of it, dark skin's less.
-    melanin = melanin + lips * (0.75 * MELANOSOMES[spec.fitzpatrick] + 0.014 - melanin)
-    blood = blood * (1 + lips * flesh * (6.0 + 0.4 * fine))
+    # Lips: vessels show through a thin epidermis; pale skin's lips are more pigmented than the
+    # rest of it, dark skin's less, the lower one least.
+    share = 0.72 - regions.lower_lip * np.float32(0.9 * MELANOSOMES[spec.fitzpatrick])
+    melanin = melanin + lips * (share * MELANOSOMES[spec.fitzpatrick] + 0.014 - melanin)
+    blood = blood * (1 + lips * flesh * (4.0 + 0.5 * fine))
     blood = blood * (1 + 1.2 * rims["wet"])
     colour = skin_colour(np.clip(melanin, 0, MELANIN_LIMIT), np.clip(blood, 0, BLOOD_LIMIT))
 
-    colour = colour * (1 - fade * (0.12 * relief.pores + 0.12 * relief.creases))[:, None]
+    # Little light finds its way out of pores and folds.
+    colour = colour * (1 - fade * (0.26 * relief.pores + 0.06 * relief.furrows + 0.14 * relief.creases))[:, None]
     # A shaven beard shows its roots through the skin: bluish grey, hence red is damped most.
-    colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.42, 0.40, 0.36]))
+    colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.36, 0.34, 0.30]))
     colour = colour + (fade * cover["brow"])[:, None] * (style.brow.astype(np.float32) - colour)
     colour = _with_hair(colour, cover["scalp"], style.scalp)
     colour = colour * (1 - 0.82 * rims["lash"])[:, None]
 
-    specular = _specular_base(regions, cover["scalp"])
-    specular = specular + fade * (0.004 * lips + 0.0012 * mottle)
-    specular = specular * (1 - fade * (0.45 * relief.pores + 0.30 * relief.creases + 0.5 * cover["brow"]))
+    specular = _specular_base(regions, cover["scalp"], spec)
+    specular = specular + fade * (0.006 * lips + 0.001 * mottle)
+    specular = specular * (1 - fade * (0.45 * relief.pores + 0.15 * relief.furrows + 0.30 * relief.creases + 0.7 * cover["brow"]))
     specular = specular * (1 - 0.6 * rims["lash"]) + 0.012 * rims["wet"]
     return colour.astype(np.float32), np.clip(specular, 0, SPECULAR_LIMIT).astype(np.float32)
 
@@ -103,8 +117,11 @@ def _with_hair(colour: np.ndarray, cover: np.ndarray, hair: np.ndarray) -> np.nd
     return (colour + 0.93 * cover[:, None] * (hair.astype(np.float32) - colour)).astype(np.float32)
 
 
-def _specular_base(regions: Regions, scalp: np.ndarray) -> np.ndarray:
-    return ((_SPECULAR + 0.010 * regions.oily + 0.002 * regions.cheek) * (1 - 0.6 * scalp)).astype(np.float32)
+def _specular_base(regions: Regions, scalp: np.ndarray, spec: FaceSpec) -> np.ndarray:
+    """Reflectance (M,) at normal incidence: more on nose, forehead and chin, less round the eyes and where skin is old and dry."""
+    sebum = float(stream(spec.seed, "sebum").uniform(0.75, 1.25)) * (1 - 0.25 * spec.age)
+    skin = _SPECULAR + 0.009 * sebum * regions.oily + 0.001 * regions.cheek - 0.003 * regions.under_eye
+    return (skin * (1 - 0.6 * scalp)).astype(np.float32)
 
 
 def draw_marks(points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.ndarray, texel: float, spec: FaceSpec) -> np.ndarray:
@@ -125,8 +142,10 @@ def draw_marks(points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.n
     for count, weight, radii, amounts in kinds:
         for site in rng.choice(len(site_uv), count, p=weight / weight.sum(dtype=np.float64)):
             radius, amount, stretch = rng.uniform(*radii), rng.uniform(*amounts), rng.uniform(0.7, 1.3)
-            near = texels.around(site_uv[site], 2.0 * radius / texel + 1)
+            # A spot of few texels is drawn wider and fainter, so that its pigment stays.
+            drawn = np.hypot(radius, 0.5 * texel)
+            near = texels.around(site_uv[site], 2.0 * drawn / texel + 1)
             offset = (points[near] - np.float32(sites.points[site])) * np.float32([stretch, 1 / stretch, 1])
-            distance = np.sqrt((offset**2).sum(axis=1)) / radius
-            marks[near] = np.maximum(marks[near], amount * smoothstep(1.5, 0.4, distance))
+            distance = np.sqrt((offset**2).sum(axis=1)) / drawn
+            marks[near] = np.maximum(marks[near], amount * (radius / drawn) ** 2 * smoothstep(1.5, 0.4, distance))
     return marks / np.float32(1 + 4 * MELANOSOMES[spec.fitzpatrick])

@@ -70,10 +70,11 @@ def rasterise(uv: np.ndarray, triangles: np.ndarray, size: int) -> Texels:
     extent = np.floor(points.max(axis=1)).astype(np.int64) - low + 1
     owner = np.full(size * size, -1, dtype=np.int64)
     weights = np.zeros((size * size, 3), dtype=np.float32)
-    for box in np.unique(extent, axis=0):
+    boxes, number, counts = np.unique(extent, axis=0, return_inverse=True, return_counts=True)
+    groups = np.split(np.argsort(number.ravel(), kind="stable"), np.cumsum(counts)[:-1])
+    for box, group in zip(boxes, groups):
         if (box <= 0).any():
             continue
-        group = np.flatnonzero((extent == box).all(axis=1))
         step = max(1, _BATCH // int(box.prod()))
         for start in range(0, len(group), step):
             _cover(points, low, group[start : start + step], box, size, owner, weights)
