@@ -4,18 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from ..errors import SceneError
 from .checks import choice, known_keys, whole
 
 VARIANTS = ("auto", "llvm_ad_rgb", "scalar_rgb")
+TIERS = ("opaque", "diffusion", "volume")
+
+SKIN1_MM = (1.30, 0.95, 0.67)
+"""Mean free paths of the sample `skin1` of Jensen et al. 2001 ("A Practical Model for
+Subsurface Light Transport", table 1): 1 / (reduced scattering + absorption)."""
+
+_LONGEST_MM = 10.0
+"""Beyond it light would cross the head, and no profile describes that."""
 
 
 @dataclass(frozen=True)
 class Render:
-    """Picture size in pixels, samples per pixel, path segments, seed and variant."""
+    """Picture size in pixels, samples per pixel, path segments, seed and variant; how light
+    leaves the skin (``tier``, see `render.tiers`).
+
+    ``subsurface_mm``: mean free path of light in skin, for red, green and blue, used by all
+    tiers but ``opaque``. A path between two scatterings, which are isotropic; the width of a
+    profile follows from it and the albedo.
+    """
 
     width: int
     height: int
@@ -23,6 +37,15 @@ class Render:
     depth: int = 6
     seed: int = 0
     variant: str = "auto"
+    tier: str = "opaque"
+    subsurface_mm: tuple[float, float, float] = SKIN1_MM
+
+    def to_table(self) -> dict[str, Any]:
+        """All keys; those of the tier only where it is not ``opaque``."""
+        table = asdict(self) | {"subsurface_mm": list(self.subsurface_mm)}
+        if self.tier == "opaque":
+            del table["tier"], table["subsurface_mm"]
+        return table
 
 
 def parse_render(table: Mapping[str, Any], place: str) -> Render:
@@ -34,11 +57,26 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
         depth=whole(table, "depth", place, Render.depth, 2, 64),
         seed=whole(table, "seed", place, Render.seed, 0, 2**63 - 1),
         variant=choice(table, "variant", VARIANTS, place) if "variant" in table else Render.variant,
+        tier=choice(table, "tier", TIERS, place) if "tier" in table else Render.tier,
+        subsurface_mm=_mean_free_paths(table, place),
     )
+    if render.tier == "opaque" and "subsurface_mm" in table:
+        raise SceneError(f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out')
+    if render.tier != "opaque" and render.variant == "scalar_rgb":
+        raise SceneError(f'tier = "{render.tier}" in {place} needs LLVM; set variant = "llvm_ad_rgb" or tier = "opaque"')
     if passes_for(render.samples) is None:
         near = next(n for n in range(render.samples, 1 << 17) if passes_for(n))
         raise SceneError(f"samples in {place} is {render.samples}, which stratified passes cannot share; use {near}")
     return render
+
+
+def _mean_free_paths(table: Mapping[str, Any], place: str) -> tuple[float, float, float]:
+    value = table.get("subsurface_mm", SKIN1_MM)
+    good = isinstance(value, (list, tuple)) and len(value) == 3
+    if not good or not all(isinstance(v, (int, float)) and not isinstance(v, bool) and 0 < v <= _LONGEST_MM for v in value):
+        raise SceneError(f"subsurface_mm in {place} is {value!r}; use three numbers [r, g, b] in millimetres, above 0 and up to {_LONGEST_MM:g}")
+    red, green, blue = map(float, value)
+    return red, green, blue
 
 
 def passes_for(samples: int) -> int | None:
