@@ -107,7 +107,7 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
     render = scene.render
     withheld = sum(not view.train for view in views)
     pictures = len(views) + withheld * len(scene.relight)
-    settings = dataclasses.asdict(render)
+    settings = render.to_table()
     size = f"{settings.pop('width')} x {settings.pop('height')} pixels"
     return [
         f"  pictures         {pictures} of {size}: {len(views)} views, {withheld} withheld ones in {len(scene.relight)} other lights",
