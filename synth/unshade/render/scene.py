@@ -35,7 +35,7 @@ class ChartMaps:
     @classmethod
     def truth(cls, face: Face) -> ChartMaps:
         maps = face.maps
-        return cls(maps.diffuse_albedo, maps.specular_albedo, maps.diffuse_normal, maps.specular_normal)
+        return cls(maps.diffuse_albedo, maps.specular_albedo, maps.diffuse_normal, maps.specular_normal, maps.roughness)
 
 
 @dataclass(frozen=True)
