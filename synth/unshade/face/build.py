@@ -12,12 +12,14 @@ from .geometry import Chart, Geometry, Part, part_mesh, place
 from .hair import HairStyle, hair_style
 from .head import Head
 from .identity import pose, shape
+from .lids import sunken_fold
 from .paint import Maps, paint_maps
 from .pigment import skin_colour
 from .regions import find_regions
 from .skin import base_pigments, head_colour
 from .spec import FaceSpec
 from .teeth import make_mouth
+from .wet_line import make_wet_lines
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,7 +28,8 @@ class Face:
 
     The origin lies 70 mm behind the midpoint of the eyes' centres, near the centre of
     the head. `parts` are the occluders: `rest` (of head, neck and shoulders), `mouth`,
-    `sockets`, `eye_left`, `eye_right` (the person's own left: +X).
+    `sockets`, `teeth`, `gums`, `tongue`, `eye_left`, `eye_right` (the person's own left:
+    +X), `wet_line_left`, `wet_line_right`.
     """
 
     spec: FaceSpec
@@ -42,12 +45,18 @@ def build_face(spec: FaceSpec) -> Face:
     """
     head = load_head()
     geometry = place(head, shape(head, spec), pose(head, spec))
+    folds = [sunken_fold(geometry.positions, head.part_chart, *eye) for eye in zip(geometry.eyes, geometry.gaze)]
     style = hair_style(spec)
     _, mesh = part_mesh(geometry, head.part_chart)
     return Face(
         spec=spec,
         chart=Chart(uv=head.chart_uv.astype(np.float32), **mesh),
-        parts=_occluders(head, geometry, style, spec) + make_mouth(head, geometry, spec) + make_eyes(geometry.eyes, geometry.gaze, spec),
+        parts=[
+            *_occluders(head, geometry, style, spec),
+            *make_mouth(head, geometry, spec),
+            *make_eyes(geometry.eyes, geometry.gaze, folds, spec),
+            *make_wet_lines(head, geometry),
+        ],
         maps=paint_maps(head, geometry, style, spec),
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from . import eyeball
 from .geometry import Part, vertex_normals
@@ -27,8 +28,14 @@ _IRIS_ODDS = {
 }  # fmt: skip
 
 
-def make_eyes(spheres: np.ndarray, gaze: np.ndarray, spec: FaceSpec) -> list[Part]:
+_DENT, _DENT_REACH = 0.0004, (0.0008, 0.0016)
+"""Under a lid's fold the eyeball gives way by so much (m), over so far (m)."""
+
+
+def make_eyes(spheres: np.ndarray, gaze: np.ndarray, folds: list[np.ndarray], spec: FaceSpec) -> list[Part]:
     """Left and right eyeball for spheres (2,4) of centre and radius (m), turned by `gaze` (2,3,3) from +Z.
+
+    `folds`: per eye the places (K,3) of skin that the eyeball must stay under (`lids.sunken_fold`).
 
     The texture's v runs from 1 at the front pole to 0 at the back, u once round the axis.
     """
@@ -54,15 +61,26 @@ def make_eyes(spheres: np.ndarray, gaze: np.ndarray, spec: FaceSpec) -> list[Par
     return [
         Part(
             name=name,
-            vertices=(sphere[:3] + sphere[3] * surface @ turn.T).astype(np.float32),
+            vertices=_dented(sphere[:3] + sphere[3] * surface @ turn.T, sphere[:3], fold).astype(np.float32),
             normals=(normals.reshape(-1, 3) @ turn.T).astype(np.float32),
             triangles=triangles.astype(np.uint32),
             diffuse=diffuse,
             specular=specular,
             uv=uv,
         )
-        for name, sphere, turn in zip(("eye_left", "eye_right"), spheres, gaze)
+        for name, sphere, turn, fold in zip(("eye_left", "eye_right"), spheres, gaze, folds)
     ]
+
+
+def _dented(surface: np.ndarray, centre: np.ndarray, fold: np.ndarray) -> np.ndarray:
+    """The surface (V,3), drawn in where the skin of a lid's fold dips into it: unseen there, but it would show through."""
+    if not len(fold):
+        return surface
+    distance, nearest = cKDTree(fold).query(surface)
+    outward = surface - centre
+    radius = np.linalg.norm(outward, axis=1)
+    depth = np.maximum(radius - np.linalg.norm(fold[nearest] - centre, axis=1) + _DENT, 0) * smoothstep(*_DENT_REACH[::-1], distance)
+    return surface - outward * (depth / radius)[:, None]
 
 
 def _paint(spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:

@@ -7,6 +7,11 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from .eyeball import clearance
+
+_FOLD = 0.002
+"""Skin nearer (m) than this to the margin is the lid's edge, not its fold."""
+
 
 def margin_distance(positions: np.ndarray, triangles: np.ndarray, eyes: np.ndarray) -> np.ndarray:
     """Distance (C,) in metres from chart vertices (C,3) to the lid margins of both eyes (2,4)."""
@@ -40,3 +45,14 @@ def between(values: np.ndarray, crossing: np.ndarray, share: np.ndarray) -> np.n
     """Values (C,...) of vertices at the points `share` (K,) of the way along edges (K,2)."""
     share = share.reshape(-1, *[1] * (values.ndim - 1))
     return values[crossing[:, 0]] * (1 - share) + values[crossing[:, 1]] * share
+
+
+def sunken_fold(positions: np.ndarray, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+    """Places (K,3) where a lid's fold dips into the eyeball, or nearly: its own skin, not the hidden rim."""
+    gap = clearance(positions, eye, gaze)
+    crossing, share, hidden = margin(triangles, gap)
+    skin = np.unique(triangles)
+    skin = skin[(gap[skin] < 0.0002) & ~hidden[skin]]
+    if not len(skin):
+        return positions[skin]
+    return positions[skin[cKDTree(between(positions, crossing, share)).query(positions[skin])[0] > _FOLD]]

@@ -1,0 +1,114 @@
+"""What a camera sees of eyes and mouth, by rays: lids that cover, films that lie on, teeth that stay inside."""
+
+import numpy as np
+import pytest
+import render_toy  # noqa: F401  (sets the variant)  # isort: skip
+import mitsuba as mi
+from scipy.ndimage import label
+
+from unshade.face import FaceSpec, cache, eyeball, eyes, lids
+from unshade.face.geometry import place
+from unshade.face.identity import pose, shape
+from unshade.face.teeth import make_mouth
+from unshade.face.wet_line import make_wet_lines
+
+BLINK = {"eyeBlinkLeft": 1.0, "eyeBlinkRight": 1.0}
+SMILE = {"mouthSmileLeft": 0.6, "mouthSmileRight": 0.6}
+PITCH = 0.0003
+"""Distance (m) of the parallel rays."""
+
+
+def placed(seed, **expression):
+    head, spec = cache.load_head(), FaceSpec.sample(seed, expression=expression)
+    return head, spec, place(head, shape(head, spec), pose(head, spec))
+
+
+def mesh(positions, triangles):
+    shape = mi.Mesh("part", len(positions), len(triangles))
+    parameters = mi.traverse(shape)
+    parameters["vertex_positions"] = np.ascontiguousarray(positions, np.float32).ravel()
+    parameters["faces"] = np.ascontiguousarray(triangles, np.uint32).ravel()
+    parameters.update()
+    return mi.load_dict({"type": "scene", "part": shape})
+
+
+def depth(scene, low, high, elevation):
+    """Ray lengths over a grid of parallel rays that look down by `elevation` degrees."""
+    x, y = np.meshgrid(np.arange(low[0], high[0], PITCH), np.arange(low[1], high[1], PITCH))
+    away = np.array([0, np.sin(np.radians(elevation)), np.cos(np.radians(elevation))])
+    origin = np.stack([x, y, np.full_like(x, 0.08)], -1).reshape(-1, 3) + 0.3 * away
+    ray = mi.Ray3f(mi.Point3f(*origin.T.astype(np.float32)), mi.Vector3f(*map(float, -away)))
+    return np.array(scene.ray_intersect_preliminary(ray).t).reshape(x.shape)
+
+
+def eye_parts(head, spec, geometry):
+    folds = [lids.sunken_fold(geometry.positions, head.part_chart, *eye) for eye in zip(geometry.eyes, geometry.gaze)]
+    return eyes.make_eyes(geometry.eyes, geometry.gaze, folds, spec)
+
+
+def seen(head, geometry, parts, low, high, elevation=0.0):
+    """Which rays meet one of the parts first (bool picture)."""
+    skin = np.concatenate([head.part_chart, head.part_rest, head.part_mouth, head.part_sockets])
+    front = depth(mesh(geometry.positions, skin), low, high, elevation)
+    nearest = np.min([depth(mesh(part.vertices, part.triangles), low, high, elevation) for part in parts], axis=0)
+    return np.isfinite(nearest) & (nearest < front)
+
+
+def seen_eyes(seed, elevation=0.0, **expression):
+    head, spec, geometry = placed(seed, **expression)
+    return seen(head, geometry, eye_parts(head, spec, geometry), (-0.06, -0.02), (0.06, 0.02), elevation)
+
+
+@pytest.mark.parametrize("seed", [7, 8, 101, 202])
+def test_a_blink_covers_the_eyeballs(seed):
+    opened = seen_eyes(seed).sum()
+    assert opened > 2000
+    for elevation in (-20.0, 0.0, 25.0):
+        assert seen_eyes(seed, elevation, **BLINK).sum() < 0.01 * opened
+    assert seen_eyes(seed, **BLINK, **SMILE).sum() < 0.01 * opened
+    assert 0.2 < seen_eyes(seed, eyeBlinkLeft=0.5, eyeBlinkRight=0.5).sum() / opened < 0.8
+
+
+@pytest.mark.parametrize("seed", [7, 101, 202])
+@pytest.mark.parametrize("expression", [{}, {"eyeLookOutLeft": 1.0, "eyeLookDownRight": 1.0}, {"eyeBlinkLeft": 0.5, "eyeBlinkRight": 0.3}])
+def test_eyeballs_show_between_the_lids_alone(seed, expression):
+    """Each eye is one patch of the picture: none pokes through a lid."""
+    patches, count = label(seen_eyes(seed, **expression), np.ones((3, 3)))
+    size = np.bincount(patches.ravel())[1:]
+    assert (size > 100).sum() == 2 and size[size <= 100].sum() <= 4
+
+
+def test_the_cornea_stands_as_high_as_a_natural_one():
+    limbus = np.radians(eyeball.IRIS)
+    # Gullstrand: a cap of 7.8 mm radius over a limbus of 11.7 mm is 2.64 mm high.
+    cap = (eyeball.height(np.zeros(1)) - np.cos(limbus))[0] / np.sin(limbus) * 5.85
+    assert cap == pytest.approx(2.64, abs=0.02)
+    assert eyeball.height(np.array([np.radians(60)]))[0] == pytest.approx(1, abs=1e-4)
+    assert (np.diff(eyeball.height(np.linspace(0, np.pi, 500))) < 1e-9).all()
+
+
+@pytest.mark.parametrize("seed", [7, 101, 202])
+def test_the_wet_line_lies_on_the_eyeball_along_the_lower_lid(seed):
+    head, _, geometry = placed(seed)
+    lines = make_wet_lines(head, geometry)
+    assert [line.name for line in lines] == ["wet_line_left", "wet_line_right"]
+    margin = lids.margin_distance(geometry.positions, head.part_chart, geometry.eyes)
+    for line, eye in zip(lines, geometry.eyes):
+        gap = eyeball.clearance(line.vertices.astype(float), eye, np.eye(3))
+        assert gap.min() > -0.0001 and gap.max() < 0.0004
+        near = geometry.positions[head.chart_vertices][margin[head.chart_vertices] < 0.0008]
+        distance = np.linalg.norm(line.vertices[:, None] - near[None, np.abs(near[:, 0] - eye[0]).argsort()[:400]], axis=2).min(axis=1)
+        assert np.median(distance) < 0.001
+        assert np.ptp(line.vertices[:, 0]) > 0.015
+        assert line.vertices[:, 1].max() < eye[1] + 0.003
+    assert make_wet_lines(head, placed(seed, **BLINK)[2]) == []
+
+
+@pytest.mark.parametrize("seed", [7, 101, 202, 3])
+def test_teeth_and_tongue_stay_behind_closed_lips(seed):
+    def share(**expression):
+        head, spec, geometry = placed(seed, **expression)
+        return seen(head, geometry, make_mouth(head, geometry, spec), (-0.06, -0.13), (0.06, 0.0)).sum()
+
+    assert share() == 0
+    assert share(jawOpen=0.6) > 200
