@@ -122,7 +122,11 @@ def write_glb(path: Path) -> None:
             {"name": "m0", "primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]},
             {"name": "m1", "primitives": [{"attributes": {"POSITION": 3}, "indices": 4}]},
         ],
-        "nodes": [{"name": "all", "matrix": matrix.T.ravel().tolist(), "children": [1, 2]}, {"name": "head", "mesh": 0}, {"name": "collar", "mesh": 1}],
+        "nodes": [
+            {"name": "all", "matrix": matrix.T.ravel().tolist(), "children": [1, 2]},
+            {"name": "head", "mesh": 0},
+            {"name": "collar", "mesh": 1},
+        ],
         "scenes": [{"nodes": [0]}],
         "scene": 0,
     }

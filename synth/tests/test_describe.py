@@ -58,7 +58,8 @@ def test_cameras_and_sizes_are_described(described):
     wide = math.degrees(2 * math.atan(40 / 32 * math.tan(math.radians(12.5))))
     assert row(described, "000")[5] == f"{wide:.1f}° x 25.0°"
     assert "8 of 40 x 32 pixels: 4 views, 1 withheld ones in 4 other lights" in described
-    assert "toy" in described and "III" in described and "seed 1" in described
+    assert row(described, "fitzpatrick") == ["fitzpatrick", "III"] and row(described, "texture_size")[1] == "64"
+    assert row(described, "other parts")[1] == "rest, eye_left"
 
 
 @pytest.mark.parametrize("rgb", [(1, 1, 1), (1, 0.6, 0.3), (0.8, 0.95, 1.2), (1.0, 0.75, 0.5)])

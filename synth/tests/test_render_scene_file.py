@@ -83,7 +83,10 @@ def test_every_light_survives_writing_and_reading(folder):
 SCENES = Path(__file__).parents[2] / "scenes"
 
 
-@pytest.mark.parametrize("path", sorted(SCENES.glob("lights/*.toml")) + sorted(SCENES.glob("rigs/*.toml")) + sorted(SCENES.glob("faces/*.toml")), ids=lambda path: path.stem)
+FILES = [path for table in ("faces", "lights", "rigs") for path in sorted(SCENES.glob(f"{table}/*.toml"))]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_the_files_of_scenes_are_read(path):
     kind = path.parent.name[:-1]
     given = tomllib.loads(path.read_text())

@@ -249,6 +249,5 @@ class _Painter:
     def _within(self, key: str, values: np.ndarray, low: float, high: float, mend: str) -> None:
         smallest, largest = float(values.min()), float(values.max())
         if not (low <= smallest and largest <= high):
-            raise FaceError(
-                f"{getattr(self._head, key)}: {key} reaches from {smallest:.4g} to {largest:.4g} on the chart; {mend} {low:.3g} to {high:.3g}"
-            )
+            reach = f"{key} reaches from {smallest:.4g} to {largest:.4g} on the chart"
+            raise FaceError(f"{getattr(self._head, key)}: {reach}; {mend} {low:.3g} to {high:.3g}")

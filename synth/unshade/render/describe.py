@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from ..face import Face
-from ..face.spec import FaceSpec
 from ..heads import build_head
 from ..scene_file import Light, Scene
 from . import lights
@@ -42,21 +42,22 @@ def describe(scene: Scene) -> str:
 def _face(scene: Scene, face: Face) -> list[str]:
     head = scene.face
     size = 1000 * np.ptp(face.chart.vertices, axis=0)
-    lines = [f"  name             {head.name}"]
-    if isinstance(head, FaceSpec):
-        lines += [
-            f"  generated        seed {head.seed}, skin type {head.fitzpatrick}",
-            f"  gender, age, weight  {head.gender:.2f}, {head.age:.2f}, {head.weight:.2f}",
-        ]
-    else:
-        lines += [f"  files            {', '.join(head.files().values())}"]
+    lines = [f"  {key:<16} {_words(value)}" for key, value in head.to_table().items()]
     return [
         *lines,
         f"  chart            {len(face.chart.vertices)} vertices, {len(face.chart.triangles)} triangles, "
         f"{size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm",
         f"  other parts      {', '.join(part.name for part in face.parts) or 'none'}",
-        f"  maps             {head.texture_size} x {head.texture_size} texels",
     ]
+
+
+def _words(value: object) -> str:
+    """One value of a table on one line."""
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key} {_words(v)}" for key, v in value.items()) or "none"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(_words, value))
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _cameras(views: list[Camera]) -> list[str]:
@@ -91,9 +92,13 @@ def _light(light: Light, face: Face) -> tuple[str, ...]:
     level = float(mean @ LUMINANCE)
     kelvin = correlated_kelvin(mean)
     return (
-        f"{level:.4g}", f"{brightest:.4g}", f"{brightest / level:.4g}", ":".join(f"{c:.3f}" for c in mean / mean[1]) if mean[1] > 0 else "-",
-        f"{kelvin:.0f} K" if kelvin else "-", f"{most / math.pi:.3f} pi",
-    )  # fmt: skip
+        f"{level:.4g}",
+        f"{brightest:.4g}",
+        f"{brightest / level:.4g}",
+        ":".join(f"{c:.3f}" for c in mean / mean[1]) if mean[1] > 0 else "-",
+        f"{kelvin:.0f} K" if kelvin else "-",
+        f"{most / math.pi:.3f} pi",
+    )
 
 
 def mean_radiance(model: lights.AnyLight) -> np.ndarray:
@@ -112,7 +117,7 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
     return [
         f"  pictures         {pictures} of {size}: {len(views)} views, {withheld} withheld ones in {len(scene.relight)} other lights",
         f"  camera rays      {pictures * render.width * render.height * render.samples:.3g}",
-        *(f"  {key:<16} {value}" for key, value in settings.items()),
+        *(f"  {key:<16} {_words(value)}" for key, value in settings.items()),
     ]
 
 
