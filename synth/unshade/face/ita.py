@@ -20,9 +20,9 @@ from .regions import bump
 GROUPS = (("very light", 55.0), ("light", 41.0), ("intermediate", 28.0), ("tan", 10.0), ("brown", -30.0), ("dark", -90.0))
 """Groups of skin tone and the angle (degrees) above which each lies."""
 
-# Centres in template mm; a patch is a ball of this radius, about a colorimeter's area of view with what surrounds it.
+# Centres in template mm and radius: a few colorimeter readings side by side.
 _SITES = {"forehead": (0, 48, 22), "left_cheek": (42, -34, 8), "right_cheek": (-42, -34, 8)}
-_PATCH_MM = 14.0
+_PATCH_MM = 10.0
 
 _RGB_TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 """Linear Rec.709 to CIE 1931 XYZ (IEC 61966-2-1)."""
@@ -75,13 +75,9 @@ def face_ita(maps: Maps) -> Tone:
     lab = {}
     for name, centre in _SITES.items():
         near = np.flatnonzero(skin & (bump(points, centre, (_PATCH_MM,) * 3) > np.exp(-0.5)))
-        # Vertices lie about a millimetre apart; every texel of the patch counts by its nearest one's neighbourhood.
-        lab[name] = tuple(map(float, cielab(_patch_mean(maps, row[near], column[near]))))
+        # The texels of the rectangle that holds the patch.
+        box = np.s_[row[near].min() : row[near].max() + 1, column[near].min() : column[near].max() + 1]
+        mean = maps.diffuse_albedo[box][maps.labels[box] == Label.SKIN].mean(axis=0, dtype=np.float64)
+        lab[name] = tuple(map(float, cielab(mean)))
     angle = float(typology_angle(np.mean(list(lab.values()), axis=0)))
     return Tone(lab, angle, tone_group(angle))
-
-
-def _patch_mean(maps: Maps, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Mean albedo (3,) over the skin texels of the rectangle that holds these texels."""
-    box = np.s_[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
-    return maps.diffuse_albedo[box][maps.labels[box] == Label.SKIN].mean(axis=0, dtype=np.float64)

@@ -13,6 +13,7 @@ observer.
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 
 import numpy as np
@@ -41,10 +42,21 @@ _D65 = np.array([
 # scattering in it, and the power of the rest.
 _SCATTERING_AT_500, _RAYLEIGH_SHARE, _MIE_POWER = 48.0, 0.409, 0.702
 
+@dataclasses.dataclass(frozen=True)
+class Tissue:
+    """What lies over the blood: share of the epidermis' scattering that is left, and the oxygenation under it."""
+
+    scattering: float
+    oxygenation: float
+
+
+SKIN = Tissue(scattering=1.0, oxygenation=0.75)
+LIP = Tissue(scattering=0.35, oxygenation=0.90)
+"""The vermilion: hardly any horny layer scatters light, and its capillary loops are arterial."""
+
 _EPIDERMIS_CM = 0.006
 _HAEMOGLOBIN_GRAMS = 150.0  # per litre of whole blood
 _HAEMOGLOBIN_MOLAR = 64500.0  # g/mol
-_OXYGENATION = 0.75
 _REFRACTIVE_INDEX = 1.4
 
 MELANOSOMES = {"I": 0.0200, "II": 0.0333, "III": 0.0495, "IV": 0.0705, "V": 0.1191, "VI": 0.2102}
@@ -82,16 +94,16 @@ def _projection() -> np.ndarray:
     return rgb / rgb.sum(axis=0)
 
 
-def reflectance(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+def reflectance(melanin: np.ndarray, blood: np.ndarray, tissue: Tissue = SKIN) -> np.ndarray:
     """Diffuse reflectance (...,31) of skin with these volume fractions of melanosomes and blood."""
     melanin, blood = np.asarray(melanin)[..., None], np.asarray(blood)[..., None]
     baseline = 0.244 + 85.3 * np.exp(-(WAVELENGTHS - 154) / 66.2)
     epidermis = melanin * 6.6e11 * WAVELENGTHS**-3.33 + (1 - melanin) * baseline
-    extinction = _OXYGENATION * _OXY + (1 - _OXYGENATION) * _DEOXY
+    extinction = tissue.oxygenation * _OXY + (1 - tissue.oxygenation) * _DEOXY
     whole_blood = np.log(10) * extinction * _HAEMOGLOBIN_GRAMS / _HAEMOGLOBIN_MOLAR
     absorption = blood * whole_blood + (1 - blood) * baseline
     scattering = reduced_scattering(WAVELENGTHS)
-    return _layer(epidermis, scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
+    return _layer(epidermis, tissue.scattering * scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
 
 
 def reduced_scattering(wavelengths: np.ndarray) -> np.ndarray:
@@ -118,9 +130,9 @@ def _dipole(albedo: np.ndarray) -> np.ndarray:
     return albedo / 2 * (1 + np.exp(-4 / 3 * mismatch * root)) * np.exp(-root)
 
 
-def exact_colour(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+def exact_colour(melanin: np.ndarray, blood: np.ndarray, tissue: Tissue = SKIN) -> np.ndarray:
     """Linear Rec.709 diffuse albedo (...,3) from the full spectrum."""
-    return np.clip(reflectance(melanin, blood) @ _projection(), 0, 1)
+    return np.clip(reflectance(melanin, blood, tissue) @ _projection(), 0, 1)
 
 
 # Table knots grow with the square of the index: colour changes fastest where there is little pigment.
@@ -128,12 +140,12 @@ _KNOTS = 96
 
 
 @functools.cache
-def _table() -> np.ndarray:
+def _table(tissue: Tissue) -> np.ndarray:
     knots = (np.arange(_KNOTS) / (_KNOTS - 1)) ** 2
-    return exact_colour(MELANIN_LIMIT * knots[:, None], BLOOD_LIMIT * knots).astype(np.float32)
+    return exact_colour(MELANIN_LIMIT * knots[:, None], BLOOD_LIMIT * knots, tissue).astype(np.float32)
 
 
-def skin_colour(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
+def skin_colour(melanin: np.ndarray, blood: np.ndarray, tissue: Tissue = SKIN) -> np.ndarray:
     """Linear Rec.709 diffuse albedo (M,3) f32, bilinear in a table of `exact_colour`; fractions are clipped to the limits."""
 
     def position(fraction: np.ndarray, limit: float) -> tuple[np.ndarray, np.ndarray]:
@@ -142,7 +154,7 @@ def skin_colour(melanin: np.ndarray, blood: np.ndarray) -> np.ndarray:
         return low, (knot - low).astype(np.float32)[:, None]
 
     (i, s), (j, t) = position(melanin, MELANIN_LIMIT), position(blood, BLOOD_LIMIT)
-    table = _table()
+    table = _table(tissue)
     near = table[i, j] * (1 - t) + table[i, j + 1] * t
     far = table[i + 1, j] * (1 - t) + table[i + 1, j + 1] * t
     return near * (1 - s) + far * s

@@ -22,7 +22,7 @@ SPACING_MM = 1.05
 """Side of the square that each holds one pore: 91 per cm2, of which three in four are large enough to be seen."""
 
 _SHARE = 0.75
-_RADII_MM = (0.11, 0.24)
+_RADII_MM = (0.12, 0.27)
 """Radius, down to 1/e of the depth, of the smallest and the largest pore."""
 
 _PLATEAU_MM, _FURROW_MM = 0.85, 0.11

@@ -8,7 +8,7 @@ import numpy as np
 
 from .hair import HairStyle, scalp_cover
 from .noise import octaves
-from .pigment import BLOOD, BLOOD_LIMIT, MELANIN_LIMIT, MELANOSOMES, skin_colour
+from .pigment import BLOOD, BLOOD_LIMIT, LIP, MELANIN_LIMIT, MELANOSOMES, skin_colour
 from .regions import Regions, smoothstep
 from .relief import Relief
 from .spec import FaceSpec, stream
@@ -89,14 +89,11 @@ def chart_colour(
     lips = regions.lips * fade
     melanin = pigments.melanin * (1 + fade * even * (0.05 + 0.04 * spec.age) * fine) + fade * marks
     blood = pigments.blood * (1 + fade * (0.11 * mottle + 0.45 * relief.creases))
-    flesh = stream(spec.seed, "lip colour").uniform(0.8, 1.25)
-    # Lips: vessels show through a thin epidermis; pale skin's lips are more pigmented than the
-    # rest of it, dark skin's less, the lower one least.
-    share = 0.72 - regions.lower_lip * np.float32(0.9 * MELANOSOMES[spec.fitzpatrick])
-    melanin = melanin + lips * (share * MELANOSOMES[spec.fitzpatrick] + 0.014 - melanin)
-    blood = blood * (1 + lips * flesh * (4.0 + 0.5 * fine))
     blood = blood * (1 + 1.2 * rims["wet"])
     colour = skin_colour(np.clip(melanin, 0, MELANIN_LIMIT), np.clip(blood, 0, BLOOD_LIMIT))
+    there = np.flatnonzero(lips)
+    own = _lip_colour(melanin[there], blood[there] * (1 + 0.12 * fine[there]), regions.lower_lip[there], spec)
+    colour[there] += lips[there, None] * (own - colour[there])
 
     # Little light finds its way out of pores and folds.
     colour = colour * (1 - fade * (0.26 * relief.pores + 0.06 * relief.furrows + 0.14 * relief.creases))[:, None]
@@ -111,6 +108,20 @@ def chart_colour(
     specular = specular * (1 - fade * (0.45 * relief.pores + 0.15 * relief.furrows + 0.30 * relief.creases + 0.7 * cover["brow"]))
     specular = specular * (1 - 0.6 * rims["lash"]) + 0.012 * rims["wet"]
     return colour.astype(np.float32), np.clip(specular, 0, SPECULAR_LIMIT).astype(np.float32)
+
+
+def _lip_colour(melanin: np.ndarray, blood: np.ndarray, lower: np.ndarray, spec: FaceSpec) -> np.ndarray:
+    """Albedo (K,3) of lips in skin of these pigments; `lower` (K,) 1 on the lower one.
+
+    Pale skin's lips are more pigmented than the rest of it; dark skin's less, the lower one
+    least, and their epidermis stays nearer to that of skin.
+    """
+    amount = MELANOSOMES[spec.fitzpatrick]
+    share = 0.85 - lower * np.float32(0.1 + 0.5 * amount)
+    melanin = np.clip(melanin * share + np.float32(0.010), 0, MELANIN_LIMIT)
+    blood = np.clip(blood * (1 + 3.2 * stream(spec.seed, "lip colour").uniform(0.7, 1.2)), 0, BLOOD_LIMIT)
+    vermilion = np.float32(0.75 - 1.6 * amount)
+    return vermilion * skin_colour(melanin, blood, LIP) + (1 - vermilion) * skin_colour(melanin, blood)
 
 
 def _with_hair(colour: np.ndarray, cover: np.ndarray, hair: np.ndarray) -> np.ndarray:
