@@ -78,8 +78,8 @@ def require_chart(chart, count):
     assert [a.dtype for a in (chart.vertices, chart.normals, chart.uv, chart.triangles)] == [np.float32] * 3 + [np.uint32]
 
 
-@pytest.mark.parametrize(("share", "most_mm"), [(0.5, 0.05), (0.1, 0.4), (0.03, 1.6)])
-def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(share, most_mm):
+@pytest.mark.parametrize("share", [0.5, 0.1, 0.03])
+def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(share):
     small = degrade(SHEET, CapturedMesh(vertex_share=share), 1)
     assert len(small.vertices) == round(share * len(SHEET.vertices))
     require_chart(small, holes(SHEET))
@@ -89,8 +89,11 @@ def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(share, most_mm):
     # Against the tube's own equation at the middles of the triangles: chords cut the arc.
     corners = small.vertices.astype(float)[small.triangles]
     middles = np.concatenate([corners.mean(1), *((corners[:, k] + corners[:, k - 1]) / 2 for k in range(3))])
-    off = 1000 * np.abs(np.hypot(middles[:, 0], middles[:, 2]) - 0.16 / 2.2)
-    assert off.max() < most_mm
+    radius = 0.16 / 2.2
+    off = np.abs(np.hypot(middles[:, 0], middles[:, 2]) - radius)
+    # The sagitta of an even mesh's edge; the longest edge may be 2.6 times as long.
+    sagitta = 0.16**2 / len(SHEET.vertices) / share / (8 * radius)
+    assert off.max() < 7 * sagitta and off.mean() < 0.7 * sagitta
     assert deviation(SHEET, small)["max_distance_to_truth_mm"] < 1e-3
 
 
