@@ -65,6 +65,7 @@ def toy_face(spec: FaceSpec = SPEC) -> Face:
         diffuse_normal=tilted(0.05),
         labels=labels,
         inside=texels.inside,
+        roughness=f32(rng.uniform([0.12, 0.3, 0.4], [0.2, 0.4, 0.6], (*size, 3))),
     )
     shoulder = positions * [1.8, 0.5, 1.2] - [0.0, 0.15, 0.02]
     count = len(positions)

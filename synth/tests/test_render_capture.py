@@ -12,12 +12,13 @@ import pytest
 import render_toy  # isort: skip  (sets the variant, before drjit is imported)
 
 from unshade.errors import CaptureError, MapsError, PictureError, StorageError
+from unshade.face.ita import Tone
 from unshade.render import capture, llvm, relight, shots
 from unshade.render.pictures import read_exr, read_gray, write_exr
 from unshade.render.rigs import cameras
 from unshade.render.scene_text import scene_text
 from unshade.render.truth_scene import captured_scene
-from unshade.scene_file import parse_scene
+from unshade.scene_file import CapturedMesh, Formation, parse_scene
 
 CHOICE = llvm.choose("llvm_ad_rgb")
 
@@ -26,7 +27,13 @@ CHOICE = llvm.choose("llvm_ad_rgb")
 def toy(monkeypatch):
     """The procedural head in place of the painted one, for speed."""
     for module in (capture, relight):
-        monkeypatch.setattr(module, "build_face", render_toy.toy_face)
+        monkeypatch.setattr(module, "build_head", render_toy.toy_face)
+    monkeypatch.setattr(capture, "face_ita", toy_tone)
+
+
+def toy_tone(maps):
+    """The toy has neither forehead nor cheeks."""
+    return Tone({}, 20.0, "tan")
 
 
 def scene(**render):
@@ -45,7 +52,8 @@ def files(folder):
 def captured(tmp_path_factory):
     out = tmp_path_factory.mktemp("captured") / "capture"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(capture, "build_face", render_toy.toy_face)
+        patch.setattr(capture, "build_head", render_toy.toy_face)
+        patch.setattr(capture, "face_ita", toy_tone)
         capture.synthesise(scene(), out, CHOICE, no_progress)
     return out
 
@@ -55,7 +63,8 @@ def test_the_folder_is_complete(captured):
     expected = {"transforms.json", "mesh.obj", "truth/scene.toml", "truth/light.exr"}
     expected |= {f"{kind}/{name}.{end}" for name in frames for kind, end in (("images", "exr"), ("masks", "png"), ("labels", "png"))}
     expected |= {f"truth/layers/{name}.exr" for name in frames}
-    expected |= {f"truth/{name}.exr" for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal")}
+    expected |= {f"truth/{name}.exr" for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal", "roughness")}
+    expected |= {"truth/skin_tone.json"}
     expected |= {f"truth/{name}.png" for name in ("labels", "coverage", "views")}
     expected |= {f"truth/relit/{light}/{test}.exr" for light in ("studio", "uniform")}
     assert set(files(captured)) == expected
@@ -132,8 +141,8 @@ def test_what_another_scene_left_is_not_used(captured, tmp_path):
 def test_only_what_changed_is_rendered_again(captured, tmp_path, monkeypatch):
     monkeypatch.setenv("UNSHADE_RENDER_CACHE", str(tmp_path / "renders"))
     rendered = []
-    genuine = shots.render_layers
-    monkeypatch.setattr(shots, "render_layers", lambda *args, **named: rendered.append(1) or genuine(*args, **named))
+    genuine = shots.render_tier
+    monkeypatch.setattr(shots, "render_tier", lambda *args, **named: rendered.append(1) or genuine(*args, **named))
 
     def count(scene, name):
         rendered.clear()
@@ -150,6 +159,42 @@ def test_only_what_changed_is_rendered_again(captured, tmp_path, monkeypatch):
 
 def scene_cameras():
     return cameras(scene().rig, 16, 16)
+
+
+def test_image_formation_leaves_the_truth_alone(captured, tmp_path):
+    formed = replace(
+        scene(),
+        formation=Formation(white_level=1.0, full_well_electrons=500.0, bits=8, lens_distortion=(0.3, 0.0, 0.0, 0.0), pose_noise_pixels=0.5),
+        captured_mesh=CapturedMesh(smoothing_mm=4.0),
+    )
+    out = tmp_path / "capture"
+    capture.synthesise(formed, out, CHOICE, no_progress)
+    made, perfect = files(out), files(captured)
+    same = {name for name in perfect if made[name] == perfect[name]}
+    changed = {f"images/{name}.exr" for name in ("000", "001", "002")} | {"mesh.obj", "transforms.json", "truth/scene.toml"}
+    lensed = {f"{kind}/{name}.png" for kind in ("masks", "labels") for name in ("000", "001", "002")}
+    # Which texels the distorted views see may change, too; the truth of pictures and maps does not.
+    seen = {"truth/views.png", "truth/coverage.png"}
+    assert set(perfect) - same - seen == changed | lensed
+    assert set(made) - set(perfect) == {"truth/captured_mesh.json"}
+    poses, exact = (json.loads(folder["transforms.json"]) for folder in (made, perfect))
+    assert poses["camera_model"] == "OPENCV" and [frame.get("k1") for frame in poses["frames"]] == [0.3, 0.3, 0.3, None]
+    moved = [a["transform_matrix"] != b["transform_matrix"] for a, b in zip(poses["frames"], exact["frames"])]
+    assert moved == [True, True, True, False]
+    assert captured_scene(out).formation == formed.formation and captured_scene(out).captured_mesh == formed.captured_mesh
+
+
+def test_denoising_is_named_and_removes_noise(captured, tmp_path):
+    quiet = replace(scene(), render=replace(scene().render, denoise="oidn"), relight=())
+    out = tmp_path / "capture"
+    capture.synthesise(quiet, out, CHOICE, no_progress)
+    assert captured_scene(out).render.denoise == "oidn"
+    reference = replace(scene(), render=replace(scene().render, samples=1024, seed=9), relight=())
+    capture.synthesise(reference, tmp_path / "reference", CHOICE, no_progress)
+    mask = read_gray(captured / "masks/003.png") > 0
+    pictures = [rgb(folder / "images/003.exr")[mask] for folder in (out, captured, tmp_path / "reference")]
+    denoised, noisy, clean = pictures
+    assert np.square(denoised - clean).mean() < 0.7 * np.square(noisy - clean).mean()
 
 
 def test_the_truth_states_its_scene(captured):
@@ -203,7 +248,7 @@ def test_true_maps_relit_differ_from_the_truth_by_noise_alone(captured, oracle, 
 def test_an_interrupted_relighting_goes_on_to_the_same_bytes(captured, oracle, tmp_path):
     scales = {"none": 1.0, "global": 0.9}
     with pytest.raises(Killed):
-        run_relight(captured, oracle, tmp_path / "a", kill_at("view 003 in flash, scale none"), scales=scales)
+        run_relight(captured, oracle, tmp_path / "a", kill_at("view 003 in uniform, scale none"), scales=scales)
     resumed = run_relight(captured, oracle, tmp_path / "a", scales=scales)
     straight = run_relight(captured, oracle, tmp_path / "b", scales=scales)
     assert files(resumed) == files(straight)

@@ -103,34 +103,28 @@ def test_a_process_keeps_its_variant():
     assert "already renders with scalar_rgb" in child.stdout
 
 
-SCALAR_PICTURE = """
+MASK = """
 import sys; sys.path.insert(0, {tests!r})
 from unshade.render import llvm
 llvm.activate(llvm.choose({variant!r}))
 llvm.activate = lambda choice: None
-import render_toy, numpy as np
-from unshade.render import lights
-from unshade.render.passes import render_layers
+import render_toy, hashlib, numpy as np
 from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.probes import view_through_centres
 face = render_toy.toy_face()
 head = HeadScene(face.chart, face.parts, ChartMaps.truth(face))
 camera = Camera("000", 16, 16, 32.0, look_at(np.array([0.2, 0.1, 0.45]), np.zeros(3)), True)
-layers = render_layers(head.lit(lights.studio().scaled(8.0)), camera.sensor(16), samples=16, depth=3, seed=1)
-print(layers.diffuse.sum(), layers.specular.sum(), layers.variance.sum(), view_through_centres(head, camera).mask.sum())
+mask = view_through_centres(head, camera).mask
+print(mask.sum(), hashlib.sha256(mask.tobytes()).hexdigest())
 """
 
 
-def test_the_fallback_renders_the_same_picture():
-    """Other samples, but the same expectation in both layers, and the same mask."""
-    results = []
+def test_the_fallback_sees_the_same_mask():
+    """That it renders the same picture is the check `physics.variants`."""
+    masks = []
     for variant in ("scalar_rgb", "llvm_ad_rgb"):
-        child = run(SCALAR_PICTURE.format(tests=str(Path(__file__).parent), variant=variant))
+        child = run(MASK.format(tests=str(Path(__file__).parent), variant=variant))
         assert child.returncode == 0, child.stderr
-        results.append([float(word) for word in child.stdout.split()])
-    (diffuse, specular, variance, mask), (diffuse_jit, specular_jit, variance_jit, mask_jit) = results
-    error = (variance + variance_jit) ** 0.5 * 3
-    assert abs(diffuse - diffuse_jit) < 4 * error
-    assert abs(specular - specular_jit) < 4 * error
-    assert mask == mask_jit
+        masks.append(child.stdout.split())
+    assert int(masks[0][0]) > 20 and masks[0] == masks[1]

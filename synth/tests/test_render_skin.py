@@ -1,36 +1,28 @@
-"""The skin material against what any material must obey: sampling that matches its
-density, no more light out than in, the same light both ways."""
+"""The skin material: what its maps mean. (`test_physics_material` has what any material must
+obey: sampling that matches its density, no energy made, the same light both ways.)"""
 
 import numpy as np
 import pytest
 import render_toy  # isort: skip  (sets the variant, before drjit is imported)
 import drjit as dr
 import mitsuba as mi
-from mitsuba.chi2 import ChiSquareTest, SphericalDomain
 
-TILTS = {
-    "flat": ((0.0, 0.0, 1.0), (0.0, 0.0, 1.0)),
-    "tilted": ((0.1, -0.1, 1.0), (0.3, 0.2, 1.0)),
-    "far": ((0.0, 0.2, 1.0), (-0.5, 0.4, 1.0)),
-}
 PARTS = {"all": None, "diffuse": +mi.BSDFFlags.DiffuseReflection, "specular": +mi.BSDFFlags.GlossyReflection}
 
 
+def bitmap(picture):
+    return {"type": "bitmap", "bitmap": mi.Bitmap(np.array(picture, np.float32)), "raw": True}
+
+
 def constant(values):
-    picture = np.broadcast_to(np.float32(values), (2, 2, np.size(values)))
-    return {"type": "bitmap", "bitmap": mi.Bitmap(np.array(picture)), "raw": True}
+    return bitmap(np.broadcast_to(np.float32(values), (2, 2, np.size(values))))
 
 
-def skin(tilt="flat", diffuse=0.5, specular=0.04):
-    n_d, n_s = (np.array(n) / np.linalg.norm(n) for n in TILTS[tilt])
+def skin(diffuse=0.5, specular=0.04, roughness=None, **others):
+    """``roughness``: a constant, or a picture [H, W, 3]."""
+    others |= {} if roughness is None else {"roughness": constant(roughness) if np.ndim(roughness) == 1 else bitmap(roughness)}
     return mi.load_dict(
-        {
-            "type": "skin",
-            "diffuse": constant([diffuse] * 3),
-            "specular": constant([specular]),
-            "diffuse_normal": constant(n_d),
-            "specular_normal": constant(n_s),
-        }
+        {"type": "skin", "diffuse": constant([diffuse] * 3), "specular": constant([specular]), **others}
     )
 
 
@@ -47,31 +39,13 @@ def direction(theta_degrees, phi_degrees):
     return mi.Vector3f(*map(float, (level * np.cos(phi), level * np.sin(phi), np.cos(theta))))
 
 
-def interaction(wi, count):
+def interaction(wi, count, u=0.5):
     si = dr.zeros(mi.SurfaceInteraction3f, count)
     si.wi = wi
-    si.uv = mi.Point2f(0.5)
+    si.uv = mi.Point2f(u, 0.5)
     si.n = mi.Normal3f(0, 0, 1)
     si.sh_frame = mi.Frame3f(*(mi.Vector3f(*axis) for axis in np.eye(3).tolist()))
     return si
-
-
-@pytest.mark.parametrize("part", PARTS)
-@pytest.mark.parametrize("theta", [1, 30, 60, 80, 88])
-@pytest.mark.parametrize("tilt", TILTS)
-def test_samples_follow_the_density(tilt, theta, part):
-    bsdf, ctx, wi = skin(tilt), context(part), direction(theta, 40)
-
-    def sample(u):
-        bs, weight = bsdf.sample(ctx, interaction(wi, dr.width(u)), u[2], mi.Point2f(u[0], u[1]))
-        return bs.wo, dr.select(dr.max(weight) > 0, mi.Float(1), mi.Float(0))
-
-    def density(wo):
-        return bsdf.pdf(ctx, interaction(wi, dr.width(wo)), wo)
-
-    test = ChiSquareTest(SphericalDomain(), sample, density, sample_dim=3, sample_count=500_000, res=101, ires=16)
-    # 45 tests at a joint significance of 1 % (Sidak).
-    assert test.run(0.01, test_count=45), test.messages
 
 
 def reflected(bsdf, ctx, wi, count=1 << 18):
@@ -117,51 +91,70 @@ def test_furnace_on_a_head():
     assert lit.max() < 1.1
 
 
-def test_reciprocity_of_each_term_about_its_own_normal():
-    """f cos / (n.l) is symmetric where diffuse and specular normal agree; about different
-    normals each term is symmetric about its own."""
-    rng = np.random.default_rng(3)
-    wi, wo = map(to_vector, hemisphere(rng, 2))
-    for tilt in TILTS:
-        bsdf = skin(tilt)
-        for part, normal in zip(("diffuse", "specular"), TILTS[tilt]):
-            n = mi.Vector3f(*map(float, np.array(normal) / np.linalg.norm(normal)))
-            there = one_way(bsdf, context(part), wi, wo, n)
-            back = one_way(bsdf, context(part), wo, wi, n)
-            # The Lambert term does not ask from where it is seen, so compare only where both ways are lit.
-            both = (there > 0) & (back > 0)
-            assert both.sum() > 100
-            np.testing.assert_allclose(there[both], back[both], rtol=2e-4)
-
-
-def hemisphere(rng, sets, count=500):
-    for _ in range(sets):
-        v = rng.standard_normal((count, 3))
-        v[:, 2] = np.abs(v[:, 2]) + 0.05
-        yield v / np.linalg.norm(v, axis=1, keepdims=True)
-
-
-def to_vector(v):
-    return mi.Vector3f(*(mi.Float(column.astype(np.float32)) for column in v.T))
-
-
-def one_way(bsdf, ctx, wi, wo, normal):
-    value = bsdf.eval(ctx, interaction(wi, dr.width(wi)), wo)
-    return np.array(value.x / dr.dot(normal, wo))
-
-
 def test_a_map_without_direction_means_the_mesh_normal():
-    zero = mi.load_dict(
-        {
-            "type": "skin",
-            "diffuse": constant([0.5] * 3),
-            "specular": constant([0.04]),
-            "diffuse_normal": constant([0.0, 0.0, 0.0]),
-            "specular_normal": constant([0.0, 0.0, 0.0]),
-        }
-    )
+    zero = skin(diffuse_normal=constant([0.0, 0.0, 0.0]), specular_normal=constant([0.0, 0.0, 0.0]))
     wi, wo = direction(30, 10), direction(50, 200)
     for part in PARTS:
         ctx = context(part)
         expected = skin().eval(ctx, interaction(wi, 1), wo)
         np.testing.assert_allclose(zero.eval(ctx, interaction(wi, 1), wo), expected, rtol=1e-6)
+
+
+def values(bsdf, u=0.5, wo=direction(50, 200)):
+    """Value and density towards one direction."""
+    value, pdf = bsdf.eval_pdf(context("specular"), interaction(direction(30, 10), 1, u), wo)
+    return float(value.x[0]), float(pdf[0])
+
+
+def test_a_roughness_map_of_the_standard_values_changes_nothing():
+    np.testing.assert_allclose(values(skin(roughness=[0.15, 0.35, 0.5])), values(skin()), rtol=1e-6)
+
+
+def test_roughness_varies_over_the_map():
+    rough = [[[0.1, 0.3, 0.8]], [[0.25, 0.5, 0.2]]]
+    varied = skin(roughness=np.swapaxes(rough, 0, 1))
+    for u, (texel,) in zip((0.25, 0.75), rough):
+        np.testing.assert_allclose(values(varied, u), values(skin(roughness=texel)), rtol=1e-6)
+    middle = np.mean(rough, 0)[0]
+    np.testing.assert_allclose(values(varied, 0.5), values(skin(roughness=middle)), rtol=1e-5)
+
+
+def test_the_share_is_that_of_the_first_lobe():
+    """Far from the mirror direction a wide lobe is bright and a narrow one dark."""
+    narrow, wide = (values(skin(roughness=[0.05, 0.5, share])) for share in (1.0, 0.0))
+    mixed = values(skin(roughness=[0.05, 0.5, 0.25]))
+    assert wide[0] > 20 * narrow[0]
+    np.testing.assert_allclose(mixed, 0.25 * np.array(narrow) + 0.75 * np.array(wide), rtol=1e-5)
+
+
+def test_roughness_out_of_range_is_held_in_it():
+    from unshade.render.skin_bsdf import MIN_ALPHA
+
+    mirror = direction(30, 190)
+    for wild, tame in (([0.0, 3.0, 0.5], [MIN_ALPHA, 1.0, 0.5]), ([0.2, 0.4, 1.7], [0.2, 0.4, 1.0])):
+        got, expected = (values(skin(roughness=lobes), wo=mirror) for lobes in (wild, tame))
+        assert np.isfinite(got).all()
+        np.testing.assert_allclose(got, expected, rtol=1e-6)
+
+
+def test_the_true_roughness_of_a_face_reaches_its_picture():
+    """Smoother skin has the brighter highlight; without the map the standard lobes serve."""
+    import dataclasses
+
+    from unshade.render import lights
+    from unshade.render.camera import Camera, look_at
+    from unshade.render.passes import render_layers
+    from unshade.render.scene import ChartMaps, HeadScene
+
+    face = render_toy.toy_face()
+    camera = Camera("000", 40, 40, 80.0, look_at(np.array([0, 0, 0.5]), np.zeros(3)), True)
+
+    def highlights(roughness):
+        picture = None if roughness is None else np.broadcast_to(np.float32(roughness), (4, 4, 3))
+        maps = dataclasses.replace(face.maps, roughness=picture, specular_normal=np.zeros((2, 2, 3), np.float32))
+        head = HeadScene(face.chart, [], ChartMaps.truth(dataclasses.replace(face, maps=maps)))
+        return render_layers(head.lit(lights.studio().scaled(8.0)), camera.sensor(64), samples=64, depth=2, seed=1).specular
+
+    standard = highlights(None)
+    np.testing.assert_allclose(highlights([0.15, 0.35, 0.5]), standard, rtol=1e-3, atol=1e-6)
+    assert highlights([0.08, 0.15, 0.5]).max() > 1.5 * standard.max()

@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 from importlib.metadata import version
 from pathlib import Path
 
-_LIBRARIES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "anny", "pillow")
+_LIBRARIES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "anny", "pillow", "trimesh")
 
 
+@functools.cache  # sources that change later are not those at work here
 def fingerprint() -> str:
     """Versions of the libraries and a BLAKE2 hash of the sources that make a picture."""
     package = Path(__file__).parent

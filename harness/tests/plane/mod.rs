@@ -171,6 +171,8 @@ fn write_truth(truth: &Path) {
     write_rgb(&truth.join("diffuse_albedo.exr"), &map(SIDE, 3, albedo));
     let gloss = map(SIDE, 1, |u, v| [0.02 + 0.02 * (5.0 * u).sin() * (4.0 * v).cos(); 3]);
     write_exr(&truth.join("specular_albedo.exr"), &gloss, &["Y"]).unwrap();
+    let roughness = map(SIDE, 3, |_, _| [0.15, 0.35, 0.5]);
+    write_exr(&truth.join("roughness.exr"), &roughness, &["alpha1", "alpha2", "share1"]).unwrap();
     // Tilted by 6 and 3 degrees: the plain mesh normal is off by just that.
     for (name, degrees) in [("specular_normal.exr", 6.0_f64), ("diffuse_normal.exr", 3.0)] {
         let (sin, cos) = degrees.to_radians().sin_cos();

@@ -7,7 +7,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.spatial import cKDTree
 
 from .eyeball import clearance
-from .lids import between, margin
+from .lids import between, margin, margin_sides
 from .regions import smoothstep
 
 _LID_REACH = 1.7
@@ -41,7 +41,7 @@ def close_lids(moved: np.ndarray, offset: np.ndarray, weight: float, triangles: 
     angle, radius = np.arctan2(start[:, 1], start[:, 2]), np.hypot(start[:, 1], start[:, 2])
     turn = np.zeros(len(moved))
     turn[near] = np.arctan2(end[:, 1] * start[:, 2] - end[:, 2] * start[:, 1], (start[:, 1:] * end[:, 1:]).sum(axis=1))
-    stretch = _stretch(moved - eye[:3], turn, margin(triangles, clearance(moved, eye, gaze))[:2])
+    stretch = _stretch(moved - eye[:3], turn, triangles, clearance(moved, eye, gaze))
     reach = weight * np.interp(start[:, 0], *stretch)
     angle = angle + reach * turn[near]
     radius = radius + reach * (np.hypot(end[:, 1], end[:, 2]) - radius)
@@ -50,21 +50,20 @@ def close_lids(moved: np.ndarray, offset: np.ndarray, weight: float, triangles: 
     return closed
 
 
-def _stretch(points: np.ndarray, turn: np.ndarray, crossing: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def _stretch(points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """By what factor the turns (V,) about the eyeball's x axis close the lids, as a curve over x (m)."""
-    edge, closing = between(points, *crossing), between(turn, *crossing)
+    crossing, share, hidden = margin(triangles, gap)
+    edge, closing = between(points, crossing, share), between(turn, crossing, share)
+    upper, lower = margin_sides(triangles, crossing, hidden, edge)
     angle = np.arctan2(edge[:, 1], edge[:, 2])
-    # The line from corner to corner tells the upper from the lower margin.
-    inner, outer = edge[:, 0].argmin(), edge[:, 0].argmax()
-    upper = angle > np.interp(edge[:, 0], edge[[inner, outer], 0], angle[[inner, outer]])
-    x = np.linspace(edge[inner, 0], edge[outer, 0], _COLUMNS)
+    x = np.linspace(edge[upper, 0].min(), edge[upper, 0].max(), _COLUMNS)
 
     def column(values: np.ndarray, side: np.ndarray) -> np.ndarray:
         order = np.argsort(edge[side, 0])
         return np.interp(x, edge[side, 0][order], values[side][order])
 
-    opening = column(angle, upper) - column(angle, ~upper) + _OVERLAP
-    way = column(closing, ~upper) - column(closing, upper)
+    opening = column(angle, upper) - column(angle, lower) + _OVERLAP
+    way = column(closing, lower) - column(closing, upper)
     # Near the corners both vanish: lean on the mean ratio there, and keep the curve smooth, or the skin would crease.
     mean, ease = opening.sum() / way.sum(), 0.2 * way.max()
     stretch = (opening + ease * mean) / (np.maximum(way, 0) + ease)
@@ -85,7 +84,7 @@ def lift_lids(resting: np.ndarray, moved: np.ndarray, triangles: np.ndarray, soc
     near = np.flatnonzero(np.linalg.norm(resting - eye[:3], axis=1) < _LID_REACH * eye[3])
     held = rim[near]
     held[np.isin(near, socket)] = True
-    floor = np.minimum(rest[near], _THICKNESS)
+    floor = np.where(held, rest[near], np.minimum(rest[near], _THICKNESS))
     way = smoothstep(0, _UNROLLED, np.linalg.norm(moved[near] - resting[near], axis=1))
     away = smoothstep(*_EDGE, cKDTree(between(resting, crossing, share)).query(resting[near])[0])
     floor += ~held * way * np.maximum(away * _THICKNESS - floor, 0)

@@ -32,8 +32,7 @@ class Maps:
     `specular_albedo` (N,N) f32, reflectance at normal incidence, 0 to 0.05; `specular_normal`
     and `diffuse_normal` (N,N,3) f32 unit vectors in object space (= world); `labels` (N,N) u8,
     ids of `Label`, 0 outside; `inside` (N,N) bool: the texel's centre lies in the chart;
-    `roughness` (N,N,3) f32: GGX alphas of the two specular lobes and the share of the first
-    (None: `roughness.NOMINAL` everywhere).
+    `roughness` (N,N,3) f32: GGX alphas of the two specular lobes and the share of the first.
     """
 
     diffuse_albedo: np.ndarray
@@ -42,7 +41,7 @@ class Maps:
     diffuse_normal: np.ndarray
     labels: np.ndarray
     inside: np.ndarray
-    roughness: np.ndarray | None = None
+    roughness: np.ndarray
 
 
 # Detail of the chart fades out over this distance (mm) from its outer rim.

@@ -8,7 +8,7 @@ from scipy.ndimage import gaussian_filter1d
 from .eyeball import clearance
 from .geometry import Geometry, Part, unit, vertex_normals
 from .head import Head
-from .lids import between, margin
+from .lids import between, margin, margin_sides
 from .regions import smoothstep
 
 _HEIGHT = 0.00032
@@ -45,25 +45,24 @@ def _wet_line(name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.n
     edge = between(positions, crossing, share)
     # From the hidden rim out over the lid's edge.
     skin = unit(positions[np.where(hidden[crossing[:, 0]], crossing[:, 1], crossing[:, 0])] - edge)
-    inner, outer = edge[:, 0].argmin(), edge[:, 0].argmax()
-    upper = edge[:, 1] > np.interp(edge[:, 0], edge[[inner, outer], 0], edge[[inner, outer], 1])
-    x = np.linspace(edge[inner, 0], edge[outer, 0], _COLUMNS + 2)[1:-1]
+    upper, lower = margin_sides(triangles, crossing, hidden, edge)
+    x = np.linspace(edge[lower, 0].min(), edge[lower, 0].max(), _COLUMNS + 2)[1:-1]
 
     def course(values: np.ndarray, side: np.ndarray) -> np.ndarray:
         order = np.argsort(edge[side, 0])
         columns = [np.interp(x, edge[side, 0][order], column) for column in values[side][order].T]
         return gaussian_filter1d(np.stack(columns, axis=1), _SMOOTH, axis=0, mode="nearest")
 
-    opening = np.linalg.norm(course(edge, upper) - course(edge, ~upper), axis=1).max()
+    opening = (course(edge, upper) - course(edge, lower))[:, 1].max()
     height = _HEIGHT * float(smoothstep(*_OPEN, opening))
     if height == 0:
         return None
-    root = _lowered(course(edge, ~upper), eye, gaze)
+    root = _lowered(course(edge, lower), eye, gaze)
     along = unit(np.gradient(root, axis=0))
     outward = unit(root - eye[:3])
     up = unit(np.cross(outward, along))
     up *= np.sign(up[:, 1:2])
-    skin = course(skin, ~upper)
+    skin = course(skin, lower)
     skin = unit(skin - (skin * along).sum(axis=1, keepdims=True) * along)
     ends = np.sin(np.pi * (np.arange(_COLUMNS) + 0.5) / _COLUMNS)[:, None] ** 0.4
     low, high = root + height * ends * skin, _lowered(root + height * ends * up, eye, gaze, _CLEAR)

@@ -1,4 +1,8 @@
-"""Renders a scene into a capture folder: pictures, masks, labels, mesh, and the truth."""
+"""Renders a scene into a capture folder: pictures, masks, labels, mesh, and the truth.
+
+What solvers get (images, masks, labels, mesh, cameras) goes through the scene's image
+formation; everything under ``truth/`` is that of the perfect face and perfect pinholes.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +15,16 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..face import Face, build_face
+from .. import formation
+from ..captured_mesh import degrade, deviation
+from ..face import Chart, Face, FaceSpec
+from ..face.ita import face_ita
 from ..fingerprint import fingerprint
-from ..scene_file import Light, Scene
+from ..heads import build_head
+from ..own_head import HeadFiles
+from ..own_head.keep import keep
+from ..scene_file import CapturedMesh, Light, Scene
+from .camera import Camera
 from .folder import ResumableFolder, content_hash
 from .layers import Layers
 from .llvm import Choice
@@ -21,16 +32,16 @@ from .mesh_file import obj_text
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import read_gray, read_rgb, write_exr, write_gray, write_text
+from .pictures import ROUGHNESS_CHANNELS, read_gray, read_rgb, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
-from .camera import Camera
 from .rigs import cameras
 from .scene import ChartMaps
-from .scene_text import scene_text, with_own_pictures
+from .scene_text import scene_text, with_own_files
 from .shots import Shots
 
-_ENVIRONMENTS = Path("lights")
-"""Where the environment maps of a capture lie, seen from its ``truth/scene.toml``."""
+_ENVIRONMENTS, _HEAD = Path("lights"), Path("head")
+"""Where a capture keeps its environment maps and the files of a head of one's own, seen from
+its ``truth/scene.toml``."""
 
 
 def synthesise(scene: Scene, out: Path, choice: Choice, progress: Progress) -> None:
@@ -48,43 +59,69 @@ class Capture:
     def __init__(self, scene: Scene, out: Path, choice: Choice, progress: Progress) -> None:
         self.scene = scene
         self.stated = replace(
-            with_own_pictures(scene, _ENVIRONMENTS),
+            with_own_files(scene, _ENVIRONMENTS, _HEAD),
             render=replace(scene.render, variant=choice.variant),
             versions=versions(choice),
         )
-        environments = [content_hash(Path(light.path)) for light in scene.lights if light.path]
-        self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint()}\n{environments}")
+        files = [light.path for light in scene.lights if light.path]
+        files += scene.face.files().values() if isinstance(scene.face, HeadFiles) else []
+        contents = [content_hash(Path(path)) for path in files]
+        self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint()}\n{contents}")
         self.path = self.folder.path
         self.truth = self.path / "truth"
-        self.cameras = cameras(scene.rig, scene.render.width, scene.render.height)
-        self.tests = [camera for camera in self.cameras if not camera.train]
         render = scene.render
+        self.cameras = cameras(scene.rig, render.width, render.height)
+        self.tests = [camera for camera in self.cameras if not camera.train]
+        self.real = {camera.name: formation.capture_camera(camera, scene) for camera in self.cameras}
+        self.lenses = {name: formation.camera_lens(camera, scene) for name, camera in self.real.items()}
         pictures = len(self.cameras) + len(self.tests) * len(scene.relight)
+        pictures += sum(lens is not None for lens in self.lenses.values())
         self.meter = Meter(progress, pictures, render.width * render.height * render.samples)
 
     def write(self) -> None:
         self.meter.note("face")
-        face = build_face(self.scene.face)
+        face = build_head(self.scene.face)
         shots = Shots(face, ChartMaps.truth(face), self.stated.render, PictureStore.of_user())
-        self._write_mesh_and_maps(face)
+        self._write_mesh(face.chart)
+        self._write_maps(face)
         self._write_views(face, shots)
         for light in self.scene.relight:
             self._write_relit(shots, light)
         self.meter.note("visibility")
         self._write_coverage(face, shots)
-        write_text(self.path / "transforms.json", transforms_text(self.cameras))
         write_text(self.truth / "scene.toml", scene_text(self.stated))
         self.folder.commit()
         self.meter.note("capture")
 
-    def _write_mesh_and_maps(self, face: Face) -> None:
+    def _write_mesh(self, perfect: Chart) -> None:
+        """The mesh that solvers get, and the cameras that were fitted to it."""
+        spec = self.scene.captured_mesh
+        mesh = degrade(perfect, spec, seed_of("mesh", self.scene.render.seed))
+        write_text(self.path / "mesh.obj", obj_text(mesh))
+        if spec != CapturedMesh():
+            _write_json(self.truth / "captured_mesh.json", deviation(perfect, mesh))
+        frames = [formation.stated_frame(camera, self.scene, mesh) for camera in self.cameras]
+        document = {
+            "camera_model": formation.camera_model(self.scene),
+            "mesh": "mesh.obj",
+            "frames": frames,
+            "train_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if c.train],
+            "test_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if not c.train],
+        }
+        _write_json(self.path / "transforms.json", document)
+
+    def _write_maps(self, face: Face) -> None:
         maps = face.maps
-        write_text(self.path / "mesh.obj", obj_text(face.chart))
         write_exr(self.truth / "diffuse_albedo.exr", {"": maps.diffuse_albedo})
         write_exr(self.truth / "specular_albedo.exr", {"Y": maps.specular_albedo})
         write_exr(self.truth / "diffuse_normal.exr", {"": maps.diffuse_normal})
         write_exr(self.truth / "specular_normal.exr", {"": maps.specular_normal})
+        write_exr(self.truth / "roughness.exr", dict(zip(ROUGHNESS_CHANNELS, np.moveaxis(maps.roughness, -1, 0))))
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
+        if isinstance(face.spec, FaceSpec):
+            _write_json(self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table())
+        else:
+            keep(face.spec, self.truth / _HEAD)
         for light in self.scene.lights:
             if light.path:
                 picture = read_rgb(light.path).clip(0)
@@ -99,28 +136,41 @@ class Capture:
             image = self.path / "images" / f"{name}.exr"
             if image.exists():
                 continue
-            centres = view_through_centres(shots.head, camera)
+            centres = view_through_centres(shots.head, self.real[name])
             labels = np.where(centres.mask, nearest_texels(face.maps.labels, centres.uv), 0)
             write_gray(self.path / "masks" / f"{name}.png", np.where(centres.mask, 255, 0).astype(np.uint8))
             write_gray(self.path / "labels" / f"{name}.png", labels.astype(np.uint8))
-            layers = shots.layers(own, camera, self._seed(own, camera), report)
+            layers = self._layers(shots, own, camera, report)
             write_exr(self.truth / "layers" / f"{name}.exr", layers.channels())
             if not camera.train:
                 self._write_true(own, camera, layers)
             # Last, since it marks the view as finished.
-            write_exr(image, {"": layers.total})
+            write_exr(image, {"": self._photograph(shots, camera, layers)})
+
+    def _photograph(self, shots: Shots, camera: Camera, perfect: Layers) -> np.ndarray:
+        """What solvers get of a view: for withheld ones, the truth itself."""
+        if not camera.train:
+            return perfect.total
+        seed = seed_of("photograph", self.scene.render.seed, camera.name)
+        lens, taken = self.lenses[camera.name], perfect
+        if lens is not None:
+            report = self.meter.begin(f"view {camera.name} through its lens")
+            shared = seed_of("photograph", self.scene.render.seed)
+            taken = shots.layers(self.scene.light, self.real[camera.name], seed, shared, report, lens)
+        return formation.expose(taken.total, self.scene.formation, seed)
 
     def _write_relit(self, shots: Shots, light: Light) -> None:
         for camera in self.tests:
             report = self.meter.begin(f"view {camera.name} in {light.name}")
             if not self._relit_path(light, camera).exists():
-                self._write_true(light, camera, shots.layers(light, camera, self._seed(light, camera), report))
+                self._write_true(light, camera, self._layers(shots, light, camera, report))
 
     def _write_true(self, light: Light, camera: Camera, layers: Layers) -> None:
         write_exr(self._relit_path(light, camera), {"": layers.total, **layers.channels()})
 
-    def _seed(self, light: Light, camera: Camera) -> int:
-        return seed_of("truth", self.scene.render.seed, light.name, camera.name)
+    def _layers(self, shots: Shots, light: Light, camera: Camera, report) -> Layers:
+        seed = self.scene.render.seed
+        return shots.layers(light, camera, seed_of("truth", seed, light.name, camera.name), seed, report)
 
     def _relit_path(self, light: Light, camera: Camera) -> Path:
         return self.truth / "relit" / light.name / f"{camera.name}.exr"
@@ -128,25 +178,16 @@ class Capture:
     def _write_coverage(self, face: Face, shots: Shots) -> None:
         visibility = TexelVisibility(shots.head, face.chart, self.scene.face.texture_size)
         views = sum(
-            visibility.seen_by(camera, read_gray(self.path / "masks" / f"{camera.name}.png") > 0).astype(int)
-            for camera in self.cameras
+            visibility.seen_by(camera, read_gray(self.path / "masks" / f"{name}.png") > 0).astype(int)
+            for name, camera in self.real.items()
             if camera.train
         )
         write_gray(self.truth / "views.png", views.clip(0, 255).astype(np.uint8))
         write_gray(self.truth / "coverage.png", np.where(views > 0, 255, 0).astype(np.uint8))
 
 
-def transforms_text(rig: list[Camera]) -> str:
-    """``transforms.json`` in the manner of nerfstudio."""
-    frames = [camera.frame() for camera in rig]
-    document = {
-        "camera_model": "PINHOLE",
-        "mesh": "mesh.obj",
-        "frames": frames,
-        "train_filenames": [f["file_path"] for f, c in zip(frames, rig) if c.train],
-        "test_filenames": [f["file_path"] for f, c in zip(frames, rig) if not c.train],
-    }
-    return json.dumps(document, indent=1) + "\n"
+def _write_json(path: Path, document: dict) -> None:
+    write_text(path, json.dumps(document, indent=1) + "\n")
 
 
 def versions(choice: Choice) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from collections.abc import Callable
@@ -153,5 +154,6 @@ def _save(page: Image.Image, out: Path) -> None:
         page.save(partial, format="PNG", optimize=True)
         os.replace(partial, out)
     except OSError as error:
-        partial.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            partial.unlink()
         raise StorageError(f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder") from error

@@ -14,6 +14,9 @@ from PIL import Image
 
 from ..errors import PictureError, StorageError
 
+ROUGHNESS_CHANNELS = ("alpha1", "alpha2", "share1")
+"""Of a roughness map: GGX alphas of the two lobes, and the share of the first."""
+
 _OPENEXR = mi.Bitmap.FileFormat.OpenEXR
 
 

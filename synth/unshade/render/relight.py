@@ -10,24 +10,25 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import MapsError
-from ..face import build_face
 from ..fingerprint import fingerprint
+from ..heads import build_head
 from ..scene_file import Scene
 from .folder import ResumableFolder, content_hash
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import read_exr, write_exr, write_text
+from .pictures import ROUGHNESS_CHANNELS, read_exr, write_exr, write_text
 from .rigs import cameras
 from .scene import ChartMaps
 from .scene_text import scene_text
 from .shots import Shots
 
 _FILES = {
-    "diffuse_albedo": "RGB",
-    "specular_albedo": "Y",
-    "diffuse_normal": "RGB",
-    "specular_normal": "RGB",
+    "diffuse_albedo": tuple("RGB"),
+    "specular_albedo": ("Y",),
+    "diffuse_normal": tuple("RGB"),
+    "specular_normal": tuple("RGB"),
+    "roughness": ROUGHNESS_CHANNELS,
 }
 """Maps of a folder and the channels of their EXR files."""
 
@@ -59,7 +60,7 @@ def relight(
     jobs = [(scale, light, view) for scale in scales for light in scene.lights for view in views]
     meter = Meter(progress, len(jobs), render.width * render.height * render.samples)
     meter.note("face")
-    face = build_face(scene.face)
+    face = build_head(scene.face)
     shots = Shots(face, chart_maps, render, PictureStore.of_user())
     current = None
     for scale, light, view in jobs:
@@ -75,7 +76,8 @@ def relight(
         if scale != current:
             shots.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
             current = scale
-        layers = shots.layers(light, view, seed_of("relit", render.seed, seed_offset, light.name, view.name), report)
+        seeds = (seed_of("relit", render.seed, seed_offset, light.name, name) for name in (view.name, "shared"))
+        layers = shots.layers(light, view, *seeds, report)
         write_exr(path, {"": layers.total, **layers.channels()})
     document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
     write_text(folder.path / "relit.json", json.dumps(document, indent=1) + "\n")
@@ -95,7 +97,7 @@ def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
     return ChartMaps(**found)
 
 
-def _read_map(path: Path, channels: str) -> np.ndarray | None:
+def _read_map(path: Path, channels: tuple[str, ...]) -> np.ndarray | None:
     if not path.exists():
         return None
     planes = read_exr(path)

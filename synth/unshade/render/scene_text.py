@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from ..own_head.keep import kept
+from ..own_head.spec import HeadFiles
 from ..scene_file import FORMAT, Light, Scene
 
 
@@ -17,7 +19,7 @@ def scene_text(scene: Scene) -> str:
         ("face", scene.face.to_table()),
         ("light", scene.light.to_table()),
         ("rig", scene.rig.to_table()),
-        ("render", asdict(scene.render)),
+        ("render", scene.render.to_table()),
         ("image_formation", scene.formation.to_table()),
         ("captured_mesh", scene.captured_mesh.to_table()),
         ("versions", scene.versions),
@@ -28,13 +30,15 @@ def scene_text(scene: Scene) -> str:
     return "\n".join(blocks)
 
 
-def with_own_pictures(scene: Scene, folder: Path) -> Scene:
-    """The scene with the environment maps of its lights at ``folder/<light>.exr``."""
+def with_own_files(scene: Scene, lights: Path, head: Path) -> Scene:
+    """The scene with the environment maps of its lights at ``lights/<light>.exr``, and the files
+    of a head of one's own in ``head``."""
 
     def moved(light: Light) -> Light:
-        return replace(light, path=str(folder / f"{light.name}.exr")) if light.path else light
+        return replace(light, path=str(lights / f"{light.name}.exr")) if light.path else light
 
-    return replace(scene, light=moved(scene.light), relight=tuple(map(moved, scene.relight)))
+    face = kept(scene.face, head) if isinstance(scene.face, HeadFiles) else scene.face
+    return replace(scene, face=face, light=moved(scene.light), relight=tuple(map(moved, scene.relight)))
 
 
 def _lines(table: Mapping[str, Any]) -> str:

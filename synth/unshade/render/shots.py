@@ -10,14 +10,16 @@ import numpy as np
 
 from ..face import Face
 from ..fingerprint import fingerprint
+from ..formation import Lens
 from ..scene_file import Light, Render
 from . import lights
 from .camera import Camera
 from .content_key import content_key
+from .denoise import denoised
 from .layers import Layers
-from .passes import render_layers
 from .picture_store import PictureStore
 from .scene import ChartMaps, HeadScene, LitHead
+from .tiers import render_tier
 
 
 class Shots:
@@ -52,20 +54,33 @@ class Shots:
         if "head" in self.__dict__:
             self.head.set_diffuse_albedo(albedo)
 
-    def layers(self, light: Light, camera: Camera, seed: int, report: Callable[[int, int], None]) -> Layers:
-        """One picture; ``report`` hears of samples done and in all."""
-        key = content_key(self._shapes_key, self._maps_key, self.light(light), camera, seed)
+    def layers(
+        self,
+        light: Light,
+        camera: Camera,
+        seed: int,
+        shared_seed: int,
+        report: Callable[[int, int], None],
+        lens: Lens | None = None,
+    ) -> Layers:
+        """One picture, through ``lens`` if there is one.
+
+        ``seed`` and ``shared_seed`` are those of `tiers.render_tier`; ``report`` hears of samples
+        done and in all.
+        """
+        key = content_key(self._shapes_key, self._maps_key, self.light(light), camera, lens, seed, shared_seed)
         kept = self._store.get(key)
         if kept is None:
-            kept = self._render_anew(light, camera, seed)
+            kept = self._render_anew(light, camera, seed, shared_seed, report, lens)
             self._store.put(key, kept)
         report(1, 1)
         return kept
 
-    def _render_anew(self, light: Light, camera: Camera, seed: int) -> Layers:
+    def _render_anew(self, light, camera, seed, shared_seed, report, lens) -> Layers:
         if light.name not in self._lit:
             self._lit[light.name] = self.head.lit(self.light(light))
-        render = self._render
-        return render_layers(
-            self._lit[light.name], camera.sensor(render.samples), samples=render.samples, depth=render.depth, seed=seed,
+        sensor = camera.sensor(self._render.samples)
+        layers = render_tier(
+            self.head, self._lit[light.name], sensor, self._render, seed, report, lens=lens, shared_seed=shared_seed,
         )  # fmt: skip
+        return denoised(layers, self.head, sensor, lens) if self._render.denoise == "oidn" else layers

@@ -12,6 +12,7 @@ from .checks import choice, known_keys, whole
 
 VARIANTS = ("auto", "llvm_ad_rgb", "scalar_rgb")
 TIERS = ("opaque", "diffusion", "volume")
+DENOISERS = ("none", "oidn")
 
 SKIN1_MM = (1.30, 0.95, 0.67)
 """Mean free paths of the sample `skin1` of Jensen et al. 2001 ("A Practical Model for
@@ -29,6 +30,8 @@ class Render:
     ``subsurface_mm``: mean free path of light in skin, for red, green and blue, used by all
     tiers but ``opaque``. A path between two scatterings, which are isotropic; the width of a
     profile follows from it and the albedo.
+
+    ``denoise``: what takes the noise out of every picture, true and relit (`render.denoise`).
     """
 
     width: int
@@ -39,12 +42,15 @@ class Render:
     variant: str = "auto"
     tier: str = "opaque"
     subsurface_mm: tuple[float, float, float] = SKIN1_MM
+    denoise: str = "none"
 
     def to_table(self) -> dict[str, Any]:
-        """All keys; those of the tier only where it is not ``opaque``."""
+        """All keys; those of tier and denoiser only where there is one."""
         table = asdict(self) | {"subsurface_mm": list(self.subsurface_mm)}
         if self.tier == "opaque":
             del table["tier"], table["subsurface_mm"]
+        if self.denoise == "none":
+            del table["denoise"]
         return table
 
 
@@ -59,11 +65,14 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
         variant=choice(table, "variant", VARIANTS, place) if "variant" in table else Render.variant,
         tier=choice(table, "tier", TIERS, place) if "tier" in table else Render.tier,
         subsurface_mm=_mean_free_paths(table, place),
+        denoise=choice(table, "denoise", DENOISERS, place) if "denoise" in table else Render.denoise,
     )
     if render.tier == "opaque" and "subsurface_mm" in table:
         raise SceneError(f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out')
     if render.tier != "opaque" and render.variant == "scalar_rgb":
         raise SceneError(f'tier = "{render.tier}" in {place} needs LLVM; set variant = "llvm_ad_rgb" or tier = "opaque"')
+    if render.denoise != "none" and render.variant == "scalar_rgb":
+        raise SceneError(f'denoise = "{render.denoise}" in {place} needs LLVM for its guides; set variant = "llvm_ad_rgb" or denoise = "none"')
     if passes_for(render.samples) is None:
         near = next(n for n in range(render.samples, 1 << 17) if passes_for(n))
         raise SceneError(f"samples in {place} is {render.samples}, which stratified passes cannot share; use {near}")

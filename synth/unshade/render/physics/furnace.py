@@ -10,7 +10,8 @@ roughness) stays below 1 at all angles.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from itertools import product
 
 import drjit as dr
 import mitsuba as mi
@@ -35,21 +36,24 @@ _ANGLES = (1, 45, 70, 85)
 _GRAZING = 88
 
 
-def check_furnace(samples: int = 1 << 18, alter: Alter = unaltered, render: Callable = render_layers) -> Verdict:
+def check_furnace(
+    samples: int = 1 << 18,
+    normals: Iterable[str] = tuple(NORMALS),
+    alter: Alter = unaltered,
+    render: Callable = render_layers,
+) -> Verdict:
     """Heats both furnaces. ``alter`` replaces the material of the patch, ``render`` the ball's renderer."""
     errors, noise, where = [], [], []
-    for normals in NORMALS:
-        for roughness in (None, *ROUGHNESS):
-            skin = Skin(normals, roughness)
-            bsdf = alter(skin.bsdf())
-            for part in PARTS:
-                for angle in _ANGLES:
-                    expected = reference.albedo(skin, direction(angle, 20), part)
-                    got, error = _sampled_albedo(bsdf, part, angle, samples, len(errors))
-                    # A lobe whose normal faces away reflects nothing at all.
-                    errors.append(got / expected - 1 if expected else got)
-                    noise.append(error / expected if expected else 0.0)
-                    where.append(f"{normals}, {roughness or 'standard'}, {part}, {angle} degrees")
+    for tilt, roughness in product(normals, (None, *ROUGHNESS)):
+        skin = Skin(tilt, roughness)
+        bsdf = alter(skin.bsdf())
+        for part, angle in product(PARTS, _ANGLES):
+            expected = reference.albedo(skin, direction(angle, 20), part)
+            got, error = _sampled_albedo(bsdf, part, angle, samples, len(errors))
+            # A lobe whose normal faces away reflects nothing at all.
+            errors.append(got / expected - 1 if expected else got)
+            noise.append(error / expected if expected else 0.0)
+            where.append(f"{tilt}, {roughness or 'standard'}, {part}, {angle} degrees")
     worst = int(np.abs(errors).argmax())
     pooled = float(np.mean(errors))
 

@@ -25,6 +25,7 @@ from .verdict import Verdict
 ROUNDING = 2e-5
 """Largest relative difference of a pixel's sum: sums of single precision in another order."""
 
+_SUSPECT = "render/split.py: the share of the Lambert term"
 _DEPTH = 5
 _RUNS = 13
 _TERM_SAMPLES = 64
@@ -34,8 +35,9 @@ def check_layers(samples: int = 64, split: Callable = split_radiance, render: Ca
     """Compares sums and terms. ``split`` replaces the tracer of the sums, ``render`` that of the terms."""
     head = specimen.head()
     error = _sum_error(head, samples, split)
-    faults = [] if error < ROUNDING else [f"a pixel's layers miss its total by {error:.1e} (relative)"]
-    biases = []
+    if not error < ROUNDING:
+        return Verdict("layers", False, f"a pixel's layers miss its total by {error:.1e} (relative)", _SUSPECT)
+    faults, biases = [], []
     for layer, z, bias, power in _terms(head, render):
         biases.append(f"{layer} {100 * bias:+.2f} % (1 % found with chance {power:.3f})")
         # 3.7 sigma: 2e-4 a term.
@@ -44,7 +46,7 @@ def check_layers(samples: int = 64, split: Callable = split_radiance, render: Ca
         if power < 0.99:
             faults.append(f"the {layer} layer is too noisy to conclude")
     found = f"every pixel's layers add up within {error:.1e}; against each term alone: {', '.join(biases)}"
-    return Verdict("layers", not faults, "; ".join([*faults, found]), "render/split.py: the share of the Lambert term")
+    return Verdict("layers", not faults, "; ".join([*faults, found]), _SUSPECT)
 
 
 def _sum_error(head, samples: int, split: Callable) -> float:

@@ -13,7 +13,7 @@ A probe that fails names the mistake that would explain what was seen.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -32,7 +32,7 @@ from .verdict import Verdict
 PIXELS = 0.7
 """Largest distance (pixels) between where a marked texel lies and where it should."""
 
-DEGREES = 0.5
+DEGREES = 0.3
 """Largest angle between a direction solved for and the true one."""
 
 CLEAR = 4.0
@@ -67,11 +67,14 @@ class Pipeline:
     """A rendered picture [H, W, 3]."""
 
 
-def check_orientation(pipeline: Pipeline | None = None) -> Verdict:
+PROBES = ("marked texels", "environment", "panel", "normal map")
+
+
+def check_orientation(pipeline: Pipeline | None = None, probes: Iterable[str] = PROBES) -> Verdict:
     """Renders the probes and solves them."""
-    pipeline = pipeline or Pipeline()
+    solve = dict(zip(PROBES, (_marks, _lights, _panel, _normal)))
     camera = specimen.camera(72, 56, position=(0.16, 0.11, 0.45))
-    results = [*_marks(camera, pipeline), *_lights(camera, pipeline), _panel(camera, pipeline), _normal(camera, pipeline)]
+    results = [solve[probe](camera, pipeline or Pipeline()) for probe in probes]
     faults = [fault for _, fault in results if fault]
     found = "; ".join(faults or [text for text, _ in results])
     return Verdict("orientation", not faults, found, "render/scene.py (v), camera.py (axes), lights/ (environments) or pictures.py (rows)")
@@ -97,19 +100,20 @@ def _maps(albedo: np.ndarray, pipeline: Pipeline, normal: np.ndarray | None = No
 # --- marked texels -------------------------------------------------------------------------
 
 
-def _marks(camera: Camera, pipeline: Pipeline) -> list[tuple[str, str]]:
+def _marks(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
     albedo = np.zeros((_SIZE, _SIZE, 3), np.float32)
     for channel, (row, column) in enumerate(_MARKS):
         albedo[row, column, channel] = 1
     picture = _shot(camera, _maps(albedo, pipeline), Dome(), pipeline)
     x, y = np.meshgrid(np.arange(picture.shape[1]) + 0.5, np.arange(picture.shape[0]) + 0.5)
     if not (picture.sum((0, 1)) > 0).all():
-        return [("", "a marked texel that faces the camera is nowhere in the picture: camera axes, or u and v")]
+        return "", "a marked texel that faces the camera is nowhere in the picture: camera axes, or u and v"
     seen = np.stack([[(x * c).sum() / c.sum(), (y * c).sum() / c.sum()] for c in np.moveaxis(picture, -1, 0)])
     expected = _expected_marks(camera)
-    miss = float(np.abs(seen - expected["as stated"]).max())
-    return [_judged("marked texels", miss, PIXELS, "pixels", {k: float(np.abs(seen - e).max()) for k, e in expected.items()},
-                    min(float(np.abs(e - expected["as stated"]).max()) for k, e in expected.items() if k != "as stated"))]  # fmt: skip
+    truth = expected["as stated"]
+    misses = {name: float(np.abs(seen - there).max()) for name, there in expected.items()}
+    clear = min(float(np.abs(there - truth).max()) for name, there in expected.items() if name != "as stated")
+    return _judged("marked texels", PIXELS, "pixels", misses, clear)
 
 
 def _expected_marks(camera: Camera) -> dict[str, np.ndarray]:
@@ -176,7 +180,7 @@ def _latlong(row: float, column: float) -> np.ndarray:
     return np.array([np.sin(theta) * np.sin(phi), np.cos(theta), -np.sin(theta) * np.cos(phi)])
 
 
-def _lights(camera: Camera, pipeline: Pipeline) -> list[tuple[str, str]]:
+def _lights(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
     white = _maps(np.ones((4, 4, 3)), pipeline)
     solved = []
     for row, column in _TEXELS:
@@ -196,7 +200,7 @@ def _lights(camera: Camera, pipeline: Pipeline) -> list[tuple[str, str]]:
     expected = {name: np.stack([_latlong(*place(*texel)) for texel in _TEXELS]) for name, place in mistakes.items()}
     truth = expected["as stated"]
     expected["environment's axes y and z exchanged"] = truth[:, [0, 2, 1]]
-    return [_judged_directions("environment", np.stack(solved), expected)]
+    return _judged_directions("environment", np.stack(solved), expected)
 
 
 def _panel(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
@@ -242,11 +246,16 @@ def _judged_directions(what: str, solved: np.ndarray, expected: dict[str, np.nda
     truth = expected["as stated"]
     clear = min(angle(truth, e) for name, e in expected.items() if name != "as stated")
     misses = {name: angle(solved, e) for name, e in expected.items()}
-    return _judged(what, misses["as stated"], DEGREES, "degrees", misses, clear)
+    return _judged(what, DEGREES, "degrees", misses, clear)
 
 
-def _judged(what: str, miss: float, tolerance: float, unit: str, misses: dict[str, float], clear: float) -> tuple[str, str]:
-    """What was found, and the fault in words if there is one."""
+def _judged(what: str, tolerance: float, unit: str, misses: dict[str, float], clear: float) -> tuple[str, str]:
+    """What was found, and the fault in words if there is one.
+
+    ``misses``: distance of what was seen from what each mistake would show; ``clear``: least
+    distance between what is right and a mistake.
+    """
+    miss = misses["as stated"]
     text = f"{what} within {miss:.2f} {unit}"
     if clear < CLEAR * tolerance:
         return text, f"{what}: the probe cannot tell its mistakes apart ({clear:.1f} {unit})"

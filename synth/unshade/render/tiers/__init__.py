@@ -40,7 +40,7 @@ def render_tier(
 
     ``shared_seed`` (``render.seed`` unless given) seeds what the views of a light share: the
     irradiance of ``diffusion``. Pictures whose noise must be independent need another.
-    ``progress`` hears how many samples of all are done. Raises `SceneError` for a tier
+    ``progress`` hears how many samples of all are done; a new bake counts as much as the picture. Raises `SceneError` for a tier
     that the variant cannot render.
     """
     if render.tier == "opaque":
@@ -51,7 +51,14 @@ def render_tier(
         raise SceneError(f'tier = "{render.tier}" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set tier = "opaque"')
     progress = progress or (lambda done, total: None)
     if render.tier == "diffusion":
-        baked = shared.baked(head, lit, render, render.seed if shared_seed is None else shared_seed)
+        heard = []
+        baked = shared.baked(
+            head, lit, render, render.seed if shared_seed is None else shared_seed,
+            lambda done, total: heard.append(progress(done, 2 * total)),
+        )  # fmt: skip
+        if heard:
+            whole = progress
+            progress = lambda done, total: whole(total + done, 2 * total)  # noqa: E731
         estimator = diffusion.estimator(head, lit, baked, render.depth)
     else:
         estimator = volume.estimator(shared.flesh(head), lit, render)

@@ -20,6 +20,10 @@ from . import profile
 from .surface import SkinPoints
 
 
+_MOST_CELLS = 200
+"""Cells along the longest edge."""
+
+
 @dataclass(frozen=True)
 class Blurred:
     """`irradiance` (M, bakes, 3) f32; `raw_sum` (M,3) of the weights before they were scaled."""
@@ -63,7 +67,7 @@ def blur(irradiance: np.ndarray, points: SkinPoints, albedo: np.ndarray, mean_fr
 
 @dataclass(frozen=True)
 class _Cells:
-    """Points sorted into cubes half as wide as the reach, x fastest."""
+    """Points sorted into cubes at least half as wide as the reach, x fastest."""
 
     order: np.ndarray
     start: np.ndarray
@@ -72,6 +76,8 @@ class _Cells:
 
     @classmethod
     def of(cls, positions: np.ndarray, width: float) -> _Cells:
+        # Few enough cells for memory, however short the reach.
+        width = max(width, float(np.ptp(positions, axis=0).max()) / _MOST_CELLS)
         # Two empty layers around, so that no neighbour needs a test.
         place = ((positions - positions.min(0)) / width).astype(np.int64) + 2
         shape = place.max(0) + 3
@@ -81,7 +87,10 @@ class _Cells:
         return cls(order, start, shape, number[order])
 
     def device(self):
-        return mi.UInt32(self.start.astype(np.uint32)), mi.UInt32(self.place.astype(np.uint32)), *(dr.opaque(mi.UInt32, int(n)) for n in (self.shape[0], self.shape[0] * self.shape[1]))
+        """Where each cell starts, each point's cell, and the cells along x and in a layer of z."""
+        wide, layer = int(self.shape[0]), int(self.shape[0] * self.shape[1])
+        start, place = (mi.UInt32(table.astype(np.uint32)) for table in (self.start, self.place))
+        return start, place, dr.opaque(mi.UInt32, wide), dr.opaque(mi.UInt32, layer)
 
 
 class _Sources:

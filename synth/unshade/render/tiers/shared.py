@@ -20,12 +20,12 @@ _baked: weakref.WeakKeyDictionary[LitHead, tuple[tuple, diffusion.Baked]] = weak
 _flesh: weakref.WeakKeyDictionary[HeadScene, tuple[bytes, volume.Flesh]] = weakref.WeakKeyDictionary()
 
 
-def baked(head: HeadScene, lit: LitHead, render: Render, seed: int) -> diffusion.Baked:
+def baked(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> diffusion.Baked:
     """The latest bake in this light, if nothing it depends on has changed."""
     key = (_albedo_key(head), render.samples, render.depth, render.subsurface_mm, seed)
     kept = _baked.get(lit)
     if kept is None or kept[0] != key:
-        kept = _baked[lit] = (key, diffusion.bake(head, lit, render, seed))
+        kept = _baked[lit] = (key, diffusion.bake(head, lit, render, seed, progress))
     return kept[1]
 
 
