@@ -65,7 +65,7 @@ def seen_eyes(seed, *elevations, **expression):
     return seen(head, geometry, eye_parts(head, spec, geometry), (-0.06, -0.02), (0.06, 0.015), *(elevations or (0.0,)))
 
 
-@pytest.mark.parametrize("seed", [7, 8, 202])
+@pytest.mark.parametrize("seed", [7, 202])
 def test_a_blink_covers_the_eyeballs(seed):
     opened = seen_eyes(seed).sum()
     assert opened > 1200

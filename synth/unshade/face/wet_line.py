@@ -53,7 +53,7 @@ def _wet_line(name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.n
         columns = [np.interp(x, edge[side, 0][order], column) for column in values[side][order].T]
         return gaussian_filter1d(np.stack(columns, axis=1), _SMOOTH, axis=0, mode="nearest")
 
-    opening = (course(edge, upper) - course(edge, lower))[:, 1].max()
+    opening = np.median((course(edge, upper) - course(edge, lower))[_COLUMNS // 4 : -_COLUMNS // 4, 1])
     height = _HEIGHT * float(smoothstep(*_OPEN, opening))
     if height == 0:
         return None
