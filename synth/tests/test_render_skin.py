@@ -121,8 +121,9 @@ def test_roughness_varies_over_the_map():
 
 def test_the_share_is_that_of_the_first_lobe():
     """Far from the mirror direction a wide lobe is bright and a narrow one dark."""
-    narrow, wide = (values(skin(roughness=[0.05, 0.5, share])) for share in (1.0, 0.0))
-    mixed = values(skin(roughness=[0.05, 0.5, 0.25]))
+    far = direction(50, 80)
+    narrow, wide = (values(skin(roughness=[0.05, 0.5, share]), wo=far) for share in (1.0, 0.0))
+    mixed = values(skin(roughness=[0.05, 0.5, 0.25]), wo=far)
     assert wide[0] > 20 * narrow[0]
     np.testing.assert_allclose(mixed, 0.25 * np.array(narrow) + 0.75 * np.array(wide), rtol=1e-5)
 
@@ -157,4 +158,4 @@ def test_the_true_roughness_of_a_face_reaches_its_picture():
 
     standard = highlights(None)
     np.testing.assert_allclose(highlights([0.15, 0.35, 0.5]), standard, rtol=1e-3, atol=1e-6)
-    assert highlights([0.08, 0.15, 0.5]).max() > 1.5 * standard.max()
+    assert highlights([0.08, 0.15, 0.5]).max() > 1.3 * standard.max()
