@@ -42,7 +42,7 @@ def hair_style(spec: FaceSpec) -> HairStyle:
     manly = float(smoothstep(0.5, 0.9, np.float64(spec.gender)))
     return HairStyle(
         scalp=shade + grey * (_GREY - shade),
-        brow=0.85 * shade + 0.6 * grey * (_GREY - shade),
+        brow=0.85 * shade + 0.38 * grey * (_GREY - shade),
         recession=manly * (3.0 + 12.0 * spec.age * rng.uniform()) + rng.normal(0.0, 2.0),
         beard=manly * rng.uniform(0.25, 0.85),
     )
