@@ -59,7 +59,7 @@ _HAEMOGLOBIN_GRAMS = 150.0  # per litre of whole blood
 _HAEMOGLOBIN_MOLAR = 64500.0  # g/mol
 _REFRACTIVE_INDEX = 1.4
 
-MELANOSOMES = {"I": 0.0200, "II": 0.0333, "III": 0.0495, "IV": 0.0705, "V": 0.1191, "VI": 0.2102}
+MELANOSOMES = {"I": 0.0198, "II": 0.0322, "III": 0.0471, "IV": 0.0662, "V": 0.1120, "VI": 0.2050}
 """Volume fraction of melanosomes per Fitzpatrick type; Jacques gives 1.3-6.3 % for light,
 11-16 % for moderately and 18-43 % for darkly pigmented adults. With these the base tones lie
 in the middle of the six groups of the individual typology angle."""
