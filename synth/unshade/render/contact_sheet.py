@@ -22,7 +22,7 @@ from .camera import Camera, look_at
 from .passes import render_layers, seed_of
 from .scene import ChartMaps, HeadScene
 
-LIGHTS = {"studio": 1.8, "sun": 1.5, "dome": 0.95, "flash": 1.5}
+LIGHTS = {"studio": 1.8, "sun": 1.5, "dome": 1.15, "flash": 1.5}
 """Kinds of light that take turns, none of which needs a file, and the exposure of the page in each.
 
 Lights make the brightest spot of the skin as bright as its albedo; where most of a face lies
