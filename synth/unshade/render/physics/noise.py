@@ -64,7 +64,8 @@ def check_noise(samples: int = SAMPLES, names: tuple[str, ...] = ("dome", "studi
         f"{len(names)} lights, {samples} samples, against path; a bias of {100 * BIAS_POOLED:g} % is found with chance {pooled:.3f}, one of "
         f"{100 * BIAS_REGIONAL:g} % in the noisiest region with {regional:.3f}, of one pixel only beyond {100 * pixel:.0f} %; stated / true variance {ratio:.2f}"
     )
-    return Verdict("noise", not faults, "; ".join([*faults, found]), "render/split.py or render/passes.py: biased, or wrong about its noise")
+    suspect = "render/split.py or render/passes.py: biased, or wrong about its noise"
+    return Verdict("noise", not faults, "; ".join([*faults, found]), suspect)
 
 
 def path_pictures(lit, camera, samples: int, count: int, first_seed: int) -> list[np.ndarray]:
