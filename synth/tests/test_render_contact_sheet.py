@@ -13,7 +13,8 @@ from unshade.scene_file import LIGHT_KINDS
 
 @pytest.fixture
 def small(monkeypatch):
-    for name, value in {"SIDE": 32, "_SAMPLES": 4, "_TEXTURE": 64}.items():
+    # One light, hence one kernel to compile.
+    for name, value in {"SIDE": 32, "_SAMPLES": 4, "_TEXTURE": 64, "LIGHTS": {"flash": 1.5}}.items():
         monkeypatch.setattr(contact_sheet, name, value)
 
 
