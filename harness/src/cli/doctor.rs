@@ -9,16 +9,16 @@ use crate::synth::{StageError, run_stage};
 
 /// Prints one line a part; exit code 1 if something that a run needs is missing.
 pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
-    println!("unshade    {}", env!("CARGO_PKG_VERSION"));
-    println!("python     {}", tools.interpreter.path().display());
-    println!("cpu        {} threads, {}", rayon::current_num_threads(), solver::simd_level());
+    println!("unshade      {}", env!("CARGO_PKG_VERSION"));
+    println!("python       {}", tools.interpreter.path().display());
+    println!("cpu          {} threads, {}", rayon::current_num_threads(), solver::simd_level());
     let adapters = solver::machine::adapters();
     if adapters.is_empty() {
-        println!("gpu        none; the solver runs on the CPU");
+        println!("gpu          none; the solver runs on the CPU");
     }
     for adapter in adapters {
         let kind = if adapter.software { "software, never chosen" } else { "GPU" };
-        println!("gpu        {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
+        println!("gpu          {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
     }
     let mut complete = checks(tools, "doctor", &mut |_, _, _| {})?;
     if complete && physics {
@@ -43,7 +43,7 @@ fn checks(
         Ok(found) => found,
         Err(StageError::Interrupted) => return Err(RunError::Interrupted),
         Err(error) => {
-            println!("renderer   FAILED: {error}");
+            println!("renderer     FAILED: {error}");
             return Ok(false);
         }
     };
@@ -51,10 +51,10 @@ fn checks(
     for part in found["checks"].as_array().into_iter().flatten() {
         let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();
         if part["ok"].as_bool().unwrap_or(false) {
-            println!("{:<10} {}", text("name"), text("found"));
+            println!("{:<12} {}", text("name"), text("found"));
         } else {
             complete = false;
-            println!("{:<10} FAILED: {}; {}", text("name"), text("found"), text("mend"));
+            println!("{:<12} FAILED: {}; {}", text("name"), text("found"), text("mend"));
         }
     }
     Ok(complete)

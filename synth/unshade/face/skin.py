@@ -143,7 +143,7 @@ def draw_marks(points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.n
     """
     rng = stream(spec.seed, "marks")
     freckled = rng.uniform(0.1, 1.4) * {"I": 420, "II": 220, "III": 70, "IV": 20, "V": 5, "VI": 3}[spec.fitzpatrick]
-    anywhere = 1 - sites.lips
+    anywhere = (1 - sites.lips) * (1 - sites.lids)
     kinds = (
         (rng.poisson(freckled), (0.2 + 2 * sites.cheek + 1.4 * sites.nose) * anywhere, (0.35, 0.9), (0.012, 0.035)),
         (int(50 * spec.age**2 * rng.uniform(0.3, 1.3)), anywhere, (1.0, 2.6), (0.015, 0.035)),
