@@ -1,11 +1,11 @@
-# make demo · make test: each does all set-up that it needs.
+# make demo · make test · make bench: each does all set-up that it needs.
 # Needs Rust, Python 3.10+ with pip, a C compiler and make; no root.
 
 PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily held-out test lint clean
+.PHONY: build demo emily held-out test bench lint clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -37,6 +37,10 @@ held-out: build
 test: build
 	cargo test --release --workspace --quiet
 	$(BIN)/python -m pytest -q
+
+# Heavier than a test: what the cheap tiers of skin are worth, with docs/subsurface.md written anew.
+bench: build
+	$(BIN)/python synth/bench/subsurface.py -o runs/bench/subsurface
 
 lint: build
 	cargo fmt --check
