@@ -1,6 +1,6 @@
 """The experiment of docs/subsurface.md: the diffusion tier against the volume it stands for.
 
-    python synth/bench/subsurface.py -o DIR [--size 160] [--samples 128] [--face scenes/faces/demo.toml]
+    python synth/bench/subsurface.py -o DIR [--size 128] [--samples 128] [--face scenes/faces/demo.toml]
 
 Renders one face in every tier and several lights, compares the diffuse layers, and writes
 its figures to DIR/subsurface.json, the picture to DIR/subsurface.jpg, and, unless told
@@ -48,7 +48,9 @@ ROOT = Path(__file__).resolve().parents[2]
 DOCUMENT, PICTURE = ROOT / "docs/subsurface.md", ROOT / "docs/subsurface.jpg"
 START, END = "<!-- figures: written by synth/bench/subsurface.py -->", "<!-- end of figures -->"
 LIGHTS = ("dome", "studio", "flash")
-TIERS = ("opaque", "diffusion", "volume", "volume again")
+TIERS = ("opaque", "diffusion", "volume", "volume again", "short", "short again")
+"""Pictures of a light. ``short``: the volume with a tenth of the path, which scatters as the
+half space does but blurs next to nothing."""
 CHANNELS = ("red", "green", "blue")
 
 
@@ -66,14 +68,16 @@ def main() -> None:
         head = HeadScene(face.chart, face.parts, maps)
         lit = head.lit(lights.exposed(Light(name=light, kind=light), face.chart.vertices, face.chart.normals))
         for tier in TIERS:
-            render = Render(options.size, options.size, samples=options.samples, tier=tier.split()[0], depth=8)
+            path = tuple(v / 10 if "short" in tier else v for v in Render.subsurface_mm)
+            kind = tier.split()[0].replace("short", "volume")
+            render = Render(options.size, options.size, samples=options.samples, tier=kind, depth=8, subsurface_mm=path)
             clock = time.perf_counter(), time.process_time()
             progress = _Bar(f"{tier}, {light}")
             layers = render_tier(head, lit, camera.sensor(options.samples), render, TIERS.index(tier), progress)
             seconds[light, tier] = time.perf_counter() - clock[0], time.process_time() - clock[1]
             pictures[light, tier] = layers
     clock = time.perf_counter(), time.process_time()
-    render_tier(head, lit, camera.sensor(options.samples), dataclasses.replace(render, tier="diffusion"), 9)
+    render_tier(head, lit, camera.sensor(options.samples), dataclasses.replace(render, tier="diffusion", subsurface_mm=Render.subsurface_mm), 9)
     seconds["again"] = time.perf_counter() - clock[0], time.process_time() - clock[1]
     regions = _regions(face, head, camera)
     figures = _figures(pictures, regions, _half_space_level(face, head, camera))
@@ -91,7 +95,7 @@ def main() -> None:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--out", type=Path, required=True)
-    parser.add_argument("--size", type=int, default=160, help="pixels along the picture's edge")
+    parser.add_argument("--size", type=int, default=128, help="pixels along the picture's edge")
     parser.add_argument("--samples", type=int, default=128, help="samples per pixel, of each of the volume's two pictures")
     parser.add_argument("--face", type=Path, default=ROOT / "scenes/faces/demo.toml")
     parser.add_argument("--no-docs", dest="docs", action="store_false", help="leave docs/ as it is")
@@ -164,12 +168,13 @@ def _figures(pictures, regions, expected_level) -> dict:
     region and channel.
 
     Pattern error: rms of (tier / volume) - 1 after the level of the whole face is taken out.
-    The noise of the volume drops out: its two pictures are independent, and the product of
-    their errors is averaged.
+    Blur: rms of volume - short over the mean of the volume, and what is left of it once
+    diffusion - opaque is taken off. The noise of the volumes drops out: two pictures of each
+    are independent, and the product of their errors is averaged.
     """
     figures = {}
     for light in LIGHTS:
-        first, second = (pictures[light, tier].diffuse.astype(float) for tier in TIERS[2:])
+        first, second, short, short_again = (pictures[light, tier].diffuse.astype(float) for tier in TIERS[2:])
         volume = (first + second) / 2
         opaque, diffusion = (pictures[light, tier].diffuse.astype(float) for tier in TIERS[:2])
         whole = regions["whole face"]
@@ -188,6 +193,9 @@ def _figures(pictures, regions, expected_level) -> dict:
                     "level": (picture[region].mean(0) / volume[region].mean(0)).round(4).tolist(),
                     "pattern": np.sqrt(product.mean(0).clip(0)).round(4).tolist(),
                 }
+            for name_of, change in (("blur", 0), ("blur left", diffusion - opaque)):
+                product = ((first - short - change) * (second - short_again - change))[region]
+                row[name_of] = (np.sqrt(product.mean(0).clip(0)) / volume[region].mean(0)).round(4).tolist()
             figures.setdefault(light, {})[name] = row
     return figures
 
@@ -213,14 +221,15 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
         theory = " level, half space |" if light == "dome" else ""
         lines += [
             "", f"Light `{light}`; red / green / blue:", "",
-            "| region | pixels | level, opaque | level, diffusion | pattern error, opaque | pattern error, diffusion |" + theory,
-            "|---|---|---|---|---|---|" + "---|" * bool(theory),
+            "| region | pixels | level, opaque | level, diffusion | pattern error, opaque | pattern error, diffusion | blur | blur left |" + theory,
+            "|---|---|---|---|---|---|---|---|" + "---|" * bool(theory),
         ]  # fmt: skip
         for name, row in rows.items():
             level, pattern = (
                 [" / ".join(form.format(value) for value in row[tier][kind]) for tier in TIERS[:2]]
                 for kind, form in (("level", "{:.3f}"), ("pattern", "{:.1%}"))
             )
+            pattern += [" / ".join(f"{value:.1%}" for value in row[kind]) for kind in ("blur", "blur left")]
             if theory:
                 pattern.append(" / ".join(f"{value:.3f}" for value in row["half space"]))
             lines.append(f"| {name} | {row['pixels']} | {' | '.join(level + pattern)} |")
@@ -246,16 +255,16 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
 
 
 def _picture(pictures, regions, path: Path) -> None:
-    """Studio and flash in the three tiers, and diffusion / volume from -20 % (blue) to +20 % (red)."""
+    """Studio and flash in the three tiers, and diffusion / volume from -50 % (blue) to +50 % (red)."""
     rows = []
     for light in LIGHTS[1:]:
         shown = [pictures[light, tier].total for tier in TIERS[:2]]
-        volumes = [pictures[light, tier] for tier in TIERS[2:]]
+        volumes = [pictures[light, tier] for tier in TIERS[2:4]]
         shown.append((volumes[0].total + volumes[1].total) / 2)
         volume = (volumes[0].diffuse + volumes[1].diffuse).mean(-1) / 2
         ratio = pictures[light, "diffusion"].diffuse.mean(-1) / np.maximum(volume, 1e-3) - 1
-        off = np.where(regions["whole face"], ratio, 0).clip(-0.2, 0.2) / 0.2
-        signed = np.stack([1 - off.clip(None, 0) * -1, 1 - np.abs(off), 1 - off.clip(0)], -1)
+        off = np.where(regions["whole face"], ratio, 0).clip(-0.5, 0.5) / 0.5
+        signed = np.stack([1 + off.clip(None, 0), 1 - np.abs(off), 1 - off.clip(0)], -1)
         rows.append(np.concatenate([*(_display(picture) for picture in shown), signed * regions["whole face"][..., None]], 1))
     picture = (255 * np.concatenate(rows)).round().astype(np.uint8)
     Image.fromarray(picture).resize((1280, 640), Image.Resampling.LANCZOS).save(path, quality=90)

@@ -151,7 +151,8 @@ def test_white_furnace():
     points = SkinPoints.of(flat)
     found = irradiance.bake(flat.lit(lights.Dome(1.0)), points, bakes=4, samples=4, depth=4, seed=1)
     assert found == pytest.approx(np.full_like(found, np.pi), rel=1e-5)
-    grey = [dataclasses.replace(part, diffuse=np.ones_like(part.diffuse), specular=0 * part.specular) for part in FACE.parts if part.uv is None]
+    matte = [part for part in FACE.parts if part.uv is None]
+    grey = [dataclasses.replace(part, diffuse=np.ones_like(part.diffuse), specular=0 * part.specular) for part in matte]
     head = HeadScene(FACE.chart, grey, white)
     points = SkinPoints.of(head)
     found = irradiance.bake(head.lit(lights.Dome(1.0)), points, bakes=4, samples=16, depth=40, seed=1)
@@ -279,6 +280,8 @@ def test_scene_files_name_the_tier():
     ({"tier": "bssrdf"}, "use one of opaque, diffusion, volume"),
     ({"tier": "volume", "subsurface_mm": [1, 2]}, "three numbers"),
     ({"tier": "volume", "subsurface_mm": [1, 0, 2]}, "three numbers"),
+    ({"tier": "volume", "subsurface_mm": [1, 1, float("nan")]}, "three numbers"),
+    ({"tier": "volume", "subsurface_mm": 1.0}, "three numbers"),
     ({"subsurface_mm": [1, 1, 1]}, "means nothing"),
     ({"tier": "volume", "variant": "scalar_rgb"}, "needs LLVM"),
 ])  # fmt: skip

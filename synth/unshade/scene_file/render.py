@@ -18,8 +18,9 @@ SKIN1_MM = (1.30, 0.95, 0.67)
 """Mean free paths of the sample `skin1` of Jensen et al. 2001 ("A Practical Model for
 Subsurface Light Transport", table 1): 1 / (reduced scattering + absorption)."""
 
-_LONGEST_MM = 10.0
-"""Beyond it light would cross the head, and no profile describes that."""
+_SHORTEST_MM, _LONGEST_MM = 0.05, 10.0
+"""Below, the skin is opaque (and single precision too coarse for the walks); beyond, light
+would cross the head, and no profile describes that."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,9 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
         denoise=choice(table, "denoise", DENOISERS, place) if "denoise" in table else Render.denoise,
     )
     if render.tier == "opaque" and "subsurface_mm" in table:
-        raise SceneError(f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out')
+        raise SceneError(
+            f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out'
+        )
     if render.tier != "opaque" and render.variant == "scalar_rgb":
         raise SceneError(f'tier = "{render.tier}" in {place} needs LLVM; set variant = "llvm_ad_rgb" or tier = "opaque"')
     if render.denoise != "none" and render.variant == "scalar_rgb":
@@ -82,8 +85,11 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
 def _mean_free_paths(table: Mapping[str, Any], place: str) -> tuple[float, float, float]:
     value = table.get("subsurface_mm", SKIN1_MM)
     good = isinstance(value, (list, tuple)) and len(value) == 3
-    if not good or not all(isinstance(v, (int, float)) and not isinstance(v, bool) and 0 < v <= _LONGEST_MM for v in value):
-        raise SceneError(f"subsurface_mm in {place} is {value!r}; use three numbers [r, g, b] in millimetres, above 0 and up to {_LONGEST_MM:g}")
+    good = good and all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in value)
+    if not good or not all(_SHORTEST_MM <= v <= _LONGEST_MM for v in value):
+        raise SceneError(
+            f"subsurface_mm in {place} is {value!r}; use three numbers [r, g, b] in millimetres, {_SHORTEST_MM:g} to {_LONGEST_MM:g}"
+        )
     red, green, blue = map(float, value)
     return red, green, blue
 
