@@ -30,6 +30,8 @@ llvm.activate(llvm.choose("llvm_ad_rgb"))
 from PIL import Image  # noqa: E402
 from scipy.interpolate import RegularGridInterpolator  # noqa: E402
 
+from shadow_edge import ALBEDO, shadow_edges  # noqa: E402
+
 from unshade.face import FaceSpec, build_face  # noqa: E402
 from unshade.face.labels import Label  # noqa: E402
 from unshade.render import lights  # noqa: E402
@@ -77,7 +79,8 @@ def main() -> None:
             seconds[light, tier] = time.perf_counter() - clock[0], time.process_time() - clock[1]
             pictures[light, tier] = layers
     clock = time.perf_counter(), time.process_time()
-    render_tier(head, lit, camera.sensor(options.samples), dataclasses.replace(render, tier="diffusion", subsurface_mm=Render.subsurface_mm), 9)
+    again = dataclasses.replace(render, tier="diffusion", subsurface_mm=Render.subsurface_mm)
+    render_tier(head, lit, camera.sensor(options.samples), again, 9)
     seconds["again"] = time.perf_counter() - clock[0], time.process_time() - clock[1]
     regions = _regions(face, head, camera)
     figures = _figures(pictures, regions, _half_space_level(face, head, camera))
@@ -156,7 +159,8 @@ def _half_space_level(face, head, camera) -> np.ndarray:
     towards = camera.position - view.position
     mu = ((normal * towards).sum(-1) / np.linalg.norm(towards, axis=-1)).clip(0.02, 1)
     # A table over albedo and cosine: the H function is slow.
-    albedos, cosines = np.linspace(0.005, profile.HIGHEST_ALBEDO, 40), np.linspace(0.02, 1, 40)
+    albedos = np.linspace(0.005, profile.HIGHEST_ALBEDO, 40)
+    cosines = np.linspace(0.02, 1, 40)
     table = np.stack([half_space.radiance_under_even_light(float(profile.single_scattering(a)), cosines) for a in albedos])
     radiance = RegularGridInterpolator((albedos, cosines), table)
     levels = [albedo[..., c] / radiance(np.stack([albedo[..., c], mu], -1)) for c in range(3)]
@@ -217,11 +221,13 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
             f"| {albedo:g} | {half_space.diffuse_albedo(alpha):.4f} | {half_space.reflectance(alpha, 0.9, 0.9):.3f} "
             f"| {(distance * weight).sum() / weight.sum():.3f} | {2.5 * float(profile.scale_radius(1.0, albedo)):.3f} |"
         )
+    lines += _edge_lines()
     for light, rows in figures.items():
         theory = " level, half space |" if light == "dome" else ""
         lines += [
             "", f"Light `{light}`; red / green / blue:", "",
-            "| region | pixels | level, opaque | level, diffusion | pattern error, opaque | pattern error, diffusion | blur | blur left |" + theory,
+            "| region | pixels | level, opaque | level, diffusion "
+            "| pattern error, opaque | pattern error, diffusion | blur | blur left |" + theory,
             "|---|---|---|---|---|---|---|---|" + "---|" * bool(theory),
         ]  # fmt: skip
         for name, row in rows.items():
@@ -252,6 +258,24 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
         "",
     ]
     return "\n".join(lines)
+
+
+def _edge_lines() -> list[str]:
+    """Across a straight shadow: tier over the same tier far in the light."""
+    lines = [
+        "", f"A straight shadow on flat skin of albedo {ALBEDO:g}, red channel: radiance over that 7 mm within the light, "
+        "at millimetres from the edge into the light:", "",
+    ]  # fmt: skip
+    wanted = (-5, -3, -2, -1, 1, 2, 3, 5)
+    heads = " | ".join(f"{x:+d}" for x in wanted)
+    lines += [f"| light from | tier | {heads} | level over volume |", "|---|---|" + "---|" * (len(wanted) + 1)]
+    for name, (distance, rows) in shadow_edges().items():
+        for tier in TIERS[1:3]:
+            row = rows[tier][:, 0]
+            far, reference = row[-4:].mean(), rows["volume"][-4:, 0].mean()
+            values = " | ".join(f"{value:.3f}" for value in np.interp(wanted, distance, row / far))
+            lines.append(f"| {name} | {tier} | {values} | {far / reference:.3f} |")
+    return lines
 
 
 def _picture(pictures, regions, path: Path) -> None:

@@ -38,7 +38,7 @@ def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None
         lit, points, bakes=passes, samples=render.samples // passes, depth=render.depth,
         seed=seed_of("irradiance", seed), progress=progress,
     )  # fmt: skip
-    open_ = ~irradiance.buried(lit, points, seed_of("buried", seed))
+    open_ = ~irradiance.shut_in(lit, points, seed_of("shut in", seed))
     path = np.array(render.subsurface_mm) * 1e-3
     return Baked(points, gather.blur(light, points, points.albedo(head), path, open_), passes)
 

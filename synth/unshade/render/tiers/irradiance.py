@@ -20,7 +20,9 @@ from .surface import SkinPoints
 _MAX_LANES = 1 << 21
 """Rays in flight, which bounds memory."""
 _PROBES = 16
-"""Rays that decide whether a point lies inside another shape."""
+"""Rays that decide whether a point is shut in."""
+CONTACT = 2e-3
+"""Metres: nearer surfaces count as touching."""
 
 
 def bake(lit: LitHead, points: SkinPoints, *, bakes: int, samples: int, depth: int, seed: int, progress=None) -> np.ndarray:
@@ -39,16 +41,18 @@ def bake(lit: LitHead, points: SkinPoints, *, bakes: int, samples: int, depth: i
     return np.concatenate(strips)
 
 
-def buried(lit: LitHead, points: SkinPoints, seed: int) -> np.ndarray:
-    """(M,) bool: the point lies within another shape (the rim of the lids within the eyeball).
+def shut_in(lit: LitHead, points: SkinPoints, seed: int) -> np.ndarray:
+    """(M,) bool: the point lies within another shape (the rim of the lids in the eyeball) or
+    touches other skin (the inside of closed lips).
 
-    Most rays from there meet a triangle from behind.
+    Most rays from there meet a triangle from behind, or within `CONTACT`. What light comes out
+    of the flesh at such a place goes in again opposite, so it has no surface of its own.
     """
     sampler, si, normal = _interactions(points, slice(None), _PROBES, seed)
     wo = mi.Frame3f(normal).to_world(mi.warp.square_to_cosine_hemisphere(sampler.next_2d()))
     hit = lit.dark.ray_intersect(si.spawn_ray(wo))
-    behind = hit.is_valid() & (dr.dot(hit.n, wo) > 0)
-    return np.array(dr.block_reduce(dr.ReduceOp.Add, mi.Float(behind), _PROBES)) > _PROBES / 2
+    stopped = hit.is_valid() & ((dr.dot(hit.n, wo) > 0) | (hit.t < CONTACT))
+    return np.array(dr.block_reduce(dr.ReduceOp.Add, mi.Float(stopped), _PROBES)) > _PROBES / 2
 
 
 def _bake_strip(lit, later, points, part, bakes, samples, seed) -> np.ndarray:
