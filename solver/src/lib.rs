@@ -21,6 +21,7 @@ pub mod semantic;
 pub mod solution;
 #[cfg(test)]
 mod testing;
+pub mod transport;
 
 pub use capture::{Camera, Capture, Mesh, View};
 pub use config::Config;

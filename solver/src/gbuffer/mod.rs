@@ -12,6 +12,7 @@ use crate::picture::GrayImage;
 
 pub use atlas::{Atlas, mesh_normal_map};
 pub use raster::{Hit, Raster, rasterise};
+pub(crate) use weights::blurred;
 pub use weights::{BLUR_SIGMA_PX, EDGE_SLOPE, FALLOFF, cosine_weights, view_weights};
 
 /// The surface behind every covered pixel of a camera, in the order of the pixels.

@@ -61,7 +61,7 @@ fn slopes(gbuffer: &GBuffer) -> Vec<f32> {
 }
 
 /// Gaussian blur to three standard deviations; nothing comes in from outside the picture.
-fn blurred(plane: &[f32], width: usize, height: usize, sigma: f32) -> Vec<f32> {
+pub(crate) fn blurred(plane: &[f32], width: usize, height: usize, sigma: f32) -> Vec<f32> {
     if sigma <= 0.0 {
         return plane.to_vec();
     }

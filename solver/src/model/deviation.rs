@@ -14,7 +14,8 @@ use crate::config::Config;
 /// difference of a narrow and a wide blur: coarse relief is the mesh's, the finest is noise.
 #[derive(Clone, Debug)]
 pub struct Deviation {
-    range: f32,
+    /// Without it, the texture is d itself.
+    range: Option<f32>,
     narrow: Blur,
     wide: Option<Blur>,
     blur: Blur,
@@ -35,8 +36,17 @@ impl Deviation {
     pub fn new(config: &Config, size: usize) -> Self {
         let fine = &config.fine_tuning;
         let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
+        if config.height.enabled {
+            return Self {
+                range: None,
+                narrow: blur(0.0),
+                wide: None,
+                blur: blur(config.height.blur),
+                scale: DirectionScale::from(&config.networks),
+            };
+        }
         Self {
-            range: fine.deviation_range,
+            range: Some(fine.deviation_range),
             narrow: blur(fine.deviation_smoothing),
             wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
             blur: blur(fine.deviation_blur),
@@ -47,9 +57,11 @@ impl Deviation {
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
         let mut sharp = self.band(deviation, Blur::apply);
-        sharp.par_chunks_mut(1 << 14).for_each(|values| {
-            values.iter_mut().for_each(|t| *t = self.range * tanh(*t));
-        });
+        if let Some(range) = self.range {
+            sharp.par_chunks_mut(1 << 14).for_each(|values| {
+                values.iter_mut().for_each(|t| *t = range * tanh(*t));
+            });
+        }
         let blurred = self.blur.apply(&sharp);
         Bend { sharp, blurred }
     }
@@ -59,7 +71,7 @@ impl Deviation {
         let mut gradient = self.blur.adjoint(by_blurred);
         gradient.par_iter_mut().zip(by_sharp).zip(&bend.sharp).for_each(|((g, by_sharp), d)| {
             // The derivative of d = range x tanh(t), by d.
-            *g = (*g + by_sharp) * (self.range - d * d / self.range);
+            *g = (*g + by_sharp) * self.range.map_or(1.0, |range| range - d * d / range);
         });
         self.band(&gradient, Blur::adjoint)
     }

@@ -2,6 +2,7 @@
 
 pub mod blur;
 pub mod deviation;
+pub mod height;
 pub mod networks;
 pub mod normals;
 pub mod planes;

@@ -27,6 +27,8 @@ pub struct Samples {
     pub taps: Taps,
     /// Pixel number within its view.
     pub pixel: Vec<u32>,
+    /// Number of the view.
+    pub view_index: Vec<u32>,
 }
 
 /// How positions and the Fresnel factor become inputs of the model.
@@ -46,6 +48,7 @@ struct Sample {
     target: Vec3,
     weight: f32,
     pixel: u32,
+    view_index: u32,
 }
 
 impl SampleSpace {
@@ -69,16 +72,17 @@ impl SampleSpace {
         size: usize,
     ) -> Samples {
         let mut samples = vec![];
-        for (view, gbuffer) in views.iter().zip(gbuffers) {
+        for (number, (view, gbuffer)) in views.iter().zip(gbuffers).enumerate() {
             let weights = match weights.depth {
                 true => gbuffer::view_weights(gbuffer, weights.depth_blur),
                 false => gbuffer::cosine_weights(gbuffer),
             };
             let target = |pixel: u32| Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
-            samples.extend(
-                usable.map(|(i, weight)| sample(gbuffer, i, target(gbuffer.pixels[i]), *weight)),
-            );
+            samples.extend(usable.map(|(i, weight)| Sample {
+                view_index: number as u32,
+                ..sample(gbuffer, i, target(gbuffer.pixels[i]), *weight)
+            }));
         }
         let sum: f64 = samples.iter().map(|s| f64::from(s.weight)).sum();
         let mean = (sum / samples.len().max(1) as f64) as f32;
@@ -111,6 +115,7 @@ impl SampleSpace {
             weight: Planes::from_fn(order.len(), |i| [samples[order[i]].weight]),
             taps,
             pixel: order.iter().map(|source| samples[*source].pixel).collect(),
+            view_index: order.iter().map(|source| samples[*source].view_index).collect(),
         }
     }
 }
@@ -141,5 +146,6 @@ fn sample(gbuffer: &GBuffer, i: usize, target: Vec3, weight: f32) -> Sample {
         target,
         weight,
         pixel: gbuffer.pixels[i],
+        view_index: 0,
     }
 }

@@ -112,8 +112,8 @@ mod tests {
         for (i, source) in order.iter().enumerate() {
             let uv = uvs[*source];
             let expected = [uv.x, 1.0 - uv.y].map(|t| (t * 8.0 - 0.5).clamp(0.0, 7.0));
-            for c in 0..2 {
-                assert!((values.get(c, i) - expected[c]).abs() < 1e-5);
+            for (c, expected) in expected.into_iter().enumerate() {
+                assert!((values.get(c, i) - expected).abs() < 1e-5);
             }
         }
     }

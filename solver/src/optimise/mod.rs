@@ -2,8 +2,11 @@
 
 pub mod adam;
 pub mod normalise;
+pub mod relief;
+mod run;
 pub mod solve;
 pub mod stage;
+pub mod transported;
 
 #[cfg(test)]
 mod tests;

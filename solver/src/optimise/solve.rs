@@ -1,16 +1,18 @@
 //! The order of the stages, from a capture to a solution.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::normalise::Scales;
-use super::stage::{Diffuse, Relief, Stage, State, WarmUp, layers};
+use super::relief::ReliefSolve;
+use super::run::Run;
+use super::stage::{Diffuse, Relief, State, WarmUp, layers};
+use super::transported::{light_and_albedo, refined};
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
 use crate::capture::{Camera, Capture, View};
-use crate::config::{Config, TextureRule, TextureSize};
+use crate::config::{Config, TextureRule, TextureSize, ViewWeightConfig};
 use crate::error::{CaptureError, SolveError};
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
@@ -18,10 +20,11 @@ use crate::maps::Maps;
 use crate::model::deviation::{Bend, Deviation};
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
+use crate::model::texture::resample;
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
 use crate::semantic;
-use crate::solution::{Record, Solution, StageRecord, Timing, ViewLayers};
+use crate::solution::{Record, Solution, ViewLayers};
 
 /// Where a solve stands.
 #[derive(Clone, Debug)]
@@ -36,7 +39,7 @@ pub struct Progress<'a> {
     pub loss: f64,
 }
 
-type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
+pub(super) type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
 /// Decomposes a capture into maps on the processor. `progress` is called after every step and may
 /// stop the solve, which then ends in [`SolveError::Interrupted`].
@@ -63,31 +66,40 @@ pub fn solve_on(
     let gbuffers = GBuffer::of_views(mesh, &capture.train);
     let space = SampleSpace::new(mesh, config);
 
-    let (views, reduced);
-    if config.warm_up.half_resolution {
-        views = capture.train.par_iter().map(View::half).collect::<Vec<_>>();
-        reduced = GBuffer::of_views(mesh, &views);
-    } else {
-        (views, reduced) = (capture.train.clone(), gbuffers.clone());
-    }
-    let ratio = if config.warm_up.half_resolution { 0.5 } else { 1.0 };
-    let mut weights = config.view_weights.clone();
-    weights.depth_blur *= ratio;
-    let samples = space.training(&views, &reduced, &weights, config.warm_up.texture_size);
+    let pictures = WarmUpPictures::new(capture, &gbuffers, config);
+    let samples = pictures.samples(&space, config.warm_up.texture_size);
     if samples.is_empty() {
         return Err(CaptureError::NothingVisible(capture.folder.clone()).into());
     }
     let mut state = initial_state(capture, &gbuffers, config);
+    let initial = state.clone();
     run.lap("preparation");
     state.networks = run.best_start(config, &samples, &state)?;
     run.stage(&mut WarmUp::new(config, &samples, &state), &mut state)?;
     drop(samples);
+    let lit = match config.transport.enabled {
+        true => {
+            let start = State { networks: state.networks.clone(), ..initial };
+            Some(light_and_albedo(&mut run, config, mesh, &space, &pictures, start)?)
+        }
+        false => None,
+    };
+    drop(pictures);
 
+    let warm = state.clone();
     let pixels = gbuffers.iter().map(GBuffer::len).sum();
     let size = texture_size(config.fine_tuning.texture_size, pixels);
     state.resize(size);
     let samples = space.training(&capture.train, &gbuffers, &config.view_weights, size);
     let deviation = Deviation::new(config, size);
+    if config.height.enabled {
+        let side = ((size as f32 * config.height.texture_share) as usize).max(16);
+        let atlas = Atlas::new(mesh, side);
+        let coarse = space.training(&capture.train, &gbuffers, &config.view_weights, side);
+        let solve = ReliefSolve::new(config, backend, &coarse, &gbuffers, &atlas, &warm);
+        let bend = run.relief(|step| solve.solve(&warm, step))?;
+        state.deviation = resample(&bend, side, 3, size);
+    }
     for round in 1..=config.fine_tuning.rounds {
         let mut relief = Relief::new(config, &samples, &deviation, &state, backend, round);
         run.stage(&mut relief, &mut state)?;
@@ -96,6 +108,11 @@ pub fn solve_on(
         run.stage(&mut diffuse, &mut state)?;
     }
 
+    let physical = match lit {
+        Some(lit) => Some(refined(&mut run, config, &samples, &deviation, &state, lit)?),
+        None => None,
+    };
+
     let projections = Projection::of_views(&capture.train, &gbuffers);
     let seen = per_texel(&Atlas::new(mesh, size), &projections, |_| true);
     fill_unseen(&mut state, &seen);
@@ -103,8 +120,13 @@ pub fn solve_on(
     let shading = (0..samples.len()).map(|i| shading.get(0, i)).collect();
     let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
     let specular = covered.map(|(value, _)| *value).collect();
-    let scales = Scales::new(&config.normalisation, shading, specular);
+    let mut scales = Scales::new(&config.normalisation, shading, specular);
     let views = withheld_views(capture, &space, &deviation, &state, backend);
+    if let Some(physical) = physical {
+        scales.diffuse = physical.scale;
+        state.diffuse = physical.diffuse;
+        fill_unseen(&mut state, &seen);
+    }
 
     let map_size = map_size(config.fine_tuning.texture_size, size);
     state.resize(map_size);
@@ -128,107 +150,29 @@ pub fn solve_on(
     Ok(Solution { maps, views, record, timing: run.timing })
 }
 
-/// The bookkeeping of a solve.
-struct Run<'a, 'b> {
-    backend: &'a dyn Backend,
-    progress: &'a mut Callback<'b>,
-    final_share: f32,
-    done: usize,
-    total: usize,
-    stages: Vec<StageRecord>,
-    timing: Timing,
-    lap: Instant,
+/// The training pictures as the warm-up takes them.
+pub(super) struct WarmUpPictures {
+    views: Vec<View>,
+    gbuffers: Vec<GBuffer>,
+    weights: ViewWeightConfig,
 }
 
-impl<'a, 'b> Run<'a, 'b> {
-    fn new(config: &Config, backend: &'a dyn Backend, progress: &'a mut Callback<'b>) -> Self {
-        let (fine, first) = (&config.fine_tuning, &config.initialisation);
-        let trials = if first.starts > 1 { first.starts * first.start_iterations } else { 0 };
-        Self {
-            backend,
-            progress,
-            final_share: config.adam.final_share,
-            done: 0,
-            total: trials + config.warm_up.iterations + 2 * fine.rounds * fine.iterations,
-            stages: vec![],
-            timing: Timing::default(),
-            lap: Instant::now(),
+impl WarmUpPictures {
+    fn new(capture: &Capture, gbuffers: &[GBuffer], config: &Config) -> Self {
+        let mut weights = config.view_weights.clone();
+        if !config.warm_up.half_resolution {
+            return Self { views: capture.train.clone(), gbuffers: gbuffers.to_vec(), weights };
         }
+        weights.depth_blur *= 0.5;
+        let views: Vec<View> = capture.train.par_iter().map(View::half).collect();
+        let gbuffers = GBuffer::of_views(&capture.mesh, &views);
+        Self { views, gbuffers, weights }
     }
 
-    fn lap(&mut self, what: &str) {
-        let now = Instant::now();
-        let seconds = now.duration_since(self.lap).as_secs_f64();
-        self.timing.seconds.insert(what.to_owned(), seconds.into());
-        self.lap = now;
+    /// The usable pixels, for textures of side `size`.
+    pub fn samples(&self, space: &SampleSpace, size: usize) -> Samples {
+        space.training(&self.views, &self.gbuffers, &self.weights, size)
     }
-
-    /// The initial weights from which a short warm-up comes furthest.
-    fn best_start(
-        &mut self,
-        config: &Config,
-        samples: &Samples,
-        state: &State,
-    ) -> Result<Networks, SolveError> {
-        let first = &config.initialisation;
-        let mut trial = config.clone();
-        trial.warm_up.iterations = first.start_iterations;
-        let mut best = (f64::INFINITY, state.networks.clone());
-        for start in 0..if first.starts > 1 { first.starts } else { 0 } {
-            let networks = Networks::new(&config.networks, config.seed + start as u64);
-            let mut state = State { networks: networks.clone(), ..state.clone() };
-            let mut warm_up = WarmUp::new(&trial, samples, &state);
-            let losses = self.steps(&format!("start {}", start + 1), &mut warm_up, &mut state)?;
-            let tail = &losses[losses.len() - losses.len().div_ceil(10)..];
-            let loss = tail.iter().sum::<f64>() / tail.len() as f64;
-            if loss < best.0 {
-                best = (loss, networks);
-            }
-        }
-        self.lap("starts");
-        Ok(best.1)
-    }
-
-    fn stage(&mut self, stage: &mut dyn Stage, state: &mut State) -> Result<(), SolveError> {
-        let name = stage.name();
-        let loss = self.steps(&name, stage, state)?;
-        self.lap(&name);
-        self.stages.push(StageRecord { name, loss });
-        Ok(())
-    }
-
-    /// Does a stage's steps and returns the losses.
-    fn steps(
-        &mut self,
-        name: &str,
-        stage: &mut dyn Stage,
-        state: &mut State,
-    ) -> Result<Vec<f64>, SolveError> {
-        let iterations = stage.iterations();
-        let mut losses = Vec::with_capacity(iterations);
-        for iteration in 1..=iterations {
-            let share = share(self.final_share, iteration, iterations);
-            let loss = stage.step(state, self.backend, share);
-            if !loss.is_finite() {
-                return Err(SolveError::NotFinite { stage: name.to_owned(), iteration, loss });
-            }
-            losses.push(loss);
-            self.done += 1;
-            let (iteration, total) = (self.done, self.total);
-            let progress = Progress { stage: name, iteration, total, loss };
-            if (self.progress)(&progress).is_break() {
-                return Err(SolveError::Interrupted);
-            }
-        }
-        Ok(losses)
-    }
-}
-
-/// The share of the learning rate: whole at first, then falling geometrically to `last` over the
-/// final 40 % of a stage.
-fn share(last: f32, iteration: usize, iterations: usize) -> f32 {
-    let progress = iteration as f32 / iterations as f32;
-    last.powf(((progress - 0.6) / 0.4).max(0.0))
 }
 
 /// The power of two nearest to one texel per pixel.

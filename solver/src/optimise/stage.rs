@@ -198,7 +198,9 @@ pub struct Diffuse<'a> {
     config: &'a Config,
     samples: &'a Samples,
     name: String,
-    /// S_d and F A_s S_s.
+    iterations: usize,
+    prior: f32,
+    /// S_d of every channel, then F A_s S_s.
     shading: Planes,
     by_diffuse: Adam,
 }
@@ -213,17 +215,27 @@ impl<'a> Diffuse<'a> {
         backend: &dyn Backend,
         round: usize,
     ) -> Self {
-        Self {
-            config,
-            samples,
-            name: format!("diffuse {round}"),
-            shading: layers(samples, deviation, state, backend),
-            by_diffuse: Adam::new(
-                &config.adam,
-                config.fine_tuning.diffuse_rate,
-                state.diffuse.len(),
-            ),
-        }
+        let layers = layers(samples, deviation, state, backend);
+        let shading = Planes::from_fn(samples.len(), |i| {
+            let [diffuse, specular] = layers.sample(i, 0);
+            [diffuse, diffuse, diffuse, specular]
+        });
+        let (iterations, prior) = (config.fine_tuning.iterations, config.fine_tuning.prior);
+        Self::under(config, samples, shading, format!("diffuse {round}"), iterations, prior)
+    }
+
+    /// Under known shading: S_d of every channel, and the specular layer.
+    pub fn under(
+        config: &'a Config,
+        samples: &'a Samples,
+        shading: Planes,
+        name: String,
+        iterations: usize,
+        prior: f32,
+    ) -> Self {
+        let count = 3 * samples.taps.size() * samples.taps.size();
+        let by_diffuse = Adam::new(&config.adam, config.fine_tuning.diffuse_rate, count);
+        Self { config, samples, name, iterations, prior, shading, by_diffuse }
     }
 
     /// Loss and its gradient by the diffuse albedo.
@@ -231,8 +243,7 @@ impl<'a> Diffuse<'a> {
         let albedo = self.samples.taps.sample::<3>(&state.diffuse);
         let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
         let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
-        let weight = self.config.fine_tuning.prior;
-        let prior = prior(&state.diffuse, state.size, weight, &mut by_diffuse);
+        let prior = prior(&state.diffuse, state.size, self.prior, &mut by_diffuse);
         (loss + prior, by_diffuse)
     }
 }
@@ -243,7 +254,7 @@ impl Stage for Diffuse<'_> {
     }
 
     fn iterations(&self) -> usize {
-        self.config.fine_tuning.iterations
+        self.iterations
     }
 
     fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
@@ -279,9 +290,10 @@ fn diffuse_gradient(samples: &Samples, shading: &Planes, albedo: &Planes) -> (f6
         let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0]);
         let mut loss = 0.0f64;
         for lane in 0..BLOCK {
-            let [diffuse, specular] = [shading[0].0[lane], shading[1].0[lane]];
+            let specular = shading[3].0[lane];
             let weight = weight.0[lane];
             for (channel, out) in out.iter_mut().enumerate() {
+                let diffuse = shading[channel].0[lane];
                 let model = albedo[channel].0[lane] * diffuse + specular;
                 let residual = model - target[channel].0[lane];
                 let sign = if residual == 0.0 { 0.0 } else { residual.signum() };

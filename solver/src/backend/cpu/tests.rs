@@ -34,6 +34,7 @@ fn samples(weighted: &[usize]) -> Samples {
         }),
         taps: Taps::sorted(16, &[]).0,
         pixel: vec![0; LEN],
+        view_index: vec![0; LEN],
     }
 }
 

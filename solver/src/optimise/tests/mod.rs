@@ -1,6 +1,9 @@
 //! Gradients of the stages through textures, taps, blur and normals; and whole solves of a small
 //! scene whose answer is known.
 
+mod relief;
+mod transported;
+
 use std::ops::ControlFlow;
 
 use glam::{Vec2, Vec3};
@@ -63,6 +66,13 @@ fn small() -> Config {
     config.fine_tuning.iterations = 40;
     config.fine_tuning.rounds = 1;
     config.fine_tuning.texture_size = TextureSize::Side(64);
+    config.transport.texture_size = 32;
+    config.transport.rows = 8;
+    config.transport.iterations = 150;
+    config.transport.hold = 50;
+    config.transport.refinement = 40;
+    config.height.linearisations = 1;
+    config.height.steps = 10;
     config
 }
 
@@ -79,6 +89,7 @@ struct Problem {
 /// Samples of two small views with black targets: no residual is near the kink of |x|.
 fn problem() -> Problem {
     let mut config = Config::default();
+    config.height.enabled = false;
     config.fine_tuning.deviation_blur = 0.08;
     config.fine_tuning.deviation_smoothing = 0.05;
     config.fine_tuning.deviation_extent = 0.1;
@@ -286,7 +297,7 @@ fn a_solve_can_be_stopped_and_refuses_what_it_cannot_do() {
     let mut calls = 0;
     let stopped = solve(&capture, &small(), &mut |progress| {
         calls += 1;
-        assert_eq!((progress.iteration, progress.total), (calls, 580));
+        assert_eq!((progress.iteration, progress.total), (calls, 790));
         if calls == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(matches!(stopped, Err(SolveError::Interrupted)));

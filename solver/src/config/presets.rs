@@ -1,0 +1,134 @@
+//! The named configurations.
+
+use super::*;
+
+impl Config {
+    /// Every value the paper's; what it does not publish is said above, value by value.
+    pub(super) fn paper() -> Self {
+        Self {
+            seed: 0,
+            networks: NetworkConfig {
+                width: 16,
+                hidden_layers: 2,
+                outputs: 8,
+                position_scale: 1.0,
+                normal_scale: 1.0,
+                reflection_scale: 1.0,
+            },
+            rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false },
+            view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
+            initialisation: InitialisationConfig {
+                semantic: true,
+                specular_maximum: 0.05,
+                starts: 1,
+                start_iterations: 500,
+            },
+            warm_up: WarmUpConfig {
+                iterations: 2000,
+                texture_size: 128,
+                half_resolution: true,
+                prior: 0.3,
+                network_rate: 1e-3,
+                diffuse_rate: 1e-3,
+                specular_rate: 1e-3,
+            },
+            fine_tuning: FineTuningConfig {
+                rounds: 2,
+                iterations: 250,
+                texture_size: TextureSize::Side(2048),
+                prior: 0.0,
+                deviation_range: 0.5,
+                deviation_smoothing: 0.0,
+                deviation_extent: 0.0,
+                deviation_blur: 0.004,
+                diffuse_rate: 1e-3,
+                specular_rate: 1e-3,
+                deviation_rate: 1e-3,
+            },
+            adam: AdamConfig { beta1: 0.9, beta2: 0.999, epsilon: 1e-8, final_share: 1.0 },
+            normalisation: NormalisationConfig {
+                diffuse_percentile: 100.0,
+                specular_percentile: 100.0,
+                specular_maximum: 0.05,
+            },
+            transport: TransportConfig {
+                enabled: false,
+                texture_size: 128,
+                rows: 16,
+                rays_per_cell_side: 2,
+                bounces: 2,
+                bounce_albedo: 0.4,
+                iterations: 400,
+                hold: 150,
+                prior: 1.0,
+                grey_mean: 1.0,
+                grey_texel: 0.001,
+                light_rate: 5e-2,
+                diffuse_rate: 3e-4,
+                specular_rate: 2e-5,
+                network_rate: 3e-3,
+                percentile: 99.0,
+                refinement: 250,
+                refinement_prior: 0.3,
+            },
+            height: HeightConfig {
+                enabled: false,
+                texture_share: 0.5,
+                linearisations: 2,
+                reweightings: 2,
+                steps: 40,
+                residual_floor: 0.003,
+                albedo_smoothing: 1.0 / 128.0,
+                blur: 0.003,
+                coarsest_pixels: 3.0,
+                flatness: 1000.0,
+                smoothness: 1000.0,
+                albedo_damping: 30.0,
+            },
+        }
+    }
+
+    /// The paper's model with a rate of its own for every quantity, the prior kept in the
+    /// fine-tuning, and sturdier normalisation.
+    pub(crate) fn unshade() -> Self {
+        let mut config = Self::paper();
+        config.view_weights.depth = false;
+        config.networks.normal_scale = 2.0;
+        config.networks.reflection_scale = 3.0;
+        config.rendering.positive_albedo = true;
+        // Some weights never learn the highlights, and the loss shows it early.
+        config.initialisation.starts = 4;
+        config.warm_up.network_rate = 5e-3;
+        config.warm_up.diffuse_rate = 3e-4;
+        config.warm_up.specular_rate = 5e-5;
+        config.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
+        config.fine_tuning.prior = 0.3;
+        config.fine_tuning.deviation_smoothing = 0.002;
+        config.fine_tuning.deviation_extent = 0.008;
+        config.fine_tuning.specular_rate = 1e-5;
+        config.fine_tuning.deviation_rate = 0.0;
+        config.transport.enabled = true;
+        config.height.enabled = true;
+        config.normalisation.diffuse_percentile = 99.9;
+        config.normalisation.specular_percentile = 99.0;
+        config
+    }
+
+    /// `unshade` with fewer iterations and texels.
+    pub(super) fn fast() -> Self {
+        let mut config = Self::unshade();
+        config.initialisation.start_iterations = 150;
+        config.warm_up.iterations = 500;
+        config.fine_tuning.rounds = 1;
+        config.fine_tuning.iterations = 100;
+        config.fine_tuning.texture_size = TextureSize::Side(256);
+        config.transport.texture_size = 64;
+        config.transport.rows = 8;
+        config.transport.iterations = 200;
+        config.transport.hold = 75;
+        config.transport.refinement = 50;
+        config.height.linearisations = 1;
+        config.height.steps = 20;
+        config
+    }
+}

@@ -1,0 +1,233 @@
+//! The tables of a configuration.
+
+use serde::{Deserialize, Serialize};
+
+/// Section 5.3, "Tiny MLPs": spatial light, diffuse kernel and specular kernel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NetworkConfig {
+    /// Neurons per hidden layer, a multiple of 4; 16.
+    pub width: usize,
+    /// Hidden layers; 2.
+    pub hidden_layers: usize,
+    /// Length of the latent vectors that are multiplied, a multiple of 4; 8.
+    pub outputs: usize,
+    /// Positions span -1 to 1 along the mesh's longest side, times this. Not published.
+    pub position_scale: f32,
+    /// Factor on the unit normal before the diffuse kernel; 1.
+    pub normal_scale: f32,
+    /// Factor on the unit reflected direction before the specular kernel; 1.
+    pub reflection_scale: f32,
+}
+
+/// Section 4.2.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RenderingConfig {
+    /// Multiply the specular shading by Schlick's factor, equation (1).
+    pub fresnel: bool,
+    /// Reflectance at normal incidence in that factor; 0.04.
+    pub f0: f32,
+    /// Keep both albedos at or above zero after every step; the paper leaves them free.
+    pub positive_albedo: bool,
+}
+
+/// Section 5.3: cosine x inverse blurred depth derivative, scaled to mean 1 over all pixels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViewWeightConfig {
+    /// Divide the cosine by the blurred depth derivative, see [`crate::gbuffer::view_weights`].
+    pub depth: bool,
+    /// Standard deviation of the blur, pixels of the full picture. Not published.
+    pub depth_blur: f32,
+}
+
+/// Section 5.3, first paragraph.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InitialisationConfig {
+    /// One colour per label region; otherwise one colour for the whole face.
+    pub semantic: bool,
+    /// The brightest initial specular albedo; 0.05.
+    pub specular_maximum: f32,
+    /// Seeds of the networks that are tried, from `seed` on; the one with the lowest loss is
+    /// taken. 1, as in the paper, tries none.
+    pub starts: usize,
+    /// Steps of the warm-up that each of them is given.
+    pub start_iterations: usize,
+}
+
+/// Section 4.3.1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WarmUpConfig {
+    /// Full-batch steps; 2000.
+    pub iterations: usize,
+    /// Side of the textures, texels; 128.
+    pub texture_size: usize,
+    /// Work on pictures averaged over 2 x 2 pixels; true.
+    pub half_resolution: bool,
+    /// Weight of the albedo prior, equation (2). The paper does not give it.
+    pub prior: f32,
+    /// Learning rate of the networks; 0.001.
+    pub network_rate: f32,
+    /// Learning rate of the diffuse albedo; 0.001.
+    pub diffuse_rate: f32,
+    /// Learning rate of the specular albedo; 0.001.
+    pub specular_rate: f32,
+}
+
+/// Section 4.3.2.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FineTuningConfig {
+    /// How often the two stages are repeated; 2.
+    pub rounds: usize,
+    /// Full-batch steps per stage; 250.
+    pub iterations: usize,
+    /// Side of the textures; 2048, or "auto": the power of two nearest to one texel per pixel
+    /// of the training views, from 128 to 2048; maps are then written with 512 texels or more, since
+    /// coarser ones lose the mesh normal.
+    pub texture_size: TextureSize,
+    /// Weight of the albedo prior in the diffuse stages; the paper has it in the warm-up only.
+    pub prior: f32,
+    /// Largest component of the deviation from the mesh normal; 0.5.
+    pub deviation_range: f32,
+    /// Standard deviation of the blur from the optimised texture to the specular deviation, as a
+    /// fraction of the texture's side; the paper has none, so 0.
+    pub deviation_smoothing: f32,
+    /// Standard deviation of a second, wider blur that is subtracted, as a fraction of the texture's
+    /// side: relief coarser than this is left to the mesh. 0 subtracts nothing, as in the paper.
+    pub deviation_extent: f32,
+    /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
+    /// texture's side. Not published.
+    pub deviation_blur: f32,
+    /// Learning rate of the diffuse albedo; 0.001.
+    pub diffuse_rate: f32,
+    /// Learning rate of the specular albedo; 0.001.
+    pub specular_rate: f32,
+    /// Learning rate of the deviation, before the tanh; 0.001.
+    pub deviation_rate: f32,
+}
+
+/// Side of the fine-tuned textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a number of texels or \"auto\"")]
+pub enum TextureSize {
+    /// Texels.
+    Side(usize),
+    /// From the number of pixels.
+    Rule(TextureRule),
+}
+
+/// How to choose the side of the fine-tuned textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TextureRule {
+    /// The power of two nearest to one texel per pixel.
+    Auto,
+}
+
+/// Kingma and Ba's optimiser with the defaults of the framework that the paper uses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AdamConfig {
+    /// Decay of the first moment; 0.9.
+    pub beta1: f32,
+    /// Decay of the second moment; 0.999.
+    pub beta2: f32,
+    /// Added to the root of the second moment; 1e-8.
+    pub epsilon: f32,
+    /// Share of the learning rates at the end of a stage, reached geometrically over its last 40 %;
+    /// the paper keeps them constant.
+    pub final_share: f32,
+}
+
+/// Section 5.4. Pictures are exposed so that the largest irradiance is pi: then a Lambert
+/// reflectance is the solved albedo times the largest diffuse shading.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NormalisationConfig {
+    /// Percentile of the diffuse shading that counts as its largest; 100 is the paper's maximum.
+    pub diffuse_percentile: f64,
+    /// Percentile of the specular albedo that becomes `specular_maximum`; 100 is the paper's.
+    pub specular_percentile: f64,
+    /// Upper end of human skin's reflectance at normal incidence; 0.05.
+    pub specular_maximum: f32,
+}
+
+/// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light
+/// is an RGB environment of `rows` x `2 rows` cells, positive by its exponential parametrisation,
+/// and starts as 1 from everywhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransportConfig {
+    /// Take the diffuse albedo from this solve; false leaves it to the networks, as in the paper.
+    pub enabled: bool,
+    /// Side of the texture on which transport is computed, texels.
+    pub texture_size: usize,
+    /// Rows of the environment.
+    pub rows: usize,
+    /// Rays per cell are this number squared.
+    pub rays_per_cell_side: usize,
+    /// Bounces off the mesh.
+    pub bounces: usize,
+    /// The albedo of all that light bounces off.
+    pub bounce_albedo: f32,
+    /// Full-batch steps.
+    pub iterations: usize,
+    /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
+    pub hold: usize,
+    /// Weight of the albedo prior.
+    pub prior: f32,
+    /// Weight of the squared deviation of the mean shading from grey.
+    pub grey_mean: f32,
+    /// Weight of the mean absolute deviation of each texel's shading from grey.
+    pub grey_texel: f32,
+    /// Learning rate of the light's logarithm.
+    pub light_rate: f32,
+    /// Learning rate of the diffuse albedo.
+    pub diffuse_rate: f32,
+    /// Learning rate of the specular albedo.
+    pub specular_rate: f32,
+    /// Learning rate of the networks, which here stand for the specular layer alone.
+    pub network_rate: f32,
+    /// Percentile of the luminance of the shading that counts as its largest.
+    pub percentile: f64,
+    /// Steps that refine the albedo on the final texture and full pictures.
+    pub refinement: usize,
+    /// Weight of the albedo prior in the refinement.
+    pub refinement_prior: f32,
+}
+
+/// Normals by Gauss-Newton on a height texture; not in the paper.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeightConfig {
+    /// Solve for heights; false leaves normals to the deviation texture, as in the paper.
+    pub enabled: bool,
+    /// Side of the height texture over that of the fine-tuned textures.
+    pub texture_share: f32,
+    /// How often the pictures are linearised.
+    pub linearisations: usize,
+    /// Reweightings towards an L1 norm per linearisation.
+    pub reweightings: usize,
+    /// Conjugate-gradient steps per reweighting.
+    pub steps: usize,
+    /// Residuals below this radiance count squared.
+    pub residual_floor: f32,
+    /// Standard deviation of the blur that takes detail out of the albedo's logarithm, as a fraction
+    /// of the texture's side: relief must not be in it already.
+    pub albedo_smoothing: f32,
+    /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
+    /// texture's side.
+    pub blur: f32,
+    /// Residuals coarser than this (pixels of the full picture) are no relief; 0 keeps them.
+    pub coarsest_pixels: f32,
+    /// Weight of the squared deviation.
+    pub flatness: f32,
+    /// Weight of its squared differences from texel to texel.
+    pub smoothness: f32,
+    /// Weight of squared changes of the diffuse albedo, in tenths.
+    pub albedo_damping: f32,
+}
