@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from functools import partial
 
 import drjit as dr
 import mitsuba as mi
@@ -32,6 +33,12 @@ def seed_of(*parts: object) -> int:
     return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=4).digest(), "little")
 
 
+Estimator = Callable
+"""(sampler, ray, number of the pass) to diffuse and specular radiance, linear RGB, in a
+variant with a compiler. What else an estimator draws at random it can draw anew for every
+pass, so that the spread of the passes holds it."""
+
+
 def render_layers(
     lit: LitHead,
     sensor,
@@ -47,20 +54,38 @@ def render_layers(
     With a ``lens``, film, pixels and samples are the sensor's, and the rays the lens's own.
     ``progress`` hears how many samples of all are done, before the first and after each band.
     """
+    if not dr.is_jit_v(mi.Float):
+        return _render_bands(partial(_band_slowly, lit, depth), sensor, samples, seed, lens, progress)
+
+    def split(sampler, ray, number):
+        return split_radiance(lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light)
+
+    return render_estimate(split, sensor, samples=samples, seed=seed, lens=lens, progress=progress)
+
+
+def render_estimate(
+    estimator: Estimator,
+    sensor,
+    *,
+    samples: int,
+    seed: int,
+    lens: Lens | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Layers:
+    """The picture that an estimator makes along the rays of `render_layers`."""
+    return _render_bands(partial(_band, estimator), sensor, samples, seed, lens, progress)
+
+
+def _render_bands(band, sensor, samples, seed, lens, progress) -> Layers:
     passes = passes_for(samples)
     width, height = sensor.film().size()
     rows = max(1, _MAX_LANES // (width * samples))
-    band = _render_band if dr.is_jit_v(mi.Float) else _render_band_slowly
     bands = []
     for top in range(0, height, rows):
         if progress:
             progress(top * width * samples, height * width * samples)
-        bands.append(
-            band(
-                lit, sensor, lens, samples // passes, passes, depth, seed_of(seed, top),
-                top, min(rows, height - top),
-            )
-        )  # fmt: skip
+        count = min(rows, height - top)
+        bands.append(band(sensor, lens, samples // passes, passes, seed_of(seed, top), top, count))
     if progress:
         progress(height * width * samples, height * width * samples)
     picture = np.concatenate(bands)
@@ -69,7 +94,7 @@ def render_layers(
     return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32))
 
 
-def _render_band(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> np.ndarray:
+def _band(estimator, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:
     """Layers [rows, width, passes, 6] of some rows, float64."""
     width, height = sensor.film().size()
     lanes = width * rows * passes * samples
@@ -78,7 +103,9 @@ def _render_band(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> 
     sampler.set_samples_per_wavefront(samples)
     sampler.seed(seed, lanes)
     # Opaque numbers, so that all bands and pictures share one compiled kernel.
-    index = dr.arange(mi.UInt32, lanes) // dr.opaque(mi.UInt32, samples * passes)
+    block = dr.arange(mi.UInt32, lanes) // dr.opaque(mi.UInt32, samples)
+    index = block // dr.opaque(mi.UInt32, passes)
+    number = block - index * dr.opaque(mi.UInt32, passes)
     row = index // dr.opaque(mi.UInt32, width)
     column = index - row * dr.opaque(mi.UInt32, width)
     corner = mi.Point2f(mi.Float(column), mi.Float(row + dr.opaque(mi.UInt32, top)))
@@ -88,9 +115,7 @@ def _render_band(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> 
         ray, _ = sensor.sample_ray(0.0, 0.5, film / size, mi.Point2f(0.5))
     else:
         ray = lens.ray(film.x, film.y, sampler)
-    diffuse, specular = split_radiance(
-        lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light
-    )
+    diffuse, specular = estimator(sampler, ray, number)
     channels = [diffuse.x, diffuse.y, diffuse.z, specular.x, specular.y, specular.z]
     dr.eval(channels)
     sums = [np.array(dr.block_reduce(dr.ReduceOp.Add, c, samples)) for c in channels]
@@ -98,7 +123,7 @@ def _render_band(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> 
     return means.reshape(rows, width, passes, 6)
 
 
-def _render_band_slowly(lit, sensor, lens, samples, passes, depth, seed, top, rows) -> np.ndarray:
+def _band_slowly(lit, depth, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:
     """The same, sample by sample, for variants without a compiler."""
     width, height = sensor.film().size()
     sampler = sensor.sampler()

@@ -18,9 +18,9 @@ from ...formation.lens import Lens
 from ...scene_file import Render
 from .. import llvm
 from ..layers import Layers
-from ..passes import render_layers
+from ..passes import render_estimate, render_layers
 from ..scene import HeadScene, LitHead
-from . import diffusion, film, shared, volume
+from . import diffusion, shared, volume
 
 __all__ = ["render_tier"]
 
@@ -40,8 +40,8 @@ def render_tier(
 
     ``shared_seed`` (``render.seed`` unless given) seeds what the views of a light share: the
     irradiance of ``diffusion``. Pictures whose noise must be independent need another.
-    ``progress`` hears how many samples of all are done; a new bake counts as much as the picture. Raises `SceneError` for a tier
-    that the variant cannot render.
+    ``progress`` hears how many samples of all are done; a new bake counts as much as the
+    picture. Raises `SceneError` for a tier that the variant cannot render.
     """
     if render.tier == "opaque":
         return render_layers(
@@ -62,7 +62,4 @@ def render_tier(
         estimator = diffusion.estimator(head, lit, baked, render.depth)
     else:
         estimator = volume.estimator(shared.flesh(head), lit, render)
-    layers = film.expose(estimator, sensor, render.samples, seed, lens=lens, progress=progress)
-    width, height = sensor.film().size()
-    progress(width * height * render.samples, width * height * render.samples)
-    return layers
+    return render_estimate(estimator, sensor, samples=render.samples, seed=seed, lens=lens, progress=progress)

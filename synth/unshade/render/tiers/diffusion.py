@@ -44,7 +44,7 @@ def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None
 
 
 def estimator(head: HeadScene, lit: LitHead, baked: Baked, depth: int):
-    """What `film.expose` renders."""
+    """What `passes.render_estimate` renders."""
     lookup = _Lookup(head, baked)
 
     def estimate(sampler, ray, number):

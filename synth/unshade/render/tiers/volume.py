@@ -46,7 +46,7 @@ class Flesh:
 
 
 def estimator(flesh: Flesh, lit: LitHead, render: Render):
-    """What `film.expose` renders."""
+    """What `passes.render_estimate` renders."""
     scene = _scene(flesh, lit)
     surface = mi.ShapePtr(flesh.surface)
     skin_shapes = [mi.ShapePtr(shape) for shape in flesh.skin]
