@@ -36,7 +36,7 @@ held-out: build
 
 test: build
 	cargo test --release --workspace --quiet
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile
 
 # Heavier than a test: what the cheap tiers of skin are worth, with docs/subsurface.md written anew.
 bench: build

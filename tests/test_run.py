@@ -75,10 +75,14 @@ def test_the_solver_never_opens_the_truth(tiny_run: Path, tmp_path: Path) -> Non
     shutil.rmtree(blind / "truth")
     for frame in json.loads((blind / "transforms.json").read_text())["test_filenames"]:
         (blind / frame).unlink()
+    # The configuration as the run recorded it.
+    solved = json.loads((tiny_run / "maps" / CASE / "quick" / "solve.json").read_text())["config"]
+    tables = {key: value for key, value in solved.items() if isinstance(value, dict)}
+    lines = [f"{key} = {json.dumps(value)}" for key, value in solved.items() if key not in tables]
+    for name, table in tables.items():
+        lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
     config = tmp_path / "quick.toml"
-    config.write_text(
-        'base = "fast"\n[warm_up]\niterations = 60\n[fine_tuning]\niterations = 10\n'
-    )
+    config.write_text("\n".join(lines))
     unshade("solve", blind, "-o", tmp_path / "maps", "--config", config)
     for name in ("diffuse_albedo.exr", "specular_normal.exr"):
         assert (tmp_path / "maps" / name).read_bytes() == (
@@ -94,14 +98,14 @@ def test_a_second_run_does_nothing(tiny_run: Path) -> None:
 
 
 def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -> None:
-    """Killed again and again, at moments a second and a half apart, until it is through."""
+    """Killed again and again, at moments three seconds apart, until it is through."""
     run = tmp_path / "run"
     command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", run]
     for attempt in range(3):
         process = subprocess.Popen(
             list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
-        time.sleep(4 + 5 * attempt)
+        time.sleep(4 + 3 * attempt)
         process.send_signal(signal.SIGKILL)
         process.wait()
     unshade(*command[1:])
