@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use harness::compare::{Baseline, Tolerances, Verdict, compare};
 use harness::score::{Scores, fit_scale, oracle_maps, score};
+use harness::suite::BaselineMethod;
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
 
@@ -136,6 +137,31 @@ fn baked_shading_and_baked_highlights_are_told_apart() {
         [0, 1, 2].map(|c| a[c] + 0.02 * s[c])
     });
     assert!(leak(&glossy, "specular") > 0.9, "{}", leak(&glossy, "specular"));
+}
+
+#[test]
+fn the_semantic_initialisation_is_seen_through_where_the_mean_texture_is_not() {
+    // The plane's pictures are its albedo, and its label images know one region.
+    let bench = Bench::new(1e-5);
+    let scores = BaselineMethod::ALL.map(|method| {
+        let maps = bench.root.path().join(method.name());
+        method.make(&bench.capture(), &maps, SIDE).unwrap();
+        score(&bench.capture(), &maps, None).unwrap()
+    });
+    let [texture, semantic] = &scores;
+    let row = |scores: &Scores, metric: &str, scale: &str| {
+        scores.row(&format!("diffuse_albedo/{metric}@coverage-e5:{scale}")).unwrap().value
+    };
+    for mode in ["none", "global"] {
+        assert!(row(texture, "psnr_srgb", mode).unwrap() > 40.0);
+        let flat = row(semantic, "psnr_srgb", mode).unwrap();
+        assert!(flat > 10.0 && flat < 25.0, "{mode}: {flat}");
+    }
+    // One colour follows nothing: its correlations are not defined, and not zero.
+    assert!(row(texture, "wcorr", "none").unwrap() > 0.99);
+    assert_eq!([row(semantic, "wcorr", "none"), row(semantic, "hc", "none")], [None, None]);
+    assert!(row(semantic, "lp", "none").unwrap() > 0.1);
+    assert!(semantic.row("specular_albedo/rmse@coverage-e5:none").is_none());
 }
 
 #[test]

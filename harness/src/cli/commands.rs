@@ -12,7 +12,7 @@ use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, V
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
 use crate::score;
-use crate::suite::{self, Observer, RunError, Suite, Tools};
+use crate::suite::{self, BaselineMethod, Observer, RunError, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
@@ -96,9 +96,16 @@ fn solve(
         SolverName::Fields => {
             suite::solve(&solver::Capture::open(capture)?, &config, &arguments.out, tools, step)
         }
-        SolverName::MeanTexture => Ok(suite::mean_texture(capture, &arguments.out)?),
+        SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),
+        SolverName::SemanticInitialisation => {
+            baseline(BaselineMethod::SemanticInitialisation, arguments)
+        }
         SolverName::Oracle => Ok(score::oracle_maps(capture, &arguments.out)?),
     }
+}
+
+fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunError> {
+    method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
 }
 
 fn run_suite(suite: &Path, out: &Path) -> Result<u8, RunError> {

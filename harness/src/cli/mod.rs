@@ -136,6 +136,8 @@ enum SolverName {
     Fields,
     /// The mean of the projected colours.
     MeanTexture,
+    /// One colour for each label region.
+    SemanticInitialisation,
     /// The true maps (opens `truth/`).
     Oracle,
 }

@@ -11,12 +11,9 @@ use std::time::Duration;
 
 use solver::atomic::Folder;
 
-use super::file::{Entrant, Method};
+use super::method::{Entrant, Method};
 use super::run::{RunError, Tools};
 use crate::score;
-
-/// Side of the mean projected texture, texels.
-const MEAN_TEXTURE_SIZE: usize = 512;
 
 /// Writes `maps` from `capture`.
 pub(super) fn make_maps(
@@ -28,7 +25,7 @@ pub(super) fn make_maps(
 ) -> Result<(), RunError> {
     match &entrant.method {
         Method::Oracle => Ok(score::oracle_maps(capture, maps)?),
-        Method::MeanTexture => mean_texture(capture, maps),
+        Method::Baseline { method, texture_size } => method.make(capture, maps, *texture_size),
         Method::Fields { config, .. } => {
             let config = solver::Config::from_toml(config)?;
             solve(&solver::Capture::open(capture)?, &config, maps, tools, progress)
@@ -50,12 +47,6 @@ pub(super) fn make_maps(
             run_program(&entrant.id, command, &arguments, capture, maps, tools)
         }
     }
-}
-
-/// The baseline of the same name.
-pub fn mean_texture(capture: &Path, maps: &Path) -> Result<(), RunError> {
-    let capture = solver::Capture::open(capture)?;
-    Ok(solver::baselines::mean_texture(&capture, MEAN_TEXTURE_SIZE)?.write(maps)?)
 }
 
 /// Our own solver, with an interrupt that leaves nothing behind.

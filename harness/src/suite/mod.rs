@@ -1,15 +1,21 @@
-//! Suites: every face in every light through every solver, resumable, nothing done twice.
+//! Suites: every face in every light and variant through every solver, resumable, nothing done twice.
 
+mod baseline;
+mod cases;
 mod content;
 mod entrant;
 mod file;
+mod method;
 mod record;
 mod run;
 mod scene;
 
+pub use baseline::BaselineMethod;
+pub use cases::Case;
 pub use content::hash_path;
-pub use entrant::{mean_texture, solve};
-pub use file::{Case, Entrant, Method, Suite};
+pub use entrant::solve;
+pub use file::Suite;
+pub use method::{Entrant, Method};
 pub use run::{
     Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
 };

@@ -12,9 +12,11 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use solver::atomic;
 
+use super::cases::Case;
 use super::content::{hash_parts, hash_path};
 use super::entrant;
-use super::file::{Case, Entrant, Method, Suite};
+use super::file::Suite;
+use super::method::{Entrant, Method};
 use super::record::Records;
 use super::scene::{Scene, SceneError};
 use crate::compare::CompareError;
@@ -152,7 +154,7 @@ fn manifest(suite: &Suite, renderer: &str) -> Value {
                 .collect();
             json!({
                 "id": case.id, "face": case.scene.name_of("face"),
-                "light": case.scene.name_of("light"),
+                "light": case.scene.name_of("light"), "variant": case.variant,
                 "capture": format!("captures/{}", case.id), "solvers": solvers,
             })
         })
@@ -245,7 +247,10 @@ impl Stages<'_> {
                 hash_parts(&["fields", &config, backend, SOLVER_SOURCES])
             }
             Method::Oracle => hash_parts(&["oracle", SCORE_SOURCES]),
-            Method::MeanTexture => hash_parts(&["mean texture", SOLVER_SOURCES]),
+            Method::Baseline { method, texture_size } => {
+                let size = texture_size.to_string();
+                hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES])
+            }
             Method::Command(words) => hash_parts(&["command", &words.join("\0")]),
             Method::Python(function) => hash_parts(&["python", function]),
         };
