@@ -32,6 +32,12 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             report::write(&run, &out)?;
             println!("{}", out.join("index.html").display());
         }
+        Verb::Table { runs, out } => {
+            let mut words = vec!["unshade table".to_owned()];
+            words.extend(runs.iter().map(|run| run.display().to_string()));
+            words.push(format!("-o {}", out.display()));
+            report::write_results(&runs, &out, &words.join(" "))?;
+        }
         Verb::Compare(arguments) => return compare_run(&arguments),
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }

@@ -68,6 +68,16 @@ enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
+    /// face.
+    Table {
+        /// The runs' folders.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The file.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
     /// Say what this machine has, and what is missing with the mend.

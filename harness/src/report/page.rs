@@ -128,7 +128,7 @@ impl Page {
     }
 }
 
-fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
+pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
     let read = |entrant: &Entrant| match &entrant.scores {
         Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
         _ => Ok(None),
@@ -148,7 +148,7 @@ fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
 }
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
-fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
+pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
     let pairs = case.solvers.iter().zip(scores);
     let mut columns: Vec<Column> =
         pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
