@@ -13,6 +13,7 @@ use harness::score::{Scores, fit_scale, oracle_maps, score};
 use harness::suite::BaselineMethod;
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
+use solver::picture::write_exr;
 
 struct Bench {
     root: tempfile::TempDir,
@@ -162,6 +163,33 @@ fn the_semantic_initialisation_is_seen_through_where_the_mean_texture_is_not() {
     assert_eq!([row(semantic, "wcorr", "none"), row(semantic, "hc", "none")], [None, None]);
     assert!(row(semantic, "lp", "none").unwrap() > 0.1);
     assert!(semantic.row("specular_albedo/rmse@coverage-e5:none").is_none());
+}
+
+#[test]
+fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
+    let bench = Bench::new(1e-5);
+    // Off by a factor of exp(u - 0.5), which one factor cannot undo.
+    let maps = bench.albedo_maps(SIDE, |u, v| albedo(u, v).map(|a| a * (u - 0.5).exp()));
+    let row = |scores: &Scores, metric: &str| {
+        scores.row(&format!("confidence/{metric}@coverage-e5:global")).unwrap().value
+    };
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert!(scores.rows.iter().all(|row| row.subject != "confidence"), "none was left");
+    let k = scores.scale.unwrap().global.ln();
+    let scored = |side: usize, trust: &dyn Fn(f64) -> f64| {
+        let confidence = map(side, 1, |u, _| [trust(u); 3]);
+        write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
+        let scores = score(&bench.capture(), &maps, None).unwrap();
+        [row(&scores, "confidence_rank"), row(&scores, "sparsification")]
+    };
+    let error = |u: f64| (u - 0.5 + k).abs();
+    let [rank, sparse] = scored(SIDE, &|u| 1.0 - error(u)).map(Option::unwrap);
+    // Errors are as good as even from zero on: the better half has half of the mean.
+    assert!(rank < -0.999 && (sparse - 0.5).abs() < 0.02, "{rank} {sparse}");
+    let [rank, sparse] = scored(SIDE / 2, &error).map(Option::unwrap);
+    assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
+    assert_eq!(scored(SIDE, &|_| 0.7)[0], None);
+    assert!((scored(SIDE, &|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
 }
 
 #[test]

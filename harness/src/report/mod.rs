@@ -8,6 +8,7 @@
 mod case;
 mod curve;
 mod difference;
+mod light;
 mod maps;
 mod matrix;
 mod metric;
@@ -15,6 +16,8 @@ mod page;
 mod plates;
 mod results;
 mod run;
+mod sheets;
+mod solve;
 mod summary;
 mod table;
 mod tone;

@@ -7,9 +7,10 @@ use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
-use super::case::{CaseView, plain};
+use super::case::CaseView;
 use super::matrix::{self, Matrix};
 use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
+use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
 use super::{MARK, ReportError, metric, tone};
@@ -77,6 +78,7 @@ impl Page {
         let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
         let sources = pairs.map(|((case, view), columns)| matrix::Source {
             face: &case.face,
+            variant: case.variant.as_deref(),
             light: &case.light,
             columns,
             plates: &view.views,
@@ -116,6 +118,7 @@ impl Page {
             ("table.html", include_str!("templates/table.html")),
             ("plate.html", include_str!("templates/plate.html")),
             ("matrix.html", include_str!("templates/matrix.html")),
+            ("solve.html", include_str!("templates/solve.html")),
             ("reading.html", include_str!("templates/reading.html")),
             ("style.css", include_str!("templates/style.css")),
             ("slider.js", include_str!("templates/slider.js")),

@@ -9,8 +9,8 @@ use serde_json::Value;
 use super::Finished;
 use super::tables::escape;
 use crate::report::ReportError;
-use crate::report::case::plain;
 use crate::report::run::{self, Case, Frames};
+use crate::report::solve::{interrupted, plain};
 
 /// A list of what holds for all numbers of the run.
 pub(super) fn describe(run: &Finished) -> Result<String, ReportError> {
@@ -91,18 +91,20 @@ fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
     let keys = [("version", "version"), ("texture_size", "texels a side"), ("seed", "seed")];
     let mut found = keys.map(|_| BTreeSet::new());
     let mut title = None;
+    let mut cut = 0;
     for case in &run.manifest.cases {
         for entrant in case.solvers.iter().filter(|entrant| entrant.id == id) {
             title = Some(entrant.title().to_owned());
             let Some(maps) = &entrant.maps else { continue };
             let path = run.folder.join(maps).join("solve.json");
             let solve = run::read_json_if_present::<Value>(&path)?.unwrap_or_default();
+            cut += usize::from(interrupted(&solve).is_some());
             for ((key, _), found) in keys.iter().zip(&mut found) {
                 found.extend(solve.get(key).map(plain));
             }
         }
     }
-    let said: Vec<String> = keys
+    let mut said: Vec<String> = keys
         .iter()
         .zip(&found)
         .filter(|(_, values)| !values.is_empty())
@@ -115,5 +117,8 @@ fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
             }
         })
         .collect();
+    if cut > 0 {
+        said.push(format!("interrupted in {cut} of {} cases", run.manifest.cases.len()));
+    }
     Ok(title.filter(|_| !said.is_empty()).map(|title| format!("{title}: {}", said.join(", "))))
 }

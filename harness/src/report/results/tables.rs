@@ -90,13 +90,14 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
             shown.iter().map(|figure| found(figure, line)).collect()
         };
         let values: Vec<Vec<Vec<Found>>> = lines.iter().map(of_line).collect();
-        let best: Vec<Option<usize>> =
+        let best: Vec<Option<String>> =
             (0..shown.len()).map(|i| best(&lines, shown[i], |line| &values[line][i])).collect();
         let names = shown.iter().map(|figure| heading(figure, &lines, group));
         text.push_str(&format!("\n{title}\n\n{}", head(&["method"], names)));
-        for (index, (line, values)) in lines.iter().zip(&values).enumerate() {
-            let cells = shown.iter().zip(values).enumerate().map(|(i, (figure, values))| {
-                cell(figure, values, group.cases.len(), best[i] == Some(index))
+        for (line, values) in lines.iter().zip(&values) {
+            let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
+                let best = best.as_deref().filter(|_| line.kind != Kind::Oracle);
+                cell(figure, values, group.cases.len(), best)
             });
             text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
         }
@@ -120,33 +121,31 @@ fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
     format!("{} ({})", figure.name, escape(&lights.join(", ")))
 }
 
-/// The line whose mean is the best, the oracle aside; none without a competition.
+/// The best mean as it is shown, the oracle aside; none without a competition.
 fn best<'a>(
     lines: &[Line],
     figure: &Figure,
     values: impl Fn(usize) -> &'a Vec<Found>,
-) -> Option<usize> {
-    let contenders: Vec<(usize, f64)> = lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| line.kind != Kind::Oracle)
-        .filter_map(|(i, _)| Some((i, mean(values(i).iter().map(|found| found.value))?)))
-        .collect();
-    let better = |a: (usize, f64), b: (usize, f64)| {
-        if figure.better.gain(a.1, b.1) > 0.0 { b } else { a }
-    };
-    let best = contenders.iter().copied().reduce(better)?;
-    (contenders.len() > 1).then_some(best.0)
+) -> Option<String> {
+    let contenders = lines.iter().enumerate().filter(|(_, line)| line.kind != Kind::Oracle);
+    let means: Vec<f64> =
+        contenders.filter_map(|(i, _)| mean(values(i).iter().map(|found| found.value))).collect();
+    let better = |a: f64, b: f64| if figure.better.gain(a, b) > 0.0 { b } else { a };
+    let best = means.iter().copied().reduce(better)?;
+    (means.len() > 1).then(|| table::shown(Some(best), figure.decimals))
 }
 
 /// Mean and range over the faces; beside a trivial answer also that, and the ratio of the two.
-fn cell(figure: &Figure, values: &[Found], faces: usize, best: bool) -> String {
+fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> String {
     let Some(value) = mean(values.iter().map(|found| found.value)) else {
         return table::EMPTY.to_owned();
     };
     let decimals = figure.decimals;
-    let mark = if best { "**" } else { "" };
-    let mut text = format!("{mark}{value:.decimals$}{mark}");
+    let mut text = table::shown(Some(value), decimals);
+    // Equal as they are shown is equally good.
+    if best == Some(text.as_str()) {
+        text = format!("**{text}**");
+    }
     let missing = faces - values.len();
     let pairs: Option<Vec<(f64, f64)>> =
         values.iter().map(|found| Some((found.value, found.against?))).collect();
@@ -190,7 +189,7 @@ fn floor(shown: &[&Figure], lines: &[Line], values: &[Vec<Vec<Found>>], faces: u
             });
             let floors = floors.into_iter().find(|floors| !floors.is_empty())?;
             let plain = Figure { against: None, ..**figure };
-            Some(cell(&plain, &floors, faces.max(floors.len()), false))
+            Some(cell(&plain, &floors, faces.max(floors.len()), None))
         })
         .collect();
     if cells.iter().all(Option::is_none) {
