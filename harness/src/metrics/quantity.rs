@@ -89,7 +89,11 @@ impl Quantity {
                     both.fold([0.0, 0.0], |[pg, pp], (p, g)| [pg + p * g, pp + p * p])
                 })
                 .collect(),
-            Self::HighPass => high_pass(pair),
+            Self::HighPass => {
+                let mut residues = high_pass(pair);
+                residues.iter_mut().for_each(drop_rounding);
+                residues
+            }
             Self::WithinLabel => {
                 let labels = pair.labels.ok_or_else(|| needs("labels"))?;
                 let (mut x, mut y) = log_luminances(pair);
@@ -184,5 +188,16 @@ fn centre_by_label(values: &mut [f64], labels: &[u8]) {
     for (value, label) in values.iter_mut().zip(labels) {
         let (sum, count) = sums[usize::from(*label)];
         *value -= sum / count;
+        drop_rounding(value);
+    }
+}
+
+/// Less than this of a logarithm is rounding; neighbouring floats differ by five hundred times more.
+const ROUNDING: f64 = 1e-10;
+
+/// A flat map less its mean is flat: what rounding leaves of it correlates with anything.
+fn drop_rounding(residue: &mut f64) {
+    if residue.abs() < ROUNDING {
+        *residue = 0.0;
     }
 }

@@ -25,6 +25,8 @@ pub(super) struct Sheet {
     pub caption: String,
     pub columns: Vec<String>,
     pub rows: Vec<SheetRow>,
+    /// Width of a picture on the page, as a multiple of the text's size.
+    pub tile_rem: f32,
     /// Starts folded: the many pictures are looked at rarely.
     pub folded: bool,
 }
@@ -77,6 +79,7 @@ impl Studio<'_> {
             ),
             columns,
             rows: vec![SheetRow { title: String::new(), tiles }],
+            tile_rem: 16.0,
             folded: false,
         }))
     }
@@ -113,6 +116,7 @@ impl Studio<'_> {
             ),
             columns,
             rows: vec![SheetRow { title: String::new(), tiles }],
+            tile_rem: 12.0,
             folded: false,
         }))
     }
@@ -157,6 +161,7 @@ impl Studio<'_> {
                 .to_owned(),
             columns,
             rows,
+            tile_rem: 9.5,
             folded: false,
         }))
     }
@@ -217,6 +222,7 @@ impl Studio<'_> {
             ),
             columns: frames.iter().map(|frame| frame.name.clone()).collect(),
             rows,
+            tile_rem: 7.0,
             folded: true,
         }))
     }
