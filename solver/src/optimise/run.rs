@@ -37,7 +37,7 @@ impl<'a, 'b> Run<'a, 'b> {
             total: trials
                 + config.warm_up.iterations
                 + 2 * fine.rounds * fine.iterations
-                + if t.enabled { t.iterations + t.refinement } else { 0 }
+                + if t.enabled { t.probe + t.iterations + t.refinement } else { 0 }
                 + if h.enabled { h.linearisations * h.reweightings * h.steps } else { 0 },
             stages: vec![],
             timing: Timing::default(),

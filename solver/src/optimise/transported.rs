@@ -18,7 +18,8 @@ use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::{SampleSpace, Samples};
 use crate::model::texture::resample;
-use crate::transport::{CHANNELS, Transport};
+use crate::picture::Picture;
+use crate::transport::{CHANNELS, Sky, Transport};
 
 /// Rec.709.
 const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
@@ -28,6 +29,10 @@ pub(super) struct Lit {
     state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
+    /// The light, lat-long R, G, B in the pictures' exposure.
+    pub light: Picture,
+    /// Inverse distance of the light, per metre.
+    pub nearness: f32,
 }
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
@@ -46,15 +51,30 @@ pub(super) fn light_and_albedo(
     pictures: &WarmUpPictures,
     start: State,
 ) -> Result<Lit, SolveError> {
-    let transport = Transport::new(mesh, &config.transport, config.seed);
+    let t = &config.transport;
+    let mut sky = Sky::even(t.rows);
+    let transport = Transport::new(mesh, &sky, t, config.seed, Purpose::Distance);
     run.lap("rays");
     let mut state = start;
     state.resize(transport.size());
     let samples = pictures.samples(space, transport.size());
-    let mut stage = Transported::new(config, &transport, &samples, &state);
+    let mut probe = Transported::probe(config, &transport, &samples, &state);
+    let mut probed = state.clone();
+    run.stage(&mut probe, &mut probed)?;
+    // The light was sought under the semantic colours; the albedo begins from them again.
+    state.networks = probed.networks;
+    let log_light = probe.log_light;
+    sky.nearness = probe.nearness * transport.near();
+    drop(transport);
+    let transport = Transport::new(mesh, &sky, t, config.seed, Purpose::Bending);
+    run.lap("rays at the light's distance");
+    let mut stage = Transported::new(config, &transport, &samples, &state, log_light);
     run.stage(&mut stage, &mut state)?;
-    let shading = transport.shading(&stage.light());
-    Ok(Lit { state, shading })
+    let light = stage.light();
+    eprintln!("S pct nearness {nearness} 1/m, cells {}", sky.len());
+    let shading = transport.shading(&light);
+    let light = sky.picture(&light, t.rows * FINE_PARTS);
+    Ok(Lit { state, shading, light, nearness })
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
@@ -98,35 +118,60 @@ pub struct Transported<'a> {
     directions: Planes,
     /// Logarithm of the light, R, G, B per cell.
     log_light: Vec<f32>,
+    /// How near the light is, in the transport's unit.
+    nearness: f32,
+    name: &'static str,
+    iterations: usize,
+    hold: usize,
     step: usize,
     by_light: Adam,
+    by_nearness: Adam,
     by_diffuse: Adam,
     by_specular: Adam,
     by_networks: Adam,
 }
 
 impl<'a> Transported<'a> {
-    /// The samples' taps and the state's textures are of the transport's size.
-    pub fn new(
+    /// Light, nearness and specular layer alone, from an even light.
+    pub fn probe(
         config: &'a Config,
         transport: &'a Transport,
         samples: &'a Samples,
         state: &State,
     ) -> Self {
+        let log_light = vec![0.0; CHANNELS * transport.cells()];
+        let iterations = config.transport.probe;
+        let stage = Self::new(config, transport, samples, state, log_light);
+        Self { name: "light", iterations, hold: iterations, ..stage }
+    }
+
+    /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
+    /// the transport's size.
+    pub fn new(
+        config: &'a Config,
+        transport: &'a Transport,
+        samples: &'a Samples,
+        state: &State,
+        log_light: Vec<f32>,
+    ) -> Self {
         let (t, adam) = (&config.transport, &config.adam);
-        let cells = CHANNELS * transport.cells();
         Self {
             config: t,
             transport,
             samples,
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
-            log_light: vec![0.0; cells],
+            nearness: 0.0,
+            name: "transport",
+            iterations: t.iterations,
+            hold: t.hold,
             step: 0,
-            by_light: Adam::new(adam, t.light_rate, cells),
+            by_light: Adam::new(adam, t.light_rate, log_light.len()),
+            by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
             by_specular: Adam::new(adam, t.specular_rate, state.specular.len()),
             by_networks: Adam::new(adam, t.network_rate, state.networks.parameters.len()),
+            log_light,
         }
     }
 
@@ -136,14 +181,18 @@ impl<'a> Transported<'a> {
     }
 
     #[cfg(test)]
-    pub(super) fn set_log_light(&mut self, log_light: &[f32]) {
-        self.log_light.copy_from_slice(log_light);
+    pub(super) fn set_nearness(&mut self, nearness: f32) {
+        self.nearness = nearness;
     }
 
     /// Loss and its gradients.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> Gradient {
         let light = self.light();
-        let shading = self.transport.shading(&light);
+        let mut shading = self.transport.shading(&light);
+        let gain = self.transport.gain(&light);
+        if let Some(gain) = &gain {
+            shading.iter_mut().zip(gain).for_each(|(s, gain)| *s += self.nearness * gain);
+        }
         let layer: Vec<f32> = state.diffuse.iter().zip(&shading).map(|(a, s)| a * s).collect();
         let samples = self.samples;
         let sampled = samples.taps.sample::<CHANNELS>(&layer);
@@ -171,10 +220,18 @@ impl<'a> Transported<'a> {
         let mut by_shading: Vec<f32> = product(&by_layer, &state.diffuse);
         let grey = self.grey(&shading, &mut by_shading);
         let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut by_diffuse);
-        let by_light: Vec<f32> = product(&self.transport.adjoint(&by_shading), &light);
+        let mut by_light: Vec<f32> = product(&self.transport.adjoint(&by_shading), &light);
+        if let Some(adjoint) = self.transport.gain_adjoint(&by_shading) {
+            let by_light = by_light.iter_mut().zip(adjoint).zip(&light);
+            by_light.for_each(|((g, gain), light)| *g += self.nearness * gain * light);
+        }
+        let along = |gain: Vec<f32>| -> f64 {
+            gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+        };
         Gradient {
             loss: joint.loss + grey + smooth,
             light: by_light,
+            nearness: gain.map_or(0.0, along) as f32,
             diffuse: by_diffuse,
             specular: samples.taps.gather::<1>(&joint.albedo, 3),
             networks: joint.networks,
@@ -228,6 +285,7 @@ pub(super) struct Gradient {
     pub loss: f64,
     /// By the light's logarithm.
     pub light: Vec<f32>,
+    pub nearness: f32,
     pub diffuse: Vec<f32>,
     pub specular: Vec<f32>,
     pub networks: Vec<f32>,
@@ -235,18 +293,21 @@ pub(super) struct Gradient {
 
 impl Stage for Transported<'_> {
     fn name(&self) -> String {
-        "transport".to_owned()
+        self.name.to_owned()
     }
 
     fn iterations(&self) -> usize {
-        self.config.iterations
+        self.iterations
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
         let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
         self.by_light.step(&mut self.log_light, &gradient.light, share, free);
-        if self.step >= self.config.hold {
+        let mut nearness = [self.nearness];
+        self.by_nearness.step(&mut nearness, &[gradient.nearness], share, 0.0);
+        self.nearness = nearness[0].min(Transport::nearest());
+        if self.step >= self.hold {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
         }
         self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);

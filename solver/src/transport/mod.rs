@@ -6,6 +6,11 @@
 //! behind the rays that meet the mesh, and a the albedo that bounces are given (precomputed
 //! radiance transfer, Sloan et al. 2002, on an albedo held constant). A white texel in full light 1
 //! from everywhere has S_d = 1.
+//!
+//! The cells lie on a sphere around the head's centre. Real lamps are a metre away, not infinitely
+//! far: a cell of nearness k (inverse radius) in direction w from the centre lies along w - k x from a
+//! point x, and brings it the cosine-weighted solid angle
+//! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
 mod rays;
 mod sky;
@@ -18,7 +23,7 @@ use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
 pub use rays::{Impact, Occluder};
-pub use sky::{SkyRay, sky_rays};
+pub use sky::{Sky, SkyRay};
 
 /// Colour channels of the light.
 pub const CHANNELS: usize = 3;
@@ -29,22 +34,30 @@ const LIFT: f32 = 1.6e-3;
 const CHUNK: usize = 256;
 /// Independent sums of a product, which a compiler turns into vectors.
 const LANES: usize = 16;
+/// Nearness is told from its difference between a sphere of this radius and one at infinity, in
+/// halves of the mesh's longest side: about a metre around a head.
+const NEAR_RADIUS: f32 = 6.0;
+/// No light is nearer than this, in the same unit.
+const LEAST_RADIUS: f32 = 2.5;
 
 /// The transport of the texels of a chart.
 #[derive(Clone, Debug)]
 pub struct Transport {
     size: usize,
-    cells: usize,
-    /// One row per texel inside the chart.
-    matrix: Vec<f32>,
+    /// One row per texel inside the chart, one column per cell.
+    matrix: Matrix,
+    /// What `matrix` gains when the sky comes nearer by [`Self::near`].
+    gain: Option<Matrix>,
+    /// Nearness that `gain` stands for, per metre.
+    near: f32,
     /// Of every texel of the square, its row or that of the nearest texel inside.
     row: Vec<u32>,
 }
 
 impl Transport {
     /// Casts all rays; memory is texels inside the chart x cells x 4 bytes, three times that while
-    /// bounces are added.
-    pub fn new(mesh: &Mesh, config: &TransportConfig, seed: u64) -> Self {
+    /// bounces are added, and the same again with the `gain` of nearness.
+    pub fn new(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64, gain: bool) -> Self {
         let size = config.texture_size;
         let atlas = Atlas::new(mesh, size);
         let texels: Vec<usize> = (0..size * size).filter(|texel| atlas.inside[*texel]).collect();
@@ -53,26 +66,33 @@ impl Transport {
         let nearest = fill::nearest_known(&atlas.inside, size, size);
         let row: Vec<u32> = nearest.iter().map(|texel| number[*texel as usize]).collect();
 
-        let sky = sky_rays(config.rows, config.rays_per_cell_side, seed);
-        let cells = 2 * config.rows * config.rows;
-        let caster = Caster { occluder: Occluder::new(mesh), mesh, sky: &sky, row: &row, size };
         let (low, high) = mesh.bounds();
-        let lift = LIFT * (high - low).max_element();
+        let longest = (high - low).max_element();
+        let near = 2.0 / (NEAR_RADIUS * longest);
+        let rays = sky.rays(config.rays_per_cell_side, seed);
+        let caster = Caster {
+            occluder: Occluder::new(mesh),
+            mesh,
+            rays: &rays,
+            cells: sky.len(),
+            centre: 0.5 * (low + high),
+            nearness: sky.nearness,
+            near: gain.then_some(sky.nearness + near),
+            row: &row,
+            size,
+        };
+        let lift = LIFT * longest;
         let cast = |texel: &usize| {
             let normal = atlas.normals[*texel];
-            caster.texel(atlas.positions[*texel] + lift * normal, normal, cells)
+            caster.texel(atlas.positions[*texel] + lift * normal, normal)
         };
-        let (direct, bounces): (Vec<Vec<f32>>, Vec<Bounces>) = texels.par_iter().map(cast).unzip();
-        let direct = direct.concat();
-        let mut matrix = direct.clone();
-        let mut last = direct;
-        let mut albedo = 1.0;
-        for _ in 0..config.bounces {
-            albedo *= config.bounce_albedo;
-            last = bounced(&bounces, &last, cells);
-            matrix.par_iter_mut().zip(&last).for_each(|(sum, once)| *sum += albedo * once);
-        }
-        Self { size, cells, matrix, row }
+        let cast: Vec<Seen> = texels.par_iter().map(cast).collect();
+        let bounces: Vec<Bounces> = cast.iter().map(|seen| seen.bounces.clone()).collect();
+        let total = |direct: Vec<f32>| Matrix::with_bounces(direct, &bounces, sky.len(), config);
+        let part = |part: fn(&Seen) -> &[f32]| cast.iter().flat_map(part).copied().collect();
+        let matrix = total(part(|seen| &seen.direct));
+        let gain = gain.then(|| total(part(|seen| &seen.gain)));
+        Self { size, matrix, gain, near, row }
     }
 
     /// Side of the chart's texture.
@@ -82,33 +102,102 @@ impl Transport {
 
     /// Cells of the sky.
     pub fn cells(&self) -> usize {
-        self.cells
+        self.matrix.cells
     }
 
     /// Whether the chart covers no texel.
     pub fn is_empty(&self) -> bool {
-        self.matrix.is_empty()
+        self.matrix.rows.is_empty()
+    }
+
+    /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
+    pub fn near(&self) -> f32 {
+        self.near
+    }
+
+    /// The most that a sky at infinity may come nearer, in the same unit.
+    pub fn nearest() -> f32 {
+        NEAR_RADIUS / LEAST_RADIUS
+    }
+
+    /// What every cell gives to all texels together, in a light of R, G, B per cell.
+    pub fn power(&self, light: &[f32]) -> Vec<f32> {
+        let texels = self.matrix.rows.len() / self.cells().max(1);
+        let given = self.matrix.adjoint(&vec![[1.0; CHANNELS]; texels]);
+        let products = given.as_chunks::<CHANNELS>().0.iter().zip(light.as_chunks::<CHANNELS>().0);
+        products.map(|(t, l)| (0..CHANNELS).map(|c| t[c] * l[c]).sum()).collect()
     }
 
     /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;
     /// outside the chart that of the nearest texel inside.
     pub fn shading(&self, light: &[f32]) -> Vec<f32> {
-        let planes = self.planes(light);
-        let rows: Vec<[f32; CHANNELS]> = self
-            .matrix
-            .par_chunks(self.cells)
-            .map(|row| std::array::from_fn(|c| dot(row, &planes[c])))
-            .collect();
-        self.row.par_iter().flat_map_iter(|row| rows[*row as usize]).collect()
+        self.spread(&self.matrix.product(light))
     }
 
     /// The adjoint of [`Self::shading`]: the gradient by the light.
     pub fn adjoint(&self, by_shading: &[f32]) -> Vec<f32> {
-        let mut by_row = vec![[0.0f32; CHANNELS]; self.matrix.len() / self.cells];
+        self.matrix.adjoint(&self.collected(by_shading))
+    }
+
+    /// What the shading gains as the sky comes nearer by [`Self::near`]; to first order.
+    pub fn gain(&self, light: &[f32]) -> Option<Vec<f32>> {
+        self.gain.as_ref().map(|gain| self.spread(&gain.product(light)))
+    }
+
+    /// The adjoint of [`Self::gain`].
+    pub fn gain_adjoint(&self, by_shading: &[f32]) -> Option<Vec<f32>> {
+        self.gain.as_ref().map(|gain| gain.adjoint(&self.collected(by_shading)))
+    }
+
+    fn spread(&self, rows: &[[f32; CHANNELS]]) -> Vec<f32> {
+        self.row.par_iter().flat_map_iter(|row| rows[*row as usize]).collect()
+    }
+
+    fn collected(&self, by_shading: &[f32]) -> Vec<[f32; CHANNELS]> {
+        let mut by_row = vec![[0.0f32; CHANNELS]; self.matrix.rows.len() / self.cells().max(1)];
         for (row, gradient) in self.row.iter().zip(by_shading.as_chunks::<CHANNELS>().0) {
             let sum = &mut by_row[*row as usize];
             (0..CHANNELS).for_each(|c| sum[c] += gradient[c]);
         }
+        by_row
+    }
+}
+
+/// Rows of `cells` weights.
+#[derive(Clone, Debug, PartialEq)]
+struct Matrix {
+    rows: Vec<f32>,
+    cells: usize,
+}
+
+impl Matrix {
+    fn with_bounces(
+        direct: Vec<f32>,
+        bounces: &[Bounces],
+        cells: usize,
+        config: &TransportConfig,
+    ) -> Self {
+        let mut rows = direct.clone();
+        let mut last = direct;
+        let mut albedo = 1.0;
+        for _ in 0..config.bounces {
+            albedo *= config.bounce_albedo;
+            last = bounced(bounces, &last, cells);
+            rows.par_iter_mut().zip(&last).for_each(|(sum, once)| *sum += albedo * once);
+        }
+        Self { rows, cells }
+    }
+
+    fn product(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
+        let planes: [Vec<f32>; CHANNELS] =
+            std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect());
+        self.rows
+            .par_chunks(self.cells)
+            .map(|row| std::array::from_fn(|c| dot(row, &planes[c])))
+            .collect()
+    }
+
+    fn adjoint(&self, by_row: &[[f32; CHANNELS]]) -> Vec<f32> {
         let part = |(rows, by_row): (&[f32], &[[f32; CHANNELS]])| {
             let mut sums = vec![0.0f32; CHANNELS * self.cells];
             for (row, gradient) in rows.chunks_exact(self.cells).zip(by_row) {
@@ -120,7 +209,7 @@ impl Transport {
             sums
         };
         let parts: Vec<Vec<f32>> = self
-            .matrix
+            .rows
             .par_chunks(CHUNK * self.cells)
             .zip(by_row.par_chunks(CHUNK))
             .map(part)
@@ -129,37 +218,55 @@ impl Transport {
         let at = |i: usize| i % CHANNELS * self.cells + i / CHANNELS;
         (0..CHANNELS * self.cells).map(|i| total(at(i))).collect()
     }
-
-    /// The light, channel by channel.
-    fn planes(&self, light: &[f32]) -> [Vec<f32>; CHANNELS] {
-        std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect())
-    }
 }
 
 /// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
 type Bounces = Vec<(u32, f32)>;
 
+/// What a texel sees.
+struct Seen {
+    /// Its row of T0.
+    direct: Vec<f32>,
+    /// What that gains as the sky comes nearer; empty if nobody asks.
+    gain: Vec<f32>,
+    /// Its row of B.
+    bounces: Bounces,
+}
+
 struct Caster<'a> {
     occluder: Occluder,
     mesh: &'a Mesh,
-    sky: &'a [SkyRay],
+    rays: &'a [SkyRay],
+    cells: usize,
+    /// Of the sky's sphere.
+    centre: Vec3,
+    nearness: f32,
+    /// The nearness to compare with.
+    near: Option<f32>,
     row: &'a [u32],
     size: usize,
 }
 
 impl Caster<'_> {
-    /// The row of T0 and that of B of a point.
-    fn texel(&self, origin: Vec3, normal: Vec3, cells: usize) -> (Vec<f32>, Bounces) {
-        let mut direct = vec![0.0; cells];
+    fn texel(&self, origin: Vec3, normal: Vec3) -> Seen {
+        let mut direct = vec![0.0; self.cells];
+        let mut gain = vec![0.0; if self.near.is_some() { self.cells } else { 0 }];
         let mut bounces = Bounces::new();
-        for ray in self.sky {
-            let cosine = normal.dot(ray.direction);
-            if cosine <= 0.0 {
+        let place = origin - self.centre;
+        for ray in self.rays {
+            let weight = received(ray, place, normal, self.nearness);
+            let nearer = self.near.map(|near| received(ray, place, normal, near));
+            if weight <= 0.0 && nearer.unwrap_or_default() <= 0.0 {
                 continue;
             }
-            let weight = cosine * ray.solid_angle * std::f32::consts::FRAC_1_PI;
-            match self.occluder.first_hit(origin, ray.direction) {
-                None => direct[ray.cell as usize] += weight,
+            let direction = (ray.direction - self.nearness * place).normalize();
+            match self.occluder.first_hit(origin, direction) {
+                None => {
+                    direct[ray.cell as usize] += weight;
+                    if let Some(nearer) = nearer {
+                        gain[ray.cell as usize] += nearer - weight;
+                    }
+                }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
                 // The back of a surface is inside the head: dark.
                 Some(_) => {}
@@ -171,7 +278,7 @@ impl Caster<'_> {
             kept.1 += if same { next.1 } else { 0.0 };
             same
         });
-        (direct, bounces)
+        Seen { direct, gain, bounces }
     }
 
     fn row_at(&self, hit: &Impact) -> u32 {
@@ -181,6 +288,16 @@ impl Caster<'_> {
         let texel = |x: f32| ((x * self.size as f32) as usize).min(self.size - 1);
         self.row[texel(1.0 - at.y) * self.size + texel(at.x)]
     }
+}
+
+/// Cosine-weighted solid angle over pi of a part of the sky, seen from `place` (from its centre); see
+/// the module's formula.
+fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
+    let towards = ray.direction - nearness * place;
+    let facing = 1.0 - nearness * ray.direction.dot(place);
+    let cosine = normal.dot(towards).max(0.0);
+    let squared = towards.length_squared();
+    ray.solid_angle * facing * cosine / (squared * squared) * std::f32::consts::FRAC_1_PI
 }
 
 /// B x `rows`.
