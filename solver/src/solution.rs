@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::atomic::{self, Folder};
@@ -63,6 +63,9 @@ pub struct Record {
     pub backend: String,
     /// BLAKE3 of all files that were read.
     pub input: String,
+    /// Where the caller stopped the solve, as in "warm-up at step 3 of 500"; nothing if it came to
+    /// its end.
+    pub interrupted: Option<String>,
     /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
     /// Pixels of the fine-tuning.
@@ -76,7 +79,7 @@ pub struct Record {
 }
 
 /// One stage of the record.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageRecord {
     /// Its name.
     pub name: String,

@@ -83,7 +83,7 @@ impl<'a> ReliefSolve<'a> {
 
     /// The deviation of the normals, 3 channels per texel of the side of the taps; `step` hears of
     /// every conjugate-gradient step with the mean absolute residual at the last linearisation, and
-    /// may stop the solve.
+    /// may stop the solve with [`SolveError::Interrupted`]: then it ends with what it has.
     pub fn solve(
         &self,
         state: &State,
@@ -91,7 +91,7 @@ impl<'a> ReliefSolve<'a> {
     ) -> Result<Vec<f32>, SolveError> {
         let texels = self.size * self.size;
         let mut x = vec![0.0f32; 4 * texels];
-        for outer in 0..self.config.linearisations {
+        'solve: for outer in 0..self.config.linearisations {
             let (slopes, target) = self.linearise(state, &x);
             for reweighting in 0..self.config.reweightings {
                 let fitted = match outer + reweighting {
@@ -99,7 +99,11 @@ impl<'a> ReliefSolve<'a> {
                     _ => Some(self.forward(&slopes, &self.sampled(&x))),
                 };
                 let (weight, residual) = self.weights(&target, fitted.as_ref());
-                self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step)?;
+                match self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step) {
+                    // Every step leaves heights that explain more than those before it.
+                    Err(SolveError::Interrupted) => break 'solve,
+                    done => done?,
+                }
             }
         }
         Ok(self.field.bend(&x[..texels]))

@@ -2,12 +2,13 @@
 //! networks explain the specular layer alone.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use super::normalise::percentile;
 use super::run::Run;
-use super::solve::WarmUpPictures;
-use super::stage::{Diffuse, Stage, State, layers};
+use super::site::WarmUpPictures;
+use super::stage::{Diffuse, Memory, Stage, State, layers};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
 use crate::config::{Config, TransportConfig};
@@ -24,13 +25,15 @@ use crate::transport::{CHANNELS, Transport};
 const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
 
 /// What explicit transport found, on its own texture.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Lit {
-    state: State,
+    pub state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
 }
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Physical {
     pub diffuse: Vec<f32>,
     pub scale: f32,
@@ -98,7 +101,6 @@ pub struct Transported<'a> {
     directions: Planes,
     /// Logarithm of the light, R, G, B per cell.
     log_light: Vec<f32>,
-    step: usize,
     by_light: Adam,
     by_diffuse: Adam,
     by_specular: Adam,
@@ -122,7 +124,6 @@ impl<'a> Transported<'a> {
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
             log_light: vec![0.0; cells],
-            step: 0,
             by_light: Adam::new(adam, t.light_rate, cells),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
             by_specular: Adam::new(adam, t.specular_rate, state.specular.len()),
@@ -246,12 +247,23 @@ impl Stage for Transported<'_> {
         let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
         self.by_light.step(&mut self.log_light, &gradient.light, share, free);
-        if self.step >= self.config.hold {
+        if self.by_light.steps() > self.config.hold {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
         }
         self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);
         self.by_networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
-        self.step += 1;
         gradient.loss
+    }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory {
+            optimisers: vec![
+                &mut self.by_light,
+                &mut self.by_diffuse,
+                &mut self.by_specular,
+                &mut self.by_networks,
+            ],
+            own: vec![&mut self.log_light],
+        }
     }
 }
