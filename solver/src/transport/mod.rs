@@ -40,6 +40,17 @@ const NEAR_RADIUS: f32 = 6.0;
 /// No light is nearer than this, in the same unit.
 const LEAST_RADIUS: f32 = 2.5;
 
+/// What is asked of a transport beside the shading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Nothing.
+    Nothing,
+    /// What the shading gains as the sky comes nearer.
+    Nearness,
+    /// What it gains as the normals bend.
+    Bending,
+}
+
 /// The transport of the texels of a chart.
 #[derive(Clone, Debug)]
 pub struct Transport {
@@ -48,16 +59,28 @@ pub struct Transport {
     matrix: Matrix,
     /// What `matrix` gains when the sky comes nearer by [`Self::near`].
     gain: Option<Matrix>,
+    /// Visible solid angle over pi.
+    open: Option<Matrix>,
     /// Nearness that `gain` stands for, per metre.
     near: f32,
+    /// From the sky's centre, of every row.
+    places: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    sky: Sky,
     /// Of every texel of the square, its row or that of the nearest texel inside.
     row: Vec<u32>,
 }
 
 impl Transport {
     /// Casts all rays; memory is texels inside the chart x cells x 4 bytes, three times that while
-    /// bounces are added, and the same again with the `gain` of nearness.
-    pub fn new(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64, gain: bool) -> Self {
+    /// bounces are added, and the same again if more is asked.
+    pub fn new(
+        mesh: &Mesh,
+        sky: &Sky,
+        config: &TransportConfig,
+        seed: u64,
+        beside: Beside,
+    ) -> Self {
         let size = config.texture_size;
         let atlas = Atlas::new(mesh, size);
         let texels: Vec<usize> = (0..size * size).filter(|texel| atlas.inside[*texel]).collect();
@@ -77,7 +100,8 @@ impl Transport {
             cells: sky.len(),
             centre: 0.5 * (low + high),
             nearness: sky.nearness,
-            near: gain.then_some(sky.nearness + near),
+            beside,
+            near: sky.nearness + near,
             row: &row,
             size,
         };
@@ -88,11 +112,17 @@ impl Transport {
         };
         let cast: Vec<Seen> = texels.par_iter().map(cast).collect();
         let bounces: Vec<Bounces> = cast.iter().map(|seen| seen.bounces.clone()).collect();
-        let total = |direct: Vec<f32>| Matrix::with_bounces(direct, &bounces, sky.len(), config);
+        let cells = sky.len();
         let part = |part: fn(&Seen) -> &[f32]| cast.iter().flat_map(part).copied().collect();
-        let matrix = total(part(|seen| &seen.direct));
-        let gain = gain.then(|| total(part(|seen| &seen.gain)));
-        Self { size, matrix, gain, near, row }
+        let matrix = Matrix::with_bounces(part(|seen| &seen.direct), &bounces, cells, config);
+        let more = (beside != Beside::Nothing).then(|| part(|seen| &seen.beside));
+        let (gain, open) = match beside {
+            Beside::Bending => (None, more.map(|rows| Matrix { rows, cells })),
+            _ => (more.map(|rows| Matrix::with_bounces(rows, &bounces, cells, config)), None),
+        };
+        let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
+        let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
+        Self { size, matrix, gain, open, near, places, normals, sky: sky.clone(), row }
     }
 
     /// Side of the chart's texture.
@@ -120,14 +150,6 @@ impl Transport {
         NEAR_RADIUS / LEAST_RADIUS
     }
 
-    /// What every cell gives to all texels together, in a light of R, G, B per cell.
-    pub fn power(&self, light: &[f32]) -> Vec<f32> {
-        let texels = self.matrix.rows.len() / self.cells().max(1);
-        let given = self.matrix.adjoint(&vec![[1.0; CHANNELS]; texels]);
-        let products = given.as_chunks::<CHANNELS>().0.iter().zip(light.as_chunks::<CHANNELS>().0);
-        products.map(|(t, l)| (0..CHANNELS).map(|c| t[c] * l[c]).sum()).collect()
-    }
-
     /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;
     /// outside the chart that of the nearest texel inside.
     pub fn shading(&self, light: &[f32]) -> Vec<f32> {
@@ -149,7 +171,45 @@ impl Transport {
         self.gain.as_ref().map(|gain| gain.adjoint(&self.collected(by_shading)))
     }
 
-    fn spread(&self, rows: &[[f32; CHANNELS]]) -> Vec<f32> {
+    /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
+    /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
+    /// the texel's horizon nothing.
+    pub fn bending(&self, light: &[f32]) -> Option<Vec<f32>> {
+        let open = self.open.as_ref()?;
+        let centres = self.sky.centres();
+        let (light, _) = light.as_chunks::<CHANNELS>();
+        let row = |(row, place): (&[f32], &Vec3)| {
+            let mut sum = [Vec3::ZERO; CHANNELS];
+            for ((open, centre), light) in row.iter().zip(&centres).zip(light) {
+                if *open > 0.0 {
+                    let towards = (*centre - self.sky.nearness * *place).normalize();
+                    (0..CHANNELS).for_each(|c| sum[c] += open * light[c] * towards);
+                }
+            }
+            let mut flat = [0.0; 3 * CHANNELS];
+            (0..CHANNELS).for_each(|c| flat[3 * c..3 * c + 3].copy_from_slice(&sum[c].to_array()));
+            flat
+        };
+        let rows: Vec<_> = open.rows.par_chunks(self.cells()).zip(&self.places).map(row).collect();
+        Some(self.spread(&rows))
+    }
+
+    /// The largest S_d that a texel in front (normal towards +Z) would have if nothing stood in the
+    /// light's way, as Rec.709 luminance: what pictures are exposed by. 0 without such texels.
+    pub fn peak(&self, light: &[f32]) -> f32 {
+        const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
+        let rays = self.sky.rays(1, 0);
+        let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
+        let light: Vec<f32> = light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect();
+        let unoccluded = |(place, normal): (&Vec3, &Vec3)| -> f32 {
+            let rays = rays.iter().zip(&light);
+            rays.map(|(ray, l)| l * received(ray, *place, *normal, self.sky.nearness)).sum()
+        };
+        let front = self.places.par_iter().zip(&self.normals).filter(|(_, normal)| normal.z > 0.0);
+        front.map(unoccluded).reduce(|| 0.0, f32::max)
+    }
+
+    fn spread<const C: usize>(&self, rows: &[[f32; C]]) -> Vec<f32> {
         self.row.par_iter().flat_map_iter(|row| rows[*row as usize]).collect()
     }
 
@@ -227,8 +287,8 @@ type Bounces = Vec<(u32, f32)>;
 struct Seen {
     /// Its row of T0.
     direct: Vec<f32>,
-    /// What that gains as the sky comes nearer; empty if nobody asks.
-    gain: Vec<f32>,
+    /// What was asked beside it, of every cell; empty if nothing was.
+    beside: Vec<f32>,
     /// Its row of B.
     bounces: Bounces,
 }
@@ -241,8 +301,9 @@ struct Caster<'a> {
     /// Of the sky's sphere.
     centre: Vec3,
     nearness: f32,
+    beside: Beside,
     /// The nearness to compare with.
-    near: Option<f32>,
+    near: f32,
     row: &'a [u32],
     size: usize,
 }
@@ -250,21 +311,28 @@ struct Caster<'a> {
 impl Caster<'_> {
     fn texel(&self, origin: Vec3, normal: Vec3) -> Seen {
         let mut direct = vec![0.0; self.cells];
-        let mut gain = vec![0.0; if self.near.is_some() { self.cells } else { 0 }];
+        let mut beside = vec![0.0; if self.beside == Beside::Nothing { 0 } else { self.cells }];
         let mut bounces = Bounces::new();
         let place = origin - self.centre;
         for ray in self.rays {
             let weight = received(ray, place, normal, self.nearness);
-            let nearer = self.near.map(|near| received(ray, place, normal, near));
-            if weight <= 0.0 && nearer.unwrap_or_default() <= 0.0 {
+            let nearer = match self.beside {
+                Beside::Nearness => received(ray, place, normal, self.near),
+                _ => 0.0,
+            };
+            if weight.max(nearer) <= 0.0 {
                 continue;
             }
-            let direction = (ray.direction - self.nearness * place).normalize();
+            let towards = ray.direction - self.nearness * place;
+            let direction = towards.normalize();
             match self.occluder.first_hit(origin, direction) {
                 None => {
-                    direct[ray.cell as usize] += weight;
-                    if let Some(nearer) = nearer {
-                        gain[ray.cell as usize] += nearer - weight;
+                    let cell = ray.cell as usize;
+                    direct[cell] += weight;
+                    match self.beside {
+                        Beside::Nothing => {}
+                        Beside::Nearness => beside[cell] += nearer - weight,
+                        Beside::Bending => beside[cell] += weight / normal.dot(direction),
                     }
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
@@ -278,7 +346,7 @@ impl Caster<'_> {
             kept.1 += if same { next.1 } else { 0.0 };
             same
         });
-        Seen { direct, gain, bounces }
+        Seen { direct, beside, bounces }
     }
 
     fn row_at(&self, hit: &Impact) -> u32 {

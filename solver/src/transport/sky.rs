@@ -7,8 +7,6 @@ use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::picture::Picture;
-
 /// A direction within a cell and the solid angle it stands for, both from the head's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyRay {
@@ -59,6 +57,11 @@ impl Sky {
         Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
     }
 
+    /// The same cells on a sphere of another nearness.
+    pub fn at(self, nearness: f32) -> Self {
+        Self { nearness, ..self }
+    }
+
     /// How many cells.
     pub fn len(&self) -> usize {
         self.cells.len()
@@ -93,23 +96,15 @@ impl Sky {
         rays
     }
 
-    /// A light of R, G, B per cell as a lat-long picture of `height` rows, each pixel that of the cell
-    /// at its centre.
-    pub fn picture(&self, light: &[f32], height: usize) -> Picture {
-        let width = 2 * height;
-        let mut picture = Picture::new(width, height, 3);
-        for (cell, colour) in self.cells.iter().zip(light.chunks_exact(3)) {
-            let range = |[low, high]: [f64; 2], whole: f64, count: usize| {
-                let pixel = |angle: f64| (angle / whole * count as f64 - 0.5).ceil().max(0.0) as usize;
-                pixel(low)..pixel(high).min(count)
-            };
-            for y in range(cell.polar, PI, height) {
-                for x in range(cell.azimuth, TAU, width) {
-                    picture.pixel_mut(x, y).copy_from_slice(colour);
-                }
-            }
-        }
-        picture
+    /// The middle of every cell.
+    pub fn centres(&self) -> Vec<Vec3> {
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        let centre = |cell: &Cell| {
+            let ((sine, cosine), azimuth) = (middle(cell.polar).sin_cos(), middle(cell.azimuth));
+            let direction = [sine * azimuth.sin(), cosine, -sine * azimuth.cos()];
+            Vec3::from_array(direction.map(|x| x as f32))
+        };
+        self.cells.iter().map(centre).collect()
     }
 }
 
@@ -133,17 +128,5 @@ mod tests {
         assert!(rays.iter().filter(|ray| ray.cell < 32).all(|ray| ray.direction.y > 0.98));
         let first = rays.iter().find(|ray| ray.cell == 8 * 32).unwrap().direction;
         assert!(first.z < -0.9 && first.x > 0.0);
-    }
-
-    #[test]
-    fn a_light_is_drawn_where_it_shines() {
-        let sky = Sky::even(4);
-        let light: Vec<f32> = (0..sky.len()).flat_map(|cell| [cell as f32, 0.0, 1.0]).collect();
-        let picture = sky.picture(&light, 16);
-        for y in 0..16 {
-            for x in 0..32 {
-                assert_eq!(picture.pixel(x, y), [(y / 4 * 8 + x / 4) as f32, 0.0, 1.0]);
-            }
-        }
     }
 }
