@@ -10,6 +10,8 @@ mod scene;
 pub use content::hash_path;
 pub use entrant::{mean_texture, solve};
 pub use file::{Case, Entrant, Method, Suite};
+#[cfg(feature = "python")]
+pub(crate) use run::SOLVER_SOURCES;
 pub use run::{
     Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
 };

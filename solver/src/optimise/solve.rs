@@ -219,7 +219,9 @@ impl Step {
                 let (mesh, pictures) = (&site.capture.mesh, site.pictures());
                 let lit = light_and_albedo(run, config, mesh, &site.space, pictures, start)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
-                let moved = run.cut().is_none_or(|cut| cut.step > config.transport.hold);
+                let begun = config.transport.hold;
+                let moved =
+                    run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lit = moved.then_some(lit);
             }
             Self::Heights => {
