@@ -143,6 +143,13 @@ impl Solution {
     }
 }
 
+/// Where the solve of a maps folder was stopped, if it was ours and was.
+pub fn interrupted(maps: &Path) -> Option<String> {
+    let record: Value =
+        serde_json::from_slice(&std::fs::read(maps.join("solve.json")).ok()?).ok()?;
+    record.get("interrupted")?.as_str().map(str::to_owned)
+}
+
 fn write_json(path: &Path, content: &impl Serialize) -> Result<(), MapsError> {
     let io = |source| MapsError::Io { path: path.to_path_buf(), source };
     let text = serde_json::to_string_pretty(content).map_err(|error| io(error.into()))?;

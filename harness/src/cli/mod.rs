@@ -10,8 +10,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::suite::RunError;
-
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
 #[command(name = "unshade", version, max_term_width = 100)]
@@ -186,7 +184,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(code) => code,
         Err(error) => {
             eprintln!("unshade: {error}");
-            if matches!(error, RunError::Interrupted) { INTERRUPTED } else { BAD_INPUT }
+            if error.is_interrupt() { INTERRUPTED } else { BAD_INPUT }
         }
     }
 }

@@ -12,7 +12,7 @@ use std::time::Duration;
 use solver::atomic::Folder;
 
 use super::method::{Entrant, Method};
-use super::run::{RunError, Tools};
+use super::run::{RunError, SOLVER_SOURCES, Tools};
 use crate::score;
 
 /// Writes `maps` from `capture`.
@@ -49,7 +49,8 @@ pub(super) fn make_maps(
     }
 }
 
-/// Our own solver, with an interrupt that leaves nothing behind.
+/// Our own solver. An interrupt leaves maps of what there is, and a checkpoint beside them; it is an
+/// error nevertheless, so that nobody takes them for finished.
 pub fn solve(
     capture: &solver::Capture,
     config: &solver::Config,
@@ -57,17 +58,17 @@ pub fn solve(
     tools: &Tools,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let solution = solver::solve(capture, config, &mut |step| {
+    let solution = solver::solve_into(maps, SOLVER_SOURCES, capture, config, &mut |step| {
         if tools.interrupt.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
         let what = format!("{} loss {:.5}", step.stage, step.loss);
         progress(step.iteration as u64, step.total as u64, &what);
         ControlFlow::Continue(())
-    });
-    match solution {
-        Err(solver::SolveError::Interrupted) => Err(RunError::Interrupted),
-        solution => Ok(solution?.write(maps)?),
+    })?;
+    match solution.record.interrupted {
+        Some(place) => Err(RunError::Stopped { place, maps: maps.to_path_buf() }),
+        None => Ok(()),
     }
 }
 

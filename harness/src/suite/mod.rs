@@ -16,6 +16,8 @@ pub use content::hash_path;
 pub use entrant::solve;
 pub use file::Suite;
 pub use method::{Entrant, Method};
+#[cfg(feature = "python")]
+pub(crate) use run::SOLVER_SOURCES;
 pub use run::{
     Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
 };

@@ -25,7 +25,7 @@ use crate::score::{self, ScoreError};
 use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
 
 /// What the solver's and the scoring's code was when this program was built.
-const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
+pub(crate) const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
 const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
 
 /// How a run can end badly; each message is one line.
@@ -60,6 +60,18 @@ pub enum RunError {
     Folder(#[from] io::Error),
     #[error("interrupted; the same command goes on from here")]
     Interrupted,
+    #[error(
+        "interrupted in {place}; {} holds what there was, the same command goes on from here",
+        maps.display()
+    )]
+    Stopped { place: String, maps: PathBuf },
+}
+
+impl RunError {
+    /// Whether the user wanted it.
+    pub fn is_interrupt(&self) -> bool {
+        matches!(self, Self::Interrupted | Self::Stopped { .. })
+    }
 }
 
 impl From<StageError> for RunError {

@@ -139,7 +139,15 @@ impl Solve {
         }
         let initial = site.initial_state();
         let state = initial.clone();
-        Ok(Self { finished: 0, initial, best: None, state, probed: None, lit: None, physical: None })
+        Ok(Self {
+            finished: 0,
+            initial,
+            best: None,
+            state,
+            probed: None,
+            lit: None,
+            physical: None,
+        })
     }
 }
 
@@ -231,7 +239,9 @@ impl Step {
                 let lit =
                     light_and_albedo(run, config, mesh, &site.space, pictures, start, probed)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
-                let moved = run.cut().is_none_or(|cut| cut.step > config.transport.hold);
+                let begun = config.transport.hold;
+                let moved =
+                    run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lit = moved.then_some(lit);
             }
             Self::Heights => {
