@@ -86,11 +86,14 @@ fn solve(
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let config = if arguments.config.ends_with(".toml") {
+    let mut config = if arguments.config.ends_with(".toml") {
         solver::Config::from_toml(&fs::read_to_string(&arguments.config)?)?
     } else {
         solver::Config::preset(&arguments.config)?
     };
+    if arguments.no_records {
+        config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
     let capture = &arguments.capture;
     match arguments.solver {
         SolverName::Fields => {

@@ -85,6 +85,7 @@ impl Config {
                 smoothness: 1000.0,
                 albedo_damping: 30.0,
             },
+            records: RecordConfig { stages: true, layers: true },
         }
     }
 
@@ -114,7 +115,7 @@ impl Config {
         config
     }
 
-    /// `unshade` with fewer iterations and texels.
+    /// `unshade` with fewer iterations and texels, and no records.
     pub(super) fn fast() -> Self {
         let mut config = Self::unshade();
         config.initialisation.start_iterations = 150;
@@ -129,6 +130,7 @@ impl Config {
         config.transport.refinement = 50;
         config.height.linearisations = 1;
         config.height.steps = 20;
+        config.records = RecordConfig { stages: false, layers: false };
         config
     }
 }

@@ -7,6 +7,7 @@ pub mod normalise;
 pub mod relief;
 mod run;
 mod site;
+mod snapshot;
 pub mod solve;
 pub mod stage;
 pub mod transported;

@@ -10,17 +10,19 @@ use super::finish::finish;
 use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
+use super::snapshot::{Snapshot, Unit};
 use super::stage::{Diffuse, Relief, State, WarmUp};
 use super::transported::{Lit, Physical, light_and_albedo, refined};
+use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
 use crate::capture::Capture;
 use crate::config::Config;
-use crate::error::{CaptureError, SolveError};
+use crate::error::{CaptureError, MapsError, SolveError};
 use crate::gbuffer::Atlas;
 use crate::model::networks::Networks;
 use crate::model::texture::resample;
-use crate::solution::Solution;
+use crate::solution::{Solution, ViewLayers};
 
 /// Where a solve stands.
 #[derive(Clone, Debug)]
@@ -37,11 +39,17 @@ pub struct Progress<'a> {
 
 pub(super) type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
+/// Takes the layers of a training view.
+pub type LayerSink<'a> = dyn FnMut(&ViewLayers) -> Result<(), MapsError> + 'a;
+
 /// How a solve is run. Nothing in it changes a map.
 #[derive(Default)]
-pub struct Options {
+pub struct Options<'a> {
     /// Where to keep what is needed to go on after an interrupt or a fall.
     pub checkpoint: Option<Checkpoint>,
+    /// Takes the layers of the training views one after the other, if the configuration wants them:
+    /// of many large views, memory has no room.
+    pub layers: Option<&'a mut LayerSink<'a>>,
 }
 
 /// Decomposes a capture into maps on the processor. `progress` is called after every step and may
@@ -68,12 +76,26 @@ pub fn solve_into(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     let checkpoint = Checkpoint::beside(maps, program);
-    let folder = checkpoint.folder().to_path_buf();
-    let options = Options { checkpoint: Some(checkpoint) };
+    let kept = checkpoint.folder().to_path_buf();
+    let mut partial: Option<Folder> = None;
+    let io = |source| MapsError::Io { path: maps.to_path_buf(), source };
+    let mut layers = |view: &ViewLayers| {
+        let folder = match &mut partial {
+            Some(folder) => folder,
+            none => none.insert(Folder::begin(maps).map_err(io)?),
+        };
+        view.write_layers(folder.path())
+    };
+    let options = Options { checkpoint: Some(checkpoint), layers: Some(&mut layers) };
     let solution = solve_on(&Cpu::new(), capture, config, options, progress)?;
-    solution.write(maps)?;
+    let folder = match partial {
+        Some(folder) => folder,
+        None => Folder::begin(maps).map_err(io)?,
+    };
+    solution.write_into(folder.path())?;
+    folder.commit().map_err(io)?;
     if solution.record.interrupted.is_none() {
-        Checkpoint::remove(&folder);
+        Checkpoint::remove(&kept);
     }
     Ok(solution)
 }
@@ -83,7 +105,7 @@ pub fn solve_on(
     backend: &dyn Backend,
     capture: &Capture,
     config: &Config,
-    options: Options,
+    options: Options<'_>,
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
@@ -103,13 +125,16 @@ pub fn solve_on(
     };
     for step in &steps[solve.finished.min(steps.len())..] {
         step.take(&mut site, &mut run, &mut solve)?;
+        if config.records.stages {
+            solve.snapshots.extend(step.snapshot(&site, &solve));
+        }
         if run.cut().is_some() {
             break;
         }
         solve.finished += 1;
         run.save(&solve);
     }
-    finish(&site, run, solve)
+    finish(&site, run, solve, options.layers)
 }
 
 /// What a solve has found so far: with the capture and the configuration, all that is needed to go
@@ -128,6 +153,8 @@ pub(super) struct Solve {
     pub lit: Option<Lit>,
     /// The diffuse albedo of the maps, if it is not the networks'.
     pub physical: Option<Physical>,
+    /// The textures after every stage.
+    pub snapshots: Vec<Snapshot>,
 }
 
 impl Solve {
@@ -137,7 +164,15 @@ impl Solve {
         }
         let initial = site.initial_state();
         let state = initial.clone();
-        Ok(Self { finished: 0, initial, best: None, state, lit: None, physical: None })
+        Ok(Self {
+            finished: 0,
+            initial,
+            best: None,
+            state,
+            lit: None,
+            physical: None,
+            snapshots: vec![],
+        })
     }
 }
 
@@ -257,6 +292,40 @@ impl Step {
             Self::Albedo => albedo(site, run, solve)?,
         }
         Ok(())
+    }
+}
+
+impl Step {
+    /// What the step has changed, for the record.
+    fn snapshot(&self, site: &Site, solve: &Solve) -> Option<Snapshot> {
+        let State { size, diffuse, specular, deviation, .. } = &solve.state;
+        let bend = || site.fine().deviation.textures(deviation).sharp;
+        match self {
+            Self::Start(_) => None,
+            Self::WarmUp => {
+                let new = Snapshot::new("warm-up", Unit::Networks);
+                Some(new.diffuse(diffuse, *size).specular(specular, *size))
+            }
+            Self::Transport => {
+                let lit = &solve.lit.as_ref()?.state;
+                Some(Snapshot::new("transport", Unit::Transport).diffuse(&lit.diffuse, lit.size))
+            }
+            Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
+            Self::Relief(round) => {
+                let stage = format!("normals and specular {round}");
+                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
+                let still = site.config.fine_tuning.deviation_rate == 0.0;
+                Some(if still { new } else { new.bend(&bend(), *size) })
+            }
+            Self::Diffuse(round) => {
+                let stage = format!("diffuse {round}");
+                Some(Snapshot::new(&stage, Unit::Networks).diffuse(diffuse, *size))
+            }
+            Self::Albedo => {
+                let physical = &solve.physical.as_ref()?.diffuse;
+                Some(Snapshot::new("albedo", Unit::Transport).diffuse(physical, *size))
+            }
+        }
     }
 }
 
