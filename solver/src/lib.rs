@@ -13,6 +13,7 @@ pub mod fill;
 pub mod gbuffer;
 pub mod machine;
 pub mod maps;
+pub mod memory;
 pub mod model;
 pub mod optimise;
 pub mod picture;

@@ -8,7 +8,7 @@ mod run;
 mod scene;
 
 pub use content::hash_path;
-pub use entrant::{mean_texture, solve};
+pub use entrant::{TIME_LEFT, mean_texture, solve};
 pub use file::{Case, Entrant, Method, Suite};
 #[cfg(feature = "python")]
 pub(crate) use run::SOLVER_SOURCES;

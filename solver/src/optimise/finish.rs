@@ -1,5 +1,6 @@
 //! The end of a solve: maps, withheld views and the record of what has been found.
 
+use super::clock::Work;
 use super::normalise::Scales;
 use super::run::Run;
 use super::site::{Site, map_size};
@@ -15,6 +16,12 @@ use crate::model::deviation::{Bend, Deviation};
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
 use crate::solution::{Record, Solution, ViewLayers};
+
+/// What this takes.
+pub(super) fn finishing(site: &Site) -> Work {
+    let side = map_size(site.config.fine_tuning.texture_size, site.size);
+    Work { preparation: 1e-6 * (side * side + site.pixels) as f64, ..Work::default() }
+}
 
 /// Makes a solution of what there is; after an interrupt that may be little, but it is valid.
 /// The layers of the training views go to `layers`, if there is one and the configuration wants it.

@@ -6,7 +6,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::checkpoint::Checkpoint;
-use super::finish::finish;
+use super::clock::Work;
+use super::finish::{finish, finishing};
 use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
@@ -20,6 +21,7 @@ use crate::capture::Capture;
 use crate::config::Config;
 use crate::error::{CaptureError, MapsError, SolveError};
 use crate::gbuffer::Atlas;
+use crate::memory::{self, Estimate};
 use crate::model::networks::Networks;
 use crate::model::texture::resample;
 use crate::solution::{Solution, ViewLayers};
@@ -29,12 +31,18 @@ use crate::solution::{Solution, ViewLayers};
 pub struct Progress<'a> {
     /// The stage at work.
     pub stage: &'a str,
+    /// Steps done of the stage.
+    pub step: usize,
+    /// Steps of the stage.
+    pub steps: usize,
     /// Steps done over all stages.
     pub iteration: usize,
     /// Steps of all stages.
     pub total: usize,
     /// The loss before the last step.
     pub loss: f64,
+    /// Seconds until the maps are there, as far as one can tell.
+    pub seconds_left: f64,
 }
 
 pub(super) type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
@@ -109,10 +117,12 @@ pub fn solve_on(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
+    Estimate::new(capture, config).fits(memory::available())?;
     let mut site = Site::new(backend, capture, config);
     let steps = Step::all(config);
-    let total = steps.iter().map(|step| step.iterations(config)).sum();
-    let mut run = Run::new(config, total, backend, progress);
+    let mut work: Vec<Work> = steps.iter().map(|step| step.work(&site)).collect();
+    work.push(finishing(&site));
+    let mut run = Run::new(config, work, backend, progress);
     let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
     let mut solve = match checkpoint.and_then(|checkpoint| run.resume(checkpoint)) {
         Some(solve) => solve,
@@ -132,6 +142,7 @@ pub fn solve_on(
             break;
         }
         solve.finished += 1;
+        run.next_part();
         run.save(&solve);
     }
     finish(&site, run, solve, options.layers)
@@ -227,6 +238,36 @@ impl Step {
             Self::Heights => height.linearisations * height.reweightings * height.steps,
             Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
+        }
+    }
+
+    /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
+    fn work(&self, site: &Site) -> Work {
+        let config = site.config;
+        let square = |side: usize| (side * side) as f64;
+        let pixels = site.pixels as f64;
+        let few = if config.warm_up.half_resolution { 0.25 * pixels } else { pixels };
+        let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
+            preparation: 0.0,
+            step: 1e-9 * (sample * samples + texel * texels),
+            steps: self.iterations(config),
+        };
+        let t = &config.transport;
+        match self {
+            Self::Start(_) | Self::WarmUp => {
+                work(73.0, few, 67.0, square(config.warm_up.texture_size))
+            }
+            Self::Transport => {
+                let entries = square(t.texture_size) * (2 * t.rows * t.rows) as f64;
+                let rays = entries * square(t.rays_per_cell_side);
+                Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
+            }
+            Self::Heights => {
+                let share = f64::from(config.height.texture_share);
+                work(70.0, pixels, 50.0, share * share * square(site.size))
+            }
+            Self::Relief(_) => work(70.0, pixels, 60.0, square(site.size)),
+            Self::Diffuse(_) | Self::Albedo => work(20.0, pixels, 22.0, square(site.size)),
         }
     }
 

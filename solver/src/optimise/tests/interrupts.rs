@@ -74,6 +74,8 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
     let config = short();
     let mut heard = vec![];
     let solution = solve_into(&whole, PROGRAM, &capture, &config, &mut |progress| {
+        assert!(progress.step <= progress.steps);
+        assert!(progress.seconds_left.is_finite() && progress.seconds_left >= 0.0);
         heard.push((progress.iteration, progress.total));
         ControlFlow::Continue(())
     })
