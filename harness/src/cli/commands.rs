@@ -18,9 +18,7 @@ use crate::synth::{Interpreter, Interrupt};
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
-        Verb::Solve(arguments) => {
-            alone("solve", |tools, step| solve(&arguments, tools, step))?;
-        }
+        Verb::Solve(arguments) => solve(&arguments)?,
         Verb::Relight { capture, maps, out } => {
             alone("relight", |tools, step| suite::relight(&capture, &maps, &out, tools, step))?;
         }
@@ -87,26 +85,27 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
     }
 }
 
-fn solve(
-    arguments: &SolveArgs,
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let config = if arguments.config.ends_with(".toml") {
+fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
+    let mut config = if arguments.config.ends_with(".toml") {
         solver::Config::from_toml(&fs::read_to_string(&arguments.config)?)?
     } else {
         solver::Config::preset(&arguments.config)?
     };
-    let capture = &arguments.capture;
+    if arguments.no_records {
+        config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
+    let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
         SolverName::Fields => {
-            suite::solve(&solver::Capture::open(capture)?, &config, &arguments.out, tools, step)
+            let capture = solver::Capture::open(capture)?;
+            eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
+            alone("solve", |tools, step| suite::solve(&capture, &config, out, tools, step))
         }
         SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),
         SolverName::SemanticInitialisation => {
             baseline(BaselineMethod::SemanticInitialisation, arguments)
         }
-        SolverName::Oracle => Ok(score::oracle_maps(capture, &arguments.out)?),
+        SolverName::Oracle => alone("solve", |_, _| Ok(score::oracle_maps(capture, out)?)),
     }
 }
 

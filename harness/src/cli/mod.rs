@@ -119,6 +119,9 @@ struct SolveArgs {
     /// A preset (unshade, paper, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     config: String,
+    /// Leave out the maps after every stage and the layers of every training view.
+    #[arg(long)]
+    no_records: bool,
     /// What computes.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,

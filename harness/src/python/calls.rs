@@ -33,12 +33,16 @@ pub(super) fn solve(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Maps> {
     // A preset's name, or the text of a configuration.
-    let config = if config.contains('=') {
+    let mut config = if config.contains('=') {
         solver::Config::from_toml(config)
     } else {
         solver::Config::preset(config)
     }
     .map_err(raise)?;
+    if out.is_none() {
+        // Nobody would see them.
+        config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
     let capture = &capture.get().inner;
     let mut raised: Option<PyErr> = None;
     let solution = py.detach(|| {

@@ -9,11 +9,15 @@ use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
 
+use indicatif::HumanDuration;
 use solver::atomic::Folder;
 
 use super::method::{Entrant, Method};
 use super::run::{RunError, SOLVER_SOURCES, Tools};
 use crate::score;
+
+/// Ends what is said of a step that knows better than its share how long the rest takes.
+pub const TIME_LEFT: &str = " left";
 
 /// Writes `maps` from `capture`.
 pub(super) fn make_maps(
@@ -62,7 +66,14 @@ pub fn solve(
         if tools.interrupt.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
-        let what = format!("{} loss {:.5}", step.stage, step.loss);
+        let what = format!(
+            "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
+            step.stage,
+            step.step,
+            step.steps,
+            step.loss,
+            HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
+        );
         progress(step.iteration as u64, step.total as u64, &what);
         ControlFlow::Continue(())
     })?;

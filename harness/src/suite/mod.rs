@@ -13,7 +13,7 @@ mod scene;
 pub use baseline::BaselineMethod;
 pub use cases::Case;
 pub use content::hash_path;
-pub use entrant::solve;
+pub use entrant::{TIME_LEFT, solve};
 pub use file::Suite;
 pub use method::{Entrant, Method};
 #[cfg(feature = "python")]
