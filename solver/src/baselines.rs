@@ -59,6 +59,7 @@ fn maps(
         specular_albedo: None,
         diffuse_normal: Some(atlas.normal_map()),
         specular_normal: Some(atlas.normal_map()),
+        confidence: None,
         coverage: Some(GrayImage { width: size, height: size, data }),
     })
 }

@@ -17,6 +17,8 @@ pub struct Maps {
     pub diffuse_normal: Option<Picture>,
     /// Unit vectors in object space.
     pub specular_normal: Option<Picture>,
+    /// One channel, 0 to 1: the solver's own trust in the diffuse albedo.
+    pub confidence: Option<Picture>,
     /// 255 where the map had data.
     pub coverage: Option<GrayImage>,
 }
@@ -24,11 +26,12 @@ pub struct Maps {
 type Field = fn(&mut Maps) -> &mut Option<Picture>;
 
 /// File, channel names, and the place of each float map.
-const FILES: [(&str, &[&str], Field); 4] = [
+const FILES: [(&str, &[&str], Field); 5] = [
     ("diffuse_albedo.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_albedo),
     ("specular_albedo.exr", &["Y"], |maps| &mut maps.specular_albedo),
     ("diffuse_normal.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_normal),
     ("specular_normal.exr", &["R", "G", "B"], |maps| &mut maps.specular_normal),
+    ("confidence.exr", &["Y"], |maps| &mut maps.confidence),
 ];
 const COVERAGE: &str = "coverage.png";
 

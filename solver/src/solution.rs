@@ -114,6 +114,11 @@ pub struct RecoveredLight {
 }
 
 impl RecoveredLight {
+    /// How much it differs with direction; see [`crate::transport::contrast`].
+    pub fn contrast(&self) -> f32 {
+        crate::transport::contrast(self.rows, &self.radiance)
+    }
+
     /// One pixel per cell.
     pub fn picture(&self) -> Picture {
         let (width, height) = (2 * self.rows, self.rows);

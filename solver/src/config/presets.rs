@@ -50,6 +50,8 @@ impl Config {
                 diffuse_percentile: 100.0,
                 specular_percentile: 100.0,
                 specular_maximum: 0.05,
+                specular_skin: 0.0,
+                specular_pooling: 0.0,
             },
             transport: TransportConfig {
                 enabled: false,
@@ -71,7 +73,7 @@ impl Config {
                 network_rate: 3e-3,
                 percentile: 99.0,
                 refinement: 250,
-                refinement_prior: 0.3,
+                refinement_prior: 3.0,
             },
             height: HeightConfig {
                 enabled: false,
@@ -114,6 +116,8 @@ impl Config {
         config.height.enabled = true;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
+        config.normalisation.specular_skin = 0.028;
+        config.normalisation.specular_pooling = 0.013;
         config
     }
 

@@ -154,6 +154,13 @@ pub struct NormalisationConfig {
     pub specular_percentile: f64,
     /// Upper end of human skin's reflectance at normal incidence; 0.05.
     pub specular_maximum: f32,
+    /// Mean specular albedo of the largest region, which is skin; it then replaces `specular_percentile`
+    /// and `specular_maximum`. 0.028 is that of an index of refraction of 1.4. 0 in the paper.
+    pub specular_skin: f32,
+    /// Pool the specular albedo: over each labelled region, or without labels over this distance,
+    /// metres (standard deviation), since within a region pictures tell next to nothing of it. 0 leaves
+    /// it as solved, as in the paper.
+    pub specular_pooling: f32,
 }
 
 /// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light
@@ -229,7 +236,8 @@ pub struct HeightConfig {
     pub blur: f32,
     /// Residuals coarser than this (pixels of the full picture) are no relief; 0 keeps them.
     pub coarsest_pixels: f32,
-    /// Weight of the squared deviation.
+    /// Weight of the squared deviation; under explicit transport over the squared contrast of the
+    /// light, because an even light shows no relief.
     pub flatness: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,

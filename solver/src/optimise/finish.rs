@@ -1,6 +1,7 @@
 //! The end of a solve: maps, withheld views and the record of what has been found.
 
 use super::clock::Work;
+use super::gloss;
 use super::normalise::Scales;
 use super::run::Run;
 use super::site::{Site, map_size};
@@ -13,6 +14,7 @@ use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;
 use crate::model::deviation::{Bend, Deviation};
+use crate::model::texture::resample;
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
 use crate::solution::{Record, Solution, ViewLayers};
@@ -48,6 +50,11 @@ pub(super) fn finish(
     let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
     let specular = covered.map(|(value, _)| *value).collect();
     let mut scales = Scales::new(&config.normalisation, shading, specular);
+    if config.normalisation.specular_skin > 0.0 {
+        let atlas = Atlas::new(mesh, size);
+        let skin = gloss::of_largest_region(&atlas, &projections, &seen, &state.specular);
+        scales.specular = config.normalisation.specular_skin / skin.max(f32::MIN_POSITIVE);
+    }
     let physical_scale = physical.as_ref().map(|physical| physical.scale);
     let stages = stage_maps(snapshots, scales, physical_scale, mesh, &projections);
     let synthesise = |camera: &Camera| synthesised(camera, site, deviation, &state);
@@ -55,7 +62,9 @@ pub(super) fn finish(
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
     }
+    let mut confidence = None;
     if let Some(physical) = physical {
+        confidence = Some(physical.confidence);
         scales.diffuse = physical.scale;
         state.diffuse = physical.diffuse;
         fill_unseen(&mut state, &seen);
@@ -65,7 +74,21 @@ pub(super) fn finish(
     state.resize(map_size);
     let atlas = Atlas::new(mesh, map_size);
     let seen = per_texel(&atlas, &projections, |_| true);
-    let maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
+    if config.normalisation.specular_pooling > 0.0 {
+        let config = &config.normalisation;
+        state.specular = gloss::pooled(config, &atlas, &projections, &seen, &state.specular);
+    }
+    let mut maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
+    maps.confidence = confidence.map(|confidence| Picture {
+        width: map_size,
+        height: map_size,
+        channels: 1,
+        data: resample(&confidence, size, 1, map_size)
+            .iter()
+            .zip(&seen)
+            .map(|(trust, seen)| if *seen { *trust } else { 0.0 })
+            .collect(),
+    });
     run.lap("maps and views");
     let interrupted = run.cut().map(ToString::to_string);
     let (stage_records, timing) = run.into_log();
@@ -122,6 +145,7 @@ fn to_maps(
         specular_albedo: picture(1, scaled(&state.specular, scales.specular)),
         diffuse_normal: picture(3, bent(&blurred)),
         specular_normal: picture(3, bent(&sharp)),
+        confidence: None,
         coverage: Some(GrayImage { width: size, height: size, data: coverage }),
     }
 }

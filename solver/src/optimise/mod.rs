@@ -3,7 +3,9 @@
 pub mod adam;
 pub mod checkpoint;
 mod clock;
+mod confidence;
 mod finish;
+mod gloss;
 pub mod normalise;
 pub mod relief;
 mod run;

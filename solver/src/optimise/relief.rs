@@ -29,6 +29,8 @@ const UNKNOWNS: usize = 9;
 const DARKEST: f32 = 1e-3;
 /// Change of the albedo that counts as one unit of the unknown.
 const ALBEDO_UNIT: f32 = 0.1;
+/// Least square of a light's contrast.
+const LEAST_CONTRAST: f32 = 1e-3;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
 
@@ -48,6 +50,8 @@ pub struct ReliefSolve<'a> {
     light: Planes,
     /// S_d under explicit transport, and how it changes with the normal.
     lit: Option<Planes>,
+    /// Weight of the squared deviation in this light.
+    flatness: f32,
     views: &'a [GBuffer],
 }
 
@@ -90,6 +94,10 @@ impl<'a> ReliefSolve<'a> {
             networks: &state.networks,
             light: backend.light(&state.networks, &samples.position),
             lit: lit.map(|lit| lit.sampled(samples)),
+            // What highlights and shading tell of relief grows with the light's contrast; what the
+            // model gets wrong does not.
+            flatness: config.height.flatness
+                / lit.map_or(1.0, |lit| lit.light.contrast().powi(2).max(LEAST_CONTRAST)),
             views,
         }
     }
@@ -287,7 +295,7 @@ impl<'a> ReliefSolve<'a> {
             let (height, albedo) = x.split_at(texels);
             let bend = self.field.bend(height);
             let mut penalty = laplacian(&bend, self.size, 3, self.config.smoothness);
-            let flatness = self.config.flatness;
+            let flatness = self.flatness;
             penalty.iter_mut().zip(&bend).for_each(|(p, d)| *p += flatness * d);
             add(by_height, &self.field.adjoint(&penalty));
             by_height.iter_mut().zip(height).for_each(|(g, h)| *g += REST * h);

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use super::confidence::confidence;
 use super::run::Run;
 use super::site::WarmUpPictures;
 use super::stage::{Diffuse, Memory, Stage, State, layers};
@@ -64,6 +65,8 @@ pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; 
 pub(super) struct Physical {
     pub diffuse: Vec<f32>,
     pub scale: f32,
+    /// Of every texel, 0 to 1.
+    pub confidence: Vec<f32>,
 }
 
 /// The light as the semantic colours show it.
@@ -152,9 +155,12 @@ pub(super) fn refined(
     });
     let t = &config.transport;
     let name = "albedo".to_owned();
-    let mut stage = Diffuse::under(config, samples, planes, name, t.refinement, t.refinement_prior);
+    let (steps, prior) = (t.refinement, t.refinement_prior);
+    let mut stage = Diffuse::under(config, samples, planes.clone(), name, steps, prior);
     run.stage(&mut stage, &mut own)?;
-    Ok(Physical { diffuse: own.diffuse, scale: lit.peak })
+    let albedo = samples.taps.sample::<3>(&own.diffuse);
+    let confidence = confidence(samples, &planes, &albedo, prior);
+    Ok(Physical { diffuse: own.diffuse, scale: lit.peak, confidence })
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.

@@ -23,10 +23,12 @@ use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
 pub use rays::{Impact, Occluder};
-pub use sky::{Sky, SkyRay};
+pub use sky::{Sky, SkyRay, contrast};
 
 /// Colour channels of the light.
 pub const CHANNELS: usize = 3;
+/// Rec.709.
+const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
 /// A ray starts this far from the surface, as a share of the mesh's longest side: clear of the
 /// facets next to its own.
 const LIFT: f32 = 1.6e-3;
@@ -197,7 +199,6 @@ impl Transport {
     /// The largest S_d that a texel in front (normal towards +Z) would have if nothing stood in the
     /// light's way, as Rec.709 luminance: what pictures are exposed by. 0 without such texels.
     pub fn peak(&self, light: &[f32]) -> f32 {
-        const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
         let rays = self.sky.rays(1, 0);
         let luminance =
             |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();

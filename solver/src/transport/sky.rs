@@ -6,6 +6,9 @@ use std::f64::consts::{PI, TAU};
 use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+use super::{CHANNELS, LUMINANCE};
 
 /// A direction within a cell and the solid angle it stands for, both from the head's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +111,36 @@ impl Sky {
     }
 }
 
+/// How much a light of R, G, B per cell of an even sky of `rows` rows differs with direction: the
+/// standard deviation of its luminance over the mean, over directions in front (+Z), seen through a
+/// lobe as wide as skin's highlights (the eighth power of the cosine). About 0.1 under a dome, 1 under
+/// softboxes.
+pub fn contrast(rows: usize, light: &[f32]) -> f32 {
+    const LOBE: i32 = 8;
+    let rays = Sky::even(rows).rays(1, 0);
+    let luminance = |cell: u32| {
+        let at = CHANNELS * cell as usize;
+        light[at..at + CHANNELS].iter().zip(LUMINANCE).map(|(l, w)| f64::from(l * w)).sum::<f64>()
+    };
+    let seen = |front: &SkyRay| {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for ray in &rays {
+            let cosine = ray.direction.dot(front.direction).max(0.0);
+            let weight = f64::from(cosine.powi(LOBE) * ray.solid_angle);
+            sum += weight * luminance(ray.cell);
+            total += weight;
+        }
+        (f64::from(front.solid_angle), sum / total)
+    };
+    let front: Vec<&SkyRay> = rays.iter().filter(|ray| ray.direction.z > 0.0).collect();
+    let seen: Vec<(f64, f64)> = front.into_par_iter().map(seen).collect();
+    let total: f64 = seen.iter().map(|(weight, _)| weight).sum();
+    let mean = seen.iter().map(|(weight, value)| weight * value).sum::<f64>() / total;
+    let square = |(weight, value): &(f64, f64)| weight * (value - mean) * (value - mean);
+    let variance = seen.iter().map(square).sum::<f64>() / total;
+    (variance.sqrt() / mean.max(f64::MIN_POSITIVE)) as f32
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,5 +161,15 @@ mod tests {
         assert!(rays.iter().filter(|ray| ray.cell < 32).all(|ray| ray.direction.y > 0.98));
         let first = rays.iter().find(|ray| ray.cell == 8 * 32).unwrap().direction;
         assert!(first.z < -0.9 && first.x > 0.0);
+    }
+
+    #[test]
+    fn an_even_light_has_no_contrast_and_a_lamp_has_much() {
+        let cells = Sky::even(16).len();
+        let mut light = vec![0.5; CHANNELS * cells];
+        assert!(contrast(16, &light) < 1e-6);
+        let lamp = Sky::even(16).rays(1, 0).iter().position(|ray| ray.direction.z > 0.95).unwrap();
+        light[CHANNELS * lamp..CHANNELS * (lamp + 1)].fill(500.0);
+        assert!(contrast(16, &light) > 1.0);
     }
 }

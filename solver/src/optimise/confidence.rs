@@ -1,0 +1,45 @@
+//! How far the albedo of a texel may be trusted: it was seen, in light, and what was seen is
+//! explained.
+
+use crate::model::blur::Blur;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+
+/// Relative residual at which trust has fallen to 1 / e.
+const MISFIT: f32 = 0.1;
+/// Standard deviation of the smoothing, texels.
+const SMOOTHING: f32 = 1.5;
+
+/// Trust in every texel of the samples' texture, 0 to 1: q / (1 + q) x exp(-r / 0.1). q weighs the
+/// pull of the pictures (the sum of view weight x S_d) against that of the prior of weight `prior`; r is
+/// the mean absolute residual over the mean colour. `layers` has S_d of R, G, B and the specular layer,
+/// `diffuse` the albedo at every sample.
+pub(super) fn confidence(
+    samples: &Samples,
+    layers: &Planes,
+    diffuse: &Planes,
+    prior: f32,
+) -> Vec<f32> {
+    let size = samples.taps.size();
+    let parts = Planes::from_fn(samples.len(), |i| {
+        let [r, g, b, specular]: [f32; 4] = layers.sample(i, 0);
+        let shading = [r, g, b];
+        let albedo: [f32; 3] = diffuse.sample(i, 0);
+        let target: [f32; 3] = samples.target.sample(i, 0);
+        let weight = samples.weight.get(0, i) / 3.0;
+        let sum = |value: &dyn Fn(usize) -> f32| weight * (0..3).map(value).sum::<f32>();
+        [
+            sum(&|c| shading[c]),
+            sum(&|c| (albedo[c] * shading[c] + specular - target[c]).abs()),
+            sum(&|c| target[c].abs()),
+        ]
+    });
+    let sums = Blur::new(size, 3, SMOOTHING).apply(&samples.taps.gather::<3>(&parts, 0));
+    let pull = (size * size) as f32 / (samples.len().max(1) as f32 * prior.max(f32::MIN_POSITIVE));
+    let trust = |[light, misfit, colour]: &[f32; 3]| {
+        let q = pull * light;
+        let r = misfit / colour.max(f32::MIN_POSITIVE);
+        q / (1.0 + q) * (-r / MISFIT).exp()
+    };
+    sums.as_chunks::<3>().0.iter().map(trust).collect()
+}

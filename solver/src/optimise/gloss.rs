@@ -1,0 +1,63 @@
+//! The specular albedo of the maps. Within a region of the face pictures tell next to nothing of it,
+//! so that it is pooled; and only up to a factor, so that the skin's comes from its index of refraction.
+
+use crate::config::NormalisationConfig;
+use crate::gbuffer::Atlas;
+use crate::model::blur::Blur;
+use crate::projection::Projection;
+use crate::semantic::region_map;
+
+/// `specular` on the chart of `atlas`, pooled over the labelled regions or, without labels, over the
+/// configured distance; texels that are not `seen` have no say.
+pub(super) fn pooled(
+    config: &NormalisationConfig,
+    atlas: &Atlas,
+    projections: &[Projection],
+    seen: &[bool],
+    specular: &[f32],
+) -> Vec<f32> {
+    let regions = region_map(atlas, projections);
+    if regions.iter().any(|region| *region != 0) {
+        let means = region_means(&regions, seen, specular);
+        return regions.iter().map(|region| means[*region as usize].0).collect();
+    }
+    let blur = Blur::new(atlas.size, 1, config.specular_pooling / texel_length(atlas));
+    let part = |value: &dyn Fn(usize) -> f32| -> Vec<f32> {
+        let values: Vec<f32> =
+            (0..seen.len()).map(|at| if seen[at] { value(at) } else { 0.0 }).collect();
+        blur.apply(&values)
+    };
+    let (sums, weights) = (part(&|at| specular[at]), part(&|_| 1.0));
+    let near = |at: usize| if weights[at] > 0.0 { sums[at] / weights[at] } else { specular[at] };
+    (0..seen.len()).map(near).collect()
+}
+
+/// The mean of the region that most seen texels belong to.
+pub(super) fn of_largest_region(
+    atlas: &Atlas,
+    projections: &[Projection],
+    seen: &[bool],
+    specular: &[f32],
+) -> f32 {
+    let means = region_means(&region_map(atlas, projections), seen, specular);
+    means.iter().fold((0.0, 0), |best, next| if next.1 > best.1 { *next } else { best }).0
+}
+
+/// The mean and the number of seen texels of every region.
+fn region_means(regions: &[u8], seen: &[bool], specular: &[f32]) -> Vec<(f32, usize)> {
+    let mut sums = vec![(0.0f64, 0usize); 256];
+    for ((region, value), _) in regions.iter().zip(specular).zip(seen).filter(|(_, seen)| **seen) {
+        let sum = &mut sums[*region as usize];
+        *sum = (sum.0 + f64::from(*value), sum.1 + 1);
+    }
+    sums.iter().map(|(sum, count)| ((sum / (*count).max(1) as f64) as f32, *count)).collect()
+}
+
+/// The median length of a texel on the surface, metres.
+fn texel_length(atlas: &Atlas) -> f32 {
+    let inside = |at: &usize| at % atlas.size > 0 && atlas.inside[*at] && atlas.inside[*at - 1];
+    let length = |at: usize| atlas.positions[at].distance(atlas.positions[at - 1]);
+    let mut lengths: Vec<f32> = (0..atlas.inside.len()).filter(inside).map(length).collect();
+    lengths.sort_by(f32::total_cmp);
+    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0).max(f32::MIN_POSITIVE)
+}
