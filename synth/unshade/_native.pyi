@@ -61,6 +61,7 @@ class Maps:
     specular_albedo: _Float | None
     diffuse_normal: _Float | None
     specular_normal: _Float | None
+    confidence: _Float | None
     coverage: _Byte | None
     def __init__(
         self,
@@ -69,6 +70,7 @@ class Maps:
         specular_albedo: _Float | None = None,
         diffuse_normal: _Float | None = None,
         specular_normal: _Float | None = None,
+        confidence: _Float | None = None,
         coverage: _Byte | None = None,
     ) -> None: ...
     @property

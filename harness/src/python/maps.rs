@@ -41,12 +41,13 @@ fn array_of<'py>(py: Python<'py>, map: &Option<Picture>) -> Taken<'py> {
 impl Maps {
     #[new]
     #[pyo3(signature = (*, diffuse_albedo=None, specular_albedo=None, diffuse_normal=None,
-                        specular_normal=None, coverage=None))]
+                        specular_normal=None, confidence=None, coverage=None))]
     fn new(
         diffuse_albedo: Given,
         specular_albedo: Given,
         diffuse_normal: Given,
         specular_normal: Given,
+        confidence: Given,
         coverage: Option<PyReadonlyArrayDyn<u8>>,
     ) -> PyResult<Self> {
         let mut maps = Self::default();
@@ -54,6 +55,7 @@ impl Maps {
         maps.set_specular_albedo(specular_albedo)?;
         maps.set_diffuse_normal(diffuse_normal)?;
         maps.set_specular_normal(specular_normal)?;
+        maps.set_confidence(confidence)?;
         maps.set_coverage(coverage)?;
         Ok(maps)
     }
@@ -121,6 +123,18 @@ impl Maps {
     #[setter]
     fn set_specular_normal(&mut self, array: Given) -> PyResult<()> {
         self.inner.specular_normal = map_from("specular_normal", 3, array)?;
+        Ok(())
+    }
+
+    /// (size, size) 0 to 1: the solver's own trust in the diffuse albedo.
+    #[getter]
+    fn confidence<'py>(&self, py: Python<'py>) -> Taken<'py> {
+        array_of(py, &self.inner.confidence)
+    }
+
+    #[setter]
+    fn set_confidence(&mut self, array: Given) -> PyResult<()> {
+        self.inner.confidence = map_from("confidence", 1, array)?;
         Ok(())
     }
 
