@@ -42,7 +42,7 @@ impl SceneError {
     }
 }
 
-const KEYS: [&str; 9] = [
+const KEYS: [&str; 10] = [
     "format",
     "name",
     "face",
@@ -52,6 +52,7 @@ const KEYS: [&str; 9] = [
     "render",
     "image_formation",
     "captured_mesh",
+    "labels",
 ];
 
 /// Keys of faces and lights that name files, which lie beside the file that names them.
