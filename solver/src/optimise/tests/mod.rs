@@ -1,6 +1,7 @@
 //! Gradients of the stages through textures, taps, blur and normals; and whole solves of a small
 //! scene whose answer is known.
 
+mod recorded;
 mod relief;
 mod transported;
 
