@@ -1,5 +1,6 @@
 //! The mesh: triangles with one normal and one texture coordinate per vertex.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
@@ -81,15 +82,18 @@ impl Mesh {
     }
 }
 
-/// Sums of the adjacent triangles' normals, weighted by their areas.
-fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    let mut normals = vec![Vec3::ZERO; positions.len()];
+/// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as
+/// seams and unwelded triangles have them, share theirs.
+pub(super) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    // Adding zero makes the two zeros one.
+    let place = |position: &Vec3| (position + Vec3::ZERO).to_array().map(f32::to_bits);
+    let mut sums: HashMap<[u32; 3], Vec3> = HashMap::with_capacity(positions.len());
     for corners in triangles {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let area_normal = (b - a).cross(c - a);
-        for corner in corners {
-            normals[*corner as usize] += area_normal;
+        for corner in [a, b, c] {
+            *sums.entry(place(&corner)).or_default() += area_normal;
         }
     }
-    normals
+    positions.iter().map(|p| sums.get(&place(p)).copied().unwrap_or_default()).collect()
 }
