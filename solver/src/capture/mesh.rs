@@ -84,16 +84,23 @@ impl Mesh {
 
 /// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as
 /// seams and unwelded triangles have them, share theirs.
-pub(super) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    // Adding zero makes the two zeros one.
-    let place = |position: &Vec3| (position + Vec3::ZERO).to_array().map(f32::to_bits);
-    let mut sums: HashMap<[u32; 3], Vec3> = HashMap::with_capacity(positions.len());
+fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let place = places(positions);
+    let mut sums = vec![Vec3::ZERO; positions.len()];
     for corners in triangles {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let area_normal = (b - a).cross(c - a);
-        for corner in [a, b, c] {
-            *sums.entry(place(&corner)).or_default() += area_normal;
+        for corner in corners {
+            sums[place[*corner as usize]] += area_normal;
         }
     }
-    positions.iter().map(|p| sums.get(&place(p)).copied().unwrap_or_default()).collect()
+    place.into_iter().map(|place| sums[place]).collect()
+}
+
+/// Of every vertex the first one that lies where it lies.
+pub(super) fn places(positions: &[Vec3]) -> Vec<usize> {
+    let mut first = HashMap::with_capacity(positions.len());
+    // Adding zero makes the two zeros one.
+    let bits = |position: &Vec3| (position + Vec3::ZERO).to_array().map(f32::to_bits);
+    (0..positions.len()).map(|i| *first.entry(bits(&positions[i])).or_insert(i)).collect()
 }
