@@ -2,7 +2,7 @@
 //! written beside its target as `<name>.partial` and renamed at the end.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// The place where `target` is written before it is complete.
@@ -14,10 +14,18 @@ pub fn partial_path(target: &Path) -> PathBuf {
 
 /// Writes `bytes` to `target`; an interrupted call leaves the old file as it was.
 pub fn write_file(target: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_with(target, |file| file.write_all(bytes))
+}
+
+/// Writes what `content` writes to `target`; an interrupted call leaves the old file as it was.
+pub fn write_with(
+    target: &Path,
+    content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
+) -> io::Result<()> {
     let partial = partial_path(target);
-    let mut file = fs::File::create(&partial)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
+    let mut file = BufWriter::new(fs::File::create(&partial)?);
+    content(&mut file)?;
+    file.into_inner()?.sync_all()?;
     fs::rename(&partial, target)
 }
 
@@ -49,7 +57,8 @@ impl Folder {
     }
 }
 
-fn remove_folder(path: &Path) -> io::Result<()> {
+/// Removes a folder with all that is in it, if it is there.
+pub fn remove_folder(path: &Path) -> io::Result<()> {
     match fs::remove_dir_all(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

@@ -123,7 +123,11 @@ pub enum SolveError {
         /// NaN or infinity.
         loss: f64,
     },
-    /// The progress callback asked to stop.
+    /// A step of a stage is told so when the progress callback asked to stop; a solve as a whole
+    /// then ends with what it has.
     #[error("interrupted")]
     Interrupted,
+    /// The maps cannot be written.
+    #[error(transparent)]
+    Maps(#[from] MapsError),
 }

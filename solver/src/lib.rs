@@ -28,7 +28,8 @@ pub use config::Config;
 pub use error::{CaptureError, ConfigError, MapsError, SolveError};
 pub use gbuffer::mesh_normal_map;
 pub use maps::Maps;
-pub use optimise::solve::{Progress, solve, solve_on};
+pub use optimise::checkpoint::Checkpoint;
+pub use optimise::solve::{Options, Progress, solve, solve_into, solve_on};
 pub use solution::{Record, Solution, Timing, ViewLayers};
 
 /// The instruction set that the processor backend uses on this machine.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::atomic::{self, Folder};
@@ -16,6 +16,8 @@ use crate::picture::{self, Picture};
 pub struct Solution {
     /// The reflectance maps, normalised.
     pub maps: Maps,
+    /// The light, if explicit transport had a part.
+    pub light: Option<RecoveredLight>,
     /// Every withheld view as the networks see it.
     pub views: Vec<ViewLayers>,
     /// Everything needed to get the same solution again, and the losses.
@@ -63,6 +65,12 @@ pub struct Record {
     pub backend: String,
     /// BLAKE3 of all files that were read.
     pub input: String,
+    /// Where the caller stopped the solve, as in "warm-up at step 3 of 500"; nothing if it came to
+    /// its end.
+    pub interrupted: Option<String>,
+    /// Distance of the light from the head's centre, metres; nothing at infinity, or if explicit
+    /// transport had no part.
+    pub light_distance: Option<f32>,
     /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
     /// Pixels of the fine-tuning.
@@ -75,8 +83,27 @@ pub struct Record {
     pub stages: Vec<StageRecord>,
 }
 
+/// The light that explicit transport found: cells of equal angles on a sphere around the head.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecoveredLight {
+    /// Rows of cells; twice as many columns.
+    pub rows: usize,
+    /// Radius of the sphere, metres; none at infinity.
+    pub distance: Option<f32>,
+    /// Linear R, G, B of every cell in the pictures' exposure, lat-long in Mitsuba's convention.
+    pub radiance: Vec<f32>,
+}
+
+impl RecoveredLight {
+    /// One pixel per cell.
+    pub fn picture(&self) -> Picture {
+        let (width, height) = (2 * self.rows, self.rows);
+        Picture { width, height, channels: 3, data: self.radiance.clone() }
+    }
+}
+
 /// One stage of the record.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageRecord {
     /// Its name.
     pub name: String,
@@ -99,6 +126,9 @@ impl Solution {
         let partial = Folder::begin(folder).map_err(io)?;
         let path = partial.path();
         self.maps.write_into(path)?;
+        if let Some(light) = &self.light {
+            picture::write_exr_rgb(&path.join("light.exr"), &light.picture())?;
+        }
         if !self.views.is_empty() {
             let views = path.join("views");
             std::fs::create_dir(&views).map_err(io)?;

@@ -34,6 +34,7 @@ impl TransportConfig {
             ("transport.grey_mean", self.grey_mean),
             ("transport.grey_texel", self.grey_texel),
             ("transport.light_rate", self.light_rate),
+            ("transport.nearness_rate", self.nearness_rate),
             ("transport.diffuse_rate", self.diffuse_rate),
             ("transport.specular_rate", self.specular_rate),
             ("transport.network_rate", self.network_rate),

@@ -174,7 +174,12 @@ pub struct TransportConfig {
     pub bounces: usize,
     /// The albedo of all that light bounces off.
     pub bounce_albedo: f32,
-    /// Full-batch steps.
+    /// Steps that seek the light and its distance alone, the albedo held, on an even sky.
+    pub probe: usize,
+    /// Learning rate of the light's nearness (inverse distance, in units of about 1 per metre around a
+    /// head); 0 leaves the light at infinity.
+    pub nearness_rate: f32,
+    /// Full-batch steps of light and albedo together.
     pub iterations: usize,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
     pub hold: usize,

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 
 use crate::config::NetworkConfig;
 
@@ -24,7 +25,7 @@ impl Network {
 }
 
 /// Weights and biases of three equal multilayer perceptrons with ReLU between their layers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Networks {
     /// Neurons per layer, the three inputs first: 3, 16, 16, 8.
     pub shape: Vec<usize>,

@@ -1,6 +1,7 @@
 //! Adam (Kingma and Ba 2015), in the exact form of the framework that the paper uses.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::config::AdamConfig;
 
@@ -8,7 +9,7 @@ use crate::config::AdamConfig;
 const CHUNK: usize = 1 << 14;
 
 /// The optimiser of one array of parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Adam {
     config: AdamConfig,
     rate: f32,
@@ -27,6 +28,16 @@ impl Adam {
             first: vec![0.0; count],
             second: vec![0.0; count],
         }
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> usize {
+        self.steps as usize
+    }
+
+    /// Number of parameters.
+    pub fn count(&self) -> usize {
+        self.first.len()
     }
 
     /// Moves the parameters against the gradient, by `share` of the learning rate, and not below

@@ -1,19 +1,23 @@
 //! Relief by Gauss-Newton: one height per texel, so that what bends the normals is integrable.
 //!
-//! With networks, specular albedo and the coarse diffuse albedo held fixed, the pictures are linear
-//! in small changes of the normals and of the albedo. Unknown are the height h (n_s = n - grad h,
+//! With light, specular albedo and the coarse diffuse albedo held fixed, the pictures are linear in
+//! small changes of the normals and of the albedo. How diffuse shading changes with the normal is known
+//! from explicit transport, or else from the networks; how highlights do, from the networks. Unknown are the height h (n_s = n - grad h,
 //! n_d the same blurred) and damped changes of the diffuse albedo; L1 by reweighting, conjugate
 //! gradients on the normal equations, relinearised a few times.
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::stage::State;
+use super::transported::{LIT, Lit, bent_shading};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
 use crate::error::SolveError;
 use crate::gbuffer::{Atlas, GBuffer, blurred};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
+use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -39,24 +43,31 @@ pub struct ReliefSolve<'a> {
     size: usize,
     /// Sampled albedos of the state, the diffuse one without detail.
     albedo: Planes,
+    /// Networks of the specular layer, and of the diffuse one without explicit transport.
+    networks: &'a Networks,
     light: Planes,
+    /// S_d under explicit transport, and how it changes with the normal.
+    lit: Option<Planes>,
     views: &'a [GBuffer],
 }
 
-/// Rows of what a sample's colour gains from changes of its texels: by n_s (3, the specular albedo
-/// included) and by n_d (3, before the albedo), the diffuse albedo (3), S_d.
-const SLOPES: usize = 10;
+/// Rows of what a sample's colour gains from changes of its texels: by n_s (3, of every channel), by
+/// n_d (3 of R, then of G and B), by the diffuse albedo (S_d of R, G, B).
+const SLOPES: usize = 15;
 
 impl<'a> ReliefSolve<'a> {
-    /// `samples` are those of `views`, with taps of the side `size`.
-    pub fn new(
+    /// `samples` are those of `views`, with taps of the side `size`. Diffuse shading and albedo are those
+    /// of `lit` if there are any, else those of `state`.
+    pub(super) fn new(
         config: &'a Config,
         backend: &'a dyn Backend,
         samples: &'a Samples,
         views: &'a [GBuffer],
         atlas: &Atlas,
-        state: &State,
+        state: &'a State,
+        lit: Option<&'a Lit>,
     ) -> Self {
+        let state = lit.map_or(state, |lit| &lit.state);
         let size = atlas.size;
         let height = &config.height;
         let smooth = Blur::new(state.size, 3, height.albedo_smoothing * state.size as f32);
@@ -76,59 +87,89 @@ impl<'a> ReliefSolve<'a> {
             blur: Blur::new(size, 3, config.height.blur * size as f32),
             size,
             albedo,
+            networks: &state.networks,
             light: backend.light(&state.networks, &samples.position),
+            lit: lit.map(|lit| lit.sampled(samples)),
             views,
         }
     }
 
     /// The deviation of the normals, 3 channels per texel of the side of the taps; `step` hears of
     /// every conjugate-gradient step with the mean absolute residual at the last linearisation, and
-    /// may stop the solve.
+    /// may stop the solve with [`SolveError::Interrupted`]: then it ends with what it has.
     pub fn solve(
         &self,
-        state: &State,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<Vec<f32>, SolveError> {
         let texels = self.size * self.size;
         let mut x = vec![0.0f32; 4 * texels];
-        for outer in 0..self.config.linearisations {
-            let (slopes, target) = self.linearise(state, &x);
+        'solve: for outer in 0..self.config.linearisations {
+            let (slopes, target) = self.linearise(&x);
             for reweighting in 0..self.config.reweightings {
                 let fitted = match outer + reweighting {
                     0 => None,
                     _ => Some(self.forward(&slopes, &self.sampled(&x))),
                 };
                 let (weight, residual) = self.weights(&target, fitted.as_ref());
-                self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step)?;
+                match self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step) {
+                    // Every step leaves heights that explain more than those before it.
+                    Err(SolveError::Interrupted) => break 'solve,
+                    done => done?,
+                }
             }
         }
         Ok(self.field.bend(&x[..texels]))
     }
 
     /// Slopes at the current normals, and the colours that the linear model is to reach.
-    fn linearise(&self, state: &State, x: &[f32]) -> (Planes, Planes) {
+    fn linearise(&self, x: &[f32]) -> (Planes, Planes) {
         let samples = self.samples;
         let q = self.sampled(x);
         let directions = self.scale.directions(samples, Some(&q));
-        let shading = self.backend.shade(&state.networks, &self.light, &directions);
-        let jacobian = self.jacobian(state, &directions, &q);
+        let shading = self.backend.shade(self.networks, &self.light, &directions);
+        let jacobian = self.jacobian(&directions, &q);
         let current = |i: usize| -> [f32; 3] {
             let albedo: [f32; ALBEDOS] = self.albedo.sample(i, 0);
             let change: [f32; 3] = q.sample(i, 6);
             std::array::from_fn(|c| albedo[c] + change[c])
         };
+        // S_d of R, G, B, and how it changes with the deviation.
+        let diffuse = |i: usize| -> ([f32; 3], [Vec3; 3]) {
+            let Some(lit) = &self.lit else {
+                let slope = Vec3::from_array(jacobian.sample(i, 3));
+                return ([shading.get(0, i); 3], [slope; 3]);
+            };
+            let lit: [f32; LIT] = lit.sample(i, 0);
+            let normal = Vec3::from_array(samples.normal.sample(i, 0));
+            let bent = normal + Vec3::from_array(q.sample(i, 3));
+            let length = bent.length();
+            let bent = bent / length;
+            let slope = |c: usize| {
+                let slope = Vec3::from_slice(&lit[3 + 3 * c..]);
+                (slope - bent * bent.dot(slope)) / length
+            };
+            (bent_shading(&lit, normal, bent), std::array::from_fn(slope))
+        };
         let slopes = Planes::from_fn(samples.len(), |i| {
-            let [sx, sy, sz, dx, dy, dz]: [f32; 6] = jacobian.sample(i, 0);
+            let by_specular: [f32; 3] = jacobian.sample(i, 0);
             let gloss = self.albedo.get(3, i);
-            let [r, g, b] = current(i);
-            [gloss * sx, gloss * sy, gloss * sz, dx, dy, dz, r, g, b, shading.get(0, i)]
+            let albedo = current(i);
+            let (shading, slope) = diffuse(i);
+            let mut row = [0.0; SLOPES];
+            for c in 0..3 {
+                row[c] = gloss * by_specular[c];
+                row[3 + 3 * c..6 + 3 * c].copy_from_slice(&(albedo[c] * slope[c]).to_array());
+                row[12 + c] = shading[c];
+            }
+            row
         });
         // What the current unknowns leave, without what is too coarse to be relief.
         let residual: Planes = Planes::from_fn(samples.len(), |i| {
-            let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
+            let specular = shading.get(1, i);
             let highlight = samples.fresnel.get(0, i) * self.albedo.get(3, i) * specular;
             let (target, albedo): ([f32; 3], [f32; 3]) = (samples.target.sample(i, 0), current(i));
-            std::array::from_fn::<f32, 3, _>(|c| target[c] - albedo[c] * diffuse - highlight)
+            let diffuse: [f32; 3] = slopes.sample(i, 12);
+            std::array::from_fn::<f32, 3, _>(|c| target[c] - albedo[c] * diffuse[c] - highlight)
         });
         let fine = self.without_coarse(&residual);
         let explained = self.forward(&slopes, &q);
@@ -141,7 +182,7 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// Derivatives of S_d by n_d and of F S_s by n_s, as rows n_s (3), n_d (3).
-    fn jacobian(&self, state: &State, directions: &Planes, q: &Planes) -> Planes {
+    fn jacobian(&self, directions: &Planes, q: &Planes) -> Planes {
         let samples = self.samples;
         // A target far below makes every residual positive, and weight and albedos are chosen so
         // that the gradient of the loss is the derivative itself: the red channel alone holds S_d,
@@ -152,7 +193,7 @@ impl<'a> ReliefSolve<'a> {
         probe.weight = Planes::from_fn(samples.len(), |_| [unit]);
         let albedo = Planes::from_fn(samples.len(), |_| [1.0, 0.0, 0.0, 1.0 / 3.0]);
         let (_, gradient) =
-            self.backend.bend(&state.networks, &probe, &self.light, directions, &albedo);
+            self.backend.bend(self.networks, &probe, &self.light, directions, &albedo);
         self.scale.adjoint(samples, q, &gradient)
     }
 
@@ -171,8 +212,11 @@ impl<'a> ReliefSolve<'a> {
             let s: [f32; SLOPES] = slopes.sample(i, 0);
             let q: [f32; UNKNOWNS] = q.sample(i, 0);
             let highlight = s[0] * q[0] + s[1] * q[1] + s[2] * q[2];
-            let shading = s[3] * q[3] + s[4] * q[4] + s[5] * q[5];
-            std::array::from_fn::<f32, 3, _>(|c| s[6 + c] * shading + highlight + s[9] * q[6 + c])
+            std::array::from_fn::<f32, 3, _>(|c| {
+                let slope = &s[3 + 3 * c..];
+                let shading = slope[0] * q[3] + slope[1] * q[4] + slope[2] * q[5];
+                shading + highlight + s[12 + c] * q[6 + c]
+            })
         })
     }
 
@@ -182,18 +226,13 @@ impl<'a> ReliefSolve<'a> {
             let s: [f32; SLOPES] = slopes.sample(i, 0);
             let z: [f32; 3] = z.sample(i, 0);
             let all = z[0] + z[1] + z[2];
-            let shading = s[6] * z[0] + s[7] * z[1] + s[8] * z[2];
-            [
-                s[0] * all,
-                s[1] * all,
-                s[2] * all,
-                s[3] * shading,
-                s[4] * shading,
-                s[5] * shading,
-                s[9] * z[0],
-                s[9] * z[1],
-                s[9] * z[2],
-            ]
+            let mut q = [0.0; UNKNOWNS];
+            for k in 0..3 {
+                q[k] = s[k] * all;
+                q[3 + k] = s[3 + k] * z[0] + s[6 + k] * z[1] + s[9 + k] * z[2];
+                q[6 + k] = s[12 + k] * z[k];
+            }
+            q
         });
         let gathered = self.samples.taps.gather::<UNKNOWNS>(&q, 0);
         let (texels, _) = gathered.as_chunks::<UNKNOWNS>();

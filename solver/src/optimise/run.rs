@@ -1,15 +1,16 @@
-//! The bookkeeping of a solve: progress, losses, times, interruption.
+//! The bookkeeping of a solve: progress, losses, times, interrupts, checkpoints.
 
-use std::ops::ControlFlow;
+use std::fmt;
 use std::time::Instant;
 
-use super::solve::{Callback, Progress};
-use super::stage::{Stage, State, WarmUp};
+use serde::{Deserialize, Serialize};
+
+use super::checkpoint::{Open, StageMemory};
+use super::solve::{Callback, Progress, Solve};
+use super::stage::{Stage, State};
 use crate::backend::Backend;
 use crate::config::Config;
 use crate::error::SolveError;
-use crate::model::networks::Networks;
-use crate::model::samples::Samples;
 use crate::solution::{StageRecord, Timing};
 
 /// The bookkeeping of a solve.
@@ -17,122 +18,200 @@ pub(super) struct Run<'a, 'b> {
     pub backend: &'a dyn Backend,
     progress: &'a mut Callback<'b>,
     final_share: f32,
-    done: usize,
     total: usize,
-    pub stages: Vec<StageRecord>,
-    pub timing: Timing,
+    log: Log,
+    cut: Option<Cut>,
+    checkpoint: Option<Open>,
+    /// The stage that a checkpoint was kept of, until it goes on.
+    pending: Option<StageMemory>,
     lap: Instant,
+    /// Seconds of this lap before the checkpoint that the run goes on from.
+    earlier: f64,
+}
+
+/// What has been noted so far.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Log {
+    /// Steps done.
+    done: usize,
+    pub stages: Vec<StageRecord>,
+    seconds: Vec<(String, f64)>,
+}
+
+/// Where the caller stopped the solve.
+#[derive(Clone, Debug)]
+pub(super) struct Cut {
+    pub stage: String,
+    /// Steps of the stage that were done, of how many.
+    pub step: usize,
+    pub of: usize,
+}
+
+impl fmt::Display for Cut {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} at step {} of {}", self.stage, self.step, self.of)
+    }
 }
 
 impl<'a, 'b> Run<'a, 'b> {
-    pub fn new(config: &Config, backend: &'a dyn Backend, progress: &'a mut Callback<'b>) -> Self {
-        let (fine, first) = (&config.fine_tuning, &config.initialisation);
-        let (t, h) = (&config.transport, &config.height);
-        let trials = if first.starts > 1 { first.starts * first.start_iterations } else { 0 };
+    /// For stages with `total` steps in all.
+    pub fn new(
+        config: &Config,
+        total: usize,
+        backend: &'a dyn Backend,
+        progress: &'a mut Callback<'b>,
+    ) -> Self {
         Self {
             backend,
             progress,
             final_share: config.adam.final_share,
-            done: 0,
-            total: trials
-                + config.warm_up.iterations
-                + 2 * fine.rounds * fine.iterations
-                + if t.enabled { t.iterations + t.refinement } else { 0 }
-                + if h.enabled { h.linearisations * h.reweightings * h.steps } else { 0 },
-            stages: vec![],
-            timing: Timing::default(),
+            total,
+            log: Log::default(),
+            cut: None,
+            checkpoint: None,
+            pending: None,
             lap: Instant::now(),
+            earlier: 0.0,
         }
     }
 
+    /// Where the caller stopped the solve, if he did: then no stage has any steps left.
+    pub fn cut(&self) -> Option<&Cut> {
+        self.cut.as_ref()
+    }
+
+    /// What has been noted, and the wall times.
+    pub fn into_log(self) -> (Vec<StageRecord>, Timing) {
+        let seconds = self.log.seconds.into_iter().map(|(what, seconds)| (what, seconds.into()));
+        (self.log.stages, Timing { seconds: seconds.collect() })
+    }
+
+    /// What an earlier run had found, if it left a checkpoint; from here on this run keeps it.
+    pub fn resume(&mut self, mut checkpoint: Open) -> Option<Solve> {
+        let kept = checkpoint.read();
+        self.checkpoint = Some(checkpoint);
+        let (log, solve, stage) = kept?;
+        self.log = log;
+        self.pending = stage;
+        Some(solve)
+    }
+
+    /// Keeps what has been found at the end of a step.
+    pub fn save(&mut self, solve: &Solve) {
+        if let Some(checkpoint) = &mut self.checkpoint {
+            checkpoint.save(&self.log, solve);
+        }
+    }
+
+    /// Notes the seconds since the last lap.
     pub fn lap(&mut self, what: &str) {
         let now = Instant::now();
-        let seconds = now.duration_since(self.lap).as_secs_f64();
-        self.timing.seconds.insert(what.to_owned(), seconds.into());
-        self.lap = now;
-    }
-
-    /// The initial weights from which a short warm-up comes furthest.
-    pub fn best_start(
-        &mut self,
-        config: &Config,
-        samples: &Samples,
-        state: &State,
-    ) -> Result<Networks, SolveError> {
-        let first = &config.initialisation;
-        let mut trial = config.clone();
-        trial.warm_up.iterations = first.start_iterations;
-        let mut best = (f64::INFINITY, state.networks.clone());
-        for start in 0..if first.starts > 1 { first.starts } else { 0 } {
-            let networks = Networks::new(&config.networks, config.seed + start as u64);
-            let mut state = State { networks: networks.clone(), ..state.clone() };
-            let mut warm_up = WarmUp::new(&trial, samples, &state);
-            let losses = self.steps(&format!("start {}", start + 1), &mut warm_up, &mut state)?;
-            let tail = &losses[losses.len() - losses.len().div_ceil(10)..];
-            let loss = tail.iter().sum::<f64>() / tail.len() as f64;
-            if loss < best.0 {
-                best = (loss, networks);
-            }
+        let seconds = self.earlier + now.duration_since(self.lap).as_secs_f64();
+        (self.lap, self.earlier) = (now, 0.0);
+        match self.log.seconds.iter_mut().find(|(name, _)| name == what) {
+            Some((_, sum)) => *sum += seconds,
+            None => self.log.seconds.push((what.to_owned(), seconds)),
         }
-        self.lap("starts");
-        Ok(best.1)
     }
 
-    /// The height solve with its progress.
+    /// The height solve with its progress, `of` steps at most; it hears of an interrupt as an error
+    /// of its steps.
     pub fn relief(
         &mut self,
+        of: usize,
         solve: impl FnOnce(
             &mut dyn FnMut(f64) -> Result<(), SolveError>,
         ) -> Result<Vec<f32>, SolveError>,
     ) -> Result<Vec<f32>, SolveError> {
+        let name = "relief";
         let mut losses = vec![];
         let bend = solve(&mut |loss| {
             losses.push(loss);
-            self.done += 1;
-            let (iteration, total) = (self.done, self.total);
-            let progress = Progress { stage: "relief", iteration, total, loss };
-            match (self.progress)(&progress) {
-                ControlFlow::Continue(()) => Ok(()),
-                ControlFlow::Break(()) => Err(SolveError::Interrupted),
-            }
+            self.report(name, losses.len(), of, loss);
+            if self.cut.is_some() { Err(SolveError::Interrupted) } else { Ok(()) }
         })?;
-        self.lap("relief");
-        self.stages.push(StageRecord { name: "relief".to_owned(), loss: losses });
+        self.lap(name);
+        self.log.stages.push(StageRecord { name: name.to_owned(), loss: losses });
         Ok(bend)
     }
 
+    /// Does a stage's steps.
     pub fn stage(&mut self, stage: &mut dyn Stage, state: &mut State) -> Result<(), SolveError> {
+        if self.cut.is_some() {
+            return Ok(());
+        }
         let name = stage.name();
         let loss = self.steps(&name, stage, state)?;
         self.lap(&name);
-        self.stages.push(StageRecord { name, loss });
+        self.log.stages.push(StageRecord { name, loss });
         Ok(())
     }
 
-    /// Does a stage's steps and returns the losses.
+    /// Does the steps of a start, which is no stage of the record, and returns the losses.
+    pub fn trial(
+        &mut self,
+        name: &str,
+        stage: &mut dyn Stage,
+        state: &mut State,
+    ) -> Result<Vec<f64>, SolveError> {
+        let losses = self.steps(name, stage, state)?;
+        self.lap("starts");
+        Ok(losses)
+    }
+
     fn steps(
         &mut self,
         name: &str,
         stage: &mut dyn Stage,
         state: &mut State,
     ) -> Result<Vec<f64>, SolveError> {
-        let iterations = stage.iterations();
-        let mut losses = Vec::with_capacity(iterations);
-        for iteration in 1..=iterations {
-            let share = share(self.final_share, iteration, iterations);
-            let loss = stage.step(state, self.backend, share);
+        let of = stage.iterations();
+        let mut losses = self.recall(name, stage, state);
+        while losses.len() < of && self.cut.is_none() {
+            let step = losses.len() + 1;
+            let loss = stage.step(state, self.backend, share(self.final_share, step, of));
             if !loss.is_finite() {
-                return Err(SolveError::NotFinite { stage: name.to_owned(), iteration, loss });
+                return Err(SolveError::NotFinite {
+                    stage: name.to_owned(),
+                    iteration: step,
+                    loss,
+                });
             }
             losses.push(loss);
-            self.done += 1;
-            let (iteration, total) = (self.done, self.total);
-            let progress = Progress { stage: name, iteration, total, loss };
-            if (self.progress)(&progress).is_break() {
-                return Err(SolveError::Interrupted);
-            }
+            self.report(name, step, of, loss);
+            self.remember(name, &losses, stage, state);
         }
         Ok(losses)
+    }
+
+    /// Tells the caller of a step, and hears whether to go on.
+    fn report(&mut self, stage: &str, step: usize, of: usize, loss: f64) {
+        self.log.done += 1;
+        let progress = Progress { stage, iteration: self.log.done, total: self.total, loss };
+        if (self.progress)(&progress).is_break() {
+            self.cut = Some(Cut { stage: stage.to_owned(), step, of });
+        }
+    }
+
+    /// Brings a stage to where a checkpoint left it; the losses until there.
+    fn recall(&mut self, name: &str, stage: &mut dyn Stage, state: &mut State) -> Vec<f64> {
+        let Some(memory) = self.pending.take_if(|memory| memory.name == name) else {
+            return vec![];
+        };
+        let seconds = memory.seconds;
+        let Some(losses) = memory.restore(stage, state) else { return vec![] };
+        self.log.done += losses.len();
+        self.earlier = seconds;
+        losses
+    }
+
+    /// Keeps a checkpoint within a stage, if it is time for one.
+    fn remember(&mut self, name: &str, losses: &[f64], stage: &mut dyn Stage, state: &State) {
+        let Some(checkpoint) = &mut self.checkpoint else { return };
+        if self.cut.is_some() || checkpoint.is_due() {
+            let seconds = self.earlier + self.lap.elapsed().as_secs_f64();
+            checkpoint.save_stage(name, losses, seconds, stage, state);
+        }
     }
 }
 

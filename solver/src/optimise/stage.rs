@@ -2,6 +2,7 @@
 //! another update of the state is another stage.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use crate::backend::{ALBEDOS, Backend};
@@ -15,7 +16,7 @@ use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
 
 /// Everything that is being solved for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// The shading networks.
     pub networks: Networks,
@@ -32,6 +33,9 @@ pub struct State {
 impl State {
     /// Brings the textures to another size.
     pub fn resize(&mut self, size: usize) {
+        if size == self.size {
+            return;
+        }
         self.diffuse = resample(&self.diffuse, self.size, 3, size);
         self.specular = resample(&self.specular, self.size, 1, size);
         self.deviation = resample(&self.deviation, self.size, 3, size);
@@ -53,6 +57,24 @@ pub trait Stage {
     fn iterations(&self) -> usize;
     /// One step, by `share` of the learning rates; the loss before it.
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
+    /// For checkpoints: with the state, all that is needed to go on with the same bits.
+    fn memory(&mut self) -> Memory<'_>;
+}
+
+/// What a stage keeps from step to step besides the state, in a fixed order.
+#[derive(Serialize)]
+pub struct Memory<'a> {
+    /// Its optimisers.
+    pub optimisers: Vec<&'a mut Adam>,
+    /// Parameters of its own.
+    pub own: Vec<&'a mut Vec<f32>>,
+}
+
+impl<'a> Memory<'a> {
+    /// Of a stage without parameters of its own.
+    pub fn new(optimisers: Vec<&'a mut Adam>) -> Self {
+        Self { optimisers, own: vec![] }
+    }
 }
 
 /// Networks and albedos together (section 4.3.1).
@@ -116,6 +138,10 @@ impl Stage for WarmUp<'_> {
         self.diffuse.step(&mut state.diffuse, &gradient.diffuse, share, least);
         self.specular.step(&mut state.specular, &gradient.specular, share, least);
         gradient.loss
+    }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory::new(vec![&mut self.networks, &mut self.diffuse, &mut self.specular])
     }
 }
 
@@ -191,6 +217,10 @@ impl Stage for Relief<'_> {
         self.by_specular.step(&mut state.specular, &by_specular, share, least);
         loss
     }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory::new(vec![&mut self.by_deviation, &mut self.by_specular])
+    }
 }
 
 /// Diffuse albedo alone, with frozen shading (section 4.3.2).
@@ -261,6 +291,10 @@ impl Stage for Diffuse<'_> {
         let (loss, by_diffuse) = self.gradient(state);
         self.by_diffuse.step(&mut state.diffuse, &by_diffuse, share, least_albedo(self.config));
         loss
+    }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory::new(vec![&mut self.by_diffuse])
     }
 }
 

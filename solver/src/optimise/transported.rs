@@ -1,43 +1,103 @@
 //! Diffuse albedo under explicit transport: the light and the albedo are solved for together, the
 //! networks explain the specular layer alone.
 
+use glam::Vec3;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use super::normalise::percentile;
 use super::run::Run;
-use super::solve::WarmUpPictures;
-use super::stage::{Diffuse, Stage, State, layers};
+use super::site::WarmUpPictures;
+use super::stage::{Diffuse, Memory, Stage, State, layers};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
 use crate::config::{Config, TransportConfig};
 use crate::error::SolveError;
 use crate::model::deviation::Deviation;
+use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::model::texture::resample;
-use crate::transport::{CHANNELS, Transport};
-
-/// Rec.709.
-const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
+use crate::model::texture::{interleave, resample};
+use crate::solution::RecoveredLight;
+use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
 /// What explicit transport found, on its own texture.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Lit {
-    state: State,
+    pub state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
+    /// How it changes with the normal, 9 values per texel; see [`Transport::bending`].
+    bending: Vec<f32>,
+    /// S_d of full light on a surface that faces it.
+    peak: f32,
+    /// What is left in the record.
+    pub light: RecoveredLight,
+}
+
+impl Lit {
+    /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
+    pub fn sampled(&self, samples: &Samples) -> Planes {
+        let size = samples.taps.size();
+        let shading = resample(&self.shading, self.state.size, CHANNELS, size);
+        let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
+        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
+        samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
+    }
+}
+
+/// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
+pub(super) const LIT: usize = 4 * CHANNELS;
+
+/// S_d with the normal bent from `normal` to `bent`, both unit.
+pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; CHANNELS] {
+    std::array::from_fn(|c| {
+        let slope = Vec3::from_slice(&lit[CHANNELS + 3 * c..]);
+        (lit[c] + slope.dot(bent - normal)).max(0.0)
+    })
 }
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Physical {
     pub diffuse: Vec<f32>,
     pub scale: f32,
 }
 
-/// Light and diffuse albedo under explicit transport, from the `start` of the warm-up with the
-/// networks that it trained.
+/// The light as the semantic colours show it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Probed {
+    log_light: Vec<f32>,
+    /// Inverse distance, per metre.
+    nearness: f32,
+    networks: Networks,
+}
+
+/// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
+pub(super) fn light(
+    run: &mut Run,
+    config: &Config,
+    mesh: &Mesh,
+    space: &SampleSpace,
+    pictures: &WarmUpPictures,
+    mut start: State,
+) -> Result<Probed, SolveError> {
+    let t = &config.transport;
+    let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Nothing };
+    let transport = Transport::new(mesh, &Sky::even(t.rows), t, config.seed, beside);
+    run.lap("rays");
+    start.resize(transport.size());
+    let samples = pictures.samples(space, transport.size());
+    let mut stage = Transported::probe(config, &transport, &samples, &start);
+    run.stage(&mut stage, &mut start)?;
+    let nearness = stage.nearness[0] * transport.near();
+    Ok(Probed { log_light: stage.log_light, nearness, networks: start.networks })
+}
+
+/// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
+/// `start`.
 pub(super) fn light_and_albedo(
     run: &mut Run,
     config: &Config,
@@ -45,16 +105,26 @@ pub(super) fn light_and_albedo(
     space: &SampleSpace,
     pictures: &WarmUpPictures,
     start: State,
+    probed: Probed,
 ) -> Result<Lit, SolveError> {
-    let transport = Transport::new(mesh, &config.transport, config.seed);
-    run.lap("rays");
-    let mut state = start;
+    let t = &config.transport;
+    let sky = Sky::even(t.rows).at(probed.nearness);
+    let transport = Transport::new(mesh, &sky, t, config.seed, Beside::Bending);
+    run.lap("rays at the light's distance");
+    let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
     let samples = pictures.samples(space, transport.size());
-    let mut stage = Transported::new(config, &transport, &samples, &state);
+    let mut stage = Transported::new(config, &transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
-    let shading = transport.shading(&stage.light());
-    Ok(Lit { state, shading })
+    let radiance = stage.light();
+    let distance = (sky.nearness > 0.0).then(|| sky.nearness.recip());
+    Ok(Lit {
+        state,
+        shading: transport.shading(&radiance),
+        bending: transport.bending(&radiance).unwrap_or_default(),
+        peak: transport.peak(&radiance),
+        light: RecoveredLight { rows: t.rows, distance, radiance },
+    })
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
@@ -65,27 +135,26 @@ pub(super) fn refined(
     samples: &Samples,
     deviation: &Deviation,
     state: &State,
-    mut lit: Lit,
+    lit: &Lit,
 ) -> Result<Physical, SolveError> {
-    let shading = resample(&lit.shading, lit.state.size, CHANNELS, state.size);
-    let shading = samples.taps.sample::<CHANNELS>(&shading);
-    lit.state.resize(state.size);
-    lit.state.deviation.clone_from(&state.deviation);
-    let specular = layers(samples, deviation, &lit.state, run.backend);
+    let mut own = lit.state.clone();
+    own.resize(state.size);
+    own.deviation.clone_from(&state.deviation);
+    let shading = lit.sampled(samples);
+    let specular = layers(samples, deviation, &own, run.backend);
+    let bends = deviation.textures(&state.deviation).blurred;
+    let bends = samples.taps.sample::<3>(&bends);
     let planes = Planes::from_fn(samples.len(), |i| {
-        let [r, g, b] = shading.sample(i, 0);
+        let normal = Vec3::from_array(samples.normal.sample(i, 0));
+        let bent = (normal + Vec3::from_array(bends.sample(i, 0))).normalize();
+        let [r, g, b] = bent_shading(&shading.sample(i, 0), normal, bent);
         [r, g, b, specular.get(1, i)]
     });
-    let luminance = |i| {
-        let shading: [f32; CHANNELS] = shading.sample(i, 0);
-        shading.iter().zip(LUMINANCE).map(|(s, weight)| s * weight).sum()
-    };
     let t = &config.transport;
-    let scale = percentile((0..samples.len()).map(luminance).collect(), t.percentile);
     let name = "albedo".to_owned();
     let mut stage = Diffuse::under(config, samples, planes, name, t.refinement, t.refinement_prior);
-    run.stage(&mut stage, &mut lit.state)?;
-    Ok(Physical { diffuse: lit.state.diffuse, scale })
+    run.stage(&mut stage, &mut own)?;
+    Ok(Physical { diffuse: own.diffuse, scale: lit.peak })
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.
@@ -98,35 +167,58 @@ pub struct Transported<'a> {
     directions: Planes,
     /// Logarithm of the light, R, G, B per cell.
     log_light: Vec<f32>,
-    step: usize,
+    /// How near the light is, in the transport's unit; one value.
+    nearness: Vec<f32>,
+    name: &'static str,
+    iterations: usize,
+    hold: usize,
     by_light: Adam,
+    by_nearness: Adam,
     by_diffuse: Adam,
     by_specular: Adam,
     by_networks: Adam,
 }
 
 impl<'a> Transported<'a> {
-    /// The samples' taps and the state's textures are of the transport's size.
-    pub fn new(
+    /// Light, nearness and specular layer alone, from an even light.
+    pub fn probe(
         config: &'a Config,
         transport: &'a Transport,
         samples: &'a Samples,
         state: &State,
     ) -> Self {
+        let log_light = vec![0.0; CHANNELS * transport.cells()];
+        let iterations = config.transport.probe;
+        let stage = Self::new(config, transport, samples, state, log_light);
+        Self { name: "light", iterations, hold: iterations, ..stage }
+    }
+
+    /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
+    /// the transport's size.
+    pub fn new(
+        config: &'a Config,
+        transport: &'a Transport,
+        samples: &'a Samples,
+        state: &State,
+        log_light: Vec<f32>,
+    ) -> Self {
         let (t, adam) = (&config.transport, &config.adam);
-        let cells = CHANNELS * transport.cells();
         Self {
             config: t,
             transport,
             samples,
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
-            log_light: vec![0.0; cells],
-            step: 0,
-            by_light: Adam::new(adam, t.light_rate, cells),
+            nearness: vec![0.0],
+            name: "transport",
+            iterations: t.iterations,
+            hold: t.hold,
+            by_light: Adam::new(adam, t.light_rate, log_light.len()),
+            by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
             by_specular: Adam::new(adam, t.specular_rate, state.specular.len()),
             by_networks: Adam::new(adam, t.network_rate, state.networks.parameters.len()),
+            log_light,
         }
     }
 
@@ -136,14 +228,18 @@ impl<'a> Transported<'a> {
     }
 
     #[cfg(test)]
-    pub(super) fn set_log_light(&mut self, log_light: &[f32]) {
-        self.log_light.copy_from_slice(log_light);
+    pub(super) fn set_nearness(&mut self, nearness: f32) {
+        self.nearness[0] = nearness;
     }
 
     /// Loss and its gradients.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> Gradient {
         let light = self.light();
-        let shading = self.transport.shading(&light);
+        let mut shading = self.transport.shading(&light);
+        let gain = self.transport.gain(&light);
+        if let Some(gain) = &gain {
+            shading.iter_mut().zip(gain).for_each(|(s, gain)| *s += self.nearness[0] * gain);
+        }
         let layer: Vec<f32> = state.diffuse.iter().zip(&shading).map(|(a, s)| a * s).collect();
         let samples = self.samples;
         let sampled = samples.taps.sample::<CHANNELS>(&layer);
@@ -171,10 +267,18 @@ impl<'a> Transported<'a> {
         let mut by_shading: Vec<f32> = product(&by_layer, &state.diffuse);
         let grey = self.grey(&shading, &mut by_shading);
         let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut by_diffuse);
-        let by_light: Vec<f32> = product(&self.transport.adjoint(&by_shading), &light);
+        let mut by_light: Vec<f32> = product(&self.transport.adjoint(&by_shading), &light);
+        if let Some(adjoint) = self.transport.gain_adjoint(&by_shading) {
+            let by_light = by_light.iter_mut().zip(adjoint).zip(&light);
+            by_light.for_each(|((g, gain), light)| *g += self.nearness[0] * gain * light);
+        }
+        let along = |gain: Vec<f32>| -> f64 {
+            gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+        };
         Gradient {
             loss: joint.loss + grey + smooth,
             light: by_light,
+            nearness: gain.map_or(0.0, along) as f32,
             diffuse: by_diffuse,
             specular: samples.taps.gather::<1>(&joint.albedo, 3),
             networks: joint.networks,
@@ -230,6 +334,7 @@ pub(super) struct Gradient {
     pub loss: f64,
     /// By the light's logarithm.
     pub light: Vec<f32>,
+    pub nearness: f32,
     pub diffuse: Vec<f32>,
     pub specular: Vec<f32>,
     pub networks: Vec<f32>,
@@ -237,23 +342,37 @@ pub(super) struct Gradient {
 
 impl Stage for Transported<'_> {
     fn name(&self) -> String {
-        "transport".to_owned()
+        self.name.to_owned()
     }
 
     fn iterations(&self) -> usize {
-        self.config.iterations
+        self.iterations
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
         let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
         self.by_light.step(&mut self.log_light, &gradient.light, share, free);
-        if self.step >= self.config.hold {
+        self.by_nearness.step(&mut self.nearness, &[gradient.nearness], share, 0.0);
+        self.nearness[0] = self.nearness[0].min(Transport::nearest());
+        if self.by_light.steps() > self.hold {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
         }
         self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);
         self.by_networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
-        self.step += 1;
         gradient.loss
+    }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory {
+            optimisers: vec![
+                &mut self.by_light,
+                &mut self.by_nearness,
+                &mut self.by_diffuse,
+                &mut self.by_specular,
+                &mut self.by_networks,
+            ],
+            own: vec![&mut self.log_light, &mut self.nearness],
+        }
     }
 }

@@ -6,6 +6,11 @@
 //! behind the rays that meet the mesh, and a the albedo that bounces are given (precomputed
 //! radiance transfer, Sloan et al. 2002, on an albedo held constant). A white texel in full light 1
 //! from everywhere has S_d = 1.
+//!
+//! The cells lie on a sphere around the head's centre. Real lamps are a metre away, not infinitely
+//! far: a cell of nearness k (inverse radius) in direction w from the centre lies along w - k x from a
+//! point x, and brings it the cosine-weighted solid angle
+//! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
 mod rays;
 mod sky;
@@ -18,7 +23,7 @@ use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
 pub use rays::{Impact, Occluder};
-pub use sky::{SkyRay, sky_rays};
+pub use sky::{Sky, SkyRay};
 
 /// Colour channels of the light.
 pub const CHANNELS: usize = 3;
@@ -29,22 +34,53 @@ const LIFT: f32 = 1.6e-3;
 const CHUNK: usize = 256;
 /// Independent sums of a product, which a compiler turns into vectors.
 const LANES: usize = 16;
+/// Nearness is told from its difference between a sphere of this radius and one at infinity, in
+/// halves of the mesh's longest side: about a metre around a head.
+const NEAR_RADIUS: f32 = 6.0;
+/// No light is nearer than this, in the same unit.
+const LEAST_RADIUS: f32 = 2.5;
+
+/// What is asked of a transport beside the shading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Nothing.
+    Nothing,
+    /// What the shading gains as the sky comes nearer.
+    Nearness,
+    /// What it gains as the normals bend.
+    Bending,
+}
 
 /// The transport of the texels of a chart.
 #[derive(Clone, Debug)]
 pub struct Transport {
     size: usize,
-    cells: usize,
-    /// One row per texel inside the chart.
-    matrix: Vec<f32>,
+    /// One row per texel inside the chart, one column per cell.
+    matrix: Matrix,
+    /// What `matrix` gains when the sky comes nearer by [`Self::near`].
+    gain: Option<Matrix>,
+    /// Visible solid angle over pi.
+    open: Option<Matrix>,
+    /// Nearness that `gain` stands for, per metre.
+    near: f32,
+    /// From the sky's centre, of every row.
+    places: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    sky: Sky,
     /// Of every texel of the square, its row or that of the nearest texel inside.
     row: Vec<u32>,
 }
 
 impl Transport {
     /// Casts all rays; memory is texels inside the chart x cells x 4 bytes, three times that while
-    /// bounces are added.
-    pub fn new(mesh: &Mesh, config: &TransportConfig, seed: u64) -> Self {
+    /// bounces are added, and the same again if more is asked.
+    pub fn new(
+        mesh: &Mesh,
+        sky: &Sky,
+        config: &TransportConfig,
+        seed: u64,
+        beside: Beside,
+    ) -> Self {
         let size = config.texture_size;
         let atlas = Atlas::new(mesh, size);
         let texels: Vec<usize> = (0..size * size).filter(|texel| atlas.inside[*texel]).collect();
@@ -53,26 +89,40 @@ impl Transport {
         let nearest = fill::nearest_known(&atlas.inside, size, size);
         let row: Vec<u32> = nearest.iter().map(|texel| number[*texel as usize]).collect();
 
-        let sky = sky_rays(config.rows, config.rays_per_cell_side, seed);
-        let cells = 2 * config.rows * config.rows;
-        let caster = Caster { occluder: Occluder::new(mesh), mesh, sky: &sky, row: &row, size };
         let (low, high) = mesh.bounds();
-        let lift = LIFT * (high - low).max_element();
+        let longest = (high - low).max_element();
+        let near = 2.0 / (NEAR_RADIUS * longest);
+        let rays = sky.rays(config.rays_per_cell_side, seed);
+        let caster = Caster {
+            occluder: Occluder::new(mesh),
+            mesh,
+            rays: &rays,
+            cells: sky.len(),
+            centre: 0.5 * (low + high),
+            nearness: sky.nearness,
+            beside,
+            near: sky.nearness + near,
+            row: &row,
+            size,
+        };
+        let lift = LIFT * longest;
         let cast = |texel: &usize| {
             let normal = atlas.normals[*texel];
-            caster.texel(atlas.positions[*texel] + lift * normal, normal, cells)
+            caster.texel(atlas.positions[*texel] + lift * normal, normal)
         };
-        let (direct, bounces): (Vec<Vec<f32>>, Vec<Bounces>) = texels.par_iter().map(cast).unzip();
-        let direct = direct.concat();
-        let mut matrix = direct.clone();
-        let mut last = direct;
-        let mut albedo = 1.0;
-        for _ in 0..config.bounces {
-            albedo *= config.bounce_albedo;
-            last = bounced(&bounces, &last, cells);
-            matrix.par_iter_mut().zip(&last).for_each(|(sum, once)| *sum += albedo * once);
-        }
-        Self { size, cells, matrix, row }
+        let cast: Vec<Seen> = texels.par_iter().map(cast).collect();
+        let bounces: Vec<Bounces> = cast.iter().map(|seen| seen.bounces.clone()).collect();
+        let cells = sky.len();
+        let part = |part: fn(&Seen) -> &[f32]| cast.iter().flat_map(part).copied().collect();
+        let matrix = Matrix::with_bounces(part(|seen| &seen.direct), &bounces, cells, config);
+        let more = (beside != Beside::Nothing).then(|| part(|seen| &seen.beside));
+        let (gain, open) = match beside {
+            Beside::Bending => (None, more.map(|rows| Matrix { rows, cells })),
+            _ => (more.map(|rows| Matrix::with_bounces(rows, &bounces, cells, config)), None),
+        };
+        let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
+        let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
+        Self { size, matrix, gain, open, near, places, normals, sky: sky.clone(), row }
     }
 
     /// Side of the chart's texture.
@@ -82,33 +132,132 @@ impl Transport {
 
     /// Cells of the sky.
     pub fn cells(&self) -> usize {
-        self.cells
+        self.matrix.cells
     }
 
     /// Whether the chart covers no texel.
     pub fn is_empty(&self) -> bool {
-        self.matrix.is_empty()
+        self.matrix.rows.is_empty()
+    }
+
+    /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
+    pub fn near(&self) -> f32 {
+        self.near
+    }
+
+    /// The most that a sky at infinity may come nearer, in the same unit.
+    pub fn nearest() -> f32 {
+        NEAR_RADIUS / LEAST_RADIUS
     }
 
     /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;
     /// outside the chart that of the nearest texel inside.
     pub fn shading(&self, light: &[f32]) -> Vec<f32> {
-        let planes = self.planes(light);
-        let rows: Vec<[f32; CHANNELS]> = self
-            .matrix
-            .par_chunks(self.cells)
-            .map(|row| std::array::from_fn(|c| dot(row, &planes[c])))
-            .collect();
-        self.row.par_iter().flat_map_iter(|row| rows[*row as usize]).collect()
+        self.spread(&self.matrix.product(light))
     }
 
     /// The adjoint of [`Self::shading`]: the gradient by the light.
     pub fn adjoint(&self, by_shading: &[f32]) -> Vec<f32> {
-        let mut by_row = vec![[0.0f32; CHANNELS]; self.matrix.len() / self.cells];
+        self.matrix.adjoint(&self.collected(by_shading))
+    }
+
+    /// What the shading gains as the sky comes nearer by [`Self::near`]; to first order.
+    pub fn gain(&self, light: &[f32]) -> Option<Vec<f32>> {
+        self.gain.as_ref().map(|gain| self.spread(&gain.product(light)))
+    }
+
+    /// The adjoint of [`Self::gain`].
+    pub fn gain_adjoint(&self, by_shading: &[f32]) -> Option<Vec<f32>> {
+        self.gain.as_ref().map(|gain| gain.adjoint(&self.collected(by_shading)))
+    }
+
+    /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
+    /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
+    /// the texel's horizon nothing.
+    pub fn bending(&self, light: &[f32]) -> Option<Vec<f32>> {
+        let open = self.open.as_ref()?;
+        let centres = self.sky.centres();
+        let (light, _) = light.as_chunks::<CHANNELS>();
+        let row = |(row, place): (&[f32], &Vec3)| {
+            let mut sum = [Vec3::ZERO; CHANNELS];
+            for ((open, centre), light) in row.iter().zip(&centres).zip(light) {
+                if *open > 0.0 {
+                    let towards = (*centre - self.sky.nearness * *place).normalize();
+                    (0..CHANNELS).for_each(|c| sum[c] += open * light[c] * towards);
+                }
+            }
+            let mut flat = [0.0; 3 * CHANNELS];
+            (0..CHANNELS).for_each(|c| flat[3 * c..3 * c + 3].copy_from_slice(&sum[c].to_array()));
+            flat
+        };
+        let rows: Vec<_> = open.rows.par_chunks(self.cells()).zip(&self.places).map(row).collect();
+        Some(self.spread(&rows))
+    }
+
+    /// The largest S_d that a texel in front (normal towards +Z) would have if nothing stood in the
+    /// light's way, as Rec.709 luminance: what pictures are exposed by. 0 without such texels.
+    pub fn peak(&self, light: &[f32]) -> f32 {
+        const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
+        let rays = self.sky.rays(1, 0);
+        let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
+        let light: Vec<f32> = light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect();
+        let unoccluded = |(place, normal): (&Vec3, &Vec3)| -> f32 {
+            let rays = rays.iter().zip(&light);
+            rays.map(|(ray, l)| l * received(ray, *place, *normal, self.sky.nearness)).sum()
+        };
+        let front = self.places.par_iter().zip(&self.normals).filter(|(_, normal)| normal.z > 0.0);
+        front.map(unoccluded).reduce(|| 0.0, f32::max)
+    }
+
+    fn spread<const C: usize>(&self, rows: &[[f32; C]]) -> Vec<f32> {
+        self.row.par_iter().flat_map_iter(|row| rows[*row as usize]).collect()
+    }
+
+    fn collected(&self, by_shading: &[f32]) -> Vec<[f32; CHANNELS]> {
+        let mut by_row = vec![[0.0f32; CHANNELS]; self.matrix.rows.len() / self.cells().max(1)];
         for (row, gradient) in self.row.iter().zip(by_shading.as_chunks::<CHANNELS>().0) {
             let sum = &mut by_row[*row as usize];
             (0..CHANNELS).for_each(|c| sum[c] += gradient[c]);
         }
+        by_row
+    }
+}
+
+/// Rows of `cells` weights.
+#[derive(Clone, Debug, PartialEq)]
+struct Matrix {
+    rows: Vec<f32>,
+    cells: usize,
+}
+
+impl Matrix {
+    fn with_bounces(
+        direct: Vec<f32>,
+        bounces: &[Bounces],
+        cells: usize,
+        config: &TransportConfig,
+    ) -> Self {
+        let mut rows = direct.clone();
+        let mut last = direct;
+        let mut albedo = 1.0;
+        for _ in 0..config.bounces {
+            albedo *= config.bounce_albedo;
+            last = bounced(bounces, &last, cells);
+            rows.par_iter_mut().zip(&last).for_each(|(sum, once)| *sum += albedo * once);
+        }
+        Self { rows, cells }
+    }
+
+    fn product(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
+        let planes: [Vec<f32>; CHANNELS] =
+            std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect());
+        self.rows
+            .par_chunks(self.cells)
+            .map(|row| std::array::from_fn(|c| dot(row, &planes[c])))
+            .collect()
+    }
+
+    fn adjoint(&self, by_row: &[[f32; CHANNELS]]) -> Vec<f32> {
         let part = |(rows, by_row): (&[f32], &[[f32; CHANNELS]])| {
             let mut sums = vec![0.0f32; CHANNELS * self.cells];
             for (row, gradient) in rows.chunks_exact(self.cells).zip(by_row) {
@@ -120,7 +269,7 @@ impl Transport {
             sums
         };
         let parts: Vec<Vec<f32>> = self
-            .matrix
+            .rows
             .par_chunks(CHUNK * self.cells)
             .zip(by_row.par_chunks(CHUNK))
             .map(part)
@@ -129,37 +278,63 @@ impl Transport {
         let at = |i: usize| i % CHANNELS * self.cells + i / CHANNELS;
         (0..CHANNELS * self.cells).map(|i| total(at(i))).collect()
     }
-
-    /// The light, channel by channel.
-    fn planes(&self, light: &[f32]) -> [Vec<f32>; CHANNELS] {
-        std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect())
-    }
 }
 
 /// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
 type Bounces = Vec<(u32, f32)>;
 
+/// What a texel sees.
+struct Seen {
+    /// Its row of T0.
+    direct: Vec<f32>,
+    /// What was asked beside it, of every cell; empty if nothing was.
+    beside: Vec<f32>,
+    /// Its row of B.
+    bounces: Bounces,
+}
+
 struct Caster<'a> {
     occluder: Occluder,
     mesh: &'a Mesh,
-    sky: &'a [SkyRay],
+    rays: &'a [SkyRay],
+    cells: usize,
+    /// Of the sky's sphere.
+    centre: Vec3,
+    nearness: f32,
+    beside: Beside,
+    /// The nearness to compare with.
+    near: f32,
     row: &'a [u32],
     size: usize,
 }
 
 impl Caster<'_> {
-    /// The row of T0 and that of B of a point.
-    fn texel(&self, origin: Vec3, normal: Vec3, cells: usize) -> (Vec<f32>, Bounces) {
-        let mut direct = vec![0.0; cells];
+    fn texel(&self, origin: Vec3, normal: Vec3) -> Seen {
+        let mut direct = vec![0.0; self.cells];
+        let mut beside = vec![0.0; if self.beside == Beside::Nothing { 0 } else { self.cells }];
         let mut bounces = Bounces::new();
-        for ray in self.sky {
-            let cosine = normal.dot(ray.direction);
-            if cosine <= 0.0 {
+        let place = origin - self.centre;
+        for ray in self.rays {
+            let weight = received(ray, place, normal, self.nearness);
+            let nearer = match self.beside {
+                Beside::Nearness => received(ray, place, normal, self.near),
+                _ => 0.0,
+            };
+            if weight.max(nearer) <= 0.0 {
                 continue;
             }
-            let weight = cosine * ray.solid_angle * std::f32::consts::FRAC_1_PI;
-            match self.occluder.first_hit(origin, ray.direction) {
-                None => direct[ray.cell as usize] += weight,
+            let towards = ray.direction - self.nearness * place;
+            let direction = towards.normalize();
+            match self.occluder.first_hit(origin, direction) {
+                None => {
+                    let cell = ray.cell as usize;
+                    direct[cell] += weight;
+                    match self.beside {
+                        Beside::Nothing => {}
+                        Beside::Nearness => beside[cell] += nearer - weight,
+                        Beside::Bending => beside[cell] += weight / normal.dot(direction),
+                    }
+                }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
                 // The back of a surface is inside the head: dark.
                 Some(_) => {}
@@ -171,7 +346,7 @@ impl Caster<'_> {
             kept.1 += if same { next.1 } else { 0.0 };
             same
         });
-        (direct, bounces)
+        Seen { direct, beside, bounces }
     }
 
     fn row_at(&self, hit: &Impact) -> u32 {
@@ -181,6 +356,16 @@ impl Caster<'_> {
         let texel = |x: f32| ((x * self.size as f32) as usize).min(self.size - 1);
         self.row[texel(1.0 - at.y) * self.size + texel(at.x)]
     }
+}
+
+/// Cosine-weighted solid angle over pi of a part of the sky, seen from `place` (from its centre); see
+/// the module's formula.
+fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
+    let towards = ray.direction - nearness * place;
+    let facing = 1.0 - nearness * ray.direction.dot(place);
+    let cosine = normal.dot(towards).max(0.0);
+    let squared = towards.length_squared();
+    ray.solid_angle * facing * cosine / (squared * squared) * std::f32::consts::FRAC_1_PI
 }
 
 /// B x `rows`.

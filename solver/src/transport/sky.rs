@@ -1,5 +1,5 @@
-//! The unknown light: a lat-long environment of few cells, in Mitsuba's convention
-//! d = (sin t sin p, cos t, -sin t cos p).
+//! The unknown light: cells of a sphere around the head, lat-long in Mitsuba's convention
+//! d = (sin t sin p, cos t, -sin t cos p), each of one colour.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,42 +7,105 @@ use glam::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// A direction within a cell and the solid angle it stands for.
+/// A direction within a cell and the solid angle it stands for, both from the head's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyRay {
     /// Unit, towards the sky.
     pub direction: Vec3,
     /// Steradians.
     pub solid_angle: f32,
-    /// Row * columns + column of the cell.
+    /// Index of the cell.
     pub cell: u32,
 }
 
-/// Jittered directions, `side` x `side` to a cell of `rows` x `2 rows` of equal polar and azimuthal
-/// angle; of one cell all stand for the same solid angle, and together for the whole sphere.
-pub fn sky_rays(rows: usize, side: usize, seed: u64) -> Vec<SkyRay> {
-    let mut random = Pcg64::seed_from_u64(seed);
-    let mut unit = || (f64::from(random.next_u32()) + 0.5) / (1u64 << 32) as f64;
-    let columns = 2 * rows;
-    let (fine_rows, fine_columns) = (rows * side, columns * side);
-    let mut rays = Vec::with_capacity(fine_rows * fine_columns);
-    for row in 0..fine_rows {
-        let edge = |row: usize| (PI * row as f64 / fine_rows as f64).cos();
-        let (top, bottom) = (edge(row), edge(row + 1));
-        for column in 0..fine_columns {
-            // Even in the cosine within a row, hence even in solid angle.
-            let cosine = top + (bottom - top) * unit();
-            let azimuth = TAU * (column as f64 + unit()) / fine_columns as f64;
-            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-            let direction = [sine * azimuth.sin(), cosine, -sine * azimuth.cos()];
-            rays.push(SkyRay {
-                direction: Vec3::from_array(direction.map(|x| x as f32)),
-                solid_angle: ((top - bottom) * TAU / fine_columns as f64) as f32,
-                cell: (row / side * columns + column / side) as u32,
-            });
-        }
+/// Polar angle from +Y and azimuth, radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cell {
+    polar: [f64; 2],
+    azimuth: [f64; 2],
+}
+
+impl Cell {
+    /// The part (`row`, `column`) of `parts` x `parts` of equal angles.
+    fn part(&self, row: usize, column: usize, parts: usize) -> Self {
+        let cut = |[low, high]: [f64; 2], index: usize| {
+            [index, index + 1].map(|edge| low + (high - low) * edge as f64 / parts as f64)
+        };
+        Self { polar: cut(self.polar, row), azimuth: cut(self.azimuth, column) }
     }
-    rays
+}
+
+/// A sphere cut into cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sky {
+    cells: Vec<Cell>,
+    /// Inverse radius, per metre; 0 is an environment at infinity.
+    pub nearness: f32,
+}
+
+impl Sky {
+    /// `rows` x `2 rows` cells of equal polar and azimuthal angle, at infinity.
+    pub fn even(rows: usize) -> Self {
+        let columns = 2 * rows;
+        let cell = |index: usize| {
+            let (row, column) = (index / columns, index % columns);
+            let edges = |first: usize, count: usize, whole: f64| {
+                [first, first + 1].map(|edge| whole * edge as f64 / count as f64)
+            };
+            Cell { polar: edges(row, rows, PI), azimuth: edges(column, columns, TAU) }
+        };
+        Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
+    }
+
+    /// The same cells on a sphere of another nearness.
+    pub fn at(self, nearness: f32) -> Self {
+        Self { nearness, ..self }
+    }
+
+    /// How many cells.
+    pub fn len(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// Jittered directions, `side` x `side` to a cell; together they stand for the whole sphere.
+    pub fn rays(&self, side: usize, seed: u64) -> Vec<SkyRay> {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut unit = || (f64::from(random.next_u32()) + 0.5) / (1u64 << 32) as f64;
+        let mut rays = Vec::with_capacity(self.cells.len() * side * side);
+        for (index, cell) in self.cells.iter().enumerate() {
+            for part in 0..side * side {
+                let Cell { polar, azimuth } = cell.part(part / side, part % side, side);
+                let ([top, bottom], [left, right]) = (polar.map(f64::cos), azimuth);
+                // Even in the cosine, hence even in solid angle.
+                let cosine = top + (bottom - top) * unit();
+                let azimuth = left + (right - left) * unit();
+                let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+                let direction = [sine * azimuth.sin(), cosine, -sine * azimuth.cos()];
+                rays.push(SkyRay {
+                    direction: Vec3::from_array(direction.map(|x| x as f32)),
+                    solid_angle: ((top - bottom) * (right - left)) as f32,
+                    cell: index as u32,
+                });
+            }
+        }
+        rays
+    }
+
+    /// The middle of every cell.
+    pub fn centres(&self) -> Vec<Vec3> {
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        let centre = |cell: &Cell| {
+            let ((sine, cosine), azimuth) = (middle(cell.polar).sin_cos(), middle(cell.azimuth));
+            let direction = [sine * azimuth.sin(), cosine, -sine * azimuth.cos()];
+            Vec3::from_array(direction.map(|x| x as f32))
+        };
+        self.cells.iter().map(centre).collect()
+    }
 }
 
 #[cfg(test)]
@@ -51,7 +114,8 @@ mod tests {
 
     #[test]
     fn directions_cover_the_sphere_evenly() {
-        let rays = sky_rays(16, 3, 0);
+        let sky = Sky::even(16);
+        let rays = sky.rays(3, 0);
         let total: f64 = rays.iter().map(|ray| f64::from(ray.solid_angle)).sum();
         assert!((total - 4.0 * PI).abs() < 1e-4, "{total}");
         for axis in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(0.6, -0.48, 0.64)] {

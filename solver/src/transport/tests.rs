@@ -6,10 +6,14 @@ fn config(size: usize) -> TransportConfig {
     TransportConfig { texture_size: size, ..Config::unshade().transport }
 }
 
+fn plain(mesh: &Mesh, config: &TransportConfig, seed: u64) -> Transport {
+    Transport::new(mesh, &Sky::even(config.rows), config, seed, Beside::Nothing)
+}
+
 #[test]
 fn a_convex_surface_sees_its_whole_hemisphere() {
     let mesh = testing::dome(16);
-    let transport = Transport::new(&mesh, &config(32), 0);
+    let transport = plain(&mesh, &config(32), 0);
     let light = vec![1.0; CHANNELS * transport.cells()];
     for shading in transport.shading(&light) {
         assert!((shading - 1.0).abs() < 0.03, "{shading}");
@@ -25,7 +29,7 @@ fn an_open_box_gathers_bounced_light() {
     mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
     let shading = |bounces: usize| {
         let config = TransportConfig { bounces, bounce_albedo: 1.0, ..config(32) };
-        let transport = Transport::new(&mesh, &config, 0);
+        let transport = plain(&mesh, &config, 0);
         let all = transport.shading(&vec![1.0; CHANNELS * transport.cells()]);
         all.iter().sum::<f32>() / all.len() as f32
     };
@@ -48,9 +52,9 @@ fn a_wall_shadows_the_floor_from_one_side() {
     mesh.uvs = half(0.0).chain(half(0.55)).collect();
     mesh.triangles = vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]];
     let config = TransportConfig { bounces: 0, ..config(32) };
-    let transport = Transport::new(&mesh, &config, 0);
+    let transport = plain(&mesh, &config, 0);
     let light_from = |x: f32| {
-        let sky = sky_rays(config.rows, 1, 0);
+        let sky = Sky::even(config.rows).rays(1, 0);
         let lit = |cell: usize| {
             let direction = sky[cell].direction;
             let low = direction.y > 0.0 && direction.y < 0.5;
@@ -68,7 +72,7 @@ fn a_wall_shadows_the_floor_from_one_side() {
 
 #[test]
 fn adjoint_is_the_transpose() {
-    let transport = Transport::new(&testing::dome(8), &config(16), 1);
+    let transport = plain(&testing::dome(8), &config(16), 1);
     let wave =
         |count: usize, k: f32| (0..count).map(|i| (i as f32 * k).sin()).collect::<Vec<f32>>();
     let light = wave(CHANNELS * transport.cells(), 0.37);
@@ -85,9 +89,9 @@ fn adjoint_is_the_transpose() {
 fn threads_do_not_change_a_bit() {
     let mesh = testing::dome(8);
     let build = || {
-        let transport = Transport::new(&mesh, &config(16), 1);
+        let transport = plain(&mesh, &config(16), 1);
         let gradient = transport.adjoint(&vec![0.3; CHANNELS * 256]);
-        (transport.matrix, gradient)
+        (transport.matrix.rows, gradient)
     };
     let pool = |n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
     assert_eq!(pool(1).install(build), pool(3).install(build));

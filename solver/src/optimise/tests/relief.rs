@@ -46,10 +46,10 @@ fn a_known_relief_is_found_again() {
         let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
         [0.5 * diffuse + specular; 3]
     });
-    let solve = ReliefSolve::new(&config, &backend, &samples, &gbuffers, &atlas, &state);
+    let solve = ReliefSolve::new(&config, &backend, &samples, &gbuffers, &atlas, &state, None);
     let mut residuals = vec![];
     let found = solve
-        .solve(&state, &mut |residual| {
+        .solve(&mut |residual| {
             residuals.push(residual);
             Ok(())
         })

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::optimise::transported::Transported;
-use crate::transport::{CHANNELS, Transport};
+use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
 #[test]
 fn gradients_reach_light_albedo_networks_and_the_penalties() {
@@ -11,13 +11,16 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
     config.transport.rows = 4;
     config.transport.prior = 20.0;
     config.transport.grey_texel = 0.1;
-    let transport = Transport::new(&testing::dome(12), &config.transport, 0);
+    let sky = Sky::even(4);
+    let transport =
+        Transport::new(&testing::dome(12), &sky, &config.transport, 0, Beside::Nearness);
     let backend = Cpu::new();
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
     let gradient = |state: &State, light: &[f32]| {
-        let mut stage = Transported::new(&config, &transport, &samples, state);
-        stage.set_log_light(light);
+        let mut stage =
+            Transported::new(&config, &transport, &samples, state, light.to_vec());
+        stage.set_nearness(nearness);
         stage.gradient(state, &backend)
     };
     let found = gradient(&state, &light);

@@ -1,0 +1,138 @@
+//! The end of a solve: maps, withheld views and the record of what has been found.
+
+use super::normalise::Scales;
+use super::run::Run;
+use super::site::{Site, map_size};
+use super::solve::{Solve, albedo};
+use super::stage::{State, layers};
+use crate::backend::Backend;
+use crate::capture::{Camera, Capture};
+use crate::error::SolveError;
+use crate::fill;
+use crate::gbuffer::{Atlas, GBuffer};
+use crate::maps::Maps;
+use crate::model::deviation::{Bend, Deviation};
+use crate::model::samples::SampleSpace;
+use crate::picture::{GrayImage, Picture};
+use crate::projection::{Projection, per_texel};
+use crate::solution::{Record, Solution, ViewLayers};
+
+/// Makes a solution of what there is; after an interrupt that may be little, but it is valid.
+pub(super) fn finish(site: &Site, mut run: Run, mut solve: Solve) -> Result<Solution, SolveError> {
+    let Site { backend, capture, config, size, .. } = *site;
+    let mesh = &capture.mesh;
+    // Does nothing unless an interrupt came before it.
+    albedo(site, &mut run, &mut solve)?;
+    let Solve { mut state, physical, lit, .. } = solve;
+    let light = lit.map(|lit| lit.light);
+    state.resize(size);
+    let (samples, deviation) = (&site.fine().samples, &site.fine().deviation);
+
+    let projections = Projection::of_views(&capture.train, &site.gbuffers);
+    let seen = per_texel(&Atlas::new(mesh, size), &projections, |_| true);
+    fill_unseen(&mut state, &seen);
+    let shading = layers(samples, deviation, &state, backend);
+    let shading = (0..samples.len()).map(|i| shading.get(0, i)).collect();
+    let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
+    let specular = covered.map(|(value, _)| *value).collect();
+    let mut scales = Scales::new(&config.normalisation, shading, specular);
+    let views = withheld_views(capture, &site.space, deviation, &state, backend);
+    if let Some(physical) = physical {
+        scales.diffuse = physical.scale;
+        state.diffuse = physical.diffuse;
+        fill_unseen(&mut state, &seen);
+    }
+
+    let map_size = map_size(config.fine_tuning.texture_size, size);
+    state.resize(map_size);
+    let atlas = Atlas::new(mesh, map_size);
+    let seen = per_texel(&atlas, &projections, |_| true);
+    let maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
+    run.lap("maps and views");
+    let interrupted = run.cut().map(ToString::to_string);
+    let (stages, timing) = run.into_log();
+    let record = Record {
+        solver: "unshade".to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: config.seed,
+        config: config.clone(),
+        backend: backend.name(),
+        input: capture.hash().to_owned(),
+        interrupted,
+        light_distance: light.as_ref().and_then(|light| light.distance),
+        texture_size: size,
+        samples: samples.len(),
+        diffuse_scale: scales.diffuse,
+        specular_scale: scales.specular,
+        stages,
+    };
+    Ok(Solution { maps, light, views, record, timing })
+}
+
+/// Texels that no view sees take the values of the nearest one that is seen.
+fn fill_unseen(state: &mut State, seen: &[bool]) {
+    for (texture, channels) in
+        [(&mut state.diffuse, 3), (&mut state.specular, 1), (&mut state.deviation, 3)]
+    {
+        let (width, height) = (state.size, state.size);
+        let mut picture = Picture { width, height, channels, data: std::mem::take(texture) };
+        fill::fill_from_nearest(&mut picture, seen);
+        *texture = picture.data;
+    }
+}
+
+fn to_maps(
+    state: &State,
+    deviation: &Deviation,
+    atlas: &Atlas,
+    seen: &[bool],
+    scales: Scales,
+) -> Maps {
+    let size = state.size;
+    let picture = |channels: usize, data: Vec<f32>| {
+        Some(Picture { width: size, height: size, channels, data })
+    };
+    let scaled = |texture: &[f32], scale: f32| texture.iter().map(|value| value * scale).collect();
+    let bent = |texture: &[f32]| {
+        let normals = atlas.normals.iter().zip(texture.chunks_exact(3));
+        normals.flat_map(|(n, d)| (n + glam::Vec3::from_slice(d)).normalize().to_array()).collect()
+    };
+    let Bend { sharp, blurred } = deviation.textures(&state.deviation);
+    let coverage = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
+    Maps {
+        diffuse_albedo: picture(3, scaled(&state.diffuse, scales.diffuse)),
+        specular_albedo: picture(1, scaled(&state.specular, scales.specular)),
+        diffuse_normal: picture(3, bent(&blurred)),
+        specular_normal: picture(3, bent(&sharp)),
+        coverage: Some(GrayImage { width: size, height: size, data: coverage }),
+    }
+}
+
+/// The withheld views as the model sees them, in the pictures' exposure.
+fn withheld_views(
+    capture: &Capture,
+    space: &SampleSpace,
+    deviation: &Deviation,
+    state: &State,
+    backend: &dyn Backend,
+) -> Vec<ViewLayers> {
+    let synthesise = |camera: &Camera| {
+        let gbuffer = GBuffer::new(&capture.mesh, camera, None);
+        let samples = space.withheld(&gbuffer, state.size);
+        let shading = layers(&samples, deviation, state, backend);
+        let albedo = state.albedo(&samples);
+        let channels = ViewLayers::CHANNELS.len();
+        let mut picture = Picture::new(camera.width, camera.height, channels);
+        for (i, pixel) in samples.pixel.iter().enumerate() {
+            let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
+            let out = &mut picture.data[*pixel as usize * channels..][..channels];
+            for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
+                out[channel] = albedo * diffuse + specular;
+                out[3 + channel] = albedo * diffuse;
+                out[6 + channel] = specular;
+            }
+        }
+        ViewLayers { name: camera.name.clone(), picture }
+    };
+    capture.withheld.iter().map(synthesise).collect()
+}

@@ -1,0 +1,162 @@
+//! What the steps of a solve work on. All of it follows from the capture and the configuration, so
+//! that none of it is in a checkpoint; it is made when a step first asks for it.
+
+use std::cell::OnceCell;
+
+use rayon::prelude::*;
+
+use super::stage::State;
+use crate::backend::Backend;
+use crate::capture::{Capture, View};
+use crate::config::{Config, TextureRule, TextureSize, ViewWeightConfig};
+use crate::gbuffer::GBuffer;
+use crate::model::deviation::Deviation;
+use crate::model::networks::Networks;
+use crate::model::samples::{SampleSpace, Samples};
+use crate::semantic;
+
+/// The place where a solve happens.
+pub(super) struct Site<'a> {
+    pub backend: &'a dyn Backend,
+    pub capture: &'a Capture,
+    pub config: &'a Config,
+    pub space: SampleSpace,
+    /// Of the training views, in full resolution.
+    pub gbuffers: Vec<GBuffer>,
+    /// Side of the fine-tuned textures.
+    pub size: usize,
+    pictures: OnceCell<WarmUpPictures>,
+    coarse: OnceCell<Samples>,
+    fine: OnceCell<Fine>,
+}
+
+/// The full pictures with the final textures.
+pub(super) struct Fine {
+    pub samples: Samples,
+    pub deviation: Deviation,
+}
+
+impl<'a> Site<'a> {
+    pub fn new(backend: &'a dyn Backend, capture: &'a Capture, config: &'a Config) -> Self {
+        let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
+        let pixels = gbuffers.iter().map(GBuffer::len).sum();
+        Self {
+            backend,
+            capture,
+            config,
+            space: SampleSpace::new(&capture.mesh, config),
+            gbuffers,
+            size: texture_size(config.fine_tuning.texture_size, pixels),
+            pictures: OnceCell::new(),
+            coarse: OnceCell::new(),
+            fine: OnceCell::new(),
+        }
+    }
+
+    /// The training pictures as the warm-up takes them.
+    pub fn pictures(&self) -> &WarmUpPictures {
+        self.pictures.get_or_init(|| WarmUpPictures::new(self.capture, &self.gbuffers, self.config))
+    }
+
+    /// The samples of the warm-up.
+    pub fn coarse(&self) -> &Samples {
+        let size = self.config.warm_up.texture_size;
+        self.coarse.get_or_init(|| self.pictures().samples(&self.space, size))
+    }
+
+    /// What the fine-tuning works on.
+    pub fn fine(&self) -> &Fine {
+        self.fine.get_or_init(|| Fine {
+            samples: self.samples(self.size),
+            deviation: Deviation::new(self.config, self.size),
+        })
+    }
+
+    /// The full pictures, for textures of side `size`.
+    pub fn samples(&self, size: usize) -> Samples {
+        let weights = &self.config.view_weights;
+        self.space.training(&self.capture.train, &self.gbuffers, weights, size)
+    }
+
+    /// Gives back the memory of [`Site::coarse`].
+    pub fn drop_coarse(&mut self) {
+        self.coarse.take();
+    }
+
+    /// Gives back the memory of [`Site::pictures`].
+    pub fn drop_pictures(&mut self) {
+        self.pictures.take();
+    }
+
+    /// What the textures start from.
+    pub fn initial_state(&self) -> State {
+        let config = self.config;
+        let size = config.warm_up.texture_size;
+        let unlabelled: Vec<View>;
+        let views = if config.initialisation.semantic {
+            &self.capture.train
+        } else {
+            let strip = |view: &View| View { labels: None, ..view.clone() };
+            unlabelled = self.capture.train.iter().map(strip).collect();
+            &unlabelled
+        };
+        let mesh = &self.capture.mesh;
+        let diffuse = semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size).data;
+        let grey: Vec<f32> =
+            diffuse.chunks_exact(3).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
+        let brightest = grey.iter().fold(f32::MIN_POSITIVE, |m, g| m.max(*g));
+        let scale = config.initialisation.specular_maximum / brightest;
+        State {
+            networks: Networks::new(&config.networks, config.seed),
+            size,
+            specular: grey.iter().map(|grey| grey * scale).collect(),
+            deviation: vec![0.0; diffuse.len()],
+            diffuse,
+        }
+    }
+}
+
+/// The training pictures as the warm-up takes them.
+pub(super) struct WarmUpPictures {
+    views: Vec<View>,
+    gbuffers: Vec<GBuffer>,
+    weights: ViewWeightConfig,
+}
+
+impl WarmUpPictures {
+    fn new(capture: &Capture, gbuffers: &[GBuffer], config: &Config) -> Self {
+        let mut weights = config.view_weights.clone();
+        if !config.warm_up.half_resolution {
+            return Self { views: capture.train.clone(), gbuffers: gbuffers.to_vec(), weights };
+        }
+        weights.depth_blur *= 0.5;
+        let views: Vec<View> = capture.train.par_iter().map(View::half).collect();
+        let gbuffers = GBuffer::of_views(&capture.mesh, &views);
+        Self { views, gbuffers, weights }
+    }
+
+    /// The usable pixels, for textures of side `size`.
+    pub fn samples(&self, space: &SampleSpace, size: usize) -> Samples {
+        space.training(&self.views, &self.gbuffers, &self.weights, size)
+    }
+}
+
+/// The power of two nearest to one texel per pixel.
+pub(super) fn texture_size(size: TextureSize, pixels: usize) -> usize {
+    match size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => {
+            let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
+            2usize.pow(exponent.clamp(7, 11))
+        }
+    }
+}
+
+/// Maps from few pixels are written larger than they were solved, for the sake of the mesh normal
+/// in them.
+pub(super) fn map_size(size: TextureSize, solved: usize) -> usize {
+    match size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => solved.max(512),
+    }
+}

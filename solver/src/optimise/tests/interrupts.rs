@@ -1,0 +1,184 @@
+//! Interrupts: what is written then, and that a solve goes on to the same bytes.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use super::*;
+use crate::Maps;
+use crate::optimise::checkpoint::Checkpoint;
+use crate::optimise::solve::{Options, solve_into, solve_on};
+
+/// Every stage of a solve, in seconds.
+fn short() -> Config {
+    let mut config = small();
+    config.initialisation.starts = 2;
+    config.initialisation.start_iterations = 8;
+    config.warm_up.iterations = 20;
+    config.fine_tuning.iterations = 6;
+    config.transport.iterations = 16;
+    config.transport.hold = 6;
+    config.transport.refinement = 6;
+    config.height.steps = 4;
+    config
+}
+
+/// What the checkpoint's owner is called here.
+const PROGRAM: &str = "tests";
+
+/// All files below a folder with their bytes, without wall times.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = vec![];
+    for entry in fs::read_dir(folder).unwrap() {
+        let (path, name) = entry.map(|e| (e.path(), e.file_name())).unwrap();
+        let name = name.to_string_lossy().into_owned();
+        if path.is_dir() {
+            let inner = files(&path).into_iter();
+            found.extend(inner.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
+        } else if name != "timing.json" {
+            found.push((name, fs::read(path).unwrap()));
+        }
+    }
+    found.sort();
+    found
+}
+
+fn stop_at(step: usize) -> impl FnMut(&crate::Progress) -> ControlFlow<()> {
+    move |progress| match progress.iteration == step {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    }
+}
+
+/// The steps: two starts of 8, warm-up of 20, transport of 16, relief of 8, normals and specular of
+/// 6, diffuse of 6, albedo of 6.
+const CUTS: [(usize, &str); 11] = [
+    (1, "start 1 at step 1 of 8"),
+    (11, "start 2 at step 3 of 8"),
+    (16, "start 2 at step 8 of 8"),
+    (30, "warm-up at step 14 of 20"),
+    (36, "warm-up at step 20 of 20"),
+    (39, "transport at step 3 of 16"),
+    (47, "transport at step 11 of 16"),
+    (55, "relief at step 3 of 8"),
+    (63, "normals and specular 1 at step 3 of 6"),
+    (70, "diffuse 1 at step 4 of 6"),
+    (77, "albedo at step 5 of 6"),
+];
+
+#[test]
+fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = capture(&folder.path().join("capture"));
+    let (whole, maps) = (folder.path().join("whole"), folder.path().join("maps"));
+    let checkpoint = folder.path().join("maps.checkpoint");
+    let config = short();
+    let mut heard = vec![];
+    let solution = solve_into(&whole, PROGRAM, &capture, &config, &mut |progress| {
+        heard.push((progress.iteration, progress.total));
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!(solution.record.interrupted, None);
+    assert_eq!(heard, (1..=78).map(|step| (step, 78)).collect::<Vec<_>>());
+    assert!(!folder.path().join("whole.checkpoint").exists());
+
+    for (step, place) in CUTS {
+        let solution = solve_into(&maps, PROGRAM, &capture, &config, &mut stop_at(step)).unwrap();
+        assert_eq!(solution.record.interrupted.as_deref(), Some(place));
+        assert!(checkpoint.is_dir(), "{place}");
+        let written = Maps::read(&maps).unwrap();
+        let albedo = written.diffuse_albedo.unwrap();
+        assert!(albedo.data.iter().all(|value| (0.0..5.0).contains(value)), "{place}");
+        assert!(albedo.data.iter().any(|value| *value > 0.05), "{place}");
+        for normal in written.specular_normal.unwrap().data.chunks_exact(3) {
+            assert!((Vec3::from_slice(normal).length() - 1.0).abs() < 1e-4, "{place}");
+        }
+        let record: serde_json::Value =
+            serde_json::from_slice(&fs::read(maps.join("solve.json")).unwrap()).unwrap();
+        assert_eq!(record["interrupted"], place);
+
+        let mut first = None;
+        solve_into(&maps, PROGRAM, &capture, &config, &mut |progress| {
+            first.get_or_insert(progress.iteration);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        // The height solve begins anew, everything else at the next step.
+        let expected = if place.starts_with("relief") { 53 } else { step + 1 };
+        assert_eq!(first, Some(expected), "{place}");
+        assert!(files(&maps) == files(&whole), "{place}: other bytes");
+        assert!(!checkpoint.exists(), "{place}");
+    }
+}
+
+/// A process that is killed leaves the last checkpoint of its stage, not one of its last step.
+#[test]
+fn a_killed_solve_goes_on_from_the_last_checkpoint_of_its_stage() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = capture(&folder.path().join("capture"));
+    let config = short();
+    let (maps, killed) = (folder.path().join("maps"), folder.path().join("killed"));
+    let options = |maps: &Path| {
+        let checkpoint = Checkpoint::beside(maps, PROGRAM).every(Duration::ZERO);
+        Options { checkpoint: Some(checkpoint), ..Options::default() }
+    };
+    let backend = Cpu::new();
+    // What lies there when step 45 has been reported is what a kill would have left.
+    let from = Checkpoint::beside(&maps, PROGRAM);
+    let to = Checkpoint::beside(&killed, PROGRAM);
+    let whole = solve_on(&backend, &capture, &config, options(&maps), &mut |progress| {
+        if progress.iteration == 45 {
+            fs::create_dir(to.folder()).unwrap();
+            for entry in fs::read_dir(from.folder()).unwrap() {
+                let entry = entry.unwrap();
+                fs::copy(entry.path(), to.folder().join(entry.file_name())).unwrap();
+            }
+        }
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let mut first = None;
+    let resumed = solve_on(&backend, &capture, &config, options(&killed), &mut |progress| {
+        first.get_or_insert((progress.stage.to_owned(), progress.iteration));
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let (stage, step) = first.unwrap();
+    // A slow disk may have put the last checkpoint off by a step or two.
+    assert!(stage == "transport" && (38..=45).contains(&step), "{stage} {step}");
+    assert!(resumed.maps == whole.maps && resumed.views == whole.views);
+    assert_eq!(resumed.record, whole.record);
+}
+
+#[test]
+fn a_checkpoint_of_another_solve_is_not_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = capture(&folder.path().join("capture"));
+    let maps = folder.path().join("maps");
+    let checkpoint = folder.path().join("maps.checkpoint");
+    let begun_at = |program: &str, config: &Config| {
+        let mut first = 0;
+        solve_into(&maps, program, &capture, config, &mut |progress| {
+            first = progress.iteration;
+            ControlFlow::Break(())
+        })
+        .unwrap();
+        first
+    };
+    let config = short();
+    assert_eq!(begun_at(PROGRAM, &config), 1);
+    assert_eq!(begun_at(PROGRAM, &config), 2, "the same solve goes on");
+    let other = Config { seed: 7, ..config.clone() };
+    assert_eq!(begun_at(PROGRAM, &other), 1, "another configuration");
+    assert_eq!(begun_at("another", &other), 1, "another program");
+    assert_eq!(begun_at("another", &other), 2);
+    // Half a file, as after a full disk.
+    let path = checkpoint.join("solve.postcard");
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    assert_eq!(begun_at("another", &other), 1, "a damaged checkpoint");
+    let path = checkpoint.join("stage.postcard");
+    fs::write(&path, b"not a checkpoint").unwrap();
+    assert_eq!(begun_at("another", &other), 1, "a damaged stage");
+}
