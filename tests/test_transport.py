@@ -17,6 +17,8 @@ from unshade.render.pictures import read_exr, read_rgb  # noqa: E402
 
 CASE = "tiny-studio"
 ROWS = 16
+NEARNESS = 1 / 1.5
+"""Of the largest panel of the studio, per metre."""
 
 
 def sampled(texture: np.ndarray, uvs: np.ndarray) -> np.ndarray:
@@ -56,17 +58,19 @@ def decibels(error: np.ndarray) -> float:
 def test_the_true_diffuse_layer_is_reproduced(tiny_run: Path) -> None:
     """Relief, which the mesh has not, and the rest of the head, which the chart has not, are all that is left."""
     capture = tiny_run / "captures" / CASE
-    predicted, true, variance = layer(capture)
+    predicted, true, variance = layer(capture, nearness=NEARNESS)
     assert len(true) > 1000
-    error = decibels(predicted - true)
-    # Measured on the demo's face at 256²: 42 dB uniform (floor of the noise 47), 39 studio (48),
-    # 40 court (41), 34 under the flash, whose lamps are too small for these cells.
-    assert error > 33, error
-    assert (predicted * true).sum() / (predicted**2).sum() == pytest.approx(1, abs=0.05)
-    # Bounces are part of it.
-    direct, _, _ = layer(capture, bounces=0)
-    assert error > decibels(direct - true) + 0.1
-    assert direct.mean() < predicted.mean()
+    error, floor = decibels(predicted - true), float(-10 * np.log10(variance.mean()))
+    # Measured: 39.4 dB where the picture's own noise is 38.8. On the demo's face at 256², without
+    # the nearness: 42 dB uniform (noise 47), 39 studio (48), 40 court (41), 34 under the flash,
+    # whose lamps are too small for these cells.
+    assert error > floor - 1, (error, floor)
+    assert (predicted * true).sum() / (predicted**2).sum() == pytest.approx(1, abs=0.02)
+    # Bounces and the lamps' distance are part of it: 0.2 and 3.5 dB.
+    direct, _, _ = layer(capture, nearness=NEARNESS, bounces=0)
+    distant, _, _ = layer(capture)
+    assert decibels(direct - true) < error - 0.1 and direct.mean() < predicted.mean()
+    assert decibels(distant - true) < error - 2
 
 
 def test_a_light_of_the_wrong_shape_is_refused(tiny_run: Path) -> None:
