@@ -79,6 +79,35 @@ def test_a_callback_hears_and_stops_a_solve(tiny_run: Path) -> None:
     assert [iteration for _, iteration, _, _ in heard] == [1, 2, 3]
 
 
+def test_a_stopped_solve_returns_its_maps_and_goes_on(tiny_run: Path, tmp_path: Path) -> None:
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    config = json.loads((tiny_run / "maps" / CASE / "quick" / "solve.json").read_text())["config"]
+    tables = {key: value for key, value in config.items() if isinstance(value, dict)}
+    lines = [f"{key} = {json.dumps(value)}" for key, value in config.items() if key not in tables]
+    for name, table in tables.items():
+        lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
+    text = "\n".join(lines)
+
+    first: list[int] = []
+
+    def until_70(_stage: str, iteration: int, _total: int, _loss: float) -> bool:
+        first.append(iteration)
+        return iteration < 70
+
+    out = tmp_path / "maps"
+    stopped = unshade.solve(capture, config=text, out=out, progress=until_70)
+    assert stopped.interrupted is not None and "at step" in stopped.interrupted
+    assert unshade.Maps.read(out).interrupted == stopped.interrupted
+    assert np.isfinite(stopped.diffuse_albedo).all()
+
+    first.clear()
+    maps = unshade.solve(capture, config=text, out=out, progress=lambda _s, i, _t, _l: first.append(i))
+    assert first[0] == 71 and maps.interrupted is None
+    whole = tiny_run / "maps" / CASE / "quick"
+    for name in ("diffuse_albedo.exr", "specular_normal.exr", "solve.json"):
+        assert (out / name).read_bytes() == (whole / name).read_bytes()
+
+
 def test_errors_have_names_and_one_line(tiny_run: Path, tmp_path: Path) -> None:
     capture = unshade.Capture(tiny_run / "captures" / CASE)
     wrong = {

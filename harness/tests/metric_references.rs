@@ -39,6 +39,7 @@ struct Pictures {
     normal: Picture,
     mask: GrayImage,
     labels: GrayImage,
+    confidence: Picture,
 }
 
 fn pictures() -> Pictures {
@@ -69,6 +70,7 @@ fn pictures() -> Pictures {
             if x.abs_diff(48).pow(2) * 4 + y.abs_diff(32).pow(2) * 9 < 8000 { 255 } else { 0 }
         }),
         labels: gray(|x, y| (1 + x / 32 + 3 * (y / 40)) as u8),
+        confidence: picture(1, |x, y, _| (triangle(x + 2 * y, 101) + 0.3 * noise(x, y, 11)) as f32),
     }
 }
 
@@ -94,6 +96,7 @@ fn every_metric_agrees_with_an_independent_implementation() {
     let colours = Pair::new(&prediction, &truth, &region)
         .and_then(|pair| pair.with_labels(&p.labels))
         .and_then(|pair| pair.with_cause(&p.cause))
+        .and_then(|pair| pair.with_confidence(&p.confidence))
         .unwrap();
     let normals = Pair::new(&p.normal, &p.true_normal, &region).unwrap();
     let values = Pair::new(&value, &true_value, &region).unwrap();

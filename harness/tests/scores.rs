@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 
 use harness::compare::{Baseline, Tolerances, Verdict, compare};
 use harness::score::{Scores, fit_scale, oracle_maps, score};
+use harness::suite::BaselineMethod;
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
+use solver::picture::write_exr;
 
 struct Bench {
     root: tempfile::TempDir,
@@ -136,6 +138,63 @@ fn baked_shading_and_baked_highlights_are_told_apart() {
         [0, 1, 2].map(|c| a[c] + 0.02 * s[c])
     });
     assert!(leak(&glossy, "specular") > 0.9, "{}", leak(&glossy, "specular"));
+}
+
+#[test]
+fn the_semantic_initialisation_is_seen_through_where_the_mean_texture_is_not() {
+    // The plane's pictures are its albedo, and its label images know one region.
+    let bench = Bench::new(1e-5);
+    let scores = BaselineMethod::ALL.map(|method| {
+        let maps = bench.root.path().join(method.name());
+        method.make(&bench.capture(), &maps, SIDE).unwrap();
+        score(&bench.capture(), &maps, None).unwrap()
+    });
+    let [texture, semantic] = &scores;
+    let row = |scores: &Scores, metric: &str, scale: &str| {
+        scores.row(&format!("diffuse_albedo/{metric}@coverage-e5:{scale}")).unwrap().value
+    };
+    for mode in ["none", "global"] {
+        assert!(row(texture, "psnr_srgb", mode).unwrap() > 40.0);
+        let flat = row(semantic, "psnr_srgb", mode).unwrap();
+        assert!(flat > 10.0 && flat < 25.0, "{mode}: {flat}");
+    }
+    // One colour follows nothing: its correlations are not defined, and not zero.
+    assert!(row(texture, "wcorr", "none").unwrap() > 0.99);
+    assert_eq!([row(semantic, "wcorr", "none"), row(semantic, "hc", "none")], [None, None]);
+    assert!(row(semantic, "lp", "none").unwrap() > 0.1);
+    assert!(semantic.row("specular_albedo/rmse@coverage-e5:none").is_none());
+}
+
+#[test]
+fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
+    let bench = Bench::new(1e-5);
+    // Off by a factor of exp(u - 0.5), which one factor cannot undo.
+    let maps = bench.albedo_maps(SIDE, |u, v| albedo(u, v).map(|a| a * (u - 0.5).exp()));
+    let row = |scores: &Scores, metric: &str| {
+        scores.row(&format!("confidence/{metric}@coverage-e5:global")).unwrap().value
+    };
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert!(scores.rows.iter().all(|row| row.subject != "confidence"), "none was left");
+    let k = scores.scale.unwrap().global.ln();
+    let scored = |side: usize, trust: &dyn Fn(f64) -> f64| {
+        let confidence = map(side, 1, |u, _| [trust(u); 3]);
+        write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
+        let scores = score(&bench.capture(), &maps, None).unwrap();
+        [row(&scores, "confidence_rank"), row(&scores, "sparsification")]
+    };
+    let error = |u: f64| (u - 0.5 + k).abs();
+    let [rank, sparse] = scored(SIDE, &|u| 1.0 - error(u)).map(Option::unwrap);
+    // Every column of the region has one error; the better half of them is trusted.
+    let mut errors: Vec<f64> =
+        (2..SIDE - 2).map(|x| error((x as f64 + 0.5) / SIDE as f64)).collect();
+    errors.sort_by(f64::total_cmp);
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
+    let expected = mean(&errors[..errors.len() / 2]) / mean(&errors);
+    assert!(rank < -0.999 && (sparse - expected).abs() < 1e-3, "{rank} {sparse} {expected}");
+    let [rank, sparse] = scored(SIDE / 2, &error).map(Option::unwrap);
+    assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
+    assert_eq!(scored(SIDE, &|_| 0.7)[0], None);
+    assert!((scored(SIDE, &|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
 }
 
 #[test]

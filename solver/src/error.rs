@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::memory::{Estimate, bytes};
 use crate::picture::PictureError;
 
 /// A capture folder that cannot be used.
@@ -127,6 +128,20 @@ pub enum SolveError {
     /// then ends with what it has.
     #[error("interrupted")]
     Interrupted,
+    /// The machine has not the memory.
+    #[error(
+        "the solve needs {} of memory more ({estimate} in all), but {} are free; lower \
+         fine_tuning.texture_size, take the pictures at half their size, or fewer views",
+        bytes(*needed), bytes(*available)
+    )]
+    Memory {
+        /// What was to be solved.
+        estimate: Estimate,
+        /// Bytes on top of what is taken already.
+        needed: u64,
+        /// Bytes that there are.
+        available: u64,
+    },
     /// The maps cannot be written.
     #[error(transparent)]
     Maps(#[from] MapsError),

@@ -13,6 +13,7 @@ pub mod fill;
 pub mod gbuffer;
 pub mod machine;
 pub mod maps;
+pub mod memory;
 pub mod model;
 pub mod optimise;
 pub mod picture;
@@ -30,7 +31,7 @@ pub use gbuffer::mesh_normal_map;
 pub use maps::Maps;
 pub use optimise::checkpoint::Checkpoint;
 pub use optimise::solve::{Options, Progress, solve, solve_into, solve_on};
-pub use solution::{Record, Solution, Timing, ViewLayers};
+pub use solution::{Record, Solution, StageMaps, Timing, ViewLayers};
 
 /// The instruction set that the processor backend uses on this machine.
 pub fn simd_level() -> String {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image as ExrImage, Layer,
-    LayerAttributes, LineOrder, ReadChannels, ReadLayers, SmallVec, WritableImage, read,
+    LayerAttributes, LineOrder, ReadChannels, ReadLayers, SmallVec, WritableImage, f16, read,
 };
 
 use crate::atomic;
@@ -171,6 +171,24 @@ pub fn read_exr_rgb(path: &Path) -> Result<Picture, PictureError> {
 
 /// Writes 32-bit float channels named `names`; the same picture gives the same bytes.
 pub fn write_exr(path: &Path, picture: &Picture, names: &[&str]) -> Result<(), PictureError> {
+    write_channels(path, picture, names, FlatSamples::F32)
+}
+
+/// Writes 16-bit float channels, for pictures that are looked at; what they cannot hold is clamped.
+pub fn write_exr_half(path: &Path, picture: &Picture, names: &[&str]) -> Result<(), PictureError> {
+    let largest = f16::MAX.to_f32();
+    let half = |value: f32| f16::from_f32(value.clamp(-largest, largest));
+    write_channels(path, picture, names, |values| {
+        FlatSamples::F16(values.into_iter().map(half).collect())
+    })
+}
+
+fn write_channels(
+    path: &Path,
+    picture: &Picture,
+    names: &[&str],
+    samples: impl Fn(Vec<f32>) -> FlatSamples,
+) -> Result<(), PictureError> {
     if names.len() != picture.channels {
         return Err(write_error(
             path,
@@ -182,7 +200,7 @@ pub fn write_exr(path: &Path, picture: &Picture, names: &[&str]) -> Result<(), P
         .enumerate()
         .map(|(slot, name)| {
             let values = picture.data.iter().skip(slot).step_by(picture.channels.max(1));
-            AnyChannel::new(*name, FlatSamples::F32(values.copied().collect()))
+            AnyChannel::new(*name, samples(values.copied().collect()))
         })
         .collect();
     let layer = Layer::new(
@@ -276,6 +294,21 @@ mod tests {
         assert_eq!(back, gradient());
         let error = read_exr(&path, &["G"]).unwrap_err().to_string();
         assert!(error.contains("\"G\"") && error.contains("diffuse.R"), "{error}");
+    }
+
+    #[test]
+    fn halves_come_back_within_their_precision_and_stay_finite() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("half.exr");
+        let mut picture = gradient();
+        picture.data[0] = 1e9;
+        picture.data[1] = 0.1;
+        write_exr_half(&path, &picture, &["R", "G", "B"]).unwrap();
+        let back = read_exr_rgb(&path).unwrap();
+        assert_eq!(back.data[0], 65504.0);
+        for (value, half) in picture.data[1..].iter().zip(&back.data[1..]) {
+            assert!((value - half).abs() <= 1e-3 * value.abs(), "{value} {half}");
+        }
     }
 
     #[test]

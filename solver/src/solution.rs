@@ -1,6 +1,6 @@
 //! What a solve leaves behind: maps, withheld views, the record, and how long it took.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -20,10 +20,21 @@ pub struct Solution {
     pub light: Option<RecoveredLight>,
     /// Every withheld view as the networks see it.
     pub views: Vec<ViewLayers>,
+    /// The maps after every stage, small; empty if the configuration wants no record of them.
+    pub stages: Vec<StageMaps>,
     /// Everything needed to get the same solution again, and the losses.
     pub record: Record,
     /// Wall times.
     pub timing: Timing,
+}
+
+/// The maps that a stage changed, at most 256 texels a side, normalised like the final ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageMaps {
+    /// The stage's name.
+    pub stage: String,
+    /// Absent are the maps that it did not change.
+    pub maps: Maps,
 }
 
 /// A synthesised view: linear radiance in the pictures' exposure, black where there is no mesh.
@@ -48,6 +59,14 @@ impl ViewLayers {
         "specular.G",
         "specular.B",
     ];
+}
+
+impl ViewLayers {
+    /// Writes a training view below `layers/` of a maps folder, to be looked at: 16-bit floats.
+    pub fn write_layers(&self, maps: &Path) -> Result<(), MapsError> {
+        let file = place(maps, "layers", &self.name)?;
+        Ok(picture::write_exr_half(&file, &self.picture, &Self::CHANNELS)?)
+    }
 }
 
 /// The content of `solve.json`; nothing in it depends on the time or the number of threads.
@@ -124,23 +143,48 @@ impl Solution {
     pub fn write(&self, folder: &Path) -> Result<(), MapsError> {
         let io = |source| MapsError::Io { path: folder.to_path_buf(), source };
         let partial = Folder::begin(folder).map_err(io)?;
-        let path = partial.path();
-        self.maps.write_into(path)?;
-        if let Some(light) = &self.light {
-            picture::write_exr_rgb(&path.join("light.exr"), &light.picture())?;
-        }
-        if !self.views.is_empty() {
-            let views = path.join("views");
-            std::fs::create_dir(&views).map_err(io)?;
-            for view in &self.views {
-                let file = views.join(format!("{}.exr", view.name));
-                picture::write_exr(&file, &view.picture, &ViewLayers::CHANNELS)?;
-            }
-        }
-        write_json(&path.join("solve.json"), &self.record)?;
-        write_json(&path.join("timing.json"), &self.timing)?;
+        self.write_into(partial.path())?;
         partial.commit().map_err(io)
     }
+
+    /// Writes the files into a folder that exists, for callers that add files of their own.
+    pub fn write_into(&self, folder: &Path) -> Result<(), MapsError> {
+        self.maps.write_into(folder)?;
+        if let Some(light) = &self.light {
+            picture::write_exr_rgb(&folder.join("light.exr"), &light.picture())?;
+        }
+        for view in &self.views {
+            let file = place(folder, "views", &view.name)?;
+            picture::write_exr(&file, &view.picture, &ViewLayers::CHANNELS)?;
+        }
+        for (number, StageMaps { stage, maps }) in self.stages.iter().enumerate() {
+            let name = format!("{:02}-{}", number + 1, stage.replace(' ', "-"));
+            let folder = folder.join("stages").join(name);
+            create(&folder)?;
+            maps.write_into(&folder)?;
+        }
+        write_json(&folder.join("solve.json"), &self.record)?;
+        write_json(&folder.join("timing.json"), &self.timing)
+    }
+}
+
+fn create(folder: &Path) -> Result<(), MapsError> {
+    let io = |source| MapsError::Io { path: folder.to_path_buf(), source };
+    std::fs::create_dir_all(folder).map_err(io)
+}
+
+/// The file of a frame in one of the folders of a maps folder, which is made if it is not there.
+fn place(maps: &Path, folder: &str, frame: &str) -> Result<PathBuf, MapsError> {
+    let folder = maps.join(folder);
+    create(&folder)?;
+    Ok(folder.join(format!("{frame}.exr")))
+}
+
+/// Where the solve of a maps folder was stopped, if it was ours and was.
+pub fn interrupted(maps: &Path) -> Option<String> {
+    let record: Value =
+        serde_json::from_slice(&std::fs::read(maps.join("solve.json")).ok()?).ok()?;
+    record.get("interrupted")?.as_str().map(str::to_owned)
 }
 
 fn write_json(path: &Path, content: &impl Serialize) -> Result<(), MapsError> {

@@ -92,6 +92,9 @@ class Maps:
         specular_normal: _Float | None = None,
         coverage: _Byte | None = None,
     ) -> None: ...
+    @property
+    def interrupted(self) -> str | None:
+        """Where the solve was stopped; None if it came to its end."""
     @staticmethod
     def read(path: _Path) -> Maps:
         """Read whatever maps the folder has."""
@@ -107,8 +110,10 @@ def solve(
 ) -> Maps:
     """Recover maps; ``config`` is a preset's name or the text of a configuration.
 
-    ``progress(stage, iteration, total, loss)`` hears how it goes; what it raises stops the
-    solve. With ``out`` the whole maps folder is written there too.
+    ``progress(stage, iteration, total, loss)`` hears how it goes. What it raises stops the solve
+    and is raised here, as is Ctrl-C; returning ``False`` stops it and returns the maps so far,
+    whose ``interrupted`` says where. With ``out`` the whole maps folder is written there, after a
+    stop as well; the same call then goes on from there, to the same bytes.
     """
 
 def run_command_line(arguments: list[str]) -> int: ...

@@ -12,15 +12,13 @@ use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, V
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
 use crate::score;
-use crate::suite::{self, Observer, RunError, Suite, Tools};
+use crate::suite::{self, BaselineMethod, Observer, RunError, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
-        Verb::Solve(arguments) => {
-            alone("solve", |tools, step| solve(&arguments, tools, step))?;
-        }
+        Verb::Solve(arguments) => solve(&arguments)?,
         Verb::Relight { capture, maps, out } => {
             alone("relight", |tools, step| suite::relight(&capture, &maps, &out, tools, step))?;
         }
@@ -31,6 +29,12 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         Verb::Report { run, out } => {
             report::write(&run, &out)?;
             println!("{}", out.join("index.html").display());
+        }
+        Verb::Table { runs, out } => {
+            let mut words = vec!["unshade table".to_owned()];
+            words.extend(runs.iter().map(|run| run.display().to_string()));
+            words.push(format!("-o {}", out.display()));
+            report::write_results(&runs, &out, &words.join(" "))?;
         }
         Verb::Compare(arguments) => return compare_run(&arguments),
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
@@ -81,24 +85,32 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
     }
 }
 
-fn solve(
-    arguments: &SolveArgs,
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let config = if arguments.config.ends_with(".toml") {
+fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
+    let mut config = if arguments.config.ends_with(".toml") {
         solver::Config::from_toml(&fs::read_to_string(&arguments.config)?)?
     } else {
         solver::Config::preset(&arguments.config)?
     };
-    let capture = &arguments.capture;
+    if arguments.no_records {
+        config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
+    let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
         SolverName::Fields => {
-            suite::solve(&solver::Capture::open(capture)?, &config, &arguments.out, tools, step)
+            let capture = solver::Capture::open(capture)?;
+            eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
+            alone("solve", |tools, step| suite::solve(&capture, &config, out, tools, step))
         }
-        SolverName::MeanTexture => Ok(suite::mean_texture(capture, &arguments.out)?),
-        SolverName::Oracle => Ok(score::oracle_maps(capture, &arguments.out)?),
+        SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),
+        SolverName::SemanticInitialisation => {
+            baseline(BaselineMethod::SemanticInitialisation, arguments)
+        }
+        SolverName::Oracle => alone("solve", |_, _| Ok(score::oracle_maps(capture, out)?)),
     }
+}
+
+fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunError> {
+    method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
 }
 
 fn run_suite(suite: &Path, out: &Path) -> Result<u8, RunError> {

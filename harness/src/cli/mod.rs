@@ -10,8 +10,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::suite::RunError;
-
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
 #[command(name = "unshade", version, max_term_width = 100)]
@@ -68,6 +66,16 @@ enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
+    /// face.
+    Table {
+        /// The runs' folders.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The file.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
     /// Say what this machine has, and what is missing with the mend.
@@ -111,6 +119,9 @@ struct SolveArgs {
     /// A preset (unshade, paper, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     config: String,
+    /// Leave out the maps after every stage and the layers of every training view.
+    #[arg(long)]
+    no_records: bool,
     /// What computes.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
@@ -136,6 +147,8 @@ enum SolverName {
     Fields,
     /// The mean of the projected colours.
     MeanTexture,
+    /// One colour for each label region.
+    SemanticInitialisation,
     /// The true maps (opens `truth/`).
     Oracle,
 }
@@ -174,7 +187,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(code) => code,
         Err(error) => {
             eprintln!("unshade: {error}");
-            if matches!(error, RunError::Interrupted) { INTERRUPTED } else { BAD_INPUT }
+            if error.is_interrupt() { INTERRUPTED } else { BAD_INPUT }
         }
     }
 }

@@ -4,9 +4,9 @@
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
 
-use crate::suite::Observer;
+use crate::suite::{Observer, TIME_LEFT};
 
 /// Bars where standard error is a terminal, lines where it is not.
 pub(super) struct Progress {
@@ -30,7 +30,7 @@ impl Progress {
             let run = all.add(ProgressBar::new(0));
             run.set_style(style("{bar:30} {pos}/{len} stages  {elapsed}"));
             let stage = all.add(ProgressBar::new(0));
-            stage.set_style(style("{bar:30} {percent:>3}% {prefix}: {msg}  ({eta} left)"));
+            stage.set_style(style("{bar:30} {percent:>3}% {prefix}: {msg}"));
             run.enable_steady_tick(Duration::from_millis(500));
             Bars { run, stage }
         });
@@ -62,7 +62,11 @@ impl Observer for Progress {
         if let Some(bars) = &self.bars {
             bars.stage.set_length(total);
             bars.stage.set_position(done);
-            bars.stage.set_message(what.to_owned());
+            // A bar's own estimate takes all steps for equal.
+            bars.stage.set_message(match what.ends_with(TIME_LEFT) {
+                true => what.to_owned(),
+                false => format!("{what}, {}{TIME_LEFT}", HumanDuration(bars.stage.eta())),
+            });
         }
     }
 

@@ -19,6 +19,7 @@ mod filter;
 mod neighbourhood;
 mod pair;
 mod quantity;
+mod rank;
 mod region;
 mod registry;
 mod resample;

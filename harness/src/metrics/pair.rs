@@ -14,6 +14,7 @@ pub struct Pair<'a> {
     pub(super) factor: [f64; 3],
     pub(super) labels: Option<&'a GrayImage>,
     pub(super) cause: Option<&'a Picture>,
+    pub(super) confidence: Option<&'a Picture>,
 }
 
 impl<'a> Pair<'a> {
@@ -33,7 +34,15 @@ impl<'a> Pair<'a> {
         }
         check_finite("prediction", prediction, region)?;
         check_finite("truth", truth, region)?;
-        Ok(Self { prediction, truth, region, factor: [1.0; 3], labels: None, cause: None })
+        Ok(Self {
+            prediction,
+            truth,
+            region,
+            factor: [1.0; 3],
+            labels: None,
+            cause: None,
+            confidence: None,
+        })
     }
 
     /// The prediction's channels are multiplied by `factor` before anything else.
@@ -54,6 +63,18 @@ impl<'a> Pair<'a> {
         check_size("leaking layer", (cause.width, cause.height), self.truth)?;
         check_finite("leaking layer", cause, self.region)?;
         self.cause = Some(cause);
+        Ok(self)
+    }
+
+    /// How far the method trusts each pixel of its prediction, one channel, larger for more.
+    pub fn with_confidence(mut self, confidence: &'a Picture) -> Result<Self, MetricError> {
+        check_size("confidence", (confidence.width, confidence.height), self.truth)?;
+        if confidence.channels != 1 {
+            let found = confidence.channels;
+            return Err(MetricError::Channels { metric: "a confidence", expected: "1", found });
+        }
+        check_finite("confidence", confidence, self.region)?;
+        self.confidence = Some(confidence);
         Ok(self)
     }
 
@@ -86,6 +107,12 @@ impl<'a> Pair<'a> {
         let cause = self.cause?;
         let pixels = self.region.pixels().iter();
         Some(pixels.map(move |i| luminance(self.channels(cause, *i))))
+    }
+
+    /// The confidence over the region.
+    pub(super) fn confidences(&self) -> Option<Vec<f64>> {
+        let data = &self.confidence?.data;
+        Some(self.region.pixels().iter().map(|i| f64::from(data[*i])).collect())
     }
 
     fn channels(&self, picture: &'a Picture, index: usize) -> impl Iterator<Item = f64> + use<'a> {

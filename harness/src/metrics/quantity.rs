@@ -2,6 +2,7 @@
 
 use super::colour::{ciede2000, lab, srgb, typology_angle};
 use super::neighbourhood::{flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::rank::{ranks, upper_half};
 use super::{MetricError, Pair};
 
 /// Keeps the relative squared error finite in the dark.
@@ -42,6 +43,11 @@ pub enum Quantity {
     LogErrorAndCause,
     /// (Difference of the luminances, luminance of the leaking layer).
     ErrorAndCause,
+    /// Ranks of (the confidence, the size of the difference of the log luminances).
+    TrustAndErrorRanks,
+    /// (Twice the size of the difference of the log luminances where the confidence is in its upper
+    /// half, the same everywhere), whose ratio is that of their means.
+    TrustedAndWholeError,
 }
 
 impl Quantity {
@@ -83,7 +89,11 @@ impl Quantity {
                     both.fold([0.0, 0.0], |[pg, pp], (p, g)| [pg + p * g, pp + p * p])
                 })
                 .collect(),
-            Self::HighPass => high_pass(pair),
+            Self::HighPass => {
+                let mut residues = high_pass(pair);
+                residues.iter_mut().for_each(drop_rounding);
+                residues
+            }
             Self::WithinLabel => {
                 let labels = pair.labels.ok_or_else(|| needs("labels"))?;
                 let (mut x, mut y) = log_luminances(pair);
@@ -104,6 +114,17 @@ impl Quantity {
                 let errors =
                     pixels(pair).map(|i| pair.predicted_luminance(i) - pair.true_luminance(i));
                 errors.zip(cause).flat_map(|(error, cause)| [error, cause]).collect()
+            }
+            Self::TrustAndErrorRanks => {
+                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let errors = ranks(&log_errors(pair));
+                ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
+            }
+            Self::TrustedAndWholeError => {
+                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let shares = upper_half(&trust);
+                let pairs = shares.into_iter().zip(log_errors(pair));
+                pairs.flat_map(|(share, error)| [2.0 * share * error, error]).collect()
             }
         })
     }
@@ -132,6 +153,11 @@ fn per_channel(pair: &Pair, error: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         .collect()
 }
 
+fn log_errors(pair: &Pair) -> Vec<f64> {
+    let (x, y) = log_luminances(pair);
+    x.iter().zip(&y).map(|(x, y)| (x - y).abs()).collect()
+}
+
 fn triples(pair: &Pair, compare: impl Fn([f64; 3], [f64; 3]) -> f64) -> Vec<f64> {
     pixels(pair).map(|i| compare(triple(pair.predicted(i)), triple(pair.true_values(i)))).collect()
 }
@@ -152,19 +178,6 @@ fn angle_degrees(a: [f64; 3], b: [f64; 3]) -> f64 {
     dot(cross, cross).sqrt().atan2(dot(a, b)).to_degrees()
 }
 
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut ranks = vec![0.0; values.len()];
-    let mut first = 0;
-    for ties in order.chunk_by(|a, b| values[*a] == values[*b]) {
-        let mean = first as f64 + (ties.len() - 1) as f64 / 2.0;
-        ties.iter().for_each(|i| ranks[*i] = mean);
-        first += ties.len();
-    }
-    ranks
-}
-
 fn centre_by_label(values: &mut [f64], labels: &[u8]) {
     let mut sums = [(0.0, 0.0); 256];
     for (value, label) in values.iter().zip(labels) {
@@ -175,5 +188,16 @@ fn centre_by_label(values: &mut [f64], labels: &[u8]) {
     for (value, label) in values.iter_mut().zip(labels) {
         let (sum, count) = sums[usize::from(*label)];
         *value -= sum / count;
+        drop_rounding(value);
+    }
+}
+
+/// Less than this of a logarithm is rounding; neighbouring floats differ by five hundred times more.
+const ROUNDING: f64 = 1e-10;
+
+/// A flat map less its mean is flat: what rounding leaves of it correlates with anything.
+fn drop_rounding(residue: &mut f64) {
+    if residue.abs() < ROUNDING {
+        *residue = 0.0;
     }
 }

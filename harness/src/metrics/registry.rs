@@ -156,6 +156,12 @@ pub static METRICS: &[Metric] = metrics! {
     "leakage_specular", "Baked highlights", "", Lower, Q::ErrorAndCause, S::Explained,
         "share of the variance of the luminance error that a line in the luminance of the true specular layer explains (squared correlation)",
         "https://en.wikipedia.org/wiki/Coefficient_of_determination";
+    "confidence_rank", "Confidence against error", "", Lower, Q::TrustAndErrorRanks, S::Correlation,
+        "Pearson correlation of the ranks of the confidence and of |difference of the log luminances|, ties sharing their mean rank, luminances below .001 raised to it: -1 if confidence falls wherever the error grows, 0 if it says nothing; none if one is constant; its interval keeps the ranks fixed",
+        "https://en.wikipedia.org/wiki/Spearman%27s_rank_correlation_coefficient";
+    "sparsification", "Error of the trusted half", "", Lower, Q::TrustedAndWholeError, S::Ratio,
+        "mean |difference of the log luminances| of the half with the highest confidence / that of all, luminances below .001 raised to it; equal confidences share the half's last places: 1 if confidence says nothing",
+        "https://arxiv.org/abs/1802.07095";
 };
 
 #[cfg(test)]

@@ -4,11 +4,13 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use pyo3::types::PyBool;
 
 use super::capture::Capture;
 use super::errors::{named_error, raise};
 use super::maps::Maps;
 use crate::compare::{self as comparing, Baseline, Tolerances};
+use crate::suite::SOLVER_SOURCES;
 use crate::{cli, report, score};
 
 /// Runs the command line and returns its exit code.
@@ -17,8 +19,10 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
     py.detach(|| cli::main(arguments))
 }
 
-/// Recovers maps from a capture; `progress(stage, iteration, total, loss)` may be given, and what
-/// it raises stops the solve. With `out`, the whole maps folder is written there too.
+/// Recovers maps from a capture; `progress(stage, iteration, total, loss)` may be given. What it
+/// raises (or Ctrl-C) stops the solve and is raised here; `False` stops it too, and the maps so far
+/// are returned. With `out`, the whole maps folder is written there, after a stop as well, and the
+/// same call goes on from where it stopped.
 #[pyfunction]
 #[pyo3(signature = (capture, *, config="unshade", out=None, progress=None))]
 pub(super) fn solve(
@@ -29,41 +33,45 @@ pub(super) fn solve(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Maps> {
     // A preset's name, or the text of a configuration.
-    let config = if config.contains('=') {
+    let mut config = if config.contains('=') {
         solver::Config::from_toml(config)
     } else {
         solver::Config::preset(config)
     }
     .map_err(raise)?;
+    if out.is_none() {
+        // Nobody would see them.
+        config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
     let capture = &capture.get().inner;
     let mut raised: Option<PyErr> = None;
     let solution = py.detach(|| {
-        solver::solve(capture, &config, &mut |step| {
-            let heard = Python::attach(|py| {
+        let mut hear = |step: &solver::Progress| {
+            let go_on = Python::attach(|py| {
                 py.check_signals()?;
-                if let Some(progress) = &progress {
-                    let arguments = (step.stage, step.iteration, step.total, step.loss);
-                    progress.call1(py, arguments)?;
-                }
-                Ok(())
+                let Some(progress) = &progress else { return Ok(true) };
+                let arguments = (step.stage, step.iteration, step.total, step.loss);
+                let answer = progress.call1(py, arguments)?;
+                // None, as of a function that returns nothing, goes on.
+                Ok(!answer.bind(py).is(PyBool::new(py, false)))
             });
-            match heard {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    raised = Some(error);
-                    ControlFlow::Break(())
-                }
+            match go_on {
+                Ok(true) => return ControlFlow::Continue(()),
+                Ok(false) => {}
+                Err(error) => raised = Some(error),
             }
-        })
+            ControlFlow::Break(())
+        };
+        match &out {
+            Some(out) => solver::solve_into(out, SOLVER_SOURCES, capture, &config, &mut hear),
+            None => solver::solve(capture, &config, &mut hear),
+        }
     });
     if let Some(error) = raised {
         return Err(error);
     }
     let solution = solution.map_err(raise)?;
-    if let Some(out) = out {
-        py.detach(|| solution.write(&out)).map_err(raise)?;
-    }
-    Ok(Maps { inner: solution.maps })
+    Ok(Maps { inner: solution.maps, interrupted: solution.record.interrupted })
 }
 
 /// The scores of a maps folder as JSON text.

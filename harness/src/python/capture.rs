@@ -149,7 +149,8 @@ impl Capture {
     /// The true maps of a synthetic capture.
     fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
         let folder = self.inner.folder.join("truth");
-        Ok(Maps { inner: py.detach(|| solver::Maps::read(&folder)).map_err(raise)? })
+        let inner = py.detach(|| solver::Maps::read(&folder)).map_err(raise)?;
+        Ok(Maps { inner, interrupted: None })
     }
 
     fn __repr__(&self) -> String {

@@ -14,6 +14,7 @@ use super::errors::{named_error, raise};
 #[derive(Default)]
 pub(super) struct Maps {
     pub(super) inner: solver::Maps,
+    pub(super) interrupted: Option<String>,
 }
 
 type Given<'py> = Option<PyReadonlyArrayDyn<'py, f32>>;
@@ -60,12 +61,19 @@ impl Maps {
     /// Reads whatever maps the folder has.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(Self { inner: py.detach(|| solver::Maps::read(&path)).map_err(raise)? })
+        let inner = py.detach(|| solver::Maps::read(&path)).map_err(raise)?;
+        Ok(Self { inner, interrupted: solver::solution::interrupted(&path) })
     }
 
     /// Writes the folder, completely or not at all.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| self.inner.write(&path)).map_err(raise)
+    }
+
+    /// Where the solve was stopped; None for maps of a solve that came to its end.
+    #[getter]
+    fn interrupted(&self) -> Option<&str> {
+        self.interrupted.as_deref()
     }
 
     /// (size, size, 3) linear Rec.709 reflectance.

@@ -4,12 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use serde_json::Value;
 
+use super::ReportError;
 use super::plates::{self, Input, Method, Plate, Studio};
-use super::run::{self, Case, Frames};
+use super::run::{Case, Frames};
+use super::solve::Solve;
 use super::table::{self, Column, Table};
-use super::{ReportError, curve};
 use crate::score::RegionSize;
 
 /// A case as the templates see it.
@@ -19,6 +19,7 @@ pub(super) struct CaseView {
     anchor: String,
     face: String,
     light: String,
+    variant: Option<String>,
     train: usize,
     test: usize,
     inputs: Vec<Input>,
@@ -41,14 +42,6 @@ struct Region {
     share: String,
     /// Per column: the share for which the method had data.
     solved: Vec<String>,
-}
-
-/// What a method says about itself in `solve.json`.
-#[derive(Serialize)]
-struct Solve {
-    title: String,
-    curve: Option<String>,
-    facts: Vec<(String, String)>,
 }
 
 /// The contents that one column's scores were computed from.
@@ -110,9 +103,10 @@ impl CaseView {
         };
         let mut solves = Vec::new();
         let mut hashes = Vec::new();
-        for Method { column, maps, .. } in &methods {
+        for method in &methods {
+            let Method { column, maps, .. } = method;
             if let Some(maps) = maps {
-                solves.extend(Solve::read(column.entrant.title(), &maps.join("solve.json"))?);
+                solves.extend(studio.solve(method, maps)?);
             }
             let mut data = None;
             if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
@@ -127,6 +121,7 @@ impl CaseView {
             id: case.id.clone(),
             face: case.face.clone(),
             light: case.light.clone(),
+            variant: case.variant.clone(),
             train: frames.train.len(),
             test: frames.test.len(),
             inputs: studio.inputs()?,
@@ -148,37 +143,6 @@ impl CaseView {
         let index = self.views.first()?.strips.first()?.input?;
         Some(&self.inputs.get(index)?.tile)
     }
-}
-
-impl Solve {
-    fn read(title: &str, path: &Path) -> Result<Option<Self>, ReportError> {
-        let Some(solve) = run::read_json_if_present::<Value>(path)? else { return Ok(None) };
-        let stages = curve::stages(&solve);
-        let mut facts = Vec::new();
-        if let Value::Object(entries) = &solve {
-            for (key, value) in entries.iter().filter(|(key, _)| key.as_str() != curve::HISTORY) {
-                flatten(key, value, &mut facts);
-            }
-        }
-        Ok(Some(Self { title: title.to_owned(), curve: curve::svg(&stages), facts }))
-    }
-}
-
-/// Nested tables as dotted keys, in the order of the file.
-fn flatten(key: &str, value: &Value, facts: &mut Vec<(String, String)>) {
-    match value {
-        Value::Object(entries) => {
-            for (name, value) in entries {
-                flatten(&format!("{key}.{name}"), value, facts);
-            }
-        }
-        value => facts.push((key.to_owned(), plain(value))),
-    }
-}
-
-/// A JSON value as a reader expects it: a text without its quotes.
-pub(super) fn plain(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 impl Hashes {

@@ -35,7 +35,13 @@ const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 280.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 14.0;
-const TOP: f64 = 36.0;
+/// Height of a row of stage names.
+const NAME_ROW: f64 = 14.0;
+/// Width of a letter of the stage names, generously, and the least between two of them.
+const LETTER: f64 = 7.2;
+const GAP: f64 = 8.0;
+/// Room that the number of an iteration takes on its axis.
+const NUMBER: f64 = 38.0;
 const BOTTOM: f64 = 40.0;
 
 /// More points than this per stage are thinned to the mean of their neighbours.
@@ -51,7 +57,13 @@ pub(super) fn svg(stages: &[Stage]) -> Option<String> {
     let length = |stage: &Stage| stage.points.last().map_or(0.0, |point| point.0) + 1.0;
     let total: f64 = stages.iter().map(length).sum();
     let x = |iteration: f64| LEFT + iteration / total * (WIDTH - LEFT - RIGHT);
-    let y = |log: f64| TOP + (high - log) / (high - low) * (HEIGHT - TOP - BOTTOM);
+    let starts: Vec<f64> = (stages.iter())
+        .scan(0.0, |start, stage| Some(x(std::mem::replace(start, *start + length(stage)))))
+        .collect();
+    let names = placed_names(stages, &starts);
+    let rows = names.iter().map(|name| name.row + 1).max().unwrap_or(0);
+    let top = 8.0 + NAME_ROW * rows as f64;
+    let y = |log: f64| top + (high - log) / (high - low) * (HEIGHT - top - BOTTOM);
 
     let mut svg = format!(
         "<svg class=\"curve\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" \
@@ -68,27 +80,29 @@ pub(super) fn svg(stages: &[Stage]) -> Option<String> {
             place + 4.0,
         );
     }
-    let mut start = 0.0;
-    for (index, stage) in stages.iter().enumerate() {
+    let (mut start, mut numbered) = (0.0, f64::NEG_INFINITY);
+    for (index, (stage, name)) in stages.iter().zip(&names).enumerate() {
         let (from, to) = (x(start), x(start + length(stage)));
         if index % 2 == 1 {
             let _ = write!(
                 svg,
-                "<rect class=\"band\" x=\"{from:.1}\" y=\"{TOP}\" width=\"{:.1}\" height=\"{:.1}\"/>",
+                "<rect class=\"band\" x=\"{from:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{:.1}\"/>",
                 to - from,
-                HEIGHT - TOP - BOTTOM,
+                HEIGHT - top - BOTTOM,
             );
         }
-        // Names of short stages would overlap on one line or leave the picture.
-        let (place, anchor) = if from < WIDTH * 0.85 { (from + 2.0, "start") } else { (to, "end") };
         let _ = write!(
             svg,
-            "<text class=\"stage\" x=\"{place:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>\
-             <text x=\"{from:.1}\" y=\"{:.1}\">{start}</text>",
-            TOP - 6.0 - if index % 2 == 1 { 14.0 } else { 0.0 },
+            "<text class=\"stage\" x=\"{:.1}\" y=\"{:.1}\">{}</text>",
+            name.x,
+            top - 6.0 - NAME_ROW * name.row as f64,
             escape(&stage.name),
-            HEIGHT - BOTTOM + 16.0,
         );
+        if from - numbered >= NUMBER {
+            numbered = from;
+            let low = HEIGHT - BOTTOM + 16.0;
+            let _ = write!(svg, "<text x=\"{from:.1}\" y=\"{low:.1}\">{start}</text>");
+        }
         let points: Vec<String> = thinned(&stage.points)
             .into_iter()
             .map(|(iteration, loss)| format!("{:.1},{:.1}", x(start + iteration), y(loss.log10())))
@@ -103,6 +117,26 @@ pub(super) fn svg(stages: &[Stage]) -> Option<String> {
         HEIGHT - 6.0,
     );
     Some(svg)
+}
+
+/// Where a stage's name stands: from `x` to the right, `row` rows above the lowest.
+struct Name {
+    x: f64,
+    row: usize,
+}
+
+/// Each name above the begin of its stage, in the lowest row in which it meets no other.
+fn placed_names(stages: &[Stage], starts: &[f64]) -> Vec<Name> {
+    let mut ends: Vec<f64> = Vec::new();
+    let place = |(stage, start): (&Stage, &f64)| {
+        let width = stage.name.chars().count() as f64 * LETTER;
+        let x = (start + 2.0).min(WIDTH - RIGHT - width).max(0.0);
+        let row = ends.iter().position(|end| end + GAP <= x).unwrap_or(ends.len());
+        ends.resize(ends.len().max(row + 1), 0.0);
+        ends[row] = x + width;
+        Name { x, row }
+    };
+    stages.iter().zip(starts).map(place).collect()
 }
 
 /// Values 1, 2 and 5 times a power of ten between two logarithms.
@@ -155,6 +189,30 @@ mod tests {
         let steps: Vec<f64> = heights.windows(2).map(|pair| pair[1] - pair[0]).collect();
         assert!(steps.iter().all(|step| (step - steps[0]).abs() < 0.3), "decades are equal steps");
         assert!(svg.contains("&lt;b&gt;") && !svg.contains("<b>"));
+    }
+
+    #[test]
+    fn names_of_short_stages_do_not_meet_and_stay_in_the_picture() {
+        let lengths = [60, 60, 16, 10, 10, 10];
+        let stages: Vec<Stage> = (lengths.iter())
+            .map(|count| Stage {
+                name: "normals and specular".to_owned(),
+                points: (0..*count).map(|i| (f64::from(i), 0.1)).collect(),
+            })
+            .collect();
+        let starts = [62.0, 309.0, 556.0, 622.0, 663.0, 705.0];
+        let names = placed_names(&stages, &starts);
+        let width = 20.0 * LETTER;
+        for (i, name) in names.iter().enumerate() {
+            assert!(name.x + width <= WIDTH);
+            for other in &names[..i] {
+                let apart = (name.x - other.x).abs() >= width;
+                assert!(apart || name.row != other.row, "{} {}", name.x, other.x);
+            }
+        }
+        assert_eq!((names[0].row, names[1].row), (0, 0), "room enough for one row");
+        let svg = svg(&stages).unwrap();
+        assert_eq!(svg.matches("class=\"stage\"").count(), 6);
     }
 
     #[test]

@@ -144,7 +144,44 @@ fn save_capture(folder: &Path, light: usize) {
                     f 1/1/1 2/2/2 3/3/3\n";
     fs::write(folder.join("mesh.obj"), triangle).unwrap();
     save_maps(&folder.join("truth"), 0.0, true);
+    picture::write_exr_rgb(&folder.join("truth/light.exr"), &sky(64, 8.0)).unwrap();
     picture::write_png_gray(&folder.join("truth/coverage.png"), &mask()).unwrap();
+}
+
+/// A sky with a lamp, latitude over longitude.
+fn sky(height: usize, lamp: f32) -> Picture {
+    let mut picture = Picture::new(2 * height, height, 3);
+    for y in 0..height {
+        for x in 0..2 * height {
+            let (u, v) = (x as f32 / (2 * height) as f32, y as f32 / height as f32);
+            let lit = if (u - 0.35).abs() < 0.08 && (v - 0.3).abs() < 0.12 { lamp } else { 0.0 };
+            let pixel = [0.2 + 0.3 * v + lit, 0.3 + 0.2 * v + lit, 0.6 - 0.3 * v + 0.8 * lit];
+            picture.pixel_mut(x, y).copy_from_slice(&pixel);
+        }
+    }
+    picture
+}
+
+/// What only our own solver leaves: light, confidence, stages, layers of the training views.
+fn save_solve_pictures(maps: &Path, light: usize) {
+    picture::write_exr_rgb(&maps.join("light.exr"), &sky(16, 6.0)).unwrap();
+    let mut confidence = Picture::new(SIDE, SIDE, 1);
+    for (i, value) in confidence.data.iter_mut().enumerate() {
+        *value = normal(i % SIDE, i / SIDE)[2].max(0.0);
+    }
+    picture::write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
+    for (stage, error) in [("01-warm-up", 0.3), ("02-relief", 0.1)] {
+        let folder = maps.join("stages").join(stage);
+        fs::create_dir_all(&folder).unwrap();
+        picture::write_exr_rgb(&folder.join("diffuse_albedo.exr"), &ball(0.0, error)).unwrap();
+        if stage == "02-relief" {
+            picture::write_exr_rgb(&folder.join("specular_normal.exr"), &normals(error)).unwrap();
+        }
+    }
+    for index in 0..4 {
+        let path = maps.join(format!("layers/{index:03}.exr"));
+        save_layered(&path, index as f32 + light as f32 * 0.3, 0.03);
+    }
 }
 
 fn row(subject: &str, light: Option<&str>, metric: &str, scale: &str, value: f64) -> Value {
@@ -163,6 +200,10 @@ fn save_scores(path: &Path, method: &str, light: &str, error: f32) {
         row("diffuse_albedo", None, "psnr_srgb", "none", db - 1.0),
         row("diffuse_albedo", None, "psnr_srgb", "global", db),
     ];
+    if method == "unshade" {
+        rows.push(row("confidence", None, "confidence_rank", "global", -0.4));
+        rows.push(row("confidence", None, "sparsification", "global", 0.8));
+    }
     if method != "mean_texture" {
         rows.push(row("specular_normal", None, "normal_mean_deg", "none", f64::from(error) * 80.0));
         rows.push(row("mesh_specular_normal", None, "normal_mean_deg", "none", 3.5));
@@ -207,6 +248,7 @@ pub(super) fn write(run: &Path) {
                 let losses = |from: f64, count: usize| -> Vec<f64> {
                     (0..count).map(|i| from / (1.0 + i as f64 * 0.02)).collect()
                 };
+                save_solve_pictures(&maps, index);
                 let seconds = json!({"seconds": {"warm-up": 2.0, "fine-tuning": 1.0}});
                 save_json(&maps.join("timing.json"), &seconds);
                 save_json(

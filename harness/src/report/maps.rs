@@ -7,18 +7,18 @@ use super::difference::{self, Measure};
 use super::plates::{self, Plate, Show, Studio, Subject};
 
 /// A map as it is shown and compared.
-struct MapKind {
-    subject: &'static str,
-    title: &'static str,
-    channels: &'static [&'static str],
-    show: Show,
+pub(super) struct MapKind {
+    pub subject: &'static str,
+    pub title: &'static str,
+    pub channels: &'static [&'static str],
+    pub show: Show,
     measure: Measure,
     metric: &'static str,
 }
 
 const RGB: &[&str] = &["R", "G", "B"];
 
-const MAPS: [MapKind; 4] = [
+pub(super) const MAPS: [MapKind; 4] = [
     MapKind {
         subject: "diffuse_albedo",
         title: "Diffuse albedo",

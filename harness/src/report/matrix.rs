@@ -15,6 +15,7 @@ const FIGURE_METRICS: [&str; 3] = ["psnr_srgb", "ssim", "flip_mean"];
 /// What the matrix needs of one case.
 pub(super) struct Source<'a> {
     pub face: &'a str,
+    pub variant: Option<&'a str>,
     pub light: &'a str,
     pub columns: &'a [Column<'a>],
     pub plates: &'a [Plate],
@@ -25,6 +26,7 @@ pub(super) struct Source<'a> {
 #[derive(Debug, Serialize)]
 pub(super) struct Matrix {
     pub face: String,
+    pub variant: Option<String>,
     pub frame: String,
     pub top: String,
     pub error: &'static str,
@@ -70,26 +72,31 @@ pub(super) struct Number {
     pub interval: String,
 }
 
-/// A matrix for every face that was captured in more than one light.
+/// A matrix for every face that was captured in more than one light, variant by variant.
 pub(super) fn matrices(cases: &[Source]) -> Vec<Matrix> {
-    let mut faces: Vec<&str> = Vec::new();
+    let mut groups: Vec<Vec<&Source>> = Vec::new();
     for case in cases {
-        if !faces.contains(&case.face) {
-            faces.push(case.face);
+        let same = |group: &&mut Vec<&Source>| {
+            (group[0].face, group[0].variant) == (case.face, case.variant)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(case),
+            None => groups.push(vec![case]),
         }
     }
-    faces.into_iter().filter_map(|face| matrix(face, cases)).collect()
+    groups.iter().filter_map(|cases| matrix(cases)).collect()
 }
 
-fn matrix(face: &str, cases: &[Source]) -> Option<Matrix> {
-    let cases: Vec<&Source> = cases.iter().filter(|case| case.face == face).collect();
+fn matrix(cases: &[&Source]) -> Option<Matrix> {
     let lights: Vec<&str> = cases.iter().map(|case| case.light).collect();
     if lights.len() < 2 {
         return None;
     }
-    let first = cases.first()?.plates.iter().find(|plate| plate.id.starts_with("relit-"))?;
+    let source = cases.first()?;
+    let first = source.plates.iter().find(|plate| plate.id.starts_with("relit-"))?;
     Some(Matrix {
-        face: face.to_owned(),
+        face: source.face.to_owned(),
+        variant: source.variant.map(str::to_owned),
         frame: first.strips.first()?.title.clone(),
         top: first.top.clone(),
         error: first.error,

@@ -4,8 +4,9 @@ use crate::metrics::{Metric, Quantity};
 use crate::score::Row;
 
 /// What is compared, in the order of the table.
-pub(super) const SUBJECTS: [(&str, &str); 13] = [
+pub(super) const SUBJECTS: [(&str, &str); 14] = [
     ("diffuse_albedo", "Diffuse albedo map"),
+    ("confidence", "Confidence map, against the error of the diffuse albedo"),
     ("specular_albedo", "Specular albedo map"),
     ("specular_normal", "Specular normal map"),
     ("diffuse_normal", "Diffuse normal map"),
@@ -66,7 +67,9 @@ pub(super) fn space(metric: &Metric) -> &'static str {
         Quantity::HighPass
         | Quantity::WithinLabel
         | Quantity::LowPassError
-        | Quantity::LogErrorAndCause => "log luminance",
+        | Quantity::LogErrorAndCause
+        | Quantity::TrustAndErrorRanks
+        | Quantity::TrustedAndWholeError => "log luminance",
         Quantity::Luminance | Quantity::ErrorAndCause => "linear luminance",
         _ => "linear",
     }

@@ -8,12 +8,16 @@
 mod case;
 mod curve;
 mod difference;
+mod light;
 mod maps;
 mod matrix;
 mod metric;
 mod page;
 mod plates;
+mod results;
 mod run;
+mod sheets;
+mod solve;
 mod summary;
 mod table;
 mod tone;
@@ -32,6 +36,7 @@ use solver::atomic::Folder;
 use solver::picture::PictureError;
 
 use page::Page;
+pub use results::write_results;
 use run::RunFile;
 
 use crate::compare::{Baseline, CompareError};
@@ -84,6 +89,9 @@ pub enum ReportError {
     /// The target holds something else, which would be lost.
     #[error("{0}: exists and is not a report; choose a new folder")]
     NotAReport(PathBuf),
+    /// There is nothing to make a table of.
+    #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
+    NoScores(PathBuf),
     /// A page could not be laid out.
     #[error("the report's page cannot be laid out: {0}")]
     Template(#[from] minijinja::Error),
@@ -122,11 +130,7 @@ const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 /// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report.
 pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
     check_target(out)?;
-    let path = run.join("run.json");
-    let manifest: RunFile = run::read_json(&path)?;
-    if manifest.format != FORMAT {
-        return Err(ReportError::Format { path, found: manifest.format });
-    }
+    let manifest = RunFile::open(run)?;
     let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
     let page = fill(run, &manifest, folder.path()).inspect_err(|_| {
         // The report's own fault is what matters, not that its remains could not be removed.

@@ -7,9 +7,10 @@ use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
-use super::case::{CaseView, plain};
+use super::case::CaseView;
 use super::matrix::{self, Matrix};
 use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
+use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
 use super::{MARK, ReportError, metric, tone};
@@ -77,6 +78,7 @@ impl Page {
         let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
         let sources = pairs.map(|((case, view), columns)| matrix::Source {
             face: &case.face,
+            variant: case.variant.as_deref(),
             light: &case.light,
             columns,
             plates: &view.views,
@@ -116,6 +118,7 @@ impl Page {
             ("table.html", include_str!("templates/table.html")),
             ("plate.html", include_str!("templates/plate.html")),
             ("matrix.html", include_str!("templates/matrix.html")),
+            ("solve.html", include_str!("templates/solve.html")),
             ("reading.html", include_str!("templates/reading.html")),
             ("style.css", include_str!("templates/style.css")),
             ("slider.js", include_str!("templates/slider.js")),
@@ -128,7 +131,7 @@ impl Page {
     }
 }
 
-fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
+pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
     let read = |entrant: &Entrant| match &entrant.scores {
         Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
         _ => Ok(None),
@@ -148,7 +151,7 @@ fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
 }
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
-fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
+pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
     let pairs = case.solvers.iter().zip(scores);
     let mut columns: Vec<Column> =
         pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();

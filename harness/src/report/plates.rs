@@ -103,7 +103,7 @@ pub(super) enum Show {
 }
 
 impl Show {
-    fn raster(self, picture: &Picture) -> Raster {
+    pub fn raster(self, picture: &Picture) -> Raster {
         match self {
             Show::Colour { exposure } => tone::colour(picture, exposure),
             Show::Grey { white } => tone::grey(picture, white),
@@ -221,7 +221,8 @@ impl Studio<'_> {
         Ok(Entry { picture, caption, errors })
     }
 
-    fn save(&self, group: &str, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
+    /// Writes a picture below the report's folder.
+    pub fn save(&self, group: &str, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
         let src = format!("{}/{group}/{}.png", self.folder, file_name(name));
         let path = self.root.join(&src);
         if let Some(parent) = path.parent() {

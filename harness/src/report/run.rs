@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::ReportError;
+use super::{FORMAT, ReportError};
 
 /// `run.json`: what was compared.
 #[derive(Debug, Deserialize)]
@@ -23,12 +23,26 @@ pub(super) struct RunFile {
     pub suite_toml: Option<String>,
 }
 
+impl RunFile {
+    /// Reads the manifest of a run folder.
+    pub fn open(run: &Path) -> Result<Self, ReportError> {
+        let path = run.join("run.json");
+        let manifest: Self = read_json(&path)?;
+        if manifest.format != FORMAT {
+            return Err(ReportError::Format { path, found: manifest.format });
+        }
+        Ok(manifest)
+    }
+}
+
 /// One capture and everything that was made from it.
 #[derive(Debug, Deserialize)]
 pub(super) struct Case {
     pub id: String,
     pub face: String,
     pub light: String,
+    /// What was changed of the scene; none in a suite without variants.
+    pub variant: Option<String>,
     pub capture: PathBuf,
     pub solvers: Vec<Entrant>,
 }

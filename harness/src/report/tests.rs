@@ -153,6 +153,64 @@ fn each_plate_with_pictures_has_a_slider_that_a_keyboard_can_move() {
 }
 
 #[test]
+fn a_solve_shows_what_it_left_and_nothing_of_what_it_did_not() {
+    let made = report();
+    let maps = made.folder.path().join("run/maps/demo-flash/unshade");
+    let section = |html: &str| {
+        between(html, "<h3>Optimisation</h3>", "<h3>Regions and provenance</h3>")[0].to_owned()
+    };
+    let before = section(&made.html);
+    let pictures = |html: &str, title: &str| {
+        between(html, &format!("alt=\"{title}: "), "\"")
+            .iter()
+            .map(|s| s.trim().to_owned())
+            .collect()
+    };
+    let shown: Vec<String> = pictures(&before, "Light");
+    assert_eq!(shown, ["exact", "exact, mean of each cell", "recovered"]);
+    let shown: Vec<String> = pictures(&before, "Confidence");
+    assert_eq!(shown, ["confidence", "error of the diffuse albedo"]);
+    assert!(before.contains("Confidence against error -0.40; Error of the trusted half 0.80."));
+    let shown: Vec<String> = pictures(&before, "Maps after each stage");
+    // The first stage changed no normal, and a stage without a map has no picture.
+    let of = |map: &str, columns: &[&str]| -> Vec<String> {
+        columns.iter().map(|column| format!("{map} {column}")).collect()
+    };
+    let albedo = of("Diffuse albedo", &["warm-up", "relief", "result", "exact"]);
+    assert_eq!(shown, [albedo, of("Specular normal", &["relief", "result", "exact"])].concat());
+    let shown: Vec<String> = pictures(&before, "Layers of the training views");
+    assert_eq!(shown.len(), 6 * 4);
+    assert!(shown.contains(&"specular, exact 003".to_owned()));
+
+    for folder in ["stages", "layers"] {
+        fs::remove_dir_all(maps.join(folder)).unwrap();
+    }
+    for file in ["light.exr", "confidence.exr"] {
+        fs::remove_file(maps.join(file)).unwrap();
+    }
+    let html = again(made.folder.path());
+    assert!(!section(&html).contains("class=\"sheet\""), "{}", section(&html));
+    assert!(section(&html).contains("class=\"curve\""));
+    assert!(!made.html.contains("class=\"notice\""));
+}
+
+#[test]
+fn an_interrupted_solve_says_so_wherever_its_figures_stand() {
+    let made = report();
+    let path = made.folder.path().join("run/maps/demo-flash/unshade/solve.json");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replacen('{', "{\"interrupted\": \"<fine-tuning>\",", 1)).unwrap();
+    let html = again(made.folder.path());
+    let notices = between(&html, "<p class=\"notice\">", "</p>");
+    assert_eq!(notices.len(), 3, "key figures, case, optimisation");
+    assert!(notices[0].contains("demo-flash</a>: &lt;unshade&gt; &amp; co was interrupted"));
+    assert!(notices[1..].iter().all(|notice| notice.contains("“&lt;fine-tuning&gt;”")));
+    let refused = text.replacen('{', "{\"interrupted\": null,", 1);
+    fs::write(&path, refused).unwrap();
+    assert!(!again(made.folder.path()).contains("class=\"notice\""));
+}
+
+#[test]
 fn equal_runs_differ_only_in_their_times() {
     let made = report();
     let (root, first) = (made.folder.path(), files(&made.folder.path().join("report")));

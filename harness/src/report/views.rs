@@ -12,23 +12,23 @@ use super::{ReportError, metric};
 
 /// A picture as a whole, or one part of its exact split.
 #[derive(Clone, Copy)]
-struct Layer {
+pub(super) struct Layer {
     name: Option<&'static str>,
     words: &'static str,
-    channels: &'static [&'static str],
-    exposure: f32,
+    pub channels: &'static [&'static str],
+    pub exposure: f32,
 }
 
 impl Layer {
-    const ALL: Self = Self { name: None, words: "", channels: &["R", "G", "B"], exposure: 1.0 };
-    const DIFFUSE: Self = Self {
+    pub const ALL: Self = Self { name: None, words: "", channels: &["R", "G", "B"], exposure: 1.0 };
+    pub const DIFFUSE: Self = Self {
         name: Some("diffuse"),
         words: ", diffuse layer",
         channels: &["diffuse.R", "diffuse.G", "diffuse.B"],
         exposure: 1.0,
     };
     /// Several times darker than the picture it belongs to, hence the exposure.
-    const SPECULAR: Self = Self {
+    pub const SPECULAR: Self = Self {
         name: Some("specular"),
         words: ", specular layer",
         channels: &["specular.R", "specular.G", "specular.B"],

@@ -1,5 +1,6 @@
 //! Scores: maps, withheld views, relit pictures and layers against the truth of a capture.
 
+mod confidence;
 mod error;
 mod geometry;
 mod maps;
@@ -44,7 +45,11 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
     if rows.is_empty() && is_empty(&found) {
         return Err(ScoreError::Nothing(maps.to_path_buf()));
     }
-    rows.splice(0..0, maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref())?);
+    let mut of_maps = maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref())?;
+    if let Some((albedo, scale)) = found.diffuse_albedo.as_ref().zip(scale.as_ref()) {
+        of_maps.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
+    }
+    rows.splice(0..0, of_maps);
     if let Some(relit) = relit {
         rows.extend(pictures::relit_rows(&frames, capture, relit)?);
     }

@@ -40,7 +40,7 @@ impl Protocol {
     }
 }
 
-const STATEMENTS: [&str; 10] = [
+const STATEMENTS: [&str; 11] = [
     "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
     "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
@@ -50,5 +50,6 @@ const STATEMENTS: [&str; 10] = [
     "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks (32x32 texels, 16x16 pixels, pooled over frames), fixed seed. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
     "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
     "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
+    "confidence: the solver's own trust in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. It is no part of any other score.",
     "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",
 ];

@@ -9,14 +9,15 @@ use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
 
+use indicatif::HumanDuration;
 use solver::atomic::Folder;
 
-use super::file::{Entrant, Method};
-use super::run::{RunError, Tools};
+use super::method::{Entrant, Method};
+use super::run::{RunError, SOLVER_SOURCES, Tools};
 use crate::score;
 
-/// Side of the mean projected texture, texels.
-const MEAN_TEXTURE_SIZE: usize = 512;
+/// Ends what is said of a step that knows better than its share how long the rest takes.
+pub const TIME_LEFT: &str = " left";
 
 /// Writes `maps` from `capture`.
 pub(super) fn make_maps(
@@ -28,7 +29,7 @@ pub(super) fn make_maps(
 ) -> Result<(), RunError> {
     match &entrant.method {
         Method::Oracle => Ok(score::oracle_maps(capture, maps)?),
-        Method::MeanTexture => mean_texture(capture, maps),
+        Method::Baseline { method, texture_size } => method.make(capture, maps, *texture_size),
         Method::Fields { config, .. } => {
             let config = solver::Config::from_toml(config)?;
             solve(&solver::Capture::open(capture)?, &config, maps, tools, progress)
@@ -52,13 +53,8 @@ pub(super) fn make_maps(
     }
 }
 
-/// The baseline of the same name.
-pub fn mean_texture(capture: &Path, maps: &Path) -> Result<(), RunError> {
-    let capture = solver::Capture::open(capture)?;
-    Ok(solver::baselines::mean_texture(&capture, MEAN_TEXTURE_SIZE)?.write(maps)?)
-}
-
-/// Our own solver, with an interrupt that leaves nothing behind.
+/// Our own solver. An interrupt leaves maps of what there is, and a checkpoint beside them; it is an
+/// error nevertheless, so that nobody takes them for finished.
 pub fn solve(
     capture: &solver::Capture,
     config: &solver::Config,
@@ -66,17 +62,24 @@ pub fn solve(
     tools: &Tools,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let solution = solver::solve(capture, config, &mut |step| {
+    let solution = solver::solve_into(maps, SOLVER_SOURCES, capture, config, &mut |step| {
         if tools.interrupt.load(Ordering::Relaxed) {
             return ControlFlow::Break(());
         }
-        let what = format!("{} loss {:.5}", step.stage, step.loss);
+        let what = format!(
+            "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
+            step.stage,
+            step.step,
+            step.steps,
+            step.loss,
+            HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
+        );
         progress(step.iteration as u64, step.total as u64, &what);
         ControlFlow::Continue(())
-    });
-    match solution {
-        Err(solver::SolveError::Interrupted) => Err(RunError::Interrupted),
-        solution => Ok(solution?.write(maps)?),
+    })?;
+    match solution.record.interrupted {
+        Some(place) => Err(RunError::Stopped { place, maps: maps.to_path_buf() }),
+        None => Ok(()),
     }
 }
 

@@ -1,62 +1,15 @@
-//! Suite files: which faces, lights and solvers are run against each other.
+//! Suite files: which faces, lights, variants and solvers are run against each other.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::cases::{self, Case};
+use super::method::{self, Entrant};
 use super::scene::{self, Scene, SceneError};
 
-/// One capture: a face in a light.
-#[derive(Clone, Debug)]
-pub struct Case {
-    /// `<face>-<light>`.
-    pub id: String,
-    /// What is rendered.
-    pub scene: Scene,
-}
-
-/// How a solver is started.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Method {
-    /// Our own solver with these settings (TOML text that names its `base`).
-    Fields {
-        /// A preset's name or the text of a configuration.
-        config: String,
-        /// `auto`, `cpu` or `gpu`.
-        backend: String,
-    },
-    /// Any program: arguments with `{capture}` and `{maps}` replaced.
-    Command(Vec<String>),
-    /// A Python function `module:function(capture, maps)`.
-    Python(String),
-    /// The true maps: the floor that rendering noise and the pipeline set.
-    Oracle,
-    /// The mean of the projected colours as diffuse albedo.
-    MeanTexture,
-}
-
-/// A column of the table.
-#[derive(Clone, Debug)]
-pub struct Entrant {
-    /// Names its folders; letters, digits, `-` and `_`.
-    pub id: String,
-    /// Shown in the report.
-    pub title: String,
-    /// How it is started.
-    pub method: Method,
-}
-
-impl Entrant {
-    /// `solver`, `baseline` or `oracle`.
-    pub fn kind(&self) -> &'static str {
-        match self.method {
-            Method::Oracle => "oracle",
-            Method::MeanTexture => "baseline",
-            _ => "solver",
-        }
-    }
-}
+const KEYS: [&str; 10] =
+    ["format", "name", "title", "scene", "faces", "lights", "face", "render", "variant", "solver"];
 
 /// A suite with its cases spelt out.
 #[derive(Clone, Debug)]
@@ -65,7 +18,7 @@ pub struct Suite {
     pub name: String,
     /// Shown in the report.
     pub title: String,
-    /// Every face in every input light.
+    /// Every face in every input light, in every variant.
     pub cases: Vec<Case>,
     /// Solvers and baselines in the order of the table.
     pub entrants: Vec<Entrant>,
@@ -73,48 +26,24 @@ pub struct Suite {
     pub text: String,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SolverTable {
-    name: String,
-    title: Option<String>,
-    /// Preset or configuration file; without it the name is the preset.
-    config: Option<String>,
-    /// Single values that replace those of the configuration.
-    #[serde(default)]
-    set: Table,
-    backend: Option<String>,
-    command: Option<CommandLine>,
-    python: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum CommandLine {
-    Words(Vec<String>),
-    Line(String),
-}
-
 impl Suite {
     /// Reads a suite file, its scene, faces and lights.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
-        scene::check_keys(
-            path,
-            &table,
-            &["format", "name", "title", "scene", "faces", "lights", "render", "solver"],
-        )?;
+        scene::check_keys(path, &table, &KEYS)?;
         let name = text_of(path, &table, "name")?;
-        let base_path = beside(path, &text_of(path, &table, "scene")?);
-        let mut base = Scene::open(&base_path)?;
-        if let Some(render) = table.get("render") {
-            override_render(path, &mut base, render)?;
+        let mut base = Scene::open(&scene::beside(path, &text_of(path, &table, "scene")?))?;
+        match table.get("render") {
+            None => {}
+            Some(Value::Table(_)) => {
+                let render = ("render".to_owned(), table["render"].clone());
+                base = base.with_changes(&Table::from_iter([render]));
+            }
+            Some(_) => return Err(SceneError::value(path, "render", "must be a table")),
         }
-        let faces = referenced(path, &table, "faces")?;
-        let lights = referenced(path, &table, "lights")?;
-        let cases = cases_of(path, &base, &faces, &lights)?;
-        let entrants = entrants_of(path, &table)?;
+        let cases = cases::cases_of(path, &base, &table)?;
+        let entrants = method::entrants_of(path, &table)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
         let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
             path: path.to_path_buf(),
@@ -122,10 +51,6 @@ impl Suite {
         })?;
         Ok(Self { name, title, cases, entrants, text })
     }
-}
-
-fn beside(path: &Path, name: &str) -> PathBuf {
-    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> {
@@ -136,137 +61,12 @@ fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> 
     }
 }
 
-fn referenced(path: &Path, table: &Table, key: &str) -> Result<Vec<Table>, SceneError> {
-    match table.get(key) {
-        None => Ok(Vec::new()),
-        Some(Value::Array(list)) if !list.is_empty() => {
-            list.iter().map(|value| scene::resolve(path, key, value.clone())).collect()
-        }
-        Some(_) => Err(SceneError::value(path, key, "must be a list of file names or tables")),
-    }
-}
-
-fn override_render(path: &Path, scene: &mut Scene, render: &Value) -> Result<(), SceneError> {
-    let (Value::Table(render), Some(Value::Table(target))) =
-        (render, scene.table.get_mut("render"))
-    else {
-        return Err(SceneError::value(path, "render", "must be a table"));
-    };
-    for (key, value) in render {
-        target.insert(key.clone(), value.clone());
-    }
-    Ok(())
-}
-
-fn cases_of(
-    path: &Path,
-    base: &Scene,
-    faces: &[Table],
-    lights: &[Table],
-) -> Result<Vec<Case>, SceneError> {
-    let section = |name: &str| base.table.get(name).and_then(Value::as_table).cloned();
-    let own_face: Vec<Table> = section("face").into_iter().collect();
-    let own_light: Vec<Table> = section("light").into_iter().collect();
-    let faces = if faces.is_empty() { &own_face } else { faces };
-    let lights = if lights.is_empty() { &own_light } else { lights };
-    let others: Vec<Table> = lights.iter().cloned().chain(base.relight()).collect();
-    let mut cases: Vec<Case> = Vec::new();
-    for face in faces {
-        for light in lights {
-            let scene = base.clone().with_face(face.clone()).with_lights(light, &others);
-            let id = format!("{}-{}", scene.name_of("face"), scene.name_of("light"));
-            check_id(path, &id)?;
-            if cases.iter().any(|case| case.id == id) {
-                return Err(SceneError::value(
-                    path,
-                    "faces",
-                    format!("{id} occurs twice; rename one"),
-                ));
-            }
-            let mut scene = scene;
-            scene.table.insert("name".to_owned(), Value::String(id.clone()));
-            cases.push(Case { id, scene });
-        }
-    }
-    Ok(cases)
-}
-
-fn entrants_of(path: &Path, table: &Table) -> Result<Vec<Entrant>, SceneError> {
-    let list = match table.get("solver") {
-        Some(Value::Array(list)) if !list.is_empty() => list,
-        _ => return Err(SceneError::value(path, "solver", "is missing; write [[solver]] tables")),
-    };
-    let mut entrants: Vec<Entrant> = Vec::new();
-    for value in list {
-        let solver: SolverTable = value
-            .clone()
-            .try_into()
-            .map_err(|error: toml::de::Error| SceneError::value(path, "solver", error.message()))?;
-        let entrant = entrant_of(path, solver)?;
-        if entrants.iter().any(|other| other.id == entrant.id) {
-            let reason = format!("{:?} occurs twice; rename one", entrant.id);
-            return Err(SceneError::value(path, "solver", reason));
-        }
-        entrants.push(entrant);
-    }
-    Ok(entrants)
-}
-
-fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
-    check_id(path, &solver.name)?;
-    let method = match (solver.command, solver.python, solver.name.as_str()) {
-        (Some(_), Some(_), _) => {
-            let reason = format!("{:?} has both a command and a python function", solver.name);
-            return Err(SceneError::value(path, "solver", reason));
-        }
-        (Some(CommandLine::Words(words)), None, _) => Method::Command(words),
-        (Some(CommandLine::Line(line)), None, _) => {
-            Method::Command(line.split_whitespace().map(str::to_owned).collect())
-        }
-        (None, Some(function), _) => Method::Python(function),
-        (None, None, "oracle") => Method::Oracle,
-        (None, None, "mean_texture") => Method::MeanTexture,
-        (None, None, name) => Method::Fields {
-            config: config_text(path, solver.config.as_deref().unwrap_or(name), &solver.set)?,
-            backend: solver.backend.unwrap_or_else(|| "auto".to_owned()),
-        },
-    };
-    let title = solver.title.unwrap_or_else(|| match method {
-        Method::Oracle => "oracle (true maps)".to_owned(),
-        Method::MeanTexture => "mean projected texture".to_owned(),
-        _ => solver.name.clone(),
-    });
-    Ok(Entrant { id: solver.name, title, method })
-}
-
-/// The configuration as TOML text: a file's, or one that names a preset, with `set` on top.
-fn config_text(path: &Path, config: &str, set: &Table) -> Result<String, SceneError> {
-    let mut table = if config.ends_with(".toml") {
-        scene::read_toml(&beside(path, config))?
-    } else {
-        Table::from_iter([("base".to_owned(), Value::String(config.to_owned()))])
-    };
-    for (key, value) in set {
-        match (table.get_mut(key), value) {
-            (Some(Value::Table(old)), Value::Table(new)) => old.extend(new.clone()),
-            _ => drop(table.insert(key.clone(), value.clone())),
-        }
-    }
-    toml::to_string(&table).map_err(|error| SceneError::value(path, "solver", error.to_string()))
-}
-
-/// Ids become folder names.
-fn check_id(path: &Path, id: &str) -> Result<(), SceneError> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    if id.is_empty() || !id.chars().all(plain) {
-        let reason = format!("{id:?} cannot name a folder; use letters, digits, - and _");
-        return Err(SceneError::value(path, "name", reason));
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
+    use super::super::baseline::BaselineMethod;
+    use super::super::method::Method;
     use super::*;
 
     fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
@@ -327,6 +127,66 @@ mod tests {
     }
 
     #[test]
+    fn every_case_is_there_in_every_variant_and_a_variant_changes_only_what_it_names() {
+        let root = tempfile::tempdir().unwrap();
+        scenes(root.path());
+        let path = write(
+            root.path(),
+            "suite.toml",
+            "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n\
+             lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n\
+             [[variant]]\nname = \"as captured\"\n\
+             [[variant]]\nname = \"no labels\"\n[variant.labels]\nomit = true\n\
+             [variant.render]\nwidth = 32\n[face]\ntexture_size = 1024\n\
+             [[solver]]\nname = \"semantic_initialisation\"\n",
+        );
+        let suite = Suite::open(&path).unwrap();
+        let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
+        assert_eq!(
+            ids,
+            [
+                "ada-key-as-captured",
+                "ada-key-no-labels",
+                "ada-hall-as-captured",
+                "ada-hall-no-labels"
+            ]
+        );
+        let table = |case: usize| &suite.cases[case].scene.table;
+        assert_eq!(suite.cases[1].variant.as_deref(), Some("no labels"));
+        assert_eq!(table(3)["face"]["texture_size"].as_integer(), Some(1024));
+        assert!(!table(0).contains_key("labels"));
+        assert_eq!(table(1)["labels"]["omit"].as_bool(), Some(true));
+        let size = |case: usize| {
+            ["width", "height"].map(|key| table(case)["render"][key].as_integer().unwrap())
+        };
+        assert_eq!((size(0), size(1)), ([8, 8], [32, 8]));
+        // The text of a varied scene is one that can be read again.
+        let text = suite.cases[3].scene.to_toml().unwrap();
+        assert_eq!(&text.parse::<Table>().unwrap(), table(3));
+        let method = BaselineMethod::SemanticInitialisation;
+        assert_eq!(suite.entrants[0].method, Method::Baseline { method, texture_size: 512 });
+        assert_eq!(suite.entrants[0].kind(), "baseline");
+    }
+
+    #[test]
+    fn every_suite_of_the_project_can_be_read() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/suites");
+        let mut count = 0;
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let suite = Suite::open(&path).unwrap();
+            assert_eq!(path.file_stem().unwrap().to_str(), Some(suite.name.as_str()));
+            for entrant in &suite.entrants {
+                if let Method::Fields { config, .. } = &entrant.method {
+                    solver::Config::from_toml(config).unwrap();
+                }
+            }
+            count += suite.cases.len();
+        }
+        assert!(count > 16 + 16 + 16, "{count}");
+    }
+
+    #[test]
     fn errors_name_the_file_the_key_and_the_mend() {
         let root = tempfile::tempdir().unwrap();
         scenes(root.path());
@@ -340,6 +200,34 @@ mod tests {
             (
                 &*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"),
                 "no.toml: cannot be read",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
+                "\"mean_texture\" has no use for config; leave it out",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"paper\"\ntexture_size = 512\n"),
+                "has no use for texture_size; write [solver.set.fine_tuning] texture_size",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"mean_texture\"\ntexture_size = 4\n"),
+                "texture_size: 4 of \"mean_texture\" is not from 16 to 8192",
+            ),
+            (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),
+            (&*format!("{head}[variant]\nname = \"a\"\n"), "variant: must be tables"),
+            (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),
+            (
+                &*format!("{head}[[variant]]\nname = \"a\"\nface = {{}}\n"),
+                "variant \"a\": face is unknown; there are name, captured_mesh",
+            ),
+            (
+                &*format!("{head}[[variant]]\nname = \"a\"\nlabels = 1\n"),
+                "labels must be a table; write [variant.labels]",
+            ),
+            (&*format!("{head}[[variant]]\nname = \"a/b\"\n"), "cannot name a folder"),
+            (
+                &*format!("{head}[[variant]]\nname = \"a b\"\n[[variant]]\nname = \"a-b\"\n"),
+                "ada-key-a-b occurs twice",
             ),
         ] {
             let path = write(root.path(), "suite.toml", text);

@@ -1,15 +1,23 @@
-//! Suites: every face in every light through every solver, resumable, nothing done twice.
+//! Suites: every face in every light and variant through every solver, resumable, nothing done twice.
 
+mod baseline;
+mod cases;
 mod content;
 mod entrant;
 mod file;
+mod method;
 mod record;
 mod run;
 mod scene;
 
+pub use baseline::BaselineMethod;
+pub use cases::Case;
 pub use content::hash_path;
-pub use entrant::{mean_texture, solve};
-pub use file::{Case, Entrant, Method, Suite};
+pub use entrant::{TIME_LEFT, solve};
+pub use file::Suite;
+pub use method::{Entrant, Method};
+#[cfg(feature = "python")]
+pub(crate) use run::SOLVER_SOURCES;
 pub use run::{
     Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
 };

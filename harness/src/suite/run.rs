@@ -12,9 +12,11 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use solver::atomic;
 
+use super::cases::Case;
 use super::content::{hash_parts, hash_path};
 use super::entrant;
-use super::file::{Case, Entrant, Method, Suite};
+use super::file::Suite;
+use super::method::{Entrant, Method};
 use super::record::Records;
 use super::scene::{Scene, SceneError};
 use crate::compare::CompareError;
@@ -23,7 +25,7 @@ use crate::score::{self, ScoreError};
 use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
 
 /// What the solver's and the scoring's code was when this program was built.
-const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
+pub(crate) const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
 const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
 
 /// How a run can end badly; each message is one line.
@@ -58,6 +60,18 @@ pub enum RunError {
     Folder(#[from] io::Error),
     #[error("interrupted; the same command goes on from here")]
     Interrupted,
+    #[error(
+        "interrupted in {place}; {} holds what there was, the same command goes on from here",
+        maps.display()
+    )]
+    Stopped { place: String, maps: PathBuf },
+}
+
+impl RunError {
+    /// Whether the user wanted it.
+    pub fn is_interrupt(&self) -> bool {
+        matches!(self, Self::Interrupted | Self::Stopped { .. })
+    }
 }
 
 impl From<StageError> for RunError {
@@ -152,7 +166,7 @@ fn manifest(suite: &Suite, renderer: &str) -> Value {
                 .collect();
             json!({
                 "id": case.id, "face": case.scene.name_of("face"),
-                "light": case.scene.name_of("light"),
+                "light": case.scene.name_of("light"), "variant": case.variant,
                 "capture": format!("captures/{}", case.id), "solvers": solvers,
             })
         })
@@ -245,7 +259,10 @@ impl Stages<'_> {
                 hash_parts(&["fields", &config, backend, SOLVER_SOURCES])
             }
             Method::Oracle => hash_parts(&["oracle", SCORE_SOURCES]),
-            Method::MeanTexture => hash_parts(&["mean texture", SOLVER_SOURCES]),
+            Method::Baseline { method, texture_size } => {
+                let size = texture_size.to_string();
+                hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES])
+            }
             Method::Command(words) => hash_parts(&["command", &words.join("\0")]),
             Method::Python(function) => hash_parts(&["python", function]),
         };

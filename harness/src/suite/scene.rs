@@ -154,6 +154,15 @@ impl Scene {
         self
     }
 
+    /// This scene with single values replaced: tables are merged.
+    pub fn with_changes(mut self, changes: &Table) -> Self {
+        overlay(&mut self.table, changes);
+        // Changed tables may be new, and the list has to stay behind them.
+        let relight = self.relight();
+        self.set_relight(relight);
+        self
+    }
+
     /// The scene as TOML text; equal scenes give equal text.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(&self.table)
@@ -172,7 +181,7 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),
         Value::String(name) => {
-            let path = from.parent().unwrap_or(Path::new("")).join(name);
+            let path = beside(from, &name);
             (read_toml(&path)?, path)
         }
         _ => return Err(SceneError::value(from, key, "must be a file name or a table")),
@@ -184,13 +193,43 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
             format!("is missing; give the {key} a name"),
         ));
     }
+    resolve_files(&origin, &mut table);
+    Ok(table)
+}
+
+/// Makes the files that the table of a face or light names absolute; they lie beside `origin`.
+pub(super) fn resolve_files(origin: &Path, table: &mut Table) {
     for key in FILES {
         if let Some(Value::String(path)) = table.get_mut(key) {
-            let beside = origin.parent().unwrap_or(Path::new("")).join(&*path);
-            *path = std::path::absolute(&beside).unwrap_or(beside).to_string_lossy().into_owned();
+            let file = beside(origin, path);
+            *path = std::path::absolute(&file).unwrap_or(file).to_string_lossy().into_owned();
         }
     }
-    Ok(table)
+}
+
+/// Lays `above` over `below`: tables are merged, everything else is replaced.
+pub(super) fn overlay(below: &mut Table, above: &Table) {
+    for (key, value) in above {
+        match (below.get_mut(key), value) {
+            (Some(Value::Table(old)), Value::Table(new)) => overlay(old, new),
+            _ => drop(below.insert(key.clone(), value.clone())),
+        }
+    }
+}
+
+/// A file that `path` names, which lies beside it.
+pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
+}
+
+/// Ids become folder names.
+pub(super) fn check_id(path: &Path, id: &str) -> Result<(), SceneError> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if id.is_empty() || !id.chars().all(plain) {
+        let reason = format!("{id:?} cannot name a folder; use letters, digits, - and _");
+        return Err(SceneError::value(path, "name", reason));
+    }
+    Ok(())
 }
 
 pub(super) fn read_toml(path: &Path) -> Result<Table, SceneError> {

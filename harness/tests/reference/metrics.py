@@ -31,7 +31,7 @@ def noise(x, y, seed):
 
 
 def pictures():
-    """Truth, prediction, leaking layer (linear RGB, float32), mask and labels (uint8)."""
+    """Truth, prediction, leaking layer (linear RGB, float32), mask and labels (uint8), confidence (float32)."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
     truth, prediction, cause = (np.zeros((HEIGHT, WIDTH, 3), np.float32) for _ in range(3))
     for c in range(3):
@@ -45,7 +45,9 @@ def pictures():
     truth[30:33, 40:44] += 1.0
     mask = np.where((x - 48) ** 2 * 4 + (y - 32) ** 2 * 9 < 8000, 255, 0).astype(np.uint8)
     labels = (1 + (x // 32) + 3 * (y // 40)).astype(np.uint8)
-    return truth, prediction, cause, mask, labels
+    # Higher where the baked shading is near one, so that it follows the error loosely.
+    confidence = (triangle(x + 2 * y, 101) + 0.3 * noise(x, y, 11)).astype(np.float32)
+    return truth, prediction, cause, mask, labels, confidence
 
 
 def normals():
@@ -59,7 +61,7 @@ def normals():
 
 
 def references():
-    truth, prediction, cause, mask, labels = pictures()
+    truth, prediction, cause, mask, labels, confidence = pictures()
     inside = ndimage.binary_erosion(mask > 127, np.ones((5, 5)), border_value=0)
     t, p = truth.astype(np.float64), prediction.astype(np.float64)
     tm, pm = t[inside], p[inside]
@@ -101,6 +103,8 @@ def references():
     degrees = np.degrees(np.arccos(cosine))
     specular_t, specular_p = t[..., 0][inside], p[..., 1][inside]
     correlation = lambda a, b: stats.pearsonr(a, b).statistic
+    trust, error = confidence[inside].astype(np.float64), np.abs(log(pm) - log(tm))
+    trusted = np.heaviside(trust - np.median(trust), 0.5)
 
     values = {
         "psnr_srgb": peak_signal_noise_ratio(srgb(tm), srgb(pm), data_range=1.0),
@@ -129,6 +133,8 @@ def references():
         "leakage_specular": stats.linregress(
             luminance(cause[inside].astype(np.float64)), luminance(pm) - luminance(tm)
         ).rvalue ** 2,
+        "confidence_rank": stats.spearmanr(trust, error).statistic,
+        "sparsification": np.average(error, weights=trusted) / error.mean(),
     }
     channel = [np.linalg.lstsq(pm[:, [c]], tm[:, c], rcond=None)[0][0] for c in range(3)]
     median = [np.median((tm[:, c] / pm[:, c])[pm[:, c] > 0]) for c in range(3)]

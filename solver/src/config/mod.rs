@@ -37,6 +37,8 @@ pub struct Config {
     pub transport: TransportConfig,
     /// Normals from one height texture.
     pub height: HeightConfig,
+    /// What is kept for the report.
+    pub records: RecordConfig,
 }
 
 impl Config {

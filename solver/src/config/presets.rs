@@ -87,6 +87,7 @@ impl Config {
                 smoothness: 1000.0,
                 albedo_damping: 30.0,
             },
+            records: RecordConfig { stages: true, layers: true },
         }
     }
 
@@ -116,7 +117,7 @@ impl Config {
         config
     }
 
-    /// `unshade` with fewer iterations and texels.
+    /// `unshade` with fewer iterations and texels, and no records.
     pub(super) fn fast() -> Self {
         let mut config = Self::unshade();
         config.initialisation.start_iterations = 150;
@@ -131,6 +132,7 @@ impl Config {
         config.transport.refinement = 50;
         config.height.linearisations = 1;
         config.height.steps = 20;
+        config.records = RecordConfig { stages: false, layers: false };
         config
     }
 }

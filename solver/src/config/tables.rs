@@ -236,3 +236,13 @@ pub struct HeightConfig {
     /// Weight of squared changes of the diffuse albedo, in tenths.
     pub albedo_damping: f32,
 }
+
+/// What a maps folder holds besides the maps, for whoever wants to see how they came about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordConfig {
+    /// `stages/`: the maps after every stage, small.
+    pub stages: bool,
+    /// `layers/`: every training view as the model sees it.
+    pub layers: bool,
+}

@@ -53,7 +53,8 @@ impl Checkpoint {
         &self.folder
     }
 
-    /// Time between two checkpoints of a stage; half a minute if nothing is said.
+    /// Time between two checkpoints of a stage, zero for one after every step; half a minute if
+    /// nothing is said.
     #[must_use]
     pub fn every(self, interval: Duration) -> Self {
         Self { interval, ..self }
@@ -214,6 +215,8 @@ impl Open {
             tracing::warn!("{}: no checkpoint: {error}", path.display());
         }
         self.last = Instant::now();
-        self.wait = self.interval.max(start.elapsed().div_f64(LARGEST_SHARE));
+        if !self.interval.is_zero() {
+            self.wait = self.interval.max(start.elapsed().div_f64(LARGEST_SHARE));
+        }
     }
 }

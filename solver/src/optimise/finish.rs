@@ -1,29 +1,41 @@
 //! The end of a solve: maps, withheld views and the record of what has been found.
 
+use super::clock::Work;
 use super::normalise::Scales;
 use super::run::Run;
 use super::site::{Site, map_size};
-use super::solve::{Solve, albedo};
+use super::snapshot::stage_maps;
+use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
-use crate::backend::Backend;
-use crate::capture::{Camera, Capture};
+use crate::capture::Camera;
 use crate::error::SolveError;
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;
 use crate::model::deviation::{Bend, Deviation};
-use crate::model::samples::SampleSpace;
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
 use crate::solution::{Record, Solution, ViewLayers};
 
+/// What this takes.
+pub(super) fn finishing(site: &Site) -> Work {
+    let side = map_size(site.config.fine_tuning.texture_size, site.size);
+    Work { preparation: 1e-6 * (side * side + site.pixels) as f64, ..Work::default() }
+}
+
 /// Makes a solution of what there is; after an interrupt that may be little, but it is valid.
-pub(super) fn finish(site: &Site, mut run: Run, mut solve: Solve) -> Result<Solution, SolveError> {
+/// The layers of the training views go to `layers`, if there is one and the configuration wants it.
+pub(super) fn finish(
+    site: &Site,
+    mut run: Run,
+    mut solve: Solve,
+    layer_sink: Option<&mut LayerSink>,
+) -> Result<Solution, SolveError> {
     let Site { backend, capture, config, size, .. } = *site;
     let mesh = &capture.mesh;
     // Does nothing unless an interrupt came before it.
     albedo(site, &mut run, &mut solve)?;
-    let Solve { mut state, physical, lit, .. } = solve;
+    let Solve { mut state, physical, lit, snapshots, .. } = solve;
     let light = lit.map(|lit| lit.light);
     state.resize(size);
     let (samples, deviation) = (&site.fine().samples, &site.fine().deviation);
@@ -36,7 +48,13 @@ pub(super) fn finish(site: &Site, mut run: Run, mut solve: Solve) -> Result<Solu
     let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
     let specular = covered.map(|(value, _)| *value).collect();
     let mut scales = Scales::new(&config.normalisation, shading, specular);
-    let views = withheld_views(capture, &site.space, deviation, &state, backend);
+    let physical_scale = physical.as_ref().map(|physical| physical.scale);
+    let stages = stage_maps(snapshots, scales, physical_scale, mesh, &projections);
+    let synthesise = |camera: &Camera| synthesised(camera, site, deviation, &state);
+    let views = capture.withheld.iter().map(synthesise).collect();
+    if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
+        capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
+    }
     if let Some(physical) = physical {
         scales.diffuse = physical.scale;
         state.diffuse = physical.diffuse;
@@ -50,7 +68,7 @@ pub(super) fn finish(site: &Site, mut run: Run, mut solve: Solve) -> Result<Solu
     let maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
     run.lap("maps and views");
     let interrupted = run.cut().map(ToString::to_string);
-    let (stages, timing) = run.into_log();
+    let (stage_records, timing) = run.into_log();
     let record = Record {
         solver: "unshade".to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -64,9 +82,9 @@ pub(super) fn finish(site: &Site, mut run: Run, mut solve: Solve) -> Result<Solu
         samples: samples.len(),
         diffuse_scale: scales.diffuse,
         specular_scale: scales.specular,
-        stages,
+        stages: stage_records,
     };
-    Ok(Solution { maps, light, views, record, timing })
+    Ok(Solution { maps, light, views, stages, record, timing })
 }
 
 /// Texels that no view sees take the values of the nearest one that is seen.
@@ -108,31 +126,22 @@ fn to_maps(
     }
 }
 
-/// The withheld views as the model sees them, in the pictures' exposure.
-fn withheld_views(
-    capture: &Capture,
-    space: &SampleSpace,
-    deviation: &Deviation,
-    state: &State,
-    backend: &dyn Backend,
-) -> Vec<ViewLayers> {
-    let synthesise = |camera: &Camera| {
-        let gbuffer = GBuffer::new(&capture.mesh, camera, None);
-        let samples = space.withheld(&gbuffer, state.size);
-        let shading = layers(&samples, deviation, state, backend);
-        let albedo = state.albedo(&samples);
-        let channels = ViewLayers::CHANNELS.len();
-        let mut picture = Picture::new(camera.width, camera.height, channels);
-        for (i, pixel) in samples.pixel.iter().enumerate() {
-            let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
-            let out = &mut picture.data[*pixel as usize * channels..][..channels];
-            for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
-                out[channel] = albedo * diffuse + specular;
-                out[3 + channel] = albedo * diffuse;
-                out[6 + channel] = specular;
-            }
+/// A view as the model sees it, in the pictures' exposure.
+fn synthesised(camera: &Camera, site: &Site, deviation: &Deviation, state: &State) -> ViewLayers {
+    let gbuffer = GBuffer::new(&site.capture.mesh, camera, None);
+    let samples = site.space.withheld(&gbuffer, state.size);
+    let shading = layers(&samples, deviation, state, site.backend);
+    let albedo = state.albedo(&samples);
+    let channels = ViewLayers::CHANNELS.len();
+    let mut picture = Picture::new(camera.width, camera.height, channels);
+    for (i, pixel) in samples.pixel.iter().enumerate() {
+        let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
+        let out = &mut picture.data[*pixel as usize * channels..][..channels];
+        for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
+            out[channel] = albedo * diffuse + specular;
+            out[3 + channel] = albedo * diffuse;
+            out[6 + channel] = specular;
         }
-        ViewLayers { name: camera.name.clone(), picture }
-    };
-    capture.withheld.iter().map(synthesise).collect()
+    }
+    ViewLayers { name: camera.name.clone(), picture }
 }

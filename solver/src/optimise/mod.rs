@@ -2,11 +2,13 @@
 
 pub mod adam;
 pub mod checkpoint;
+mod clock;
 mod finish;
 pub mod normalise;
 pub mod relief;
 mod run;
-mod site;
+pub(crate) mod site;
+mod snapshot;
 pub mod solve;
 pub mod stage;
 pub mod transported;

@@ -6,6 +6,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 
 use super::checkpoint::{Open, StageMemory};
+use super::clock::{Clock, Work};
 use super::solve::{Callback, Progress, Solve};
 use super::stage::{Stage, State};
 use crate::backend::Backend;
@@ -19,6 +20,7 @@ pub(super) struct Run<'a, 'b> {
     progress: &'a mut Callback<'b>,
     final_share: f32,
     total: usize,
+    clock: Clock,
     log: Log,
     cut: Option<Cut>,
     checkpoint: Option<Open>,
@@ -54,10 +56,10 @@ impl fmt::Display for Cut {
 }
 
 impl<'a, 'b> Run<'a, 'b> {
-    /// For stages with `total` steps in all.
+    /// For the parts `work`.
     pub fn new(
         config: &Config,
-        total: usize,
+        work: Vec<Work>,
         backend: &'a dyn Backend,
         progress: &'a mut Callback<'b>,
     ) -> Self {
@@ -65,7 +67,8 @@ impl<'a, 'b> Run<'a, 'b> {
             backend,
             progress,
             final_share: config.adam.final_share,
-            total,
+            total: work.iter().map(|part| part.steps).sum(),
+            clock: Clock::new(work),
             log: Log::default(),
             cut: None,
             checkpoint: None,
@@ -91,9 +94,15 @@ impl<'a, 'b> Run<'a, 'b> {
         let kept = checkpoint.read();
         self.checkpoint = Some(checkpoint);
         let (log, solve, stage) = kept?;
+        self.clock.skip_parts(solve.finished);
         self.log = log;
         self.pending = stage;
         Some(solve)
+    }
+
+    /// The next part begins.
+    pub fn next_part(&mut self) {
+        self.clock.next();
     }
 
     /// Keeps what has been found at the end of a step.
@@ -187,7 +196,15 @@ impl<'a, 'b> Run<'a, 'b> {
     /// Tells the caller of a step, and hears whether to go on.
     fn report(&mut self, stage: &str, step: usize, of: usize, loss: f64) {
         self.log.done += 1;
-        let progress = Progress { stage, iteration: self.log.done, total: self.total, loss };
+        let progress = Progress {
+            stage,
+            step,
+            steps: of,
+            iteration: self.log.done,
+            total: self.total,
+            loss,
+            seconds_left: self.clock.tick(),
+        };
         if (self.progress)(&progress).is_break() {
             self.cut = Some(Cut { stage: stage.to_owned(), step, of });
         }
@@ -201,6 +218,7 @@ impl<'a, 'b> Run<'a, 'b> {
         let seconds = memory.seconds;
         let Some(losses) = memory.restore(stage, state) else { return vec![] };
         self.log.done += losses.len();
+        self.clock.skip_steps(losses.len());
         self.earlier = seconds;
         losses
     }

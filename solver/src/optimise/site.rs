@@ -23,6 +23,8 @@ pub(super) struct Site<'a> {
     pub space: SampleSpace,
     /// Of the training views, in full resolution.
     pub gbuffers: Vec<GBuffer>,
+    /// Their samples.
+    pub pixels: usize,
     /// Side of the fine-tuned textures.
     pub size: usize,
     pictures: OnceCell<WarmUpPictures>,
@@ -46,6 +48,7 @@ impl<'a> Site<'a> {
             config,
             space: SampleSpace::new(&capture.mesh, config),
             gbuffers,
+            pixels,
             size: texture_size(config.fine_tuning.texture_size, pixels),
             pictures: OnceCell::new(),
             coarse: OnceCell::new(),
@@ -142,7 +145,7 @@ impl WarmUpPictures {
 }
 
 /// The power of two nearest to one texel per pixel.
-pub(super) fn texture_size(size: TextureSize, pixels: usize) -> usize {
+pub(crate) fn texture_size(size: TextureSize, pixels: usize) -> usize {
     match size {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => {
@@ -154,7 +157,7 @@ pub(super) fn texture_size(size: TextureSize, pixels: usize) -> usize {
 
 /// Maps from few pixels are written larger than they were solved, for the sake of the mesh normal
 /// in them.
-pub(super) fn map_size(size: TextureSize, solved: usize) -> usize {
+pub(crate) fn map_size(size: TextureSize, solved: usize) -> usize {
     match size {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => solved.max(512),

@@ -6,42 +6,58 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::checkpoint::Checkpoint;
-use super::finish::finish;
+use super::clock::Work;
+use super::finish::{finish, finishing};
 use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
+use super::snapshot::{Snapshot, Unit};
 use super::stage::{Diffuse, Relief, State, WarmUp};
 use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined};
+use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
 use crate::capture::Capture;
 use crate::config::Config;
-use crate::error::{CaptureError, SolveError};
+use crate::error::{CaptureError, MapsError, SolveError};
 use crate::gbuffer::Atlas;
+use crate::memory::{self, Estimate};
 use crate::model::networks::Networks;
 use crate::model::texture::resample;
-use crate::solution::Solution;
+use crate::solution::{Solution, ViewLayers};
 
 /// Where a solve stands.
 #[derive(Clone, Debug)]
 pub struct Progress<'a> {
     /// The stage at work.
     pub stage: &'a str,
+    /// Steps done of the stage.
+    pub step: usize,
+    /// Steps of the stage.
+    pub steps: usize,
     /// Steps done over all stages.
     pub iteration: usize,
     /// Steps of all stages.
     pub total: usize,
     /// The loss before the last step.
     pub loss: f64,
+    /// Seconds until the maps are there, as far as one can tell.
+    pub seconds_left: f64,
 }
 
 pub(super) type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
+/// Takes the layers of a training view.
+pub type LayerSink<'a> = dyn FnMut(&ViewLayers) -> Result<(), MapsError> + 'a;
+
 /// How a solve is run. Nothing in it changes a map.
 #[derive(Default)]
-pub struct Options {
+pub struct Options<'a> {
     /// Where to keep what is needed to go on after an interrupt or a fall.
     pub checkpoint: Option<Checkpoint>,
+    /// Takes the layers of the training views one after the other, if the configuration wants them:
+    /// of many large views, memory has no room.
+    pub layers: Option<&'a mut LayerSink<'a>>,
 }
 
 /// Decomposes a capture into maps on the processor. `progress` is called after every step and may
@@ -68,12 +84,26 @@ pub fn solve_into(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     let checkpoint = Checkpoint::beside(maps, program);
-    let folder = checkpoint.folder().to_path_buf();
-    let options = Options { checkpoint: Some(checkpoint) };
+    let kept = checkpoint.folder().to_path_buf();
+    let mut partial: Option<Folder> = None;
+    let io = |source| MapsError::Io { path: maps.to_path_buf(), source };
+    let mut layers = |view: &ViewLayers| {
+        let folder = match &mut partial {
+            Some(folder) => folder,
+            none => none.insert(Folder::begin(maps).map_err(io)?),
+        };
+        view.write_layers(folder.path())
+    };
+    let options = Options { checkpoint: Some(checkpoint), layers: Some(&mut layers) };
     let solution = solve_on(&Cpu::new(), capture, config, options, progress)?;
-    solution.write(maps)?;
+    let folder = match partial {
+        Some(folder) => folder,
+        None => Folder::begin(maps).map_err(io)?,
+    };
+    solution.write_into(folder.path())?;
+    folder.commit().map_err(io)?;
     if solution.record.interrupted.is_none() {
-        Checkpoint::remove(&folder);
+        Checkpoint::remove(&kept);
     }
     Ok(solution)
 }
@@ -83,14 +113,16 @@ pub fn solve_on(
     backend: &dyn Backend,
     capture: &Capture,
     config: &Config,
-    options: Options,
+    options: Options<'_>,
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     config.validate()?;
+    Estimate::new(capture, config).fits(memory::available())?;
     let mut site = Site::new(backend, capture, config);
     let steps = Step::all(config);
-    let total = steps.iter().map(|step| step.iterations(config)).sum();
-    let mut run = Run::new(config, total, backend, progress);
+    let mut work: Vec<Work> = steps.iter().map(|step| step.work(&site)).collect();
+    work.push(finishing(&site));
+    let mut run = Run::new(config, work, backend, progress);
     let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
     let mut solve = match checkpoint.and_then(|checkpoint| run.resume(checkpoint)) {
         Some(solve) => solve,
@@ -103,13 +135,17 @@ pub fn solve_on(
     };
     for step in &steps[solve.finished.min(steps.len())..] {
         step.take(&mut site, &mut run, &mut solve)?;
+        if config.records.stages {
+            solve.snapshots.extend(step.snapshot(&site, &solve));
+        }
         if run.cut().is_some() {
             break;
         }
         solve.finished += 1;
+        run.next_part();
         run.save(&solve);
     }
-    finish(&site, run, solve)
+    finish(&site, run, solve, options.layers)
 }
 
 /// What a solve has found so far: with the capture and the configuration, all that is needed to go
@@ -130,6 +166,8 @@ pub(super) struct Solve {
     pub lit: Option<Lit>,
     /// The diffuse albedo of the maps, if it is not the networks'.
     pub physical: Option<Physical>,
+    /// The textures after every stage.
+    pub snapshots: Vec<Snapshot>,
 }
 
 impl Solve {
@@ -139,7 +177,16 @@ impl Solve {
         }
         let initial = site.initial_state();
         let state = initial.clone();
-        Ok(Self { finished: 0, initial, best: None, state, probed: None, lit: None, physical: None })
+        Ok(Self {
+            finished: 0,
+            initial,
+            best: None,
+            state,
+            probed: None,
+            lit: None,
+            physical: None,
+            snapshots: vec![],
+        })
     }
 }
 
@@ -200,6 +247,36 @@ impl Step {
         }
     }
 
+    /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
+    fn work(&self, site: &Site) -> Work {
+        let config = site.config;
+        let square = |side: usize| (side * side) as f64;
+        let pixels = site.pixels as f64;
+        let few = if config.warm_up.half_resolution { 0.25 * pixels } else { pixels };
+        let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
+            preparation: 0.0,
+            step: 1e-9 * (sample * samples + texel * texels),
+            steps: self.iterations(config),
+        };
+        let t = &config.transport;
+        match self {
+            Self::Start(_) | Self::WarmUp => {
+                work(73.0, few, 67.0, square(config.warm_up.texture_size))
+            }
+            Self::Light | Self::Transport => {
+                let entries = square(t.texture_size) * (2 * t.rows * t.rows) as f64;
+                let rays = entries * square(t.rays_per_cell_side);
+                Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
+            }
+            Self::Heights => {
+                let share = f64::from(config.height.texture_share);
+                work(70.0, pixels, 50.0, share * share * square(site.size))
+            }
+            Self::Relief(_) => work(70.0, pixels, 60.0, square(site.size)),
+            Self::Diffuse(_) | Self::Albedo => work(20.0, pixels, 22.0, square(site.size)),
+        }
+    }
+
     /// Takes the step. After an interrupt it leaves in `solve` what it has found until then.
     fn take(&self, site: &mut Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
@@ -231,7 +308,9 @@ impl Step {
                 let lit =
                     light_and_albedo(run, config, mesh, &site.space, pictures, start, probed)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
-                let moved = run.cut().is_none_or(|cut| cut.step > config.transport.hold);
+                let begun = config.transport.hold;
+                let moved =
+                    run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lit = moved.then_some(lit);
             }
             Self::Heights => {
@@ -268,6 +347,40 @@ impl Step {
             Self::Albedo => albedo(site, run, solve)?,
         }
         Ok(())
+    }
+}
+
+impl Step {
+    /// What the step has changed, for the record.
+    fn snapshot(&self, site: &Site, solve: &Solve) -> Option<Snapshot> {
+        let State { size, diffuse, specular, deviation, .. } = &solve.state;
+        let bend = || site.fine().deviation.textures(deviation).sharp;
+        match self {
+            Self::Start(_) | Self::Light => None,
+            Self::WarmUp => {
+                let new = Snapshot::new("warm-up", Unit::Networks);
+                Some(new.diffuse(diffuse, *size).specular(specular, *size))
+            }
+            Self::Transport => {
+                let lit = &solve.lit.as_ref()?.state;
+                Some(Snapshot::new("transport", Unit::Transport).diffuse(&lit.diffuse, lit.size))
+            }
+            Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
+            Self::Relief(round) => {
+                let stage = format!("normals and specular {round}");
+                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
+                let still = site.config.fine_tuning.deviation_rate == 0.0;
+                Some(if still { new } else { new.bend(&bend(), *size) })
+            }
+            Self::Diffuse(round) => {
+                let stage = format!("diffuse {round}");
+                Some(Snapshot::new(&stage, Unit::Networks).diffuse(diffuse, *size))
+            }
+            Self::Albedo => {
+                let physical = &solve.physical.as_ref()?.diffuse;
+                Some(Snapshot::new("albedo", Unit::Transport).diffuse(physical, *size))
+            }
+        }
     }
 }
 

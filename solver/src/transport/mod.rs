@@ -199,7 +199,8 @@ impl Transport {
     pub fn peak(&self, light: &[f32]) -> f32 {
         const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
         let rays = self.sky.rays(1, 0);
-        let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
+        let luminance =
+            |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
         let light: Vec<f32> = light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect();
         let unoccluded = |(place, normal): (&Vec3, &Vec3)| -> f32 {
             let rays = rays.iter().zip(&light);

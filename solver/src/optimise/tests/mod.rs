@@ -17,6 +17,7 @@ use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
 use crate::error::{CaptureError, SolveError};
 use crate::gbuffer::GBuffer;
+use crate::maps::Maps;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
@@ -280,10 +281,33 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "solve.json",
         "specular_albedo.exr",
         "specular_normal.exr",
+        "stages",
         "timing.json",
         "views",
     ];
     assert_eq!(names, expected);
+    let mut stages: Vec<String> = std::fs::read_dir(target.join("stages"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    stages.sort();
+    let expected = [
+        "01-warm-up",
+        "02-transport",
+        "03-relief",
+        "04-normals-and-specular-1",
+        "05-diffuse-1",
+        "06-albedo",
+    ];
+    assert_eq!(stages, expected);
+    // The last stage of a map leaves what the map is, up to what was resampled.
+    let last = Maps::read(&target.join("stages/06-albedo")).unwrap();
+    assert_eq!(last.diffuse_albedo, first.maps.diffuse_albedo);
+    assert!(last.specular_normal.is_none());
+    let last = Maps::read(&target.join("stages/03-relief")).unwrap();
+    assert_eq!(last.specular_normal, first.maps.specular_normal);
+    let last = Maps::read(&target.join("stages/04-normals-and-specular-1")).unwrap();
+    assert_eq!(last.specular_albedo, first.maps.specular_albedo);
     let channels = picture::exr_channel_names(&target.join("views/005.exr")).unwrap();
     assert_eq!(channels.len(), 9);
     let record: serde_json::Value =

@@ -18,8 +18,7 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
     let gradient = |state: &State, light: &[f32]| {
-        let mut stage =
-            Transported::new(&config, &transport, &samples, state, light.to_vec());
+        let mut stage = Transported::new(&config, &transport, &samples, state, light.to_vec());
         stage.set_nearness(nearness);
         stage.gradient(state, &backend)
     };

@@ -1,0 +1,135 @@
+//! The cases of a suite: every face in every light, in every variant of the scene.
+
+use std::path::Path;
+
+use toml::{Table, Value};
+
+use super::scene::{self, Scene, SceneError};
+
+/// One capture: a face in a light, in a variant of the scene.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// `<face>-<light>[-<variant>]`.
+    pub id: String,
+    /// The variant's name; none in a suite without variants.
+    pub variant: Option<String>,
+    /// What is rendered.
+    pub scene: Scene,
+}
+
+/// The tables of a scene that a variant may change.
+const VARIED: [&str; 4] = ["captured_mesh", "image_formation", "labels", "render"];
+
+/// A `[[variant]]`: what is laid over the scene.
+struct Variant {
+    name: String,
+    changes: Table,
+}
+
+impl Variant {
+    fn read(path: &Path, value: &Value) -> Result<Self, SceneError> {
+        let Value::Table(table) = value else {
+            return Err(SceneError::value(path, "variant", "must be tables; write [[variant]]"));
+        };
+        let mut changes = table.clone();
+        let Some(Value::String(name)) = changes.remove("name") else {
+            let reason = "has no name; write name = \"coarse mesh\"";
+            return Err(SceneError::value(path, "variant", reason));
+        };
+        let key = format!("variant {name:?}");
+        if let Some(unknown) = changes.keys().find(|key| !VARIED.contains(&key.as_str())) {
+            let reason = format!("{unknown} is unknown; there are name, {}", VARIED.join(", "));
+            return Err(SceneError::value(path, &key, reason));
+        }
+        if let Some((name, _)) = changes.iter().find(|(_, value)| !value.is_table()) {
+            let reason = format!("{name} must be a table; write [variant.{name}]");
+            return Err(SceneError::value(path, &key, reason));
+        }
+        Ok(Self { name, changes })
+    }
+
+    /// As ids of cases carry it.
+    fn id(&self) -> String {
+        self.name.replace(' ', "-")
+    }
+}
+
+/// Every face in every light in every variant; without faces or lights the scene's own.
+pub(super) fn cases_of(path: &Path, base: &Scene, suite: &Table) -> Result<Vec<Case>, SceneError> {
+    let section = |name: &str| base.table.get(name).and_then(Value::as_table).cloned();
+    let or_own = |listed: Vec<Table>, own: &str| {
+        if listed.is_empty() { section(own).into_iter().collect() } else { listed }
+    };
+    let mut faces = or_own(referenced(path, suite, "faces")?, "face");
+    if let Some(changes) = suite.get("face") {
+        let changes = face_changes(path, changes)?;
+        faces.iter_mut().for_each(|face| scene::overlay(face, &changes));
+    }
+    let lights = or_own(referenced(path, suite, "lights")?, "light");
+    let others: Vec<Table> = lights.iter().cloned().chain(base.relight()).collect();
+    let variants = variants_of(path, suite)?;
+    let mut cases: Vec<Case> = Vec::new();
+    for face in &faces {
+        for light in &lights {
+            let scene = base.clone().with_face(face.clone()).with_lights(light, &others);
+            for variant in &variants {
+                let case = case(path, scene.clone(), variant.as_ref())?;
+                if cases.iter().any(|other| other.id == case.id) {
+                    let reason = format!("{} occurs twice; rename one", case.id);
+                    let key = if variant.is_some() { "faces, lights, variant" } else { "faces" };
+                    return Err(SceneError::value(path, key, reason));
+                }
+                cases.push(case);
+            }
+        }
+    }
+    Ok(cases)
+}
+
+/// The `[face]` table of a suite, laid over every face; a name would make one of all.
+fn face_changes(path: &Path, value: &Value) -> Result<Table, SceneError> {
+    match value {
+        Value::Table(table) if !table.contains_key("name") => {
+            let mut changes = table.clone();
+            scene::resolve_files(path, &mut changes);
+            Ok(changes)
+        }
+        Value::Table(_) => {
+            let reason = "is laid over every face and cannot name one; list faces = [...]";
+            Err(SceneError::value(path, "face", reason))
+        }
+        _ => Err(SceneError::value(path, "face", "must be a table; write [face]")),
+    }
+}
+
+fn case(path: &Path, mut scene: Scene, variant: Option<&Variant>) -> Result<Case, SceneError> {
+    let mut id = format!("{}-{}", scene.name_of("face"), scene.name_of("light"));
+    if let Some(variant) = variant {
+        id = format!("{id}-{}", variant.id());
+        scene = scene.with_changes(&variant.changes);
+    }
+    scene::check_id(path, &id)?;
+    scene.table.insert("name".to_owned(), Value::String(id.clone()));
+    Ok(Case { id, variant: variant.map(|variant| variant.name.clone()), scene })
+}
+
+/// The variants of the file; a single none where it has none.
+fn variants_of(path: &Path, suite: &Table) -> Result<Vec<Option<Variant>>, SceneError> {
+    match suite.get("variant") {
+        None => Ok(vec![None]),
+        Some(Value::Array(list)) if !list.is_empty() => {
+            list.iter().map(|value| Variant::read(path, value).map(Some)).collect()
+        }
+        Some(_) => Err(SceneError::value(path, "variant", "must be tables; write [[variant]]")),
+    }
+}
+
+fn referenced(path: &Path, table: &Table, key: &str) -> Result<Vec<Table>, SceneError> {
+    match table.get(key) {
+        None => Ok(Vec::new()),
+        Some(Value::Array(list)) if !list.is_empty() => {
+            list.iter().map(|value| scene::resolve(path, key, value.clone())).collect()
+        }
+        Some(_) => Err(SceneError::value(path, key, "must be a list of file names or tables")),
+    }
+}

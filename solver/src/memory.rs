@@ -1,0 +1,197 @@
+//! How much memory a solve takes, before it begins.
+//!
+//! Everything large is an array over the pixels or over the texels, so that the peak follows from
+//! their numbers. Counted are 32-bit values as the code holds them at the fullest moment of each
+//! phase; the phases come one after the other and give back what they took.
+//!
+//! - Always: picture, mask and labels of every training view (14 bytes a pixel of the frame); the
+//!   G-buffer of what is covered (52 bytes a covered pixel).
+//! - Samples: 14 values and 5 words of place, 76 bytes; twice that while they are sorted.
+//! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
+//!   pictures and G-buffers come on top; transport holds its samples twice, and four copies of its
+//!   matrix (texels inside the chart x cells of the sky) while bounces are added.
+//! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
+//!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
+//! - Fine-tuning: 340 bytes a sample (samples, light vector, directions, gradients: 230; the rest is
+//!   what the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both
+//!   deviations, what is gathered and interleaved).
+//! - Maps: 155 bytes a texel of the maps (state, surface, maps, and the copies that are written),
+//!   while the samples of the fine-tuning are still there.
+//!
+//! Estimated and measured peaks (largest resident set of `unshade solve`, 4 views):
+//!
+//! | configuration | pixels | textures | estimate | measured |
+//! |---|---|---|---|---|
+//! | `unshade` | 15 thousand | 128² | 139 MB | 131 MB |
+//! | `unshade` | 15 thousand | 2048² | 686 MB | 701 MB |
+//! | `unshade` | 435 thousand | 512² | 256 MB | 271 MB |
+//! | `unshade` | 435 thousand | 1024² | 378 MB | 404 MB |
+//! | `unshade` | 435 thousand | 2048² | 865 MB | 877 MB |
+//! | `paper` | 435 thousand | 1024² | 378 MB | 393 MB |
+
+use std::fmt;
+use std::fs;
+
+use crate::capture::Capture;
+use crate::config::Config;
+use crate::error::SolveError;
+use crate::optimise::site::{map_size, texture_size};
+
+/// Program, libraries and the stacks and scratch of the threads.
+const PROGRAM: f64 = 30e6;
+const FRAME_PIXEL: f64 = 14.0;
+const COVERED_PIXEL: f64 = 52.0;
+const SAMPLE: f64 = 76.0;
+const SORTING: f64 = 150.0;
+const WARM_UP_SAMPLE: f64 = 180.0;
+const WARM_UP_TEXEL: f64 = 130.0;
+const TRANSPORT_SAMPLE: f64 = 280.0;
+const HEIGHT_SAMPLE: f64 = 380.0;
+const HEIGHT_TEXEL: f64 = 200.0;
+const FINE_SAMPLE: f64 = 340.0;
+const FINE_TEXEL: f64 = 155.0;
+const MAP_TEXEL: f64 = 155.0;
+/// Share of the square that a chart covers.
+const CHART: f64 = 0.8;
+
+/// What a solve works on, and the memory that it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Training views.
+    pub views: usize,
+    /// Their pixels inside the masks.
+    pub pixels: usize,
+    /// Side of the textures, texels.
+    pub texture_size: usize,
+    /// Bytes at the peak.
+    pub peak: u64,
+    /// Of these, what the open capture takes already.
+    pub taken: u64,
+}
+
+impl Estimate {
+    /// Of a solve on the processor.
+    pub fn new(capture: &Capture, config: &Config) -> Self {
+        let views = &capture.train;
+        let frame: usize = views.iter().map(|view| view.mask.data.len()).sum();
+        let covered = |data: &[u8]| data.iter().filter(|value| **value == 255).count();
+        let pixels = views.iter().map(|view| covered(&view.mask.data)).sum();
+        Self::of(views.len(), frame, pixels, config)
+    }
+
+    /// For `frame` pixels of which `pixels` are covered.
+    pub(crate) fn of(views: usize, frame: usize, pixels: usize, config: &Config) -> Self {
+        let size = texture_size(config.fine_tuning.texture_size, pixels);
+        let square = |side: usize| (side * side) as f64;
+        let texels = square(size);
+        let (all, covered) = (frame as f64, pixels as f64);
+        let share = if config.warm_up.half_resolution { 0.25 } else { 1.0 };
+        let taken = PROGRAM + all * FRAME_PIXEL;
+        let base = taken + covered * COVERED_PIXEL;
+        let warm_up_pictures = share * (all * FRAME_PIXEL + covered * COVERED_PIXEL);
+        let warm_up = warm_up_pictures
+            + share * covered * WARM_UP_SAMPLE.max(SAMPLE + SORTING)
+            + square(config.warm_up.texture_size) * WARM_UP_TEXEL;
+        let t = &config.transport;
+        let matrix = CHART * square(t.texture_size) * (2 * t.rows * t.rows) as f64 * 4.0;
+        let transport = match t.enabled {
+            true => {
+                let samples = share * covered * TRANSPORT_SAMPLE;
+                warm_up_pictures + (4.0 * matrix).max(2.0 * matrix + samples)
+            }
+            false => 0.0,
+        };
+        let height = match config.height.enabled {
+            true => {
+                let side = size as f64 * f64::from(config.height.texture_share);
+                let samples = covered * HEIGHT_SAMPLE.max(SAMPLE + SORTING);
+                samples + side * side * HEIGHT_TEXEL + texels * 28.0
+            }
+            false => 0.0,
+        };
+        let fine = covered * FINE_SAMPLE.max(SAMPLE + SORTING) + texels * FINE_TEXEL;
+        let maps =
+            square(map_size(config.fine_tuning.texture_size, size)) * MAP_TEXEL + covered * SAMPLE;
+        let most = [warm_up, transport, height, fine, maps].into_iter().fold(0.0, f64::max);
+        Self { views, pixels, texture_size: size, peak: (base + most) as u64, taken: taken as u64 }
+    }
+
+    /// Refuses a solve that would need more than `available` bytes on top of what is taken.
+    pub fn fits(&self, available: Option<u64>) -> Result<(), SolveError> {
+        let needed = self.peak.saturating_sub(self.taken);
+        match available {
+            Some(available) if needed > available => {
+                Err(SolveError::Memory { estimate: self.clone(), needed, available })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Self { views, pixels, texture_size, peak, .. } = self;
+        let views = if *views == 1 { "1 view".to_owned() } else { format!("{views} views") };
+        let (pixels, memory) = (count(*pixels), bytes(*peak));
+        write!(f, "{pixels} pixels of {views}, {texture_size} x {texture_size} textures, {memory}")
+    }
+}
+
+fn count(number: usize) -> String {
+    match number {
+        0..10_000 => number.to_string(),
+        10_000..1_000_000 => format!("{} thousand", number / 1000),
+        _ => format!("{:.1} million", number as f64 / 1e6),
+    }
+}
+
+/// In the unit that people say.
+pub(crate) fn bytes(bytes: u64) -> String {
+    match bytes {
+        0..1_000_000_000 => format!("{} MB", bytes.div_ceil(1_000_000)),
+        _ => format!("{:.1} GB", bytes as f64 / 1e9),
+    }
+}
+
+/// Bytes that can be had without swapping, where the system says so: of the machine, or of the
+/// control group (a container) if that leaves less.
+pub fn available() -> Option<u64> {
+    let info = fs::read_to_string("/proc/meminfo").ok()?;
+    let line = info.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let machine = line.trim().trim_end_matches(" kB").parse::<u64>().ok()? * 1024;
+    let read = |file: &str| {
+        fs::read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?.trim().parse::<u64>().ok()
+    };
+    let group = read("memory.max").zip(read("memory.current"));
+    Some(group.map_or(machine, |(most, now)| machine.min(most.saturating_sub(now))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::TextureSize;
+
+    #[test]
+    fn more_of_anything_needs_more_and_the_refusal_says_what_to_do() {
+        let mut config = Config::default();
+        let peak = |frame, pixels, config: &Config| Estimate::of(10, frame, pixels, config).peak;
+        config.fine_tuning.texture_size = TextureSize::Side(512);
+        let small = peak(655_360, 250_000, &config);
+        assert!(peak(10_485_760, 4_000_000, &config) > 4 * small);
+        config.fine_tuning.texture_size = TextureSize::Side(4096);
+        assert!(peak(655_360, 250_000, &config) > 2_500_000_000);
+        let estimate = Estimate::of(10, 655_360, 250_000, &config);
+        assert!(estimate.fits(None).is_ok() && estimate.fits(Some(estimate.peak)).is_ok());
+        let error = estimate.fits(Some(1 << 30)).unwrap_err().to_string();
+        for word in ["fine_tuning.texture_size", "views", "half", "1.1 GB", "4096"] {
+            assert!(error.contains(word), "{word}: {error}");
+        }
+        assert!(!error.contains('\n'));
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn the_system_says_what_is_available() {
+        assert!(available().unwrap() > 1 << 20);
+    }
+}
