@@ -47,6 +47,12 @@ pub enum CaptureError {
          to world, looking down -z) and the masks"
     )]
     NothingVisible(PathBuf),
+    /// The training views show the mesh without any light.
+    #[error(
+        "{0}: every training picture is black inside its mask; check their exposure and that the \
+         masks belong to them"
+    )]
+    Black(PathBuf),
     /// A picture file is faulty.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -52,6 +52,17 @@ def test_lights_are_described(described):
     assert float(sun[5]) > 1e4 and int(sun[7].split()[0]) in range(4500, 9000)
 
 
+def test_what_solvers_get_is_described(described, monkeypatch):
+    for part in ("image formation", "mesh", "labels"):
+        assert row(described, part)[1] == "perfect"
+    monkeypatch.setattr(module, "build_head", lambda spec: FACE)
+    faults = {"labels": {"boundary_error": 0.1}, "captured_mesh": {"smoothing_mm": 2.0}}
+    text = describe(parse_scene(render_toy.toy_table() | faults, "scene", None))
+    assert row(text, "labels")[1] == "10 % of the boundary pixels have the label of the other side"
+    assert row(text, "mesh")[1] == "smoothing_mm 2" and row(text, "image formation")[1] == "perfect"
+    assert row(describe(parse_scene(render_toy.toy_table() | {"labels": {"omit": True}}, "scene", None)), "labels")[1] == "none"
+
+
 def test_cameras_and_sizes_are_described(described):
     assert row(described, "003")[1] == "withheld" and row(described, "000")[1] == "training"
     # 25 degrees across the shorter side of 40 x 32 pixels.

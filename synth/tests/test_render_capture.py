@@ -18,7 +18,7 @@ from unshade.render.pictures import read_exr, read_gray, write_exr
 from unshade.render.rigs import cameras
 from unshade.render.scene_text import scene_text
 from unshade.render.truth_scene import captured_scene
-from unshade.scene_file import CapturedMesh, Formation, parse_scene
+from unshade.scene_file import CapturedMesh, Formation, LabelFaults, parse_scene
 
 CHOICE = llvm.choose("llvm_ad_rgb")
 
@@ -182,6 +182,25 @@ def test_image_formation_leaves_the_truth_alone(captured, tmp_path):
     moved = [a["transform_matrix"] != b["transform_matrix"] for a, b in zip(poses["frames"], exact["frames"])]
     assert moved == [True, True, True, False]
     assert captured_scene(out).formation == formed.formation and captured_scene(out).captured_mesh == formed.captured_mesh
+
+
+def test_faulty_labels_change_labels_alone_and_render_nothing_anew(captured, tmp_path, monkeypatch):
+    monkeypatch.setenv("UNSHADE_RENDER_CACHE", str(tmp_path / "renders"))
+    capture.synthesise(scene(), tmp_path / "first", CHOICE, no_progress)
+    monkeypatch.setattr(shots, "render_tier", None)
+    for name, faults in (("mistaken", LabelFaults(boundary_error=0.3)), ("none", LabelFaults(omit=True))):
+        capture.synthesise(replace(scene(), labels=faults), tmp_path / name, CHOICE, no_progress)
+        assert captured_scene(tmp_path / name).labels == faults
+    made, perfect = files(tmp_path / "mistaken"), files(captured)
+    changed = {f"labels/{name}.png" for name in ("000", "001", "002")} | {"truth/scene.toml"}
+    assert set(made) == set(perfect) and {name for name in perfect if made[name] != perfect[name]} == changed
+    for name in ("000", "001", "002"):
+        labels, mask = (read_gray(tmp_path / "mistaken" / kind / f"{name}.png") for kind in ("labels", "masks"))
+        assert (labels[mask == 0] == 0).all() and set(np.unique(labels)) == set(np.unique(read_gray(captured / f"labels/{name}.png")))
+    made = files(tmp_path / "none")
+    assert set(perfect) - set(made) == {f"labels/{name}.png" for name in ("000", "001", "002", "003")}
+    assert {name for name in made if made[name] != perfect[name]} == {"transforms.json", "truth/scene.toml"}
+    assert all("label_path" not in frame for frame in json.loads(made["transforms.json"])["frames"])
 
 
 def test_denoising_is_named_and_removes_noise(captured, tmp_path):

@@ -21,6 +21,11 @@ class _Camera(TypedDict):
     centre: list[float]
     camera_to_world: _Float
 
+class _GBuffer(TypedDict):
+    positions: _Float
+    normals: _Float
+    uvs: _Float
+
 class _Mesh(TypedDict):
     vertices: _Float
     normals: _Float
@@ -51,6 +56,22 @@ class Capture:
         """(height, width) region ids."""
     def camera(self, name: str) -> _Camera:
         """Any view's camera: pixels, and camera to world with OpenGL axes (4, 4)."""
+    def gbuffer(self, name: str) -> _GBuffer:
+        """What any view sees of the mesh at its pixels' centres: positions and normals
+        (height, width, 3), uvs (height, width, 2); NaN where it sees nothing of it."""
+    def shading(
+        self,
+        light: _Float,
+        *,
+        texture_size: int = 128,
+        nearness: float = 0.0,
+        rays_per_cell_side: int = 2,
+        bounces: int = 2,
+        bounce_albedo: float = 0.4,
+    ) -> _Float:
+        """The diffuse shading (N, N, 3) of the mesh in an environment (rows, 2 rows, 3), lat-long
+        as ``truth/light.exr``, on a sphere of 1 / ``nearness`` metres, with the mesh's own shadows
+        and bounces: 1 for radiance 1 from everywhere. A diffuse layer is albedo times shading."""
     def truth(self) -> Maps:
         """The true maps of a synthetic capture."""
 

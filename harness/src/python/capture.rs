@@ -3,10 +3,13 @@
 use std::path::PathBuf;
 
 use numpy::ndarray::{Array1, Array2};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
-use pyo3::exceptions::PyKeyError;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArrayDyn};
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use solver::gbuffer::GBuffer;
+use solver::picture::Picture;
+use solver::transport::{Beside, CHANNELS, Sky, Transport};
 use solver::{Camera, Mesh, View};
 
 use super::arrays;
@@ -84,6 +87,63 @@ impl Capture {
     #[getter]
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         mesh_to_dict(py, &self.inner.mesh)
+    }
+
+    /// What any view sees of the mesh: positions, normals and uvs, NaN where it sees none.
+    fn gbuffer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let camera = self.inner.camera(name);
+        let camera =
+            camera.ok_or_else(|| PyKeyError::new_err(format!("no view is named {name:?}")))?;
+        let gbuffer = py.detach(|| GBuffer::new(&self.inner.mesh, camera, None));
+        let plane = |channels: usize, of: &dyn Fn(usize) -> Vec<f32>| {
+            let mut picture = Picture::new(gbuffer.width, gbuffer.height, channels);
+            picture.data.fill(f32::NAN);
+            for (sample, pixel) in gbuffer.pixels.iter().enumerate() {
+                let at = *pixel as usize * channels;
+                picture.data[at..at + channels].copy_from_slice(&of(sample));
+            }
+            arrays::picture_to_array(py, &picture)
+        };
+        let dict = PyDict::new(py);
+        dict.set_item("positions", plane(3, &|i| gbuffer.positions[i].to_array().to_vec())?)?;
+        dict.set_item("normals", plane(3, &|i| gbuffer.normals[i].to_array().to_vec())?)?;
+        dict.set_item("uvs", plane(2, &|i| gbuffer.uvs[i].to_array().to_vec())?)?;
+        Ok(dict)
+    }
+
+    /// The diffuse shading S_d of the mesh in a lat-long environment, shadows and bounces
+    /// included, on a texture: a white Lambert texel in radiance 1 from everywhere has 1. The
+    /// environment is a sphere of 1 / `nearness` metres around the head.
+    #[pyo3(signature = (light, *, texture_size=128, nearness=0.0, rays_per_cell_side=2, bounces=2, bounce_albedo=0.4))]
+    fn shading<'py>(
+        &self,
+        py: Python<'py>,
+        light: PyReadonlyArrayDyn<f32>,
+        texture_size: usize,
+        nearness: f32,
+        rays_per_cell_side: usize,
+        bounces: usize,
+        bounce_albedo: f32,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        let light = arrays::picture_from_array("light", &light)?;
+        if light.channels != CHANNELS || light.width != 2 * light.height {
+            let shape = (light.height, light.width, light.channels);
+            let message = format!("light: expected (rows, 2 x rows, 3), got shape {shape:?}");
+            return Err(PyValueError::new_err(message));
+        }
+        let mut config = solver::Config::default();
+        let transport = &mut config.transport;
+        (transport.texture_size, transport.rows) = (texture_size, light.height);
+        transport.rays_per_cell_side = rays_per_cell_side;
+        (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
+        config.validate().map_err(raise)?;
+        let data = py.detach(|| {
+            let sky = Sky::even(light.height).at(nearness);
+            let (mesh, transport) = (&self.inner.mesh, &config.transport);
+            Transport::new(mesh, &sky, transport, config.seed, Beside::Nothing).shading(&light.data)
+        });
+        let (width, height) = (texture_size, texture_size);
+        arrays::picture_to_array(py, &Picture { width, height, channels: CHANNELS, data })
     }
 
     /// The true maps of a synthetic capture.

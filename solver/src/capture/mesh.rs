@@ -1,5 +1,6 @@
 //! The mesh: triangles with one normal and one texture coordinate per vertex.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
@@ -81,15 +82,25 @@ impl Mesh {
     }
 }
 
-/// Sums of the adjacent triangles' normals, weighted by their areas.
+/// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as
+/// seams and unwelded triangles have them, share theirs.
 fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
-    let mut normals = vec![Vec3::ZERO; positions.len()];
+    let place = places(positions);
+    let mut sums = vec![Vec3::ZERO; positions.len()];
     for corners in triangles {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let area_normal = (b - a).cross(c - a);
         for corner in corners {
-            normals[*corner as usize] += area_normal;
+            sums[place[*corner as usize]] += area_normal;
         }
     }
-    normals
+    place.into_iter().map(|place| sums[place]).collect()
+}
+
+/// Of every vertex the first one that lies where it lies.
+pub(super) fn places(positions: &[Vec3]) -> Vec<usize> {
+    let mut first = HashMap::with_capacity(positions.len());
+    // Adding zero makes the two zeros one.
+    let bits = |position: &Vec3| (position + Vec3::ZERO).to_array().map(f32::to_bits);
+    (0..positions.len()).map(|i| *first.entry(bits(&positions[i])).or_insert(i)).collect()
 }

@@ -3,14 +3,17 @@
 mod camera;
 mod lens;
 mod mesh;
+mod orientation;
 mod transforms;
 mod view;
 
 use std::path::{Path, PathBuf};
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::error::CaptureError;
+use orientation::Turned;
 
 pub use camera::Camera;
 pub use mesh::Mesh;
@@ -45,7 +48,25 @@ impl Capture {
             || Mesh::open(&transforms.mesh_path),
             || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
         );
-        let (mesh, train) = (mesh?, train?);
+        let (mut mesh, train) = (mesh?, train?);
+        let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
+        let turned = orientation::orient(&mut mesh, &eyes);
+        if turned != Default::default() {
+            let (shown, Turned { normals, triangles }) = (transforms.mesh_path.display(), turned);
+            tracing::warn!(
+                "{shown}: {normals} normals and {triangles} triangles point inwards; they are read \
+                 as pointing to the cameras"
+            );
+        }
+        for (view, frame) in train.iter().zip(&transforms.train) {
+            if !view.has_foreground() {
+                let shown = frame.mask_path.display();
+                tracing::warn!("{shown}: has no foreground (255), so the view adds nothing");
+            }
+        }
+        if train.iter().any(View::has_foreground) && train.iter().all(View::is_black) {
+            return Err(CaptureError::Black(folder.to_path_buf()));
+        }
         let mut hasher = blake3::Hasher::new();
         hasher.update(&bytes).update(&read(&transforms.mesh_path)?);
         for frame in &transforms.train {

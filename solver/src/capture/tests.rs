@@ -146,9 +146,11 @@ fn every_fault_of_the_files_is_named() {
             picture::write_png_gray(&folder.join("labels/001.png"), &GrayImage::new(16, 8))
                 .unwrap();
         }),
-        ("has no foreground", |folder| {
-            picture::write_png_gray(&folder.join("masks/001.png"), &GrayImage::new(16, 16))
-                .unwrap();
+        ("every training picture is black", |folder| {
+            for name in ["000", "001"] {
+                let path = folder.join(format!("images/{name}.exr"));
+                picture::write_exr_rgb(&path, &Picture::new(16, 16, 3)).unwrap();
+            }
         }),
         ("001.exr: NaN at column 3, row 2, channel G", |folder| {
             let mut image = Picture::new(16, 16, 3);

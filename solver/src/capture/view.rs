@@ -45,15 +45,21 @@ impl View {
         }
         let labels = label_path.as_deref().map(gray).transpose()?;
         let taken = Self { camera: camera.clone(), image, mask, labels };
-        let view = match distortion {
+        Ok(match distortion {
             Some(lens) => lens.undistort(&taken),
             None => taken,
-        };
-        if !view.mask.data.contains(&255) {
-            let reason = "has no foreground (255); drop the frame or mend the mask".to_owned();
-            return Err(CaptureError::Frame { path: mask_path.clone(), reason });
-        }
-        Ok(view)
+        })
+    }
+
+    /// Whether any pixel shows the mesh.
+    pub(super) fn has_foreground(&self) -> bool {
+        self.mask.data.contains(&255)
+    }
+
+    /// Whether no pixel that shows the mesh has any light.
+    pub(super) fn is_black(&self) -> bool {
+        let pixels = self.image.data.chunks_exact(self.image.channels).zip(&self.mask.data);
+        pixels.filter(|(_, mask)| **mask == 255).all(|(rgb, _)| rgb.iter().all(|v| *v <= 0.0))
     }
 
     /// The view at half resolution: the picture is averaged over 2 by 2 pixels, a pixel is valid

@@ -319,10 +319,12 @@ impl<'a> Transported<'a> {
                     let grey = texel.iter().sum::<f32>() / CHANNELS as f32;
                     let signs = texel.map(|s| if s == grey { 0.0 } else { (s - grey).signum() });
                     let mean_sign = signs.iter().sum::<f32>() / CHANNELS as f32;
+                    // What no light reaches has no colour.
+                    let inverse = if grey > 0.0 { 1.0 / grey } else { 0.0 };
                     for c in 0..CHANNELS {
-                        sum += f64::from((texel[c] - grey).abs() / grey);
+                        sum += f64::from((texel[c] - grey).abs() * inverse);
                         // The divisor counts as given.
-                        gradient[c] += by_mean[c] + scale * (signs[c] - mean_sign) / grey;
+                        gradient[c] += by_mean[c] + scale * (signs[c] - mean_sign) * inverse;
                     }
                 }
                 sum

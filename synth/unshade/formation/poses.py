@@ -33,10 +33,11 @@ def stated_frame(camera: Camera, scene: Scene, mesh: Chart) -> dict:
     """The camera's entry in ``transforms.json``: its real lens, and for training views a pose
     as inexact as calibration leaves it. ``mesh`` is what the poses were fitted to."""
     real = capture_camera(camera, scene)
-    if not camera.train:
-        return real.frame()
-    error = _pose_error(real, scene, mesh)
-    return real.frame() if error is None else replace(real, matrix=_moved(real.matrix, error)).frame()
+    error = _pose_error(real, scene, mesh) if camera.train else None
+    frame = real.frame() if error is None else replace(real, matrix=_moved(real.matrix, error)).frame()
+    if scene.labels.omit:
+        del frame["label_path"]
+    return frame
 
 
 def _pose_error(camera: Camera, scene: Scene, mesh: Chart) -> np.ndarray | None:

@@ -139,7 +139,9 @@ class Capture:
             centres = view_through_centres(shots.head, self.real[name])
             labels = np.where(centres.mask, nearest_texels(face.maps.labels, centres.uv), 0)
             write_gray(self.path / "masks" / f"{name}.png", np.where(centres.mask, 255, 0).astype(np.uint8))
-            write_gray(self.path / "labels" / f"{name}.png", labels.astype(np.uint8))
+            stated = formation.stated_labels(labels.astype(np.uint8), camera, self.scene)
+            if stated is not None:
+                write_gray(self.path / "labels" / f"{name}.png", stated)
             layers = self._layers(shots, own, camera, report)
             write_exr(self.truth / "layers" / f"{name}.exr", layers.channels())
             if not camera.train:

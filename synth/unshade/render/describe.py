@@ -35,6 +35,7 @@ def describe(scene: Scene) -> str:
         "\n".join([f"rig {scene.rig.name} ({scene.rig.kind})", *_cameras(views)]),
         "\n".join(["lights", *_lights(scene, face)]),
         "\n".join(["render", *_render(scene, views)]),
+        "\n".join(["what solvers get of the training views", *_faults(scene)]),
     ]
     return "\n\n".join(blocks) + "\n"
 
@@ -118,6 +119,18 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
         f"  pictures         {pictures} of {size}: {len(views)} views, {withheld} withheld ones in {len(scene.relight)} other lights",
         f"  camera rays      {pictures * render.width * render.height * render.samples:.3g}",
         *(f"  {key:<16} {_words(value)}" for key, value in settings.items()),
+    ]
+
+
+def _faults(scene: Scene) -> list[str]:
+    """What pictures, cameras, mesh and labels lack."""
+    share = scene.labels.boundary_error
+    labels = f"{100 * share:.3g} % of the boundary pixels have the label of the other side" if share else "perfect"
+    formation, mesh = (_words(table) if table else "perfect" for table in (scene.formation.to_table(), scene.captured_mesh.to_table()))
+    return [
+        f"  image formation  {formation}",
+        f"  mesh             {mesh}",
+        f"  labels           {'none' if scene.labels.omit else labels}",
     ]
 
 

@@ -22,6 +22,7 @@ def scene_text(scene: Scene) -> str:
         ("render", scene.render.to_table()),
         ("image_formation", scene.formation.to_table()),
         ("captured_mesh", scene.captured_mesh.to_table()),
+        ("labels", scene.labels.to_table()),
         ("versions", scene.versions),
     ]
     blocks = [f"format = {FORMAT}\nname = {_value(scene.name)}\n"]

@@ -64,3 +64,10 @@ def number(
         wanted = "a number" if above == -math.inf else f"a number above {above:g}"
         raise SceneError(f"{key} in {place} is {value!r}; use {wanted}")
     return float(value)
+
+
+def yes_or_no(table: Mapping[str, Any], key: str, place: str, default: bool) -> bool:
+    value = table.get(key, default)
+    if not isinstance(value, bool):
+        raise SceneError(f"{key} in {place} is {value!r}; use true or false")
+    return value

@@ -13,6 +13,7 @@ from .captured_mesh import CapturedMesh, parse_captured_mesh
 from .checks import known_keys, subtable, text
 from .face import AnyHead, parse_face
 from .formation import Formation, parse_formation
+from .labels import LabelFaults, parse_labels
 from .light import Light, parse_light
 from .render import Render, parse_render
 from .rig import Rig, parse_rig
@@ -23,7 +24,7 @@ else:
     import tomli as tomllib
 
 FORMAT = 1
-_KEYS = ("format", "name", "face", "light", "relight", "rig", "render", "image_formation", "captured_mesh", "versions")
+_KEYS = ("format", "name", "face", "light", "relight", "rig", "render", "image_formation", "captured_mesh", "labels", "versions")
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,7 @@ class Scene:
     """The renderer that made the capture; empty before there is one."""
     formation: Formation = Formation()
     captured_mesh: CapturedMesh = CapturedMesh()
+    labels: LabelFaults = LabelFaults()
 
     @property
     def lights(self) -> tuple[Light, ...]:
@@ -83,7 +85,8 @@ def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
     render = parse_render(subtable(table, "render", place), f"[render] of {place}")
     formation = parse_formation(table.get("image_formation", {}), f"[image_formation] of {place}")
     captured_mesh = parse_captured_mesh(table.get("captured_mesh", {}), f"[captured_mesh] of {place}")
-    return Scene(name, face, light, relight, rig, render, _versions(table, place), formation, captured_mesh)
+    labels = parse_labels(table.get("labels", {}), f"[labels] of {place}")
+    return Scene(name, face, light, relight, rig, render, _versions(table, place), formation, captured_mesh, labels)
 
 
 def _versions(table: Mapping[str, Any], place: str) -> dict[str, str]:

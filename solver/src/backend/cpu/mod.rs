@@ -80,7 +80,7 @@ impl Cpu {
 
     /// At a level of [`Level::available`], which is the only place where levels come from.
     #[cfg(test)]
-    fn at(level: Level) -> Self {
+    pub(crate) fn at(level: Level) -> Self {
         assert!(Level::available().contains(&level));
         Self { level }
     }

@@ -3,6 +3,7 @@
 
 mod confidence;
 mod interrupts;
+mod recorded;
 mod relief;
 mod transported;
 

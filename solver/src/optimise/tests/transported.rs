@@ -4,6 +4,9 @@ use super::*;
 use crate::optimise::transported::Transported;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
+/// Of the sky in the gradient test, in the unit of its gain.
+const NEARNESS: f32 = 0.4;
+
 #[test]
 fn gradients_reach_light_albedo_networks_and_the_penalties() {
     let Problem { mut config, samples, state } = problem();
@@ -17,13 +20,13 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
     let backend = Cpu::new();
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
-    let gradient = |state: &State, light: &[f32]| {
+    let gradient = |state: &State, light: &[f32], nearness: f32| {
         let mut stage = Transported::new(&config, &transport, &samples, state, light.to_vec());
         stage.set_nearness(nearness);
         stage.gradient(state, &backend)
     };
-    let found = gradient(&state, &light);
-    let loss = |state: &State| gradient(state, &light).loss;
+    let found = gradient(&state, &light, NEARNESS);
+    let loss = |state: &State| gradient(state, &light, NEARNESS).loss;
     assert_gradient("diffuse", &state, &found.diffuse, |s| &mut s.diffuse, 2e-3, loss);
     assert_gradient("specular", &state, &found.specular, |s| &mut s.specular, 1e-2, loss);
     fn networks(state: &mut State) -> &mut Vec<f32> {
@@ -35,10 +38,14 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
         let moved = |step: f32| {
             let mut light = light.clone();
             light[at] += step;
-            gradient(&state, &light).loss
+            gradient(&state, &light, NEARNESS).loss
         };
         let expected = (moved(3e-3) - moved(-3e-3)) / 6e-3;
         let error = (f64::from(found.light[at]) - expected).abs();
         assert!(error < 0.01 * f64::from(largest), "{at}: {} not {expected}", found.light[at]);
     }
+    let moved = |step: f32| gradient(&state, &light, NEARNESS + step).loss;
+    let expected = (moved(1e-2) - moved(-1e-2)) / 2e-2;
+    let error = (f64::from(found.nearness) - expected).abs();
+    assert!(error < 0.01 * expected.abs(), "nearness: {} not {expected}", found.nearness);
 }

@@ -1,0 +1,51 @@
+"""Labels as an imperfect face parser gives them."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+from ..render.camera import Camera
+from ..scene_file import Scene
+from .seeds import generator
+
+_RUN_PIXELS = 2.0
+"""Standard deviation of the blur of the noise that picks the wrong pixels: where a tenth of
+them is wrong, their runs are four pixels long in the mean (Rice's formula)."""
+
+
+def stated_labels(labels: np.ndarray, camera: Camera, scene: Scene) -> np.ndarray | None:
+    """What the capture says of a view's labels [H, W] (uint8, 0 where there is none); ``None`` for nothing."""
+    if scene.labels.omit:
+        return None
+    share = scene.labels.boundary_error
+    return _mistaken(labels, share, generator("labels", scene, camera)) if share and camera.train else labels
+
+
+def _mistaken(labels: np.ndarray, share: float, rng: np.random.Generator) -> np.ndarray:
+    """``labels`` with the nearest whole number to ``share`` of their boundary pixels mistaken."""
+    other = _other_side(labels)
+    boundary = np.flatnonzero(other)
+    # Every side of a boundary has noise of its own, so that a run moves the boundary to one side.
+    score = np.zeros(labels.shape)
+    for label in np.unique(labels.flat[boundary]):
+        noise = gaussian_filter(rng.standard_normal(labels.shape), _RUN_PIXELS)
+        score = np.where(labels == label, noise, score)
+    worst = boundary[np.argsort(-score.flat[boundary], kind="stable")][: round(share * len(boundary))]
+    mistaken = labels.copy()
+    mistaken.flat[worst] = other.flat[worst]
+    return mistaken
+
+
+def _other_side(labels: np.ndarray) -> np.ndarray:
+    """The label across the boundary: the most frequent other one of the four neighbours, the
+    smaller id in a tie; 0 where there is none."""
+    rows, columns = labels.shape
+    padded = np.pad(labels, 1)
+    steps = ((0, 1), (1, 0), (1, 2), (2, 1))
+    around = np.stack([padded[y : y + rows, x : x + columns] for y, x in steps])
+    crosses = (around > 0) & (around != labels) & (labels > 0)
+    around = np.sort(np.where(crosses, around, 0), axis=0)
+    votes = (around[:, None] == around[None]).sum(0) * (around > 0)
+    best = np.argmax(votes, axis=0)
+    return np.take_along_axis(around, best[None], 0)[0]
