@@ -65,7 +65,6 @@ class Capture:
         *,
         texture_size: int = 128,
         nearness: float = 0.0,
-        rays_per_cell_side: int = 2,
         bounces: int = 2,
         bounce_albedo: float = 0.4,
     ) -> _Float:

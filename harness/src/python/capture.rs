@@ -114,14 +114,13 @@ impl Capture {
     /// The diffuse shading S_d of the mesh in a lat-long environment, shadows and bounces
     /// included, on a texture: a white Lambert texel in radiance 1 from everywhere has 1. The
     /// environment is a sphere of 1 / `nearness` metres around the head.
-    #[pyo3(signature = (light, *, texture_size=128, nearness=0.0, rays_per_cell_side=2, bounces=2, bounce_albedo=0.4))]
+    #[pyo3(signature = (light, *, texture_size=128, nearness=0.0, bounces=2, bounce_albedo=0.4))]
     fn shading<'py>(
         &self,
         py: Python<'py>,
         light: PyReadonlyArrayDyn<f32>,
         texture_size: usize,
         nearness: f32,
-        rays_per_cell_side: usize,
         bounces: usize,
         bounce_albedo: f32,
     ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
@@ -134,7 +133,6 @@ impl Capture {
         let mut config = solver::Config::default();
         let transport = &mut config.transport;
         (transport.texture_size, transport.rows) = (texture_size, light.height);
-        transport.rays_per_cell_side = rays_per_cell_side;
         (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
         config.validate().map_err(raise)?;
         let data = py.detach(|| {
