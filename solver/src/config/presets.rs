@@ -85,7 +85,7 @@ impl Config {
                 albedo_smoothing: 1.0 / 128.0,
                 blur: 0.003,
                 coarsest_pixels: 3.0,
-                flatness: 1000.0,
+                flatness: 200.0,
                 smoothness: 1000.0,
                 albedo_damping: 30.0,
             },
@@ -131,6 +131,7 @@ impl Config {
         config.fine_tuning.texture_size = TextureSize::Side(256);
         config.transport.texture_size = 64;
         config.transport.rows = 8;
+        config.transport.probe = 100;
         config.transport.iterations = 200;
         config.transport.hold = 75;
         config.transport.refinement = 50;
