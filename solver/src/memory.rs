@@ -8,7 +8,7 @@
 //!   G-buffer of what is covered (52 bytes a covered pixel).
 //! - Samples: 14 values and 5 words of place, 76 bytes; twice that while they are sorted.
 //! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
-//!   pictures and G-buffers come on top; transport holds its samples twice, and four copies of its
+//!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added.
 //! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
 //!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
@@ -97,7 +97,7 @@ impl Estimate {
         let transport = match t.enabled {
             true => {
                 let samples = share * covered * TRANSPORT_SAMPLE;
-                warm_up_pictures + (4.0 * matrix).max(2.0 * matrix + samples)
+                warm_up_pictures + (6.0 * matrix).max(2.0 * matrix + samples)
             }
             false => 0.0,
         };

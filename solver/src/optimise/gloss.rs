@@ -61,3 +61,67 @@ fn texel_length(atlas: &Atlas) -> f32 {
     lengths.sort_by(f32::total_cmp);
     lengths.get(lengths.len() / 2).copied().unwrap_or(1.0).max(f32::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capture::View;
+    use crate::gbuffer::GBuffer;
+    use crate::picture::GrayImage;
+    use crate::testing;
+
+    const SIZE: usize = 32;
+
+    fn pool(labelled: bool, specular: impl Fn(usize) -> f32) -> (Vec<f32>, Vec<bool>, f32) {
+        let mesh = testing::dome(16);
+        let label = |view: View| {
+            let (width, height) = (view.camera.width, view.camera.height);
+            // The left two thirds are one region, the rest another.
+            let data = (0..width * height).map(|at| 1 + u8::from(3 * (at % width) > 2 * width));
+            let labels = labelled.then(|| GrayImage { width, height, data: data.collect() });
+            View { labels, ..view }
+        };
+        let views: Vec<View> = testing::rig(1, 48)
+            .iter()
+            .map(|camera| label(testing::view(&mesh, camera, |_| (glam::Vec3::ONE, 0))))
+            .collect();
+        let gbuffers = GBuffer::of_views(&mesh, &views);
+        let projections = Projection::of_views(&views, &gbuffers);
+        let atlas = Atlas::new(&mesh, SIZE);
+        let seen = crate::projection::per_texel(&atlas, &projections, |_| true);
+        let specular: Vec<f32> = (0..SIZE * SIZE).map(specular).collect();
+        let config = crate::Config::default().normalisation;
+        let config = NormalisationConfig { specular_pooling: 0.2, ..config };
+        let pooled = pooled(&config, &atlas, &projections, &seen, &specular);
+        let largest = of_largest_region(&atlas, &projections, &seen, &specular);
+        (pooled, seen, largest)
+    }
+
+    #[test]
+    fn labelled_regions_become_even_and_keep_their_means() {
+        let (pooled, seen, largest) = pool(true, |at| 0.02 + 0.01 * (at % 2) as f32);
+        let mut values: Vec<f32> =
+            pooled.iter().zip(&seen).filter(|(_, seen)| **seen).map(|(value, _)| *value).collect();
+        values.sort_by(f32::total_cmp);
+        values.dedup();
+        assert_eq!(values.len(), 2, "{values:?}");
+        assert!(values.iter().all(|value| (value - 0.025).abs() < 2e-3), "{values:?}");
+        assert!(values.contains(&largest));
+    }
+
+    #[test]
+    fn without_labels_noise_goes_and_coarse_differences_stay() {
+        let noise =
+            |at: usize| if (at / SIZE + at % SIZE).is_multiple_of(2) { 0.01 } else { -0.01 };
+        let ramp = |at: usize| 0.01 + 0.02 * (at % SIZE) as f32 / SIZE as f32;
+        let (pooled, seen, _) = pool(false, |at| ramp(at) + noise(at));
+        let inner = |at: &usize| {
+            seen[*at] && (8..24).contains(&(at % SIZE)) && (8..24).contains(&(at / SIZE))
+        };
+        let texels: Vec<usize> = (0..SIZE * SIZE).filter(inner).collect();
+        assert!(texels.len() > 100);
+        for at in texels {
+            assert!((pooled[at] - ramp(at)).abs() < 3e-3, "{at}: {} not {}", pooled[at], ramp(at));
+        }
+    }
+}

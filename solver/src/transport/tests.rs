@@ -96,3 +96,102 @@ fn threads_do_not_change_a_bit() {
     let pool = |n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
     assert_eq!(pool(1).install(build), pool(3).install(build));
 }
+
+/// A lamp that is one cell of a sphere of radius 2 around a convex surface, which hides nothing from
+/// itself, against the integral over the lamp's area (cosines at both ends over the squared distance).
+#[test]
+fn a_near_lamp_follows_the_inverse_square() {
+    let mesh = testing::dome(16);
+    let config = TransportConfig { rays_per_cell_side: 8, ..config(32) };
+    let sky = Sky::even(8).at(0.5);
+    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Nothing);
+    let centres = sky.centres();
+    let front = |a: &usize, b: &usize| centres[*a].z.total_cmp(&centres[*b].z);
+    let lamp = (0..sky.len()).max_by(front).unwrap();
+    let mut light = vec![0.0; CHANNELS * sky.len()];
+    light[CHANNELS * lamp..][..CHANNELS].fill(1.0);
+    let found = transport.shading(&light);
+    let atlas = Atlas::new(&mesh, 32);
+    let (low, high) = mesh.bounds();
+    let centre = 0.5 * (low + high);
+    let rays: Vec<_> = sky.rays(8, 3).into_iter().filter(|ray| ray.cell as usize == lamp).collect();
+    let mut checked = 0;
+    for texel in (0..32 * 32).filter(|texel| atlas.inside[*texel]) {
+        let expected: f32 = rays
+            .iter()
+            .map(|ray| {
+                let from = centre + 2.0 * ray.direction - atlas.positions[texel];
+                let (distance, towards) = (from.length(), from.normalize());
+                let area = 4.0 * ray.solid_angle;
+                let cosines =
+                    atlas.normals[texel].dot(towards).max(0.0) * ray.direction.dot(towards);
+                area * cosines / (distance * distance) / std::f32::consts::PI
+            })
+            .sum();
+        let error = (found[CHANNELS * texel] - expected).abs();
+        assert!(
+            error < 0.02 * expected + 2e-4,
+            "{texel}: {} not {expected}",
+            found[CHANNELS * texel]
+        );
+        checked += usize::from(expected > 0.01);
+    }
+    assert!(checked > 100, "{checked} lit texels test too little");
+}
+
+#[test]
+fn what_nearness_gains_is_what_a_nearer_sky_gives() {
+    let mesh = testing::dome(16);
+    let far = Transport::new(&mesh, &Sky::even(8), &config(32), 0, Beside::Nearness);
+    let near = Sky::even(8).at(far.near());
+    let near = Transport::new(&mesh, &near, &config(32), 0, Beside::Nothing);
+    let light: Vec<f32> = (0..CHANNELS * far.cells()).map(|i| 1.0 + (i as f32).sin()).collect();
+    let gain = far.gain(&light).unwrap();
+    let sums = far.shading(&light).into_iter().zip(gain).map(|(s, gain)| s + gain);
+    for (sum, expected) in sums.zip(near.shading(&light)) {
+        assert!((sum - expected).abs() < 0.02, "{sum} {expected}");
+    }
+    assert!(near.gain(&light).is_none());
+}
+
+/// On a convex surface the shading under a bent normal is that of the bent normal.
+#[test]
+fn bending_is_the_change_of_shading_with_the_normal() {
+    let mesh = testing::dome(16);
+    let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
+    let sky = Sky::even(8);
+    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Bending);
+    // A lamp overhead in front, far above the horizon of the texels that are looked at.
+    let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
+    let light: Vec<f32> = sky.centres().iter().flat_map(|d| [lit(*d); CHANNELS]).collect();
+    let slopes = transport.bending(&light).unwrap();
+    let shading = transport.shading(&light);
+    let atlas = Atlas::new(&mesh, 32);
+    let front = |texel: &usize| atlas.inside[*texel] && atlas.normals[*texel].z > 0.8;
+    let texels: Vec<usize> = (0..32 * 32).filter(front).collect();
+    assert!(texels.len() > 20);
+    for texel in texels {
+        let slope = Vec3::from_slice(&slopes[3 * CHANNELS * texel..]);
+        // Linear in the normal: the shading itself, and that of a normal bent by a tenth.
+        let normal = atlas.normals[texel];
+        assert!((slope.dot(normal) - shading[CHANNELS * texel]).abs() < 0.01);
+        let bent = (normal + 0.1 * normal.any_orthonormal_vector()).normalize();
+        let expected: f32 = sky
+            .rays(6, 0)
+            .iter()
+            .map(|ray| {
+                let cell = light[CHANNELS * ray.cell as usize];
+                cell * ray.solid_angle * bent.dot(ray.direction).max(0.0) / std::f32::consts::PI
+            })
+            .sum();
+        assert!((slope.dot(bent) - expected).abs() < 0.01, "{} {expected}", slope.dot(bent));
+    }
+}
+
+#[test]
+fn the_peak_is_the_largest_unoccluded_shading() {
+    let transport = plain(&testing::dome(16), &config(32), 0);
+    let light = vec![0.7; CHANNELS * transport.cells()];
+    let peak = transport.peak(&light);
+    assert!((peak - 0.7).abs() < 0.03, "{peak}");
+}
