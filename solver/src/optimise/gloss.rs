@@ -55,7 +55,8 @@ fn region_means(regions: &[u8], seen: &[bool], specular: &[f32]) -> Vec<(f32, us
 
 /// The median length of a texel on the surface, metres.
 fn texel_length(atlas: &Atlas) -> f32 {
-    let inside = |at: &usize| at % atlas.size > 0 && atlas.inside[*at] && atlas.inside[*at - 1];
+    let inside =
+        |at: &usize| !at.is_multiple_of(atlas.size) && atlas.inside[*at] && atlas.inside[*at - 1];
     let length = |at: usize| atlas.positions[at].distance(atlas.positions[at - 1]);
     let mut lengths: Vec<f32> = (0..atlas.inside.len()).filter(inside).map(length).collect();
     lengths.sort_by(f32::total_cmp);
