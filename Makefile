@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily held-out test bench lint clean
+.PHONY: build demo emily results test bench lint clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -31,8 +31,11 @@ demo: build
 emily: build
 	$(BIN)/unshade run scenes/suites/emily.toml -o runs/emily
 
-held-out: build
-	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
+# Hours on two cores; needs Debian's blender-data for one of the lights.
+results: build
+	$(BIN)/unshade run scenes/suites/method.toml -o runs/method
+	$(BIN)/unshade run scenes/suites/degraded.toml -o runs/degraded
+	$(BIN)/unshade table runs/method runs/degraded -o docs/results.md
 
 test: build
 	cargo test --release --workspace --quiet

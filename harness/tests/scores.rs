@@ -176,14 +176,14 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
     let scores = score(&bench.capture(), &maps, None).unwrap();
     assert!(scores.rows.iter().all(|row| row.subject != "confidence"), "none was left");
     let k = scores.scale.unwrap().global.ln();
-    let scored = |side: usize, trust: &dyn Fn(f64) -> f64| {
-        let confidence = map(side, 1, |u, _| [trust(u); 3]);
+    let scored = |trust: &dyn Fn(f64) -> f64| {
+        let confidence = map(SIDE, 1, |u, _| [trust(u); 3]);
         write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
         let scores = score(&bench.capture(), &maps, None).unwrap();
         [row(&scores, "confidence_rank"), row(&scores, "sparsification")]
     };
     let error = |u: f64| (u - 0.5 + k).abs();
-    let [rank, sparse] = scored(SIDE, &|u| 1.0 - error(u)).map(Option::unwrap);
+    let [rank, sparse] = scored(&|u| 1.0 - error(u)).map(Option::unwrap);
     // Every column of the region has one error; the better half of them is trusted.
     let mut errors: Vec<f64> =
         (2..SIDE - 2).map(|x| error((x as f64 + 0.5) / SIDE as f64)).collect();
@@ -191,10 +191,10 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
     let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
     let expected = mean(&errors[..errors.len() / 2]) / mean(&errors);
     assert!(rank < -0.999 && (sparse - expected).abs() < 1e-3, "{rank} {sparse} {expected}");
-    let [rank, sparse] = scored(SIDE / 2, &error).map(Option::unwrap);
+    let [rank, sparse] = scored(&error).map(Option::unwrap);
     assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
-    assert_eq!(scored(SIDE, &|_| 0.7)[0], None);
-    assert!((scored(SIDE, &|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
+    assert_eq!(scored(&|_| 0.7)[0], None);
+    assert!((scored(&|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
 }
 
 #[test]
