@@ -110,6 +110,8 @@ impl Config {
             ("fine_tuning.diffuse_rate", f.diffuse_rate),
             ("fine_tuning.specular_rate", f.specular_rate),
             ("fine_tuning.deviation_rate", f.deviation_rate),
+            ("normalisation.specular_skin", self.normalisation.specular_skin),
+            ("normalisation.specular_pooling", self.normalisation.specular_pooling),
         ] {
             range(key, value, |x| x >= 0.0 && x.is_finite(), "zero or positive")?;
         }

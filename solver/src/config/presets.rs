@@ -71,7 +71,6 @@ impl Config {
                 diffuse_rate: 3e-4,
                 specular_rate: 2e-5,
                 network_rate: 3e-3,
-                percentile: 99.0,
                 refinement: 250,
                 refinement_prior: 3.0,
             },

@@ -27,8 +27,6 @@ impl TransportConfig {
         range("transport.bounces", self.bounces, |x| x <= 64, "0 to 64")?;
         let share = |x: f32| (0.0..=1.0).contains(&x);
         range("transport.bounce_albedo", self.bounce_albedo, share, "0 to 1")?;
-        let percent = |x: f64| x > 0.0 && x <= 100.0;
-        range("transport.percentile", self.percentile, percent, "above 0, to 100")?;
         not_negative(&[
             ("transport.prior", self.prior),
             ("transport.grey_mean", self.grey_mean),

@@ -204,8 +204,6 @@ pub struct TransportConfig {
     pub specular_rate: f32,
     /// Learning rate of the networks, which here stand for the specular layer alone.
     pub network_rate: f32,
-    /// Percentile of the luminance of the shading that counts as its largest.
-    pub percentile: f64,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.
