@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import mitsuba
 import numpy as np
 import pytest
 import unshade
 from PIL import Image
+from unshade.render import llvm
 
-mitsuba.set_variant("scalar_rgb")
+llvm.activate(llvm.choose())
 
 from unshade.render.pictures import read_exr, read_gray, read_rgb, write_exr, write_gray  # noqa: E402
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import mitsuba
 import numpy as np
 import pytest
 import unshade
 from scipy.ndimage import binary_erosion, map_coordinates
+from unshade.render import llvm
 
-mitsuba.set_variant("scalar_rgb")
+llvm.activate(llvm.choose())
 
 from unshade.render.pictures import read_exr, read_rgb  # noqa: E402
 
