@@ -71,6 +71,7 @@ impl Config {
                 diffuse_rate: 3e-4,
                 specular_rate: 2e-5,
                 network_rate: 3e-3,
+                veil: true,
                 refinement: 250,
                 refinement_prior: 3.0,
             },

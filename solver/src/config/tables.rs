@@ -204,6 +204,9 @@ pub struct TransportConfig {
     pub specular_rate: f32,
     /// Learning rate of the networks, which here stand for the specular layer alone.
     pub network_rate: f32,
+    /// Predict from the found light what all views share of the highlights, and take it out of the
+    /// diffuse albedo; needs labels and [`NormalisationConfig::specular_skin`].
+    pub veil: bool,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.

@@ -45,6 +45,12 @@ impl Taps {
         self.size
     }
 
+    /// The texel whose centre is nearest to a sample.
+    pub fn nearest(&self, sample: usize) -> usize {
+        let [fx, fy] = self.fraction[sample].map(|f| usize::from(f > 0.5));
+        self.cell[sample] as usize + fy * self.size + fx
+    }
+
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
         let (texels, _) = texture.as_chunks::<C>();

@@ -8,12 +8,14 @@ use super::site::{Site, map_size};
 use super::snapshot::stage_maps;
 use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
+use super::transported::Lit;
 use crate::capture::Camera;
 use crate::error::SolveError;
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;
 use crate::model::deviation::{Bend, Deviation};
+use crate::model::planes::Planes;
 use crate::model::texture::resample;
 use crate::picture::{GrayImage, Picture};
 use crate::projection::{Projection, per_texel};
@@ -38,7 +40,7 @@ pub(super) fn finish(
     // Does nothing unless an interrupt came before it.
     albedo(site, &mut run, &mut solve)?;
     let Solve { mut state, physical, lit, snapshots, .. } = solve;
-    let light = lit.map(|lit| lit.light);
+    let light = lit.as_ref().map(|lit| lit.light.clone());
     state.resize(size);
     let (samples, deviation) = (&site.fine().samples, &site.fine().deviation);
 
@@ -57,7 +59,7 @@ pub(super) fn finish(
     }
     let physical_scale = physical.as_ref().map(|physical| physical.scale);
     let stages = stage_maps(snapshots, scales, physical_scale, mesh, &projections);
-    let synthesise = |camera: &Camera| synthesised(camera, site, deviation, &state);
+    let synthesise = |camera: &Camera| synthesised(camera, site, deviation, &state, lit.as_ref());
     let views = capture.withheld.iter().map(synthesise).collect();
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
@@ -150,11 +152,19 @@ fn to_maps(
     }
 }
 
-/// A view as the model sees it, in the pictures' exposure.
-fn synthesised(camera: &Camera, site: &Site, deviation: &Deviation, state: &State) -> ViewLayers {
+/// A view as the networks see it, in the pictures' exposure. Its highlights are those of the explicit
+/// transport, if there are any; the sum stays the networks'.
+fn synthesised(
+    camera: &Camera,
+    site: &Site,
+    deviation: &Deviation,
+    state: &State,
+    lit: Option<&Lit>,
+) -> ViewLayers {
     let gbuffer = GBuffer::new(&site.capture.mesh, camera, None);
     let samples = site.space.withheld(&gbuffer, state.size);
     let shading = layers(&samples, deviation, state, site.backend);
+    let highlights = lit.and_then(|lit| lit.highlights(&samples, deviation, state, site.backend));
     let albedo = state.albedo(&samples);
     let channels = ViewLayers::CHANNELS.len();
     let mut picture = Picture::new(camera.width, camera.height, channels);
@@ -162,8 +172,11 @@ fn synthesised(camera: &Camera, site: &Site, deviation: &Deviation, state: &Stat
         let [diffuse, specular]: [f32; 2] = shading.sample(i, 0);
         let out = &mut picture.data[*pixel as usize * channels..][..channels];
         for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
-            out[channel] = albedo * diffuse + specular;
-            out[3 + channel] = albedo * diffuse;
+            let whole = albedo * diffuse + specular;
+            let part = |highlights: &Planes| highlights.get(0, i).min(whole).max(0.0);
+            let specular = highlights.as_ref().map_or(specular, part);
+            out[channel] = whole;
+            out[3 + channel] = whole - specular;
             out[6 + channel] = specular;
         }
     }

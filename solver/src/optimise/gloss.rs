@@ -32,6 +32,11 @@ pub(super) fn pooled(
     (0..seen.len()).map(near).collect()
 }
 
+/// Whether any texel has a label.
+pub(super) fn labelled(atlas: &Atlas, projections: &[Projection]) -> bool {
+    region_map(atlas, projections).iter().any(|region| *region != 0)
+}
+
 /// The mean of the region that most seen texels belong to.
 pub(super) fn of_largest_region(
     atlas: &Atlas,

@@ -14,6 +14,7 @@ mod snapshot;
 pub mod solve;
 pub mod stage;
 pub mod transported;
+mod veil;
 
 #[cfg(test)]
 mod tests;

@@ -14,6 +14,7 @@ use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::stage::{Diffuse, Relief, State, WarmUp};
 use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined};
+use super::veil::specular_albedo;
 use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::backend::cpu::Cpu;
@@ -305,8 +306,10 @@ impl Step {
                 let Some(probed) = solve.probed.take() else { return Ok(()) };
                 let (mesh, pictures) = (&site.capture.mesh, site.pictures());
                 let start = solve.initial.clone();
+                let gloss = |state: &State| specular_albedo(site, state);
+                let space = &site.space;
                 let lit =
-                    light_and_albedo(run, config, mesh, &site.space, pictures, start, probed)?;
+                    light_and_albedo(run, config, mesh, space, pictures, start, probed, &gloss)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
                 let begun = config.transport.hold;
                 let moved =

@@ -10,6 +10,7 @@ use super::confidence::confidence;
 use super::run::Run;
 use super::site::WarmUpPictures;
 use super::stage::{Diffuse, Memory, Stage, State, layers};
+use super::veil::{unveiled, veil};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
 use crate::config::{Config, TransportConfig};
@@ -34,11 +35,41 @@ pub(super) struct Lit {
     bending: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     peak: f32,
+    /// See [`veil`], one value per texel; empty if it is switched off.
+    veil: Vec<f32>,
     /// What is left in the record.
     pub light: RecoveredLight,
 }
 
 impl Lit {
+    /// The pictures less what all views share of the highlights.
+    fn unveiled(&self, samples: &Samples) -> Planes {
+        match self.veil.is_empty() {
+            true => samples.target.clone(),
+            false => unveiled(samples, &self.veil, self.state.size),
+        }
+    }
+
+    /// F A_s S_s of samples under the normals of `state`, with what all views share of the highlights.
+    pub fn highlights(
+        &self,
+        samples: &Samples,
+        deviation: &Deviation,
+        state: &State,
+        backend: &dyn Backend,
+    ) -> Option<Planes> {
+        if self.veil.is_empty() {
+            return None;
+        }
+        let mut own = self.state.clone();
+        own.resize(state.size);
+        own.deviation.clone_from(&state.deviation);
+        let layers = layers(samples, deviation, &own, backend);
+        let veil = resample(&self.veil, self.state.size, 1, state.size);
+        let veil = samples.taps.sample::<1>(&veil);
+        Some(Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)]))
+    }
+
     /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
     pub fn sampled(&self, samples: &Samples) -> Planes {
         let size = samples.taps.size();
@@ -100,7 +131,7 @@ pub(super) fn light(
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
-/// `start`.
+/// `start`; `gloss` makes a specular albedo of what was solved.
 pub(super) fn light_and_albedo(
     run: &mut Run,
     config: &Config,
@@ -109,6 +140,7 @@ pub(super) fn light_and_albedo(
     pictures: &WarmUpPictures,
     start: State,
     probed: Probed,
+    gloss: &dyn Fn(&State) -> Option<Vec<f32>>,
 ) -> Result<Lit, SolveError> {
     let t = &config.transport;
     let sky = Sky::even(t.rows).at(probed.nearness);
@@ -120,12 +152,18 @@ pub(super) fn light_and_albedo(
     let mut stage = Transported::new(config, &transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
     let radiance = stage.light();
+    let wanted = config.transport.veil && config.normalisation.specular_skin > 0.0;
+    let gloss = wanted.then(|| gloss(&state)).flatten();
+    let hidden = gloss.map_or(vec![], |gloss| {
+        veil(&config.networks, &transport, &samples, &state, run.backend, &radiance, &gloss)
+    });
     let distance = (sky.nearness > 0.0).then(|| sky.nearness.recip());
     Ok(Lit {
         state,
         shading: transport.shading(&radiance),
         bending: transport.bending(&radiance).unwrap_or_default(),
         peak: transport.peak(&radiance),
+        veil: hidden,
         light: RecoveredLight { rows: t.rows, distance, radiance },
     })
 }
@@ -156,7 +194,8 @@ pub(super) fn refined(
     let t = &config.transport;
     let name = "albedo".to_owned();
     let (steps, prior) = (t.refinement, t.refinement_prior);
-    let mut stage = Diffuse::under(config, samples, planes.clone(), name, steps, prior);
+    let rest = Samples { target: lit.unveiled(samples), ..samples.clone() };
+    let mut stage = Diffuse::under(config, &rest, planes.clone(), name, steps, prior);
     run.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(samples, &planes, &albedo, prior);

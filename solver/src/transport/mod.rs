@@ -12,6 +12,7 @@
 //! point x, and brings it the cosine-weighted solid angle
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
+mod gloss;
 mod rays;
 mod sky;
 
@@ -200,9 +201,7 @@ impl Transport {
     /// light's way, as Rec.709 luminance: what pictures are exposed by. 0 without such texels.
     pub fn peak(&self, light: &[f32]) -> f32 {
         let rays = self.sky.rays(1, 0);
-        let luminance =
-            |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
-        let light: Vec<f32> = light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect();
+        let light = luminances(light);
         let unoccluded = |(place, normal): (&Vec3, &Vec3)| -> f32 {
             let rays = rays.iter().zip(&light);
             rays.map(|(ray, l)| l * received(ray, *place, *normal, self.sky.nearness)).sum()
@@ -223,6 +222,12 @@ impl Transport {
         }
         by_row
     }
+}
+
+/// Of R, G, B per cell.
+fn luminances(light: &[f32]) -> Vec<f32> {
+    let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
+    light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
 }
 
 /// Rows of `cells` weights.

@@ -1,0 +1,106 @@
+//! What all views share of the highlights. No picture tells it from diffuse colour, so that the
+//! networks leave it there, but the found light does, with the reflectance that skin is known to have.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::gloss;
+use super::site::Site;
+use super::stage::State;
+use crate::backend::Backend;
+use crate::config::NetworkConfig;
+use crate::gbuffer::Atlas;
+use crate::model::blur::Blur;
+use crate::model::normals::DirectionScale;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::model::texture::resample;
+use crate::projection::{Projection, per_texel};
+use crate::transport::Transport;
+
+/// Standard deviation of the blur over the texture, texels.
+const BLUR: f32 = 1.5;
+
+/// The specular albedo of the maps on the texture of `state`: pooled over the labelled regions, with skin
+/// at its reflectance. `None` without labels: what is solved texel by texel is no measure of hair.
+pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
+    let State { size, specular, .. } = state;
+    let config = &site.config.normalisation;
+    let atlas = Atlas::new(&site.capture.mesh, *size);
+    let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
+    if !gloss::labelled(&atlas, &projections) {
+        return None;
+    }
+    let seen = per_texel(&atlas, &projections, |_| true);
+    let skin = gloss::of_largest_region(&atlas, &projections, &seen, specular);
+    let scale = config.specular_skin / skin.max(f32::MIN_POSITIVE);
+    let pooled = gloss::pooled(config, &atlas, &projections, &seen, specular);
+    Some(pooled.into_iter().map(|value| value * scale).collect())
+}
+
+/// The veil, one radiance per texel: the median over the views of what skin of the albedo `specular`
+/// shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
+/// diffuse albedo takes up. Empty if the transport does not hold what is open.
+pub(super) fn veil(
+    config: &NetworkConfig,
+    transport: &Transport,
+    samples: &Samples,
+    state: &State,
+    backend: &dyn Backend,
+    light: &[f32],
+    specular: &[f32],
+) -> Vec<f32> {
+    let taps = &samples.taps;
+    let Some(highlights) = transport.highlights(light, samples) else { return vec![] };
+    let directions = DirectionScale::from(config).directions(samples, None);
+    let known = backend.light(&state.networks, &samples.position);
+    let shading = backend.shade(&state.networks, &known, &directions);
+    let networks = taps.sample::<1>(&state.specular);
+    let mut of: Vec<Vec<u32>> = vec![vec![]; specular.len()];
+    (0..samples.len()).for_each(|i| of[taps.nearest(i)].push(i as u32));
+    let texel = |(of, specular): (&Vec<u32>, &f32)| {
+        let missing = |i: &u32| {
+            let i = *i as usize;
+            let found = samples.fresnel.get(0, i) * networks.get(0, i) * shading.get(1, i);
+            (specular * highlights.get(0, i) - found, samples.weight.get(0, i))
+        };
+        let (median, weight) = weighted_median(of.iter().map(missing).collect());
+        [weight * median, weight]
+    };
+    let texels: Vec<[f32; 2]> = of.par_iter().zip(specular).map(texel).collect();
+    let sums = Blur::new(taps.size(), 2, BLUR).apply(texels.as_flattened());
+    let mean = |[sum, weight]: &[f32; 2]| if *weight > 1e-6 { sum / weight } else { 0.0 };
+    sums.as_chunks::<2>().0.iter().map(mean).collect()
+}
+
+/// The pictures without a veil on a texture of side `size`.
+pub(super) fn unveiled(samples: &Samples, veil: &[f32], size: usize) -> Planes {
+    let veil = samples.taps.sample::<1>(&resample(veil, size, 1, samples.taps.size()));
+    Planes::from_fn(samples.len(), |i| {
+        Vec3::to_array(&(Vec3::from_array(samples.target.sample(i, 0)) - veil.get(0, i)))
+    })
+}
+
+/// Of values with weights; the sum of the weights with it. 0 of nothing.
+fn weighted_median(mut values: Vec<(f32, f32)>) -> (f32, f32) {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let total: f32 = values.iter().map(|(_, weight)| weight).sum();
+    let mut below = 0.0;
+    let middle = values.iter().find(|(_, weight)| {
+        below += weight;
+        below >= 0.5 * total
+    });
+    (middle.map_or(0.0, |(value, _)| *value), total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::weighted_median;
+
+    #[test]
+    fn the_median_is_where_half_of_the_weight_lies() {
+        assert_eq!(weighted_median(vec![(3.0, 1.0), (1.0, 1.0), (2.0, 1.0)]), (2.0, 3.0));
+        assert_eq!(weighted_median(vec![(3.0, 1.0), (1.0, 5.0), (2.0, 1.0)]), (1.0, 7.0));
+        assert_eq!(weighted_median(vec![]), (0.0, 0.0));
+    }
+}
