@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 
-use super::planes::{BLOCK, Planes, Row};
+use super::planes::{BLOCK, Planes, Row, first_rows};
 use super::samples::Samples;
 use crate::config::NetworkConfig;
 use crate::simd::widened;
@@ -52,8 +52,8 @@ static STILL: [Row; DIRECTIONS] = [Row::ZERO; DIRECTIONS];
 
 widened! {
     fn bend(scale: &DirectionScale, normal: &[Row], view: &[Row], deviation: &[Row], out: &mut [Row]) {
-        let (normal, view) = (rows::<3>(normal), rows::<3>(view));
-        let (deviation, out) = (rows::<DIRECTIONS>(deviation), rows_mut(out));
+        let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
+        let (deviation, out) = (first_rows::<DIRECTIONS>(deviation), rows_mut(out));
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
             let specular = (normal + vector(deviation, 0, lane)).normalize();
@@ -73,8 +73,8 @@ widened! {
         gradient: &[Row],
         out: &mut [Row],
     ) {
-        let (normal, view) = (rows::<3>(normal), rows::<3>(view));
-        let (deviation, gradient) = (rows::<DIRECTIONS>(deviation), rows::<DIRECTIONS>(gradient));
+        let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
+        let (deviation, gradient) = (first_rows::<DIRECTIONS>(deviation), first_rows::<DIRECTIONS>(gradient));
         let out = rows_mut(out);
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
@@ -88,12 +88,6 @@ widened! {
             store(out, lane, by_d, by_b);
         }
     }
-}
-
-/// The first rows, as many as the caller needs.
-#[inline(always)]
-fn rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
-    rows.first_chunk().unwrap_or_else(|| unreachable!("planes have rows for two vectors"))
 }
 
 #[inline(always)]

@@ -21,6 +21,13 @@ impl Row {
     pub const ZERO: Self = Self([0.0; BLOCK]);
 }
 
+/// The first `R` rows: with their number known, a compiler keeps them apart.
+#[inline(always)]
+pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
+    // Planes are made with the rows that are asked of them.
+    rows.first_chunk().unwrap_or_else(|| unreachable!("{} rows instead of {R}", rows.len()))
+}
+
 /// `rows` quantities of `len` samples; the samples that fill up the last block are zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planes {
@@ -117,6 +124,11 @@ impl Planes {
     /// The rows of block number `block`.
     pub fn block(&self, block: usize) -> &[Row] {
         &self.data[block * self.rows..][..self.rows]
+    }
+
+    /// The rows of block number `block`, of which there are `R` or more.
+    pub fn rows_of<const R: usize>(&self, block: usize) -> &[Row; R] {
+        first_rows(self.block(block))
     }
 
     /// The rows of all blocks, one block after the other.

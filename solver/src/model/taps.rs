@@ -5,6 +5,7 @@
 //! sums of a cell stay in registers while its samples pass. A sample's place is 12 bytes.
 
 use std::ops::Range;
+use std::sync::Mutex;
 
 use glam::Vec2;
 use rayon::prelude::*;
@@ -54,6 +55,12 @@ impl Taps {
         self.size
     }
 
+    /// Where a sample lies: column and row, counted in texels from the first texel's centre.
+    pub fn place(&self, sample: usize) -> [f32; 2] {
+        let (cell, [fx, fy]) = (self.cell[sample] as usize, self.fraction[sample]);
+        [(cell % self.size) as f32 + fx, (cell / self.size) as f32 + fy]
+    }
+
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
         let (texels, _) = texture.as_chunks::<C>();
@@ -61,84 +68,129 @@ impl Taps {
             let first = block * BLOCK;
             let last = (first + BLOCK).min(self.cell.len());
             let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
-            sample_block::<C>(cell, fraction, texels, self.size, rows);
+            let rows = rows.first_chunk_mut::<C>();
+            rows.into_iter().for_each(|rows| {
+                sample_block(cell, fraction, texels, self.size, 0, rows);
+            });
         })
     }
 
     /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
     /// the texels they were interpolated from.
     pub fn gather<const C: usize>(&self, gradient: &Planes, first: usize) -> Vec<f32> {
-        let cell = |_: usize, run: Range<usize>, _: &mut f64| {
-            let mut corners = Corners::default();
-            run.for_each(|i| corners.add(self.fraction[i], gradient.sample::<C>(i, first)));
-            corners
-        };
-        self.by_cell(cell).0
-    }
-
-    /// [`Taps::sample`] and [`Taps::gather`] in one pass, without the planes between them: `value`
-    /// makes of a sample's number and its texture values a gradient and a term of the loss. Returns
-    /// the texels' gradients and the sum of the terms.
-    pub fn exchange<const C: usize, const D: usize>(
-        &self,
-        texture: &[f32],
-        value: impl Fn(usize, [f32; C]) -> ([f32; D], f64) + Sync,
-    ) -> (Vec<f32>, f64) {
-        let (texels, _) = texture.as_chunks::<C>();
-        self.by_cell(|cell, run, loss| {
-            let mut corners = Corners::default();
-            let texels = surrounding(texels, self.size, cell);
-            for i in run {
-                let (gradient, term) = value(i, blend(texels, self.fraction[i]));
-                corners.add(self.fraction[i], gradient);
-                *loss += term;
+        let rows = |block: usize| gradient.block(block)[first..].first_chunk::<C>();
+        self.by_strip(|strip| {
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                rows(block).into_iter().for_each(|rows| strip.add(block, lanes.clone(), rows));
             }
-            corners
         })
     }
 
-    /// What `cell` adds to the four texels of every cell, given its number and its samples. Each
-    /// task has a strip of rows, whose samples are contiguous; the row below the strip's last, which
-    /// the next strip begins with, is added afterwards.
-    fn by_cell<const D: usize>(
+    /// [`Taps::sample`] and [`Taps::gather`] in one pass, without planes between them. Given the number
+    /// of a block and the texture values of its samples, `value` writes their gradients and their
+    /// terms of the loss. Returns the texels' gradients and the sum of the terms. (Blocks at the ends
+    /// of a strip are seen twice, with other samples valid.)
+    pub fn exchange<const C: usize, const D: usize>(
         &self,
-        cell: impl Fn(usize, Range<usize>, &mut f64) -> Corners<D> + Sync,
+        texture: &[f32],
+        value: impl Fn(usize, &[Row; C], &mut [Row; D], &mut Row) + Sync,
     ) -> (Vec<f32>, f64) {
-        let (size, line) = (self.size, self.size * D);
-        let strip = size.div_ceil(STRIPS).max(LEAST_ROWS);
-        let mut texels = vec![0.0; size * line];
-        let task = |(strip_number, out): (usize, &mut [f32])| {
-            let mut below = vec![0.0; line];
+        let (texels, _) = texture.as_chunks::<C>();
+        let sums = Mutex::new(vec![0.0; self.size.div_ceil(self.strip())]);
+        let gradient = self.by_strip(|strip| {
+            let (mut values, mut gradient) = ([Row::ZERO; C], [Row::ZERO; D]);
+            let mut loss = Row::ZERO;
             let mut sum = 0.0;
-            let first = strip_number * strip;
-            let rows = out.len() / line;
-            for row in 0..rows {
-                let (here, rest) = out[row * line..].split_at_mut(line);
-                let next = if row + 1 < rows { &mut rest[..line] } else { &mut below[..] };
-                let (here, next) = (here.as_chunks_mut::<D>().0, next.as_chunks_mut::<D>().0);
-                let mut at = self.row_start[first + row];
-                let end = self.row_start[first + row + 1];
-                while at < end {
-                    let number = self.cell[at];
-                    let run = self.cell[at..end].iter().take_while(|cell| **cell == number).count();
-                    let Corners([a, b, c, d]) = cell(number as usize, at..at + run, &mut sum);
-                    let x = number as usize - (first + row) * size;
-                    add(&mut here[x], a);
-                    add(&mut here[x + 1], b);
-                    add(&mut next[x], c);
-                    add(&mut next[x + 1], d);
-                    at += run;
-                }
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
+                let (cell, fraction) = (&self.cell[samples.clone()], &self.fraction[samples]);
+                sample_block(cell, fraction, texels, self.size, lanes.start, &mut values);
+                value(block, &values, &mut gradient, &mut loss);
+                sum += loss.0[lanes.clone()].iter().map(|term| f64::from(*term)).sum::<f64>();
+                strip.add(block, lanes, &gradient);
             }
-            (below, sum)
+            if let Ok(mut sums) = sums.lock() {
+                sums[strip.number] = sum;
+            }
+        });
+        let sums = sums.into_inner().unwrap_or_default();
+        (gradient, sums.iter().sum())
+    }
+
+    /// Rows of a strip.
+    fn strip(&self) -> usize {
+        self.size.div_ceil(STRIPS).max(LEAST_ROWS)
+    }
+
+    /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
+    /// contiguous. The row below a strip's last, which the next strip begins with, is added at the
+    /// end.
+    fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
+        let (line, rows) = (self.size * D, self.strip());
+        let mut texels = vec![0.0; self.size * line];
+        let task = |(number, texels): (usize, &mut [f32])| {
+            let (first, rows) = (number * rows, texels.len() / line);
+            let samples = self.row_start[first]..self.row_start[first + rows];
+            let mut below = vec![0.0; line];
+            let below_texels = below.as_chunks_mut().0;
+            let texels = texels.as_chunks_mut().0;
+            work(&mut Strip { taps: self, number, first, samples, texels, below: below_texels });
+            below
         };
-        let parts: Vec<(Vec<f32>, f64)> =
-            texels.par_chunks_mut(strip * line).enumerate().map(task).collect();
-        let later = texels.chunks_mut(strip * line).skip(1);
-        for (out, (below, _)) in later.zip(&parts) {
-            out.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
+        let below: Vec<Vec<f32>> =
+            texels.par_chunks_mut(rows * line).enumerate().map(task).collect();
+        for (texels, below) in texels.chunks_mut(rows * line).skip(1).zip(&below) {
+            texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
         }
-        (texels, parts.iter().map(|(_, sum)| sum).sum())
+        texels
+    }
+}
+
+/// The blocks that a range of samples lies in, with its lanes of each.
+fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let first = samples.start / BLOCK;
+    (first..samples.end.div_ceil(BLOCK).max(first)).map(move |block| {
+        let start = block * BLOCK;
+        (block, samples.start.max(start) - start..samples.end.min(start + BLOCK) - start)
+    })
+}
+
+/// Some rows of a texture of `D` channels, and the row below them.
+struct Strip<'a, const D: usize> {
+    taps: &'a Taps,
+    number: usize,
+    /// The first row.
+    first: usize,
+    /// Samples whose upper texels are in these rows.
+    samples: Range<usize>,
+    texels: &'a mut [[f32; D]],
+    below: &'a mut [[f32; D]],
+}
+
+impl<const D: usize> Strip<'_, D> {
+    /// Adds some lanes of a block. The sums of a cell stay in registers while its samples pass.
+    fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
+        let Taps { size, cell, fraction, .. } = self.taps;
+        let start = self.first * size;
+        let cells = &cell[block * BLOCK..][lanes.clone()];
+        let fractions = &fraction[block * BLOCK..][lanes.clone()];
+        let mut samples = cells.iter().zip(fractions).zip(lanes).peekable();
+        while let Some(((cell, _), _)) = samples.peek().copied() {
+            let mut corners = Corners::default();
+            while let Some(((_, fraction), lane)) = samples.next_if(|next| next.0.0 == cell) {
+                corners.add(*fraction, std::array::from_fn(|channel| rows[channel].0[lane]));
+            }
+            let Corners([a, b, c, d]) = corners;
+            let at = *cell as usize - start;
+            add(&mut self.texels[at], a);
+            add(&mut self.texels[at + 1], b);
+            let next = match (at + size).checked_sub(self.texels.len()) {
+                None => &mut self.texels[at + size..at + size + 2],
+                Some(at) => &mut self.below[at..at + 2],
+            };
+            add(&mut next[0], c);
+            add(&mut next[1], d);
+        }
     }
 }
 
@@ -186,17 +238,19 @@ fn blend<const C: usize>([a, b, c, d]: [&[f32; C]; 4], [fx, fy]: [f32; 2]) -> [f
 }
 
 widened! {
+    /// The texture values of some samples, from lane `first` on.
     fn sample_block<const C: usize>(
         cell: &[u32],
         fraction: &[[f32; 2]],
         texels: &[[f32; C]],
         size: usize,
-        rows: &mut [Row],
+        first: usize,
+        rows: &mut [Row; C],
     ) {
-        assert!(cell.len() <= BLOCK && rows.len() == C);
+        assert!(first + cell.len() <= BLOCK);
         for (lane, (cell, fraction)) in cell.iter().zip(fraction).enumerate() {
             let value = blend(surrounding(texels, size, *cell as usize), *fraction);
-            rows.iter_mut().zip(value).for_each(|(row, value)| row.0[lane] = value);
+            rows.iter_mut().zip(value).for_each(|(row, value)| row.0[first + lane] = value);
         }
     }
 }
@@ -247,10 +301,16 @@ mod tests {
         // More rows than a strip has.
         let (taps, _) = Taps::sorted(300, &points(5000));
         let texture: Vec<f32> = (0..300 * 300 * 2).map(|i| (i as f32 * 0.37).sin()).collect();
-        let swap = |i: usize, [a, b]: [f32; 2]| [b, a * i as f32, 1.0];
+        let swap = |i: usize, [a, b]: [f32; 2]| [b, a * (i % 7) as f32, 1.0];
         let sampled = taps.sample::<2>(&texture);
         let planes = Planes::from_fn(5000, |i| swap(i, sampled.sample(i, 0)));
-        let (gathered, sum) = taps.exchange(&texture, |i, v| (swap(i, v), f64::from(v[0])));
+        let (gathered, sum) = taps.exchange::<2, 3>(&texture, |block, values, gradient, loss| {
+            for lane in 0..BLOCK {
+                let [a, b, c] = swap(block * BLOCK + lane, [0, 1].map(|c| values[c].0[lane]));
+                (gradient[0].0[lane], gradient[1].0[lane], gradient[2].0[lane]) = (a, b, c);
+                loss.0[lane] = values[0].0[lane];
+            }
+        });
         assert_eq!(gathered, taps.gather::<3>(&planes, 0));
         let expected: f64 = (0..5000).map(|i| f64::from(sampled.get(0, i))).sum();
         assert!((sum - expected).abs() < 1e-9, "{sum} {expected}");

@@ -20,7 +20,7 @@ use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::Planes;
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::simd::widened;
@@ -273,18 +273,12 @@ impl<'a> ReliefSolve<'a> {
     ) -> Result<(), SolveError> {
         let taps = &self.samples.taps;
         let texels = self.size * self.size;
-        // What a sample's weighted colour says of its unknowns.
-        let pull = |i: usize, slopes: &[f32; SLOPES], colour: [f32; 3]| {
-            let weight = weight.get(0, i);
-            transposed(slopes, colour.map(|z| weight * z))
-        };
         // One pass over the samples: 16 values and the place of each, 76 bytes.
         let normal = |x: &[f32]| {
             let (height, albedo) = x.split_at(texels);
             let bend = self.field.bend(height);
-            let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |i, q| {
-                let slopes = slopes.sample(i, 0);
-                (pull(i, &slopes, explained(&slopes, &q)), 0.0)
+            let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |block, q, out, _| {
+                normal_block(slopes.rows_of(block), weight.rows_of(block), q, out);
             });
             let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
             let mut out = self.carried(&gathered, Some(&penalty));
@@ -294,7 +288,8 @@ impl<'a> ReliefSolve<'a> {
             out
         };
         let rows = Planes::from_fn(self.samples.len(), |i| {
-            pull(i, &slopes.sample(i, 0), target.sample(i, 0))
+            let (target, weight): ([f32; 3], f32) = (target.sample(i, 0), weight.get(0, i));
+            transposed(&slopes.sample(i, 0), target.map(|z| weight * z))
         });
         let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
         drop(rows);
@@ -370,6 +365,24 @@ fn transposed(s: &[f32; SLOPES], z: [f32; 3]) -> [f32; UNKNOWNS] {
         q[6 + k] = s[12 + k] * z[k];
     }
     q
+}
+
+widened! {
+    /// What a block's unknowns explain, weighted, as gradients by the unknowns.
+    fn normal_block(
+        slopes: &[Row; SLOPES],
+        weight: &[Row; 1],
+        q: &[Row; UNKNOWNS],
+        out: &mut [Row; UNKNOWNS],
+    ) {
+        for lane in 0..BLOCK {
+            let s = std::array::from_fn(|row| slopes[row].0[lane]);
+            let q = std::array::from_fn(|row| q[row].0[lane]);
+            let colour = explained(&s, &q).map(|z| weight[0].0[lane] * z);
+            let by = transposed(&s, colour);
+            (0..UNKNOWNS).for_each(|row| out[row].0[lane] = by[row]);
+        }
+    }
 }
 
 /// `flatness` times the deviation, plus `smoothness` times the transpose-times-itself of its forward

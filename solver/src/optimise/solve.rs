@@ -119,6 +119,7 @@ pub fn solve_on(
 ) -> Result<Solution, SolveError> {
     config.validate()?;
     Estimate::new(capture, config).fits(memory::available())?;
+    let _hoard = memory::Hoard::begin();
     let mut site = Site::new(backend, capture, config);
     let steps = Step::all(config);
     let mut work: Vec<Work> = steps.iter().map(|step| step.work(&site)).collect();

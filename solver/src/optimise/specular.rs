@@ -5,8 +5,9 @@ use super::stage::{Memory, Stage, State, layers, least_albedo};
 use crate::backend::Backend;
 use crate::config::Config;
 use crate::model::deviation::Deviation;
-use crate::model::planes::Planes;
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
+use crate::simd::widened;
 
 /// Specular albedo alone, with frozen networks, normals and diffuse albedo: the model is linear in it,
 /// so that no network is evaluated after the first step.
@@ -63,18 +64,38 @@ impl Stage for Specular<'_> {
 
     fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
         let scale = 1.0 / (3.0 * self.samples.len() as f32);
-        let (gradient, sum) = self.samples.taps.exchange::<1, 1>(&state.specular, |i, [albedo]| {
-            let [r, g, b, gloss, weight]: [f32; 5] = self.rest.sample(i, 0);
-            let residuals = [r, g, b].map(|rest| albedo * gloss - rest);
-            let signs = residuals.map(|r| if r == 0.0 { 0.0 } else { r.signum() });
-            let gradient = weight * scale * signs.iter().sum::<f32>() * gloss;
-            ([gradient], residuals.iter().map(|r| f64::from(weight * r.abs())).sum())
-        });
+        let value = |block: usize, albedo: &[Row; 1], gradient: &mut [Row; 1], loss: &mut Row| {
+            specular_block(self.rest.rows_of(block), scale, albedo, gradient, loss);
+        };
+        let (gradient, sum) = self.samples.taps.exchange(&state.specular, value);
         self.by_specular.step(&mut state.specular, &gradient, share, least_albedo(self.config));
         sum * f64::from(scale)
     }
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_specular])
+    }
+}
+
+widened! {
+    fn specular_block(
+        rest: &[Row; 5],
+        scale: f32,
+        albedo: &[Row; 1],
+        gradient: &mut [Row; 1],
+        loss: &mut Row,
+    ) {
+        let [r, g, b, gloss, weight] = rest;
+        for lane in 0..BLOCK {
+            let highlight = albedo[0].0[lane] * gloss.0[lane];
+            let (mut signs, mut sum) = (0.0, 0.0);
+            for rest in [r, g, b] {
+                let residual = highlight - rest.0[lane];
+                signs += if residual == 0.0 { 0.0 } else { 1.0f32.copysign(residual) };
+                sum += residual.abs();
+            }
+            loss.0[lane] = weight.0[lane] * sum;
+            gradient[0].0[lane] = weight.0[lane] * scale * signs * gloss.0[lane];
+        }
     }
 }

@@ -9,10 +9,11 @@ use crate::config::Config;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::Planes;
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
+use crate::simd::widened;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -316,18 +317,36 @@ pub fn layers(
 /// Loss and gradient by the diffuse albedo, with the shading known.
 fn diffuse_gradient(samples: &Samples, shading: &Planes, diffuse: &[f32]) -> (f64, Vec<f32>) {
     let scale = 1.0 / (3.0 * samples.len() as f32);
-    let (gradient, sum) = samples.taps.exchange::<3, 3>(diffuse, |i, albedo| {
-        let [r, g, b, specular]: [f32; 4] = shading.sample(i, 0);
-        let shading = [r, g, b];
-        let target: [f32; 3] = samples.target.sample(i, 0);
-        let weight = samples.weight.get(0, i);
-        let residual = |c: usize| albedo[c] * shading[c] + specular - target[c];
-        let residuals = [0, 1, 2].map(residual);
-        let signs = residuals.map(|r| if r == 0.0 { 0.0 } else { r.signum() });
-        let gradient = std::array::from_fn(|c| weight * scale * signs[c] * shading[c]);
-        (gradient, residuals.into_iter().map(|r| f64::from(weight * r.abs())).sum())
-    });
+    let value = |block: usize, albedo: &[Row; 3], gradient: &mut [Row; 3], loss: &mut Row| {
+        let (target, weight) = (samples.target.rows_of(block), samples.weight.rows_of(block));
+        diffuse_block(shading.rows_of(block), target, weight, scale, albedo, gradient, loss);
+    };
+    let (gradient, sum) = samples.taps.exchange::<3, 3>(diffuse, value);
     (sum * f64::from(scale), gradient)
+}
+
+widened! {
+    fn diffuse_block(
+        shading: &[Row; 4],
+        target: &[Row; 3],
+        weight: &[Row; 1],
+        scale: f32,
+        albedo: &[Row; 3],
+        gradient: &mut [Row; 3],
+        loss: &mut Row,
+    ) {
+        loss.0.fill(0.0);
+        for channel in 0..3 {
+            let (shading, specular) = (&shading[channel].0, &shading[3].0);
+            for lane in 0..BLOCK {
+                let model = albedo[channel].0[lane] * shading[lane] + specular[lane];
+                let residual = model - target[channel].0[lane];
+                let sign = if residual == 0.0 { 0.0 } else { 1.0f32.copysign(residual) };
+                loss.0[lane] += weight[0].0[lane] * residual.abs();
+                gradient[channel].0[lane] = weight[0].0[lane] * scale * sign * shading[lane];
+            }
+        }
+    }
 }
 
 pub(super) fn least_albedo(config: &Config) -> f32 {
