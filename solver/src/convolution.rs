@@ -70,15 +70,18 @@ widened! {
         for (tile, out) in whole.iter_mut().enumerate() {
             let mut sum = [0.0f32; TILE];
             for (line, weight) in lines {
-                let line: &[f32] = &line[tile * TILE..][..TILE];
-                sum.iter_mut().zip(line).for_each(|(sum, value)| *sum += weight * value);
+                let line = &line[tile * TILE..][..TILE];
+                for lane in 0..TILE {
+                    sum[lane] += weight * line[lane];
+                }
             }
             *out = sum;
         }
         rest.fill(0.0);
         for (line, weight) in lines {
-            let line = &line[done..];
-            rest.iter_mut().zip(line).for_each(|(sum, value)| *sum += weight * value);
+            for (sum, value) in rest.iter_mut().zip(&line[done..]) {
+                *sum += weight * value;
+            }
         }
     }
 }
@@ -87,14 +90,16 @@ widened! {
     /// Convolves a line with zeros on either side.
     fn horizontal(out: &mut [f32], padded: &[f32], kernel: &[f32], channels: usize) {
         let middle = (kernel.len() - 1) * channels;
-        let mut at = 0;
-        for out in out.chunks_mut(TILE) {
-            let from = |place: usize| &padded[place..][..out.len()];
+        for (tile, out) in out.chunks_mut(TILE).enumerate() {
+            let at = middle + tile * TILE;
             let mut sum = [0.0f32; TILE];
-            sum.iter_mut().zip(from(middle + at)).for_each(|(sum, value)| *sum = kernel[0] * value);
+            for (sum, value) in sum.iter_mut().zip(&padded[at..at + out.len()]) {
+                *sum = kernel[0] * value;
+            }
             for (distance, weight) in kernel.iter().enumerate().skip(1) {
                 let shift = distance * channels;
-                let (left, right) = (from(middle + at - shift), from(middle + at + shift));
+                let left = &padded[at - shift..][..out.len()];
+                let right = &padded[at + shift..][..out.len()];
                 if out.len() == TILE {
                     // A known length keeps the sums in registers.
                     let (left, right) = (&left[..TILE], &right[..TILE]);
@@ -108,7 +113,6 @@ widened! {
                 }
             }
             out.copy_from_slice(&sum[..out.len()]);
-            at += out.len();
         }
     }
 }

@@ -1,5 +1,8 @@
 //! Plain loops, compiled for wide vectors.
 
+// Bodies are `for` loops: a closure handed to the standard library may be compiled apart, without the
+// wide vectors.
+
 /// Defines a function whose body the compiler vectorises with AVX2 where the machine has it. Products
 /// and sums are rounded one by one on every machine (no contraction to fused operations), so that
 /// results do not depend on it.

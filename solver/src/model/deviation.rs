@@ -96,15 +96,16 @@ impl Deviation {
 widened! {
     /// t becomes range x tanh(t), accurate to about 1e-7 absolute.
     fn squash(values: &mut [f32], range: f32) {
-        let (whole, rest) = values.as_chunks_mut::<8>();
-        let tanh = |t: [f32; 8]| {
-            let e = cpu::exp(t.map(|t| 2.0 * t));
-            e.map(|e| range * (1.0 - 2.0 / (e + 1.0)))
-        };
-        whole.iter_mut().for_each(|values| *values = tanh(*values));
-        let mut last = [0.0; 8];
-        last[..rest.len()].copy_from_slice(rest);
-        rest.copy_from_slice(&tanh(last)[..rest.len()]);
+        for values in values.chunks_mut(8) {
+            let mut t = [0.0; 8];
+            for (t, value) in t.iter_mut().zip(&*values) {
+                *t = 2.0 * value;
+            }
+            let e = cpu::exp(t);
+            for (value, e) in values.iter_mut().zip(e) {
+                *value = range * (1.0 - 2.0 / (e + 1.0));
+            }
+        }
     }
 }
 

@@ -250,7 +250,9 @@ widened! {
         assert!(first + cell.len() <= BLOCK);
         for (lane, (cell, fraction)) in cell.iter().zip(fraction).enumerate() {
             let value = blend(surrounding(texels, size, *cell as usize), *fraction);
-            rows.iter_mut().zip(value).for_each(|(row, value)| row.0[first + lane] = value);
+            for (row, value) in rows.iter_mut().zip(value) {
+                row.0[first + lane] = value;
+            }
         }
     }
 }

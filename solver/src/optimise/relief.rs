@@ -380,7 +380,9 @@ widened! {
             let q = std::array::from_fn(|row| q[row].0[lane]);
             let colour = explained(&s, &q).map(|z| weight[0].0[lane] * z);
             let by = transposed(&s, colour);
-            (0..UNKNOWNS).for_each(|row| out[row].0[lane] = by[row]);
+            for row in 0..UNKNOWNS {
+                out[row].0[lane] = by[row];
+            }
         }
     }
 }
@@ -411,13 +413,17 @@ fn bending_penalty(bend: &[f32], size: usize, flatness: f32, smoothness: f32) ->
 
 widened! {
     fn scaled(out: &mut [f32], values: &[f32], factor: f32) {
-        out.iter_mut().zip(values).for_each(|(out, value)| *out = factor * value);
+        for (out, value) in out.iter_mut().zip(values) {
+            *out = factor * value;
+        }
     }
 }
 
 widened! {
     fn add_difference(sum: &mut [f32], a: &[f32], b: &[f32], factor: f32) {
-        sum.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += factor * (a - b));
+        for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
+            *sum += factor * (a - b);
+        }
     }
 }
 
@@ -434,7 +440,9 @@ fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
 
 widened! {
     fn add_scaled_part(sum: &mut [f32], values: &[f32], factor: f32) {
-        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
     }
 }
 
@@ -450,7 +458,9 @@ widened! {
         let mut lanes = [0.0f64; 8];
         let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
         for (a, b) in a.iter().zip(b) {
-            (0..8).for_each(|lane| lanes[lane] += f64::from(a[lane]) * f64::from(b[lane]));
+            for lane in 0..8 {
+                lanes[lane] += f64::from(a[lane]) * f64::from(b[lane]);
+            }
         }
         let rest = a_rest.iter().zip(b_rest).map(|(a, b)| f64::from(*a) * f64::from(*b));
         lanes.iter().sum::<f64>() + rest.sum::<f64>()

@@ -384,7 +384,9 @@ fn bounced(bounces: &[Bounces], rows: &[f32], cells: usize) -> Vec<f32> {
 
 widened! {
     fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
-        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
     }
 }
 
@@ -396,7 +398,9 @@ widened! {
         let parts = light.map(|light| light[..row.len()].as_chunks::<LANES>());
         for (at, row) in whole.iter().enumerate() {
             for (lanes, (light, _)) in lanes.iter_mut().zip(parts) {
-                (0..LANES).for_each(|lane| lanes[lane] += row[lane] * light[at][lane]);
+                for lane in 0..LANES {
+                    lanes[lane] += row[lane] * light[at][lane];
+                }
             }
         }
         std::array::from_fn(|c| {
