@@ -41,8 +41,12 @@ test: build
 	cargo test --release --workspace --quiet
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile
 
-# Heavier than a test: what the cheap tiers of skin are worth, with docs/subsurface.md written anew.
+# Heavier than a test: the solver's kernels and steps (UNSHADE_TORCH names a Python with PyTorch, to
+# stand beside), and what the cheap tiers of skin are worth; docs/performance.md and docs/subsurface.md
+# are written anew.
 bench: build
+	@mkdir -p runs/bench
+	$(BIN)/unshade bench --json -o runs/bench/performance.json --markdown docs/performance.md
 	$(BIN)/python synth/bench/subsurface.py -o runs/bench/subsurface
 
 lint: build

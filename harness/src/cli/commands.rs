@@ -8,7 +8,9 @@ use std::time::Instant;
 use solver::atomic;
 
 use super::progress::Progress;
-use super::{CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, doctor};
+use super::{
+    CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench, doctor,
+};
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
 use crate::score;
@@ -37,6 +39,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             report::write_results(&runs, &out, &words.join(" "))?;
         }
         Verb::Compare(arguments) => return compare_run(&arguments),
+        Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)

@@ -1,7 +1,6 @@
 //! The stages of the optimisation. Each owns its optimisers and what stays fixed while it runs;
 //! another update of the state is another stage.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
@@ -13,7 +12,8 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::model::texture::{interleave, resample};
+use crate::model::texture::{interleave, part, resample};
+use crate::simd::widened;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -106,8 +106,9 @@ impl<'a> WarmUp<'a> {
         let (samples, taps) = (self.samples, &self.samples.taps);
         let joint =
             backend.joint(&state.networks, samples, &self.directions, &state.albedo(samples));
-        let mut diffuse = taps.gather::<3>(&joint.albedo, 0);
-        let specular = taps.gather::<1>(&joint.albedo, 3);
+        let by_albedo = taps.gather::<ALBEDOS>(&joint.albedo, 0);
+        let mut diffuse = part::<ALBEDOS, 3>(&by_albedo, 0);
+        let specular = part::<ALBEDOS, 1>(&by_albedo, 3);
         let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut diffuse);
         WarmUpGradient { loss: joint.loss + prior, networks: joint.networks, diffuse, specular }
     }
@@ -195,8 +196,8 @@ impl<'a> Relief<'a> {
             backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
         let by_specular = taps.gather::<1>(&gradient, 6);
         let gradient = scale.adjoint(samples, &bent, &gradient);
-        let by_sharp = taps.gather::<3>(&gradient, 0);
-        let by_blurred = taps.gather::<3>(&gradient, 3);
+        let gathered = taps.gather::<6>(&gradient, 0);
+        let (by_sharp, by_blurred) = (part::<6, 3>(&gathered, 0), part::<6, 3>(&gathered, 3));
         (loss, self.deviation.adjoint(&bend, &by_sharp, &by_blurred), by_specular)
     }
 }
@@ -270,9 +271,7 @@ impl<'a> Diffuse<'a> {
 
     /// Loss and its gradient by the diffuse albedo.
     pub(super) fn gradient(&self, state: &State) -> (f64, Vec<f32>) {
-        let albedo = self.samples.taps.sample::<3>(&state.diffuse);
-        let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
-        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
+        let (loss, mut by_diffuse) = diffuse_gradient(self.samples, &self.shading, &state.diffuse);
         let prior = prior(&state.diffuse, state.size, self.prior, &mut by_diffuse);
         (loss + prior, by_diffuse)
     }
@@ -315,32 +314,41 @@ pub fn layers(
     })
 }
 
-/// Loss and gradient by the sampled diffuse albedo, with the shading known.
-fn diffuse_gradient(samples: &Samples, shading: &Planes, albedo: &Planes) -> (f64, Planes) {
+/// Loss and gradient by the diffuse albedo, with the shading known.
+fn diffuse_gradient(samples: &Samples, shading: &Planes, diffuse: &[f32]) -> (f64, Vec<f32>) {
     let scale = 1.0 / (3.0 * samples.len() as f32);
-    let mut gradient = Planes::new(3, samples.len());
-    let block = |(block, out): (usize, &mut [Row])| {
-        let (shading, albedo) = (shading.block(block), albedo.block(block));
-        let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0]);
-        let mut loss = 0.0f64;
-        for lane in 0..BLOCK {
-            let specular = shading[3].0[lane];
-            let weight = weight.0[lane];
-            for (channel, out) in out.iter_mut().enumerate() {
-                let diffuse = shading[channel].0[lane];
-                let model = albedo[channel].0[lane] * diffuse + specular;
-                let residual = model - target[channel].0[lane];
-                let sign = if residual == 0.0 { 0.0 } else { residual.signum() };
-                loss += f64::from(weight * residual.abs());
-                out.0[lane] = weight * scale * sign * diffuse;
-            }
-        }
-        loss
+    let value = |block: usize, albedo: &[Row; 3], gradient: &mut [Row; 3], loss: &mut Row| {
+        let (target, weight) = (samples.target.rows_of(block), samples.weight.rows_of(block));
+        diffuse_block(shading.rows_of(block), target, weight, scale, albedo, gradient, loss);
     };
-    let losses: Vec<f64> = gradient.data_mut().par_chunks_mut(3).enumerate().map(block).collect();
-    (losses.iter().sum::<f64>() * f64::from(scale), gradient)
+    let (gradient, sum) = samples.taps.exchange::<3, 3>(diffuse, value);
+    (sum * f64::from(scale), gradient)
 }
 
-fn least_albedo(config: &Config) -> f32 {
+widened! {
+    fn diffuse_block(
+        shading: &[Row; 4],
+        target: &[Row; 3],
+        weight: &[Row; 1],
+        scale: f32,
+        albedo: &[Row; 3],
+        gradient: &mut [Row; 3],
+        loss: &mut Row,
+    ) {
+        loss.0.fill(0.0);
+        for channel in 0..3 {
+            let (shading, specular) = (&shading[channel].0, &shading[3].0);
+            for lane in 0..BLOCK {
+                let model = albedo[channel].0[lane] * shading[lane] + specular[lane];
+                let residual = model - target[channel].0[lane];
+                let sign = if residual == 0.0 { 0.0 } else { 1.0f32.copysign(residual) };
+                loss.0[lane] += weight[0].0[lane] * residual.abs();
+                gradient[channel].0[lane] = weight[0].0[lane] * scale * sign * shading[lane];
+            }
+        }
+    }
+}
+
+pub(super) fn least_albedo(config: &Config) -> f32 {
     if config.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
 }
