@@ -45,6 +45,16 @@ impl Taps {
         self.size
     }
 
+    /// Upper left texel of every sample, row-major, ascending.
+    pub fn cells(&self) -> &[u32] {
+        &self.cell
+    }
+
+    /// Of every sample, its place between that texel's centre and the next ones', right and down.
+    pub fn fractions(&self) -> &[[f32; 2]] {
+        &self.fraction
+    }
+
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
         let (texels, _) = texture.as_chunks::<C>();

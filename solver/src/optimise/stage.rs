@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use crate::backend::resident::{Job, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
@@ -59,6 +60,14 @@ pub trait Stage {
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
     /// For checkpoints: with the state, all that is needed to go on with the same bits.
     fn memory(&mut self) -> Memory<'_>;
+    /// For a device that may take the stage in; nothing if there is no program for it.
+    fn job(&self) -> Option<Job<'_>> {
+        None
+    }
+    /// What moves, in the order that the job says.
+    fn variables<'a>(&'a mut self, _state: &'a mut State) -> Vec<Variable<'a>> {
+        vec![]
+    }
 }
 
 /// What a stage keeps from step to step besides the state, in a fixed order.
@@ -82,6 +91,8 @@ pub struct WarmUp<'a> {
     config: &'a Config,
     samples: &'a Samples,
     directions: Planes,
+    /// Of the networks.
+    shape: Vec<usize>,
     networks: Adam,
     diffuse: Adam,
     specular: Adam,
@@ -95,6 +106,7 @@ impl<'a> WarmUp<'a> {
             config,
             samples,
             directions: DirectionScale::from(&config.networks).directions(samples, None),
+            shape: state.networks.shape.clone(),
             networks: Adam::new(adam, w.network_rate, state.networks.parameters.len()),
             diffuse: Adam::new(adam, w.diffuse_rate, state.diffuse.len()),
             specular: Adam::new(adam, w.specular_rate, state.specular.len()),
@@ -131,17 +143,32 @@ impl Stage for WarmUp<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let gradient = self.gradient(state, backend);
-        let free = f32::NEG_INFINITY;
-        let least = least_albedo(self.config);
-        self.networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
-        self.diffuse.step(&mut state.diffuse, &gradient.diffuse, share, least);
-        self.specular.step(&mut state.specular, &gradient.specular, share, least);
-        gradient.loss
+        let WarmUpGradient { loss, networks, diffuse, specular } = self.gradient(state, backend);
+        let gradients = [networks, diffuse, specular];
+        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, share));
+        loss
     }
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.networks, &mut self.diffuse, &mut self.specular])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        Some(Job::Joint {
+            samples: self.samples,
+            directions: &self.directions,
+            shape: &self.shape,
+            prior: self.config.warm_up.prior,
+        })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let (free, least) = (f32::NEG_INFINITY, least_albedo(self.config));
+        vec![
+            Variable::new(&mut state.networks.parameters, &mut self.networks, free),
+            Variable::new(&mut state.diffuse, &mut self.diffuse, least),
+            Variable::new(&mut state.specular, &mut self.specular, least),
+        ]
     }
 }
 
@@ -153,6 +180,8 @@ pub struct Relief<'a> {
     name: String,
     light: Planes,
     albedo: Planes,
+    /// The diffuse layer and F S_s, if the normals stay: then no network is evaluated again.
+    shading: Option<Planes>,
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -168,13 +197,27 @@ impl<'a> Relief<'a> {
         round: usize,
     ) -> Self {
         let (f, adam) = (&config.fine_tuning, &config.adam);
+        let light = backend.light(&state.networks, &samples.position);
+        let albedo = state.albedo(samples);
+        let known = || {
+            let bent = deviation.textures(&state.deviation).sample(&state.specular, samples);
+            let directions = deviation.scale.directions(samples, Some(&bent));
+            let shading = backend.shade(&state.networks, &light, &directions);
+            Planes::from_fn(samples.len(), |i| {
+                let ([diffuse, specular], [r, g, b]) = (shading.sample(i, 0), albedo.sample(i, 0));
+                let highlight = samples.fresnel.get(0, i) * specular;
+                [r * diffuse, g * diffuse, b * diffuse, highlight]
+            })
+        };
+        let shading = (f.deviation_rate == 0.0).then(known);
         Self {
             config,
             samples,
             deviation,
             name: format!("normals and specular {round}"),
-            light: backend.light(&state.networks, &samples.position),
-            albedo: state.albedo(samples),
+            shading,
+            light,
+            albedo,
             by_deviation: Adam::new(adam, f.deviation_rate, state.deviation.len()),
             by_specular: Adam::new(adam, f.specular_rate, state.specular.len()),
         }
@@ -211,8 +254,13 @@ impl Stage for Relief<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         let least = least_albedo(self.config);
+        if let Some(shading) = &self.shading {
+            let (loss, by_specular) = layer_gradient::<1>(self.samples, shading, &state.specular);
+            self.by_specular.step(&mut state.specular, &by_specular, share, least);
+            return loss;
+        }
+        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
         self.by_specular.step(&mut state.specular, &by_specular, share, least);
         loss
@@ -220,6 +268,16 @@ impl Stage for Relief<'_> {
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_deviation, &mut self.by_specular])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        let shading = self.shading.as_ref()?;
+        Some(Job::Layer { samples: self.samples, shading, channels: 1, prior: 0.0 })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let least = least_albedo(self.config);
+        vec![Variable::new(&mut state.specular, &mut self.by_specular, least)]
     }
 }
 
@@ -270,9 +328,8 @@ impl<'a> Diffuse<'a> {
 
     /// Loss and its gradient by the diffuse albedo.
     pub(super) fn gradient(&self, state: &State) -> (f64, Vec<f32>) {
-        let albedo = self.samples.taps.sample::<3>(&state.diffuse);
-        let (loss, gradient) = diffuse_gradient(self.samples, &self.shading, &albedo);
-        let mut by_diffuse = self.samples.taps.gather::<3>(&gradient, 0);
+        let (loss, mut by_diffuse) =
+            layer_gradient::<3>(self.samples, &self.shading, &state.diffuse);
         let prior = prior(&state.diffuse, state.size, self.prior, &mut by_diffuse);
         (loss + prior, by_diffuse)
     }
@@ -296,6 +353,16 @@ impl Stage for Diffuse<'_> {
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_diffuse])
     }
+
+    fn job(&self) -> Option<Job<'_>> {
+        let Self { samples, shading, prior, .. } = self;
+        Some(Job::Layer { samples, shading, channels: 3, prior: *prior })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let least = least_albedo(self.config);
+        vec![Variable::new(&mut state.diffuse, &mut self.by_diffuse, least)]
+    }
 }
 
 /// The diffuse shading S_d and the specular layer F A_s S_s at every sample.
@@ -315,30 +382,36 @@ pub fn layers(
     })
 }
 
-/// Loss and gradient by the sampled diffuse albedo, with the shading known.
-fn diffuse_gradient(samples: &Samples, shading: &Planes, albedo: &Planes) -> (f64, Planes) {
+/// Loss and gradient by one of the albedos, with all shading known: of `shading`'s rows (diffuse R, G,
+/// B, specular), those of the albedo's own `C` channels are multiplied with it, the others are added.
+fn layer_gradient<const C: usize>(
+    samples: &Samples,
+    shading: &Planes,
+    texture: &[f32],
+) -> (f64, Vec<f32>) {
+    let albedo = samples.taps.sample::<C>(texture);
     let scale = 1.0 / (3.0 * samples.len() as f32);
-    let mut gradient = Planes::new(3, samples.len());
+    let mut gradient = Planes::new(C, samples.len());
     let block = |(block, out): (usize, &mut [Row])| {
         let (shading, albedo) = (shading.block(block), albedo.block(block));
         let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0]);
         let mut loss = 0.0f64;
         for lane in 0..BLOCK {
-            let specular = shading[3].0[lane];
             let weight = weight.0[lane];
-            for (channel, out) in out.iter_mut().enumerate() {
-                let diffuse = shading[channel].0[lane];
-                let model = albedo[channel].0[lane] * diffuse + specular;
+            for channel in 0..3 {
+                let (own, other) = if C == 3 { (channel, 3) } else { (3, channel) };
+                let slope = shading[own].0[lane];
+                let model = albedo[channel % C].0[lane] * slope + shading[other].0[lane];
                 let residual = model - target[channel].0[lane];
                 let sign = if residual == 0.0 { 0.0 } else { residual.signum() };
                 loss += f64::from(weight * residual.abs());
-                out.0[lane] = weight * scale * sign * diffuse;
+                out[channel % C].0[lane] += weight * scale * sign * slope;
             }
         }
         loss
     };
-    let losses: Vec<f64> = gradient.data_mut().par_chunks_mut(3).enumerate().map(block).collect();
-    (losses.iter().sum::<f64>() * f64::from(scale), gradient)
+    let losses: Vec<f64> = gradient.data_mut().par_chunks_mut(C).enumerate().map(block).collect();
+    (losses.iter().sum::<f64>() * f64::from(scale), samples.taps.gather::<C>(&gradient, 0))
 }
 
 fn least_albedo(config: &Config) -> f32 {

@@ -1,0 +1,59 @@
+//! One of the albedos under known shading.
+
+use super::Gpu;
+use super::kernel::{Pass, THREADS};
+use super::pieces::{DeviceTaps, Pieces, pixels};
+use super::program::{LossParts, Moved, Program, prior};
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+
+/// The diffuse stages, the refinement, and the specular stages under normals that stay.
+pub(super) fn program<'a>(
+    gpu: &'a Gpu,
+    samples: &Samples,
+    shading: &Planes,
+    channels: usize,
+    weight: f32,
+) -> Program<'a> {
+    let device = &gpu.device;
+    let pieces = Pieces::new(samples.len(), ALL);
+    let taps = DeviceTaps::new(device, &pieces, &samples.taps);
+    let size = samples.taps.size();
+    let albedo = Moved::new(device, "albedo", channels * size * size);
+    let shading = pieces.upload(device, "shading", &[shading]);
+    let pixels = pixels(device, &pieces, samples);
+    let by_albedo = pieces.zeros(device, "albedo gradients", channels);
+    let groups: Vec<usize> = pieces.0.iter().map(|piece| piece.len().div_ceil(THREADS)).collect();
+    let losses = device.floats("partial losses", groups.iter().sum());
+
+    let constants = [("CHANNELS", channels as u32)];
+    let source = include_str!("wgsl/layer.wgsl");
+    let kernel = device.kernel("albedo", source, &constants, "urrrrrww");
+    let scale = 1.0 / (3.0 * samples.len() as f32);
+    let mut first = 0;
+    let mut passes = vec![];
+    for (at, (piece, groups)) in pieces.0.iter().zip(&groups).enumerate() {
+        let words = [piece.len() as u32, size as u32, first as u32, scale.to_bits()];
+        let buffers = [
+            &device.uniform(&words),
+            &taps.cell[at],
+            &taps.fraction[at],
+            &albedo.values,
+            &shading[at],
+            &pixels[at],
+            &by_albedo[at],
+            &losses,
+        ];
+        passes.push(Pass::new(device, &kernel, &buffers, *groups));
+        first += groups;
+    }
+    let (prior_pass, prior_sums) = prior(device, &albedo, size, weight).unzip();
+    let add = prior_pass.is_some();
+    passes.extend(prior_pass);
+    passes.extend(taps.gather(device, &by_albedo, [0, channels], &albedo.gradient, channels, add));
+    let loss = LossParts { samples: (losses, first), prior: prior_sums };
+    Program::new(gpu, passes, &loss, vec![albedo])
+}
+
+/// Widest planes, rows.
+const ALL: usize = 5;

@@ -1,0 +1,176 @@
+//! Graphics processors, through wgpu's compute shaders (Vulkan, Metal, DirectX 12).
+//!
+//! Warm-ups (starts, too), the networks' fine-tuning and the albedo's refinement run on the device from
+//! end to end, see [`super::resident`]; explicit transport and heights ask it for shading and gradients
+//! of the networks only. Layouts are those of the processor: planes of blocks of 256 samples, texture
+//! gradients by gather in texel order, sums in a fixed order. The results of one adapter and driver are
+//! therefore the same every time, and close to the processor's, whose rounding differs.
+//!
+//! A device that fails says so in one line, and the processor goes on.
+
+mod adapter;
+mod bending;
+mod device;
+mod joint;
+mod kernel;
+mod layer;
+mod layout;
+mod pieces;
+mod program;
+
+use std::sync::OnceLock;
+
+pub use adapter::{Adapter, VARIABLE, adapters};
+pub use device::Timings;
+
+use self::device::Device;
+use self::layout::Layout;
+use super::cpu::Cpu;
+use super::resident::{DeviceError, Job, Resident};
+use super::{Backend, BackendError, JointGradient};
+use crate::model::networks::Networks;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+
+/// An adapter that computes.
+pub struct Gpu {
+    device: Device,
+    name: String,
+    /// Goes on if the device fails.
+    cpu: Cpu,
+    /// Why it did.
+    failure: OnceLock<DeviceError>,
+}
+
+impl Gpu {
+    /// On this adapter.
+    pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
+        Self::with(adapter, false)
+    }
+
+    /// Measures the time of every pass on the device, which costs time; see [`Gpu::timings`].
+    pub fn timed(adapter: &Adapter) -> Result<Self, BackendError> {
+        Self::with(adapter, true)
+    }
+
+    fn with(adapter: &Adapter, timed: bool) -> Result<Self, BackendError> {
+        let refused = |error: DeviceError| BackendError::Refused {
+            name: adapter.name.clone(),
+            reason: error.to_string(),
+        };
+        let device = Device::open(&adapter.adapter, timed).map_err(refused)?;
+        let Adapter { name, api, driver, .. } = adapter;
+        let name = format!("gpu, {name}, {api}, {driver}");
+        Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
+    }
+
+    /// Milliseconds and dispatches of every pass so far; nothing if they are not timed, or the adapter
+    /// has no clock.
+    pub fn timings(&self) -> Option<Timings> {
+        self.device.timings()
+    }
+
+    /// Gives the device back. What still wants it goes on on the processor.
+    pub fn destroy(&self) {
+        self.device.device.destroy();
+    }
+
+    /// `run` on the device, or `otherwise` on the processor, whose answers are as good.
+    fn either<T>(
+        &self,
+        run: impl FnOnce(&Device) -> Result<T, DeviceError>,
+        otherwise: impl FnOnce(&Cpu) -> T,
+    ) -> T {
+        if self.failure.get().is_none() {
+            match run(&self.device) {
+                Ok(result) => return result,
+                Err(error) => self.falls(&error),
+            }
+        }
+        otherwise(&self.cpu)
+    }
+
+    fn falls(&self, error: &DeviceError) {
+        if self.failure.set(error.clone()).is_ok() {
+            tracing::warn!("{}: {error}; the rest runs on {}", self.name, self.cpu.name());
+        }
+    }
+
+    /// Whether the kernel of the joint gradient fits the adapter's workgroups.
+    fn fits(&self, layout: &Layout) -> bool {
+        let most = self.device.device.limits().max_compute_workgroup_storage_size;
+        layout.workgroup_bytes() <= most as usize
+    }
+}
+
+impl Backend for Gpu {
+    fn name(&self) -> String {
+        match self.failure.get() {
+            Some(error) => format!("{}; it failed ({error}); then {}", self.name, self.cpu.name()),
+            None => self.name.clone(),
+        }
+    }
+
+    fn joint(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> JointGradient {
+        let layout = Layout::new(&networks.shape);
+        if !self.fits(&layout) {
+            return self.cpu.joint(networks, samples, directions, albedo);
+        }
+        self.either(
+            |device| joint::joint(device, &layout, networks, samples, directions, albedo),
+            |cpu| cpu.joint(networks, samples, directions, albedo),
+        )
+    }
+
+    fn light(&self, networks: &Networks, position: &Planes) -> Planes {
+        self.either(
+            |device| bending::light(device, networks, position),
+            |cpu| cpu.light(networks, position),
+        )
+    }
+
+    fn bend(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        light: &Planes,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> (f64, Planes) {
+        self.either(
+            |device| bending::bend(device, networks, samples, light, directions, albedo),
+            |cpu| cpu.bend(networks, samples, light, directions, albedo),
+        )
+    }
+
+    fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {
+        self.either(
+            |device| bending::shade(device, networks, light, directions),
+            |cpu| cpu.shade(networks, light, directions),
+        )
+    }
+
+    fn resident(&self, job: &Job) -> Option<Box<dyn Resident + '_>> {
+        if self.failure.get().is_some() {
+            return None;
+        }
+        match job {
+            Job::Joint { samples, directions, shape, prior } => {
+                let layout = Layout::new(shape);
+                if !self.fits(&layout) {
+                    return None;
+                }
+                Some(Box::new(joint::program(self, layout, samples, directions, *prior)))
+            }
+            Job::Layer { samples, shading, channels, prior } => {
+                Some(Box::new(layer::program(self, samples, shading, *channels, *prior)))
+            }
+        }
+    }
+}

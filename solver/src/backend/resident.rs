@@ -1,0 +1,78 @@
+//! Stages that run on a device from end to end: samples, textures, gradients and moments stay there,
+//! many steps are submitted at once, and the host hears of the losses alone.
+//!
+//! The host keeps its own copy of everything that moves, as it was at the last
+//! [`Resident::download`]: that is what checkpoints are made of, and where the processor goes on
+//! should the device fail.
+
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::optimise::adam::Adam;
+
+/// A stage as a device may take it in: all that stays as it is while the stage runs.
+pub enum Job<'a> {
+    /// Moves networks, diffuse and specular albedo.
+    Joint {
+        /// The pixels.
+        samples: &'a Samples,
+        /// Inputs of the directional networks.
+        directions: &'a Planes,
+        /// Of the networks, see [`crate::model::networks::Networks::shape`].
+        shape: &'a [usize],
+        /// Weight of the albedo prior.
+        prior: f32,
+    },
+    /// Moves one of the albedos under known shading.
+    Layer {
+        /// The pixels.
+        samples: &'a Samples,
+        /// Diffuse R, G, B, then specular: of the albedo's own layer the shading, of the other all.
+        shading: &'a Planes,
+        /// Of the albedo: 3 for the diffuse one, 1 for the specular.
+        channels: usize,
+        /// Weight of the albedo prior.
+        prior: f32,
+    },
+}
+
+/// Something that a stage moves, with its optimiser.
+pub struct Variable<'a> {
+    /// The values.
+    pub values: &'a mut Vec<f32>,
+    /// Rate, step count and moments.
+    pub adam: &'a mut Adam,
+    /// No value falls below this.
+    pub least: f32,
+}
+
+impl<'a> Variable<'a> {
+    /// Of these values.
+    pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, least: f32) -> Self {
+        Self { values, adam, least }
+    }
+
+    /// A step on the host.
+    pub fn step(&mut self, gradient: &[f32], share: f32) {
+        self.adam.step(self.values, gradient, share, self.least);
+    }
+}
+
+/// A stage on a device. Its variables come in the order that [`Job`] names.
+pub trait Resident {
+    /// Values, moments and step counts of the host go to the device.
+    fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError>;
+
+    /// A step for each share of the learning rates, [`BATCH`] at most; the losses before each.
+    fn steps(&mut self, shares: &[f32]) -> Result<Vec<f64>, DeviceError>;
+
+    /// The reverse of [`Resident::upload`]; on an error the host's copies are as they were.
+    fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
+}
+
+/// Most steps between two submissions.
+pub const BATCH: usize = 25;
+
+/// A device that is lost, out of memory, or refused what it was told to do.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct DeviceError(pub String);

@@ -1,0 +1,94 @@
+//! Stages that a device takes in whole, against the same stages on the processor.
+
+use solver::Config;
+use solver::backend::Backend;
+use solver::backend::cpu::Cpu;
+use solver::model::deviation::Deviation;
+use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
+
+use super::scene::problem;
+
+/// Steps that are compared.
+const STEPS: usize = 50;
+/// Of every loss, relative.
+const TOLERANCE: f64 = 1e-4;
+/// Of all values of a kind together: the norm of the difference over that of their way. Adam makes a
+/// whole step of the faintest gradient, whose sign is rounding.
+const WAY: f64 = 0.01;
+
+/// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead.
+fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, State) {
+    let shares: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
+    let Some(mut program) = backend.resident(&stage.job().unwrap()) else {
+        let losses = shares.iter().map(|share| stage.step(&mut state, backend, *share)).collect();
+        return (losses, state);
+    };
+    program.upload(&stage.variables(&mut state)).unwrap();
+    let mut losses = vec![];
+    // By way of the host in the middle, as a checkpoint would have it.
+    for part in [&shares[..1], &shares[1..20], &shares[20..27], &shares[27..]] {
+        losses.extend(program.steps(part).unwrap());
+        program.download(&mut stage.variables(&mut state)).unwrap();
+        program.upload(&stage.variables(&mut state)).unwrap();
+    }
+    (losses, state)
+}
+
+/// `new` makes the stage with the help of a backend.
+fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Backend) -> S) {
+    let cpu = Cpu::new();
+    assert!(backend.resident(&new(backend).job().unwrap()).is_some(), "{}", backend.name());
+    let (losses, state) = steps(backend, &mut new(backend), start.clone());
+    let (expected, reference) = steps(&cpu, &mut new(&cpu), start.clone());
+    for (step, (loss, expected)) in losses.iter().zip(&expected).enumerate() {
+        let off = loss / expected - 1.0;
+        assert!(off.abs() < TOLERANCE, "step {step}: {loss} instead of {expected}");
+    }
+    assert!(expected[STEPS - 1] < 0.995 * expected[0], "nothing was learnt: {expected:?}");
+    let mut moved = 0;
+    for (what, field) in FIELDS {
+        let (start, state, reference) = (field(start), field(&state), field(&reference));
+        let distance = |a: &[f32], b: &[f32]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        let way = distance(reference, start);
+        let off = distance(state, reference);
+        assert!(off <= WAY * way, "{what}: {off} of {way}");
+        moved += usize::from(way > 0.0);
+    }
+    assert!(moved > 0);
+}
+
+type Field = fn(&State) -> &[f32];
+
+const FIELDS: [(&str, Field); 4] = [
+    ("networks", |state| &state.networks.parameters),
+    ("diffuse", |state| &state.diffuse),
+    ("specular", |state| &state.specular),
+    ("deviation", |state| &state.deviation),
+];
+
+pub fn warm_up(backend: &dyn Backend) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    compare(backend, &state, |_| WarmUp::new(&config, &samples, &state));
+}
+
+pub fn diffuse(backend: &dyn Backend) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    let deviation = Deviation::new(&config, state.size);
+    compare(backend, &state, |backend| {
+        Diffuse::new(&config, &samples, &deviation, &state, backend, 1)
+    });
+}
+
+pub fn specular(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.fine_tuning.specular_rate = 1e-3;
+    let (samples, state) = problem(&config);
+    let deviation = Deviation::new(&config, state.size);
+    compare(backend, &state, |backend| {
+        Relief::new(&config, &samples, &deviation, &state, backend, 1)
+    });
+}
