@@ -5,6 +5,8 @@
 //! [`Resident::download`]: that is what checkpoints are made of, and where the processor goes on
 //! should the device fail.
 
+use crate::model::deviation::Deviation;
+use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::optimise::adam::Adam;
@@ -17,7 +19,7 @@ pub enum Job<'a> {
         samples: &'a Samples,
         /// Inputs of the directional networks.
         directions: &'a Planes,
-        /// Of the networks, see [`crate::model::networks::Networks::shape`].
+        /// Of the networks, see [`Networks::shape`].
         shape: &'a [usize],
         /// Weight of the albedo prior.
         prior: f32,
@@ -33,6 +35,23 @@ pub enum Job<'a> {
         /// Weight of the albedo prior.
         prior: f32,
     },
+    /// Moves deviation and specular albedo under frozen networks.
+    Relief(ReliefJob<'a>),
+}
+
+/// See [`Job::Relief`].
+#[derive(Clone, Copy)]
+pub struct ReliefJob<'a> {
+    /// The pixels.
+    pub samples: &'a Samples,
+    /// From the deviation texture to directions.
+    pub deviation: &'a Deviation,
+    /// Frozen.
+    pub networks: &'a Networks,
+    /// L(p).
+    pub light: &'a Planes,
+    /// Sampled albedos, of which the diffuse one stays.
+    pub albedo: &'a Planes,
 }
 
 /// Something that a stage moves, with its optimiser.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use crate::backend::resident::{Job, Variable};
+use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
@@ -178,6 +178,7 @@ pub struct Relief<'a> {
     samples: &'a Samples,
     deviation: &'a Deviation,
     name: String,
+    networks: Networks,
     light: Planes,
     albedo: Planes,
     /// The diffuse layer and F S_s, if the normals stay: then no network is evaluated again.
@@ -216,6 +217,7 @@ impl<'a> Relief<'a> {
             deviation,
             name: format!("normals and specular {round}"),
             shading,
+            networks: state.networks.clone(),
             light,
             albedo,
             by_deviation: Adam::new(adam, f.deviation_rate, state.deviation.len()),
@@ -271,13 +273,27 @@ impl Stage for Relief<'_> {
     }
 
     fn job(&self) -> Option<Job<'_>> {
-        let shading = self.shading.as_ref()?;
-        Some(Job::Layer { samples: self.samples, shading, channels: 1, prior: 0.0 })
+        let samples = self.samples;
+        Some(match &self.shading {
+            Some(shading) => Job::Layer { samples, shading, channels: 1, prior: 0.0 },
+            None => Job::Relief(ReliefJob {
+                samples,
+                deviation: self.deviation,
+                networks: &self.networks,
+                light: &self.light,
+                albedo: &self.albedo,
+            }),
+        })
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
         let least = least_albedo(self.config);
-        vec![Variable::new(&mut state.specular, &mut self.by_specular, least)]
+        let specular = Variable::new(&mut state.specular, &mut self.by_specular, least);
+        let (bend, free) = (&mut self.by_deviation, f32::NEG_INFINITY);
+        match &self.shading {
+            Some(_) => vec![specular],
+            None => vec![Variable::new(&mut state.deviation, bend, free), specular],
+        }
     }
 }
 

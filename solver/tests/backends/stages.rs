@@ -83,6 +83,24 @@ pub fn diffuse(backend: &dyn Backend) {
     });
 }
 
+pub fn relief(backend: &dyn Backend) {
+    let mut config = Config::preset("paper").unwrap();
+    config.fine_tuning.deviation_blur = 0.03;
+    check_relief(backend, &config);
+    config.fine_tuning.deviation_smoothing = 0.03;
+    config.fine_tuning.deviation_extent = 0.1;
+    check_relief(backend, &config);
+}
+
+fn check_relief(backend: &dyn Backend, config: &Config) {
+    let (samples, mut state) = problem(config);
+    state.deviation.iter_mut().enumerate().for_each(|(i, t)| *t = 0.1 * (i as f32 * 0.37).sin());
+    let deviation = Deviation::new(config, state.size);
+    compare(backend, &state, |backend| {
+        Relief::new(config, &samples, &deviation, &state, backend, 1)
+    });
+}
+
 pub fn specular(backend: &dyn Backend) {
     let mut config = Config::default();
     config.fine_tuning.specular_rate = 1e-3;

@@ -58,7 +58,67 @@ fn evaluated(
     Ok(pieces.planes(rows, &device.read(&out.iter().collect::<Vec<_>>())?))
 }
 
-/// Loss, and gradients by directions and specular albedo.
+/// What the kernel of bent shading reads and writes besides weights, directions and albedos.
+pub(super) struct Bending {
+    pub pieces: Pieces,
+    light: Vec<wgpu::Buffer>,
+    pixels: Vec<wgpu::Buffer>,
+    /// [`BENT`] rows.
+    pub gradient: Vec<wgpu::Buffer>,
+    pub losses: wgpu::Buffer,
+    /// Of the losses.
+    pub groups: usize,
+    scale: f32,
+}
+
+impl Bending {
+    pub fn new(device: &Device, pieces: Pieces, samples: &Samples, light: &Planes) -> Self {
+        let groups = pieces.0.iter().map(|piece| piece.len().div_ceil(TILE)).sum();
+        Self {
+            light: pieces.upload(device, "light", &[light]),
+            pixels: pixels(device, &pieces, samples),
+            gradient: pieces.zeros(device, "gradient", BENT),
+            losses: device.floats("partial losses", groups),
+            groups,
+            scale: 1.0 / (3.0 * samples.len() as f32),
+            pieces,
+        }
+    }
+
+    /// Loss, and gradients by directions and specular albedo.
+    pub fn passes(
+        &self,
+        device: &Device,
+        layout: &Layout,
+        weights: &wgpu::Buffer,
+        directions: &[wgpu::Buffer],
+        albedo: &[wgpu::Buffer],
+    ) -> Vec<Pass> {
+        let source = [include_str!("wgsl/pixel.wgsl"), include_str!("wgsl/bend.wgsl")].concat();
+        let kernel = layout.kernel(device, "bent shading", &source, &[], "unrrrrww");
+        let mut first = 0;
+        let mut passes = vec![];
+        for (at, piece) in self.pieces.0.iter().enumerate() {
+            let words = [piece.len() as u32, first as u32, self.scale.to_bits()];
+            let buffers = [
+                &device.uniform(&words),
+                weights,
+                &directions[at],
+                &self.light[at],
+                &self.pixels[at],
+                &albedo[at],
+                &self.gradient[at],
+                &self.losses,
+            ];
+            let groups = piece.len().div_ceil(TILE);
+            passes.push(Pass::new(device, &kernel, &buffers, groups));
+            first += groups;
+        }
+        passes
+    }
+}
+
+/// One evaluation.
 pub(super) fn bend(
     device: &Device,
     networks: &Networks,
@@ -69,39 +129,14 @@ pub(super) fn bend(
 ) -> Result<(f64, Planes), DeviceError> {
     let layout = Layout::new(&networks.shape);
     let pieces = Pieces::new(samples.len(), networks.outputs());
-    let source = [include_str!("wgsl/pixel.wgsl"), include_str!("wgsl/bend.wgsl")].concat();
-    let kernel = layout.kernel(device, "bent shading", &source, &[], "unrrrrww");
+    let directions = pieces.upload(device, "directions", &[directions]);
+    let albedo = pieces.upload(device, "albedos", &[albedo]);
+    let bending = Bending::new(device, pieces, samples, light);
     let weights = device.filled("networks", &layout.pack(&networks.parameters));
-    let [directions, light, albedo] =
-        [("directions", directions), ("light", light), ("albedos", albedo)]
-            .map(|(name, planes)| pieces.upload(device, name, &[planes]));
-    let pixels = pixels(device, &pieces, samples);
-    let gradient = pieces.zeros(device, "gradient", BENT);
-    let groups: usize = pieces.0.iter().map(|piece| piece.len().div_ceil(TILE)).sum();
-    let losses = device.floats("partial losses", groups);
-    let scale = 1.0 / (3.0 * samples.len() as f32);
-    let mut first = 0;
-    let mut passes = vec![];
-    for (at, piece) in pieces.0.iter().enumerate() {
-        let parameters = device.uniform(&[piece.len() as u32, first as u32, scale.to_bits()]);
-        let buffers = [
-            &parameters,
-            &weights,
-            &directions[at],
-            &light[at],
-            &pixels[at],
-            &albedo[at],
-            &gradient[at],
-            &losses,
-        ];
-        let groups = piece.len().div_ceil(TILE);
-        passes.push(Pass::new(device, &kernel, &buffers, groups));
-        first += groups;
-    }
-    device.submit(&passes, None, 1);
-    let mut buffers = vec![&losses];
-    buffers.extend(&gradient);
+    device.submit(&bending.passes(device, &layout, &weights, &directions, &albedo), None, 1);
+    let mut buffers = vec![&bending.losses];
+    buffers.extend(&bending.gradient);
     let contents = device.read::<f32>(&buffers)?;
-    let loss = contents[0][..first].iter().map(|loss| f64::from(*loss)).sum();
-    Ok((loss, pieces.planes(BENT, &contents[1..])))
+    let loss = contents[0][..bending.groups].iter().map(|loss| f64::from(*loss)).sum();
+    Ok((loss, bending.pieces.planes(BENT, &contents[1..])))
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::kernel::{Kernel, Pass, Slots};
+use super::unroll::unrolled;
 use crate::backend::resident::DeviceError;
 
 /// Time on the device by pass: its name, milliseconds, dispatches.
@@ -82,7 +83,7 @@ impl Device {
         bindings: &str,
     ) -> Arc<Kernel> {
         let head = constants.iter().map(|(name, value)| format!("const {name}: u32 = {value}u;\n"));
-        let source = head.collect::<String>() + source;
+        let source = head.collect::<String>() + &unrolled(source, constants);
         let mut kernels = locked(&self.kernels);
         let compile = || Arc::new(Kernel::new(&self.device, name, &source, bindings));
         Arc::clone(kernels.entry(source.clone()).or_insert_with(compile))

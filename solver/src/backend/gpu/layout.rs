@@ -136,8 +136,13 @@ impl Layout {
         Pass::new(device, &kernel, &[&parameters, partial, gradient], self.vectors())
     }
 
-    fn constants(&self) -> [(&'static str, u32); 3] {
-        [("W", self.width as u32), ("H", self.hidden as u32), ("O", self.outputs as u32)]
+    fn constants(&self) -> [(&'static str, u32); 4] {
+        [
+            ("W", self.width as u32),
+            ("H", self.hidden as u32),
+            ("O", self.outputs as u32),
+            ("HIDDEN", (self.hidden * self.width) as u32),
+        ]
     }
 }
 

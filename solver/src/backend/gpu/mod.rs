@@ -17,6 +17,8 @@ mod layer;
 mod layout;
 mod pieces;
 mod program;
+mod relief;
+mod unroll;
 
 use std::sync::OnceLock;
 
@@ -171,6 +173,7 @@ impl Backend for Gpu {
             Job::Layer { samples, shading, channels, prior } => {
                 Some(Box::new(layer::program(self, samples, shading, *channels, *prior)))
             }
+            Job::Relief(job) => Some(Box::new(relief::program(self, job))),
         }
     }
 }

@@ -29,11 +29,11 @@ fn main(
     if i < parameters.samples {
         var by_output: array<Outputs, 2>;
         var l: Outputs;
-        for (var j = 0u; j < O; j++) {
-            for (var k = 0u; k < 4u; k++) {
+        #for j in 0..O
+            #for k in 0..4
                 l[j][k] = light[place(i, 4u * j + k, 4u * O)];
-            }
-        }
+            #end
+        #end
         var shading: vec2<f32>;
         for (var term = 0u; term < 2u; term++) {
             let row = 3u * term;
@@ -57,17 +57,17 @@ fn main(
             var h: Hidden;
             var by_hidden: Hidden;
             hidden_layers(1u + term, x, &h);
-            for (var j = 0u; j < O; j++) {
+            #for j in 0..O
                 by_output[term][j] = by_shading[term] * l[j] * logistic(by_output[term][j]);
-            }
+            #end
             backward(1u + term, &h, by_output[term], &by_hidden);
             var by_input = vec4(0.0);
-            for (var j = 0u; j < W; j++) {
+            #for j in 0..W
                 by_input += by_hidden[j] * weights_at((1u + term) * NETWORK + 4u * j);
-            }
-            for (var k = 0u; k < 3u; k++) {
+            #end
+            #for k in 0..3
                 gradient[place(i, row + k, 7u)] = by_input[k];
-            }
+            #end
         }
     }
     sums[t] = loss;

@@ -93,12 +93,12 @@ fn main(
             by_albedo[place(i, row, 4u)] = pixel.by_albedo[row];
         }
         let by_diffuse = select(pixel.by_diffuse, 0.0, parameters.layered == 1u);
-        for (var j = 0u; j < O; j++) {
+        #for j in 0..O
             let by_light = by_diffuse * diffuse[j] + pixel.by_specular * specular[j];
             outputs[1][j] = by_diffuse * light[j] * logistic(outputs[1][j]);
             outputs[2][j] = pixel.by_specular * light[j] * logistic(outputs[2][j]);
             outputs[0][j] = by_light * light[j];
-        }
+        #end
         for (var network = 0u; network < 3u; network++) {
             let x = network_input(network, i);
             var h: Hidden;
@@ -106,13 +106,13 @@ fn main(
             hidden_layers(network, x, &h);
             backward(network, &h, outputs[network], &by_hidden);
             inputs[t] = vec4(x, 1.0);
-            for (var j = 0u; j < HIDDEN; j++) {
+            #for j in 0..HIDDEN
                 inputs[(1u + j) * STRIDE + t] = h[j];
                 deltas[j * STRIDE + t] = by_hidden[j];
-            }
-            for (var j = 0u; j < O; j++) {
+            #end
+            #for j in 0..O
                 deltas[(HIDDEN + j) * STRIDE + t] = outputs[network][j];
-            }
+            #end
             workgroupBarrier();
             for (var share = 0u; share < SHARES; share++) {
                 let block = select(t % BLOCKS, t + share * TILE, SHARES > 1u);

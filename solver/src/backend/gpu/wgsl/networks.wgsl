@@ -1,14 +1,11 @@
 // Three equal perceptrons in blocks of 4 x 4 weights. Constants: W hidden vec4s, H hidden layers, O
-// output vec4s. A network is first its blocks, layer by layer, output by output, input by input, four
+// output vec4s, HIDDEN = H W. A network is first its blocks, layer by layer, output by output, input by input, four
 // columns each; then the biases of all layers but the first, whose biases are the fourth column of its
 // blocks (the input is x, y, z, 1). See layout.rs.
 
 const BLOCKS: u32 = W + (H - 1u) * W * W + O * W;
 const BIASES: u32 = 4u * BLOCKS;
 const NETWORK: u32 = BIASES + (H - 1u) * W + O;
-// vec4s of all hidden layers.
-const HIDDEN: u32 = H * W;
-
 alias Hidden = array<vec4<f32>, HIDDEN>;
 alias Outputs = array<vec4<f32>, O>;
 
@@ -24,33 +21,33 @@ fn layer_block(l: u32) -> u32 {
 fn hidden_layers(network: u32, x: vec3<f32>, h: ptr<function, Hidden>) {
     let base = network * NETWORK;
     let input = vec4(x, 1.0);
-    for (var j = 0u; j < W; j++) {
+    #for j in 0..W
         (*h)[j] = max(weights_at(base + 4u * j) * input, vec4(0.0));
-    }
-    for (var l = 1u; l < H; l++) {
-        for (var j = 0u; j < W; j++) {
+    #end
+    #for l in 1..H
+        #for j in 0..W
             var sum = weights[base + BIASES + (l - 1u) * W + j];
-            for (var k = 0u; k < W; k++) {
+            #for k in 0..W
                 let block = layer_block(l) + j * W + k;
                 sum += weights_at(base + 4u * block) * (*h)[(l - 1u) * W + k];
-            }
+            #end
             (*h)[l * W + j] = max(sum, vec4(0.0));
-        }
-    }
+        #end
+    #end
 }
 
 // Before the last activation.
 fn output_layer(network: u32, h: ptr<function, Hidden>) -> Outputs {
     let base = network * NETWORK;
     var out: Outputs;
-    for (var j = 0u; j < O; j++) {
+    #for j in 0..O
         var sum = weights[base + BIASES + (H - 1u) * W + j];
-        for (var k = 0u; k < W; k++) {
+        #for k in 0..W
             let block = layer_block(H) + j * W + k;
             sum += weights_at(base + 4u * block) * (*h)[(H - 1u) * W + k];
-        }
+        #end
         out[j] = sum;
-    }
+    #end
     return out;
 }
 
@@ -61,33 +58,33 @@ fn open_gates(h: vec4<f32>) -> vec4<f32> {
 // From gradients before the last activation to those before every hidden one.
 fn backward(network: u32, h: ptr<function, Hidden>, by_output: Outputs, by_hidden: ptr<function, Hidden>) {
     let base = network * NETWORK;
-    for (var k = 0u; k < W; k++) {
+    #for k in 0..W
         var sum = vec4(0.0);
-        for (var j = 0u; j < O; j++) {
+        #for j in 0..O
             sum += by_output[j] * weights_at(base + 4u * (layer_block(H) + j * W + k));
-        }
+        #end
         (*by_hidden)[(H - 1u) * W + k] = sum * open_gates((*h)[(H - 1u) * W + k]);
-    }
-    for (var l = H - 1u; l > 0u; l--) {
-        for (var k = 0u; k < W; k++) {
+    #end
+    #for l in 1..H reversed
+        #for k in 0..W
             var sum = vec4(0.0);
-            for (var j = 0u; j < W; j++) {
+            #for j in 0..W
                 let block = layer_block(l) + j * W + k;
                 sum += (*by_hidden)[l * W + j] * weights_at(base + 4u * block);
-            }
+            #end
             (*by_hidden)[(l - 1u) * W + k] = sum * open_gates((*h)[(l - 1u) * W + k]);
-        }
-    }
+        #end
+    #end
 }
 
 // e^z, with the range of the processor's.
 fn exponentials(z: Outputs) -> Outputs {
     var out: Outputs;
-    for (var j = 0u; j < O; j++) {
+    #for j in 0..O
         // Unlike clamp, this lets a NaN through, which the loss then shows.
         let least = select(z[j], vec4(-87.0), z[j] < vec4(-87.0));
         out[j] = exp(select(least, vec4(88.0), least > vec4(88.0)));
-    }
+    #end
     return out;
 }
 
@@ -113,16 +110,16 @@ fn logistic(z: vec4<f32>) -> vec4<f32> {
 
 fn softpluses(z: Outputs) -> Outputs {
     var out: Outputs;
-    for (var j = 0u; j < O; j++) {
+    #for j in 0..O
         out[j] = softplus(z[j]);
-    }
+    #end
     return out;
 }
 
 fn product(a: Outputs, b: Outputs) -> f32 {
     var sum = 0.0;
-    for (var j = 0u; j < O; j++) {
+    #for j in 0..O
         sum += dot(a[j], b[j]);
-    }
+    #end
     return sum;
 }

@@ -30,21 +30,21 @@ fn main(
     }
     if WHAT == 0u {
         let z = exponentials(evaluated(0u, i, 0u, 3u));
-        for (var j = 0u; j < O; j++) {
-            for (var k = 0u; k < 4u; k++) {
+        #for j in 0..O
+            #for k in 0..4
                 result[place(i, 4u * j + k, 4u * O)] = z[j][k];
-            }
-        }
+            #end
+        #end
         return;
     }
     for (var term = 0u; term < 2u; term++) {
         let kernel = softpluses(evaluated(1u + term, i, 3u * term, 6u));
         var sum = 0.0;
-        for (var j = 0u; j < O; j++) {
-            for (var k = 0u; k < 4u; k++) {
+        #for j in 0..O
+            #for k in 0..4
                 sum += light[place(i, 4u * j + k, 4u * O)] * kernel[j][k];
-            }
-        }
+            #end
+        #end
         result[place(i, term, 2u)] = sum;
     }
 }
