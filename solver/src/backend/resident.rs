@@ -10,6 +10,7 @@ use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::optimise::adam::Adam;
+use crate::transport::Transport;
 
 /// A stage as a device may take it in: all that stays as it is while the stage runs.
 pub enum Job<'a> {
@@ -37,6 +38,8 @@ pub enum Job<'a> {
     },
     /// Moves deviation and specular albedo under frozen networks.
     Relief(ReliefJob<'a>),
+    /// Moves the light's logarithm, its nearness, diffuse and specular albedo, networks.
+    Transported(TransportedJob<'a>),
 }
 
 /// See [`Job::Relief`].
@@ -54,6 +57,25 @@ pub struct ReliefJob<'a> {
     pub albedo: &'a Planes,
 }
 
+/// See [`Job::Transported`]. The samples' taps are of the transport's size.
+#[derive(Clone, Copy)]
+pub struct TransportedJob<'a> {
+    /// The pixels.
+    pub samples: &'a Samples,
+    /// Inputs of the directional networks.
+    pub directions: &'a Planes,
+    /// Of the networks.
+    pub shape: &'a [usize],
+    /// From light to diffuse shading.
+    pub transport: &'a Transport,
+    /// Weight of the albedo prior.
+    pub prior: f32,
+    /// Weight of a coloured mean shading.
+    pub grey_mean: f32,
+    /// Weight of every texel's coloured shading.
+    pub grey_texel: f32,
+}
+
 /// Something that a stage moves, with its optimiser.
 pub struct Variable<'a> {
     /// The values.
@@ -62,12 +84,16 @@ pub struct Variable<'a> {
     pub adam: &'a mut Adam,
     /// No value falls below this.
     pub least: f32,
+    /// Nor rises above this.
+    pub most: f32,
+    /// Steps of the stage before it moves; 0 for a stage's first variable.
+    pub hold: usize,
 }
 
 impl<'a> Variable<'a> {
     /// Of these values.
     pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, least: f32) -> Self {
-        Self { values, adam, least }
+        Self { values, adam, least, most: f32::INFINITY, hold: 0 }
     }
 
     /// A step on the host.

@@ -142,6 +142,16 @@ impl Transport {
         self.matrix.rows.is_empty()
     }
 
+    /// The matrices, for a device that multiplies with them.
+    pub(crate) fn parts(&self) -> Parts<'_> {
+        Parts {
+            matrix: &self.matrix.rows,
+            gain: self.gain.as_ref().map(|gain| gain.rows.as_slice()),
+            cells: self.cells(),
+            row: &self.row,
+        }
+    }
+
     /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
     pub fn near(&self) -> f32 {
         self.near
@@ -223,6 +233,16 @@ impl Transport {
         }
         by_row
     }
+}
+
+/// See [`Transport::parts`].
+pub(crate) struct Parts<'a> {
+    /// Rows of `cells` weights.
+    pub matrix: &'a [f32],
+    pub gain: Option<&'a [f32]>,
+    pub cells: usize,
+    /// Of every texel of the square.
+    pub row: &'a [u32],
 }
 
 /// Rows of `cells` weights.

@@ -38,11 +38,12 @@ const SHARED: [(&str, Body); 3] = [
 ];
 
 /// Of backends that take in whole stages.
-const RESIDENT: [(&str, Body); 5] = [
+const RESIDENT: [(&str, Body); 6] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
     ("50 steps of the specular stage are the processor's", stages::specular),
     ("50 steps of normals and specular albedo are the processor's", stages::relief),
+    ("50 steps under explicit transport are the processor's", stages::transported),
     ("a solve is as near to the processor's as another seed's", solves::whole),
 ];
 

@@ -5,8 +5,11 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use solver::optimise::transported::Transported;
+use solver::transport::{Beside, Sky, Transport};
 
 use super::scene::problem;
+use super::testing;
 
 /// Steps that are compared.
 const STEPS: usize = 50;
@@ -109,4 +112,22 @@ pub fn specular(backend: &dyn Backend) {
     compare(backend, &state, |backend| {
         Relief::new(&config, &samples, &deviation, &state, backend, 1)
     });
+}
+
+pub fn transported(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.transport.texture_size = 32;
+    config.transport.rows = 6;
+    config.transport.hold = 22;
+    config.transport.grey_texel = 0.1;
+    let (samples, state) = problem(&config);
+    let mesh = testing::dome(24);
+    for beside in [Beside::Nearness, Beside::Nothing] {
+        let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
+        let light: Vec<f32> =
+            (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
+        compare(backend, &state, |_| {
+            Transported::new(&config, &transport, &samples, &state, light.clone())
+        });
+    }
 }

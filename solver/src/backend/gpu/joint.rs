@@ -5,7 +5,7 @@ use super::device::Device;
 use super::kernel::Pass;
 use super::layout::{Layout, TILE};
 use super::pieces::{DeviceTaps, Pieces, padded, pixels};
-use super::program::{LossParts, Moved, Program, prior};
+use super::program::{Moved, Program, prior};
 use crate::backend::resident::DeviceError;
 use crate::backend::{ALBEDOS, JointGradient};
 use crate::model::networks::Networks;
@@ -20,18 +20,26 @@ const LEAST_GROUPS: usize = 256;
 const TILES: usize = 4;
 
 /// What the joint kernel reads and writes besides weights.
-struct Joint {
+pub(super) struct Joint {
     pieces: Pieces,
     /// Sampled albedos and their gradients.
-    albedo: Vec<wgpu::Buffer>,
-    by_albedo: Vec<wgpu::Buffer>,
+    pub albedo: Vec<wgpu::Buffer>,
+    pub by_albedo: Vec<wgpu::Buffer>,
     partial: wgpu::Buffer,
-    losses: wgpu::Buffer,
-    groups: Vec<usize>,
+    /// Partial sums, as many as there are workgroups.
+    pub losses: wgpu::Buffer,
+    /// Of every piece.
+    pub groups: Vec<usize>,
+    layered: bool,
 }
 
 impl Joint {
-    fn new(device: &Device, layout: &Layout, pieces: Pieces, albedo: Vec<wgpu::Buffer>) -> Self {
+    pub fn new(
+        device: &Device,
+        layout: &Layout,
+        pieces: Pieces,
+        albedo: Vec<wgpu::Buffer>,
+    ) -> Self {
         let most = LEAST_GROUPS.max(GROUPS / pieces.0.len().max(1));
         let groups: Vec<usize> =
             pieces.0.iter().map(|piece| (padded(piece) / TILE / TILES).clamp(1, most)).collect();
@@ -42,13 +50,19 @@ impl Joint {
             partial: device.floats("partial sums", all * layout.partial_floats()),
             losses: device.floats("partial losses", all),
             groups,
+            layered: false,
             pieces,
         }
     }
 
+    /// The first three albedos are the whole diffuse layer, and no network explains it.
+    pub fn layered(self) -> Self {
+        Self { layered: true, ..self }
+    }
+
     /// The passes that leave the gradients of the networks in `gradient`, and those of the sampled
     /// albedos.
-    fn passes(
+    pub fn passes(
         &self,
         device: &Device,
         layout: &Layout,
@@ -67,7 +81,8 @@ impl Joint {
         let mut passes = vec![];
         for (at, (piece, groups)) in self.pieces.0.iter().zip(&self.groups).enumerate() {
             let tiles = (padded(piece) / TILE) as u32;
-            let words = [tiles, *groups as u32, first as u32, 0, scale.to_bits()];
+            let words =
+                [tiles, *groups as u32, first as u32, u32::from(self.layered), scale.to_bits()];
             let parameters = device.uniform(&words);
             let buffers = [
                 &parameters,
@@ -144,7 +159,8 @@ pub(super) fn program<'a>(
     passes.extend(taps.gather(device, by_albedo, [0, ALBEDOS], &diffuse.gradient, 3, add));
     passes.extend(taps.gather(device, by_albedo, [3, ALBEDOS], &specular.gradient, 1, false));
     let groups = joint.groups.iter().sum();
-    let loss = LossParts { samples: (joint.losses, groups), prior: prior_sums };
+    let mut losses = vec![(joint.losses, groups)];
+    losses.extend(prior_sums);
     let weights = weights.in_layout(layout);
-    Program::new(gpu, passes, &loss, vec![weights, diffuse, specular])
+    Program::new(gpu, passes, &losses, vec![weights, diffuse, specular])
 }

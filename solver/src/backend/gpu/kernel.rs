@@ -213,7 +213,7 @@ impl Slots {
 pub(super) struct Factors([u32; Self::WORDS]);
 
 impl Factors {
-    const WORDS: usize = 8;
+    const WORDS: usize = 12;
 
     /// Of a variable's step number `number`, from 1.
     pub fn adam(variable: &AdamFactors, number: usize, share: f32, step: usize) -> Self {
@@ -221,12 +221,12 @@ impl Factors {
         let c = variable.optimiser.config();
         let floats = [rate, root, c.beta1, c.beta2, c.epsilon, variable.least].map(f32::to_bits);
         let [a, b, c, d, e, f] = floats;
-        Self([a, b, c, d, e, f, 1, step as u32])
+        Self([a, b, c, d, e, f, 1, step as u32, variable.most.to_bits(), 0, 0, 0])
     }
 
     /// Of a variable that stays where it is.
     pub fn still(step: usize) -> Self {
-        Self([0, 0, 0, 0, 0, 0, 0, step as u32])
+        Self([0, 0, 0, 0, 0, 0, 0, step as u32, 0, 0, 0, 0])
     }
 }
 
@@ -234,12 +234,13 @@ impl Factors {
 pub(super) struct AdamFactors {
     optimiser: crate::optimise::adam::Adam,
     least: f32,
+    most: f32,
 }
 
 impl AdamFactors {
     pub fn of(variable: &Variable) -> Self {
-        // A large negative number instead of minus infinity, which shaders may take for impossible.
-        let least = variable.least.max(f32::MIN);
-        Self { optimiser: variable.adam.without_moments(), least }
+        // Large numbers instead of infinity, which shaders may take for impossible.
+        let (least, most) = (variable.least.max(f32::MIN), variable.most.min(f32::MAX));
+        Self { optimiser: variable.adam.without_moments(), least, most }
     }
 }

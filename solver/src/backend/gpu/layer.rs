@@ -3,7 +3,7 @@
 use super::Gpu;
 use super::kernel::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces, pixels};
-use super::program::{LossParts, Moved, Program, prior};
+use super::program::{Moved, Program, prior};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
@@ -51,8 +51,9 @@ pub(super) fn program<'a>(
     let add = prior_pass.is_some();
     passes.extend(prior_pass);
     passes.extend(taps.gather(device, &by_albedo, [0, channels], &albedo.gradient, channels, add));
-    let loss = LossParts { samples: (losses, first), prior: prior_sums };
-    Program::new(gpu, passes, &loss, vec![albedo])
+    let mut losses = vec![(losses, first)];
+    losses.extend(prior_sums);
+    Program::new(gpu, passes, &losses, vec![albedo])
 }
 
 /// Widest planes, rows.

@@ -18,6 +18,7 @@ mod layout;
 mod pieces;
 mod program;
 mod relief;
+mod transported;
 mod unroll;
 
 use std::sync::OnceLock;
@@ -172,6 +173,13 @@ impl Backend for Gpu {
             }
             Job::Layer { samples, shading, channels, prior } => {
                 Some(Box::new(layer::program(self, samples, shading, *channels, *prior)))
+            }
+            Job::Transported(job) => {
+                let layout = Layout::new(job.shape);
+                if !self.fits(&layout) {
+                    return None;
+                }
+                Some(Box::new(transported::program(self, layout, job)))
             }
             Job::Relief(job) => Some(Box::new(relief::program(self, job))),
         }

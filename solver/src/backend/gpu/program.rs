@@ -1,10 +1,8 @@
 //! The program of a stage: its passes, recorded once, and its variables.
 
-use std::sync::Arc;
-
 use super::Gpu;
 use super::device::Device;
-use super::kernel::{AdamFactors, Factors, Kernel, Pass, Slots};
+use super::kernel::{AdamFactors, Factors, Pass, Slots, THREADS};
 use super::layout::Layout;
 use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
 
@@ -17,8 +15,8 @@ pub(super) struct Moved {
     /// Of networks, whose order on the device is another one.
     layout: Option<Layout>,
     factors: Option<AdamFactors>,
-    /// Done so far.
-    steps: usize,
+    /// Of the stage, before this moves.
+    hold: usize,
 }
 
 impl Moved {
@@ -30,7 +28,7 @@ impl Moved {
             count,
             layout: None,
             factors: None,
-            steps: 0,
+            hold: 0,
         }
     }
 
@@ -50,11 +48,8 @@ impl Moved {
     }
 }
 
-/// Where a step's loss comes from: partial sums of samples, and of the prior if there is one.
-pub(super) struct LossParts {
-    pub samples: (wgpu::Buffer, usize),
-    pub prior: Option<(wgpu::Buffer, usize)>,
-}
+/// Partial sums of a part of the loss, and their number.
+pub(super) type LossPart = (wgpu::Buffer, usize);
 
 /// A stage on the device.
 pub(super) struct Program<'a> {
@@ -63,12 +58,14 @@ pub(super) struct Program<'a> {
     slots: Slots,
     losses: wgpu::Buffer,
     moved: Vec<Moved>,
+    /// Done so far.
+    done: usize,
 }
 
 impl<'a> Program<'a> {
     /// `gradients` leave the gradients of everything in `moved`, in whose order the host names its
     /// variables.
-    pub fn new(gpu: &'a Gpu, gradients: Vec<Pass>, loss: &LossParts, moved: Vec<Moved>) -> Self {
+    pub fn new(gpu: &'a Gpu, gradients: Vec<Pass>, loss: &[LossPart], moved: Vec<Moved>) -> Self {
         let device = &gpu.device;
         let mut passes = gradients;
         let adam = device.kernel("adam", include_str!("wgsl/adam.wgsl"), &[], "uwrww+");
@@ -79,9 +76,11 @@ impl<'a> Program<'a> {
             passes.push(Pass::over(device, &adam, &buffers, moved.count).with_slot(slot));
         }
         let losses = device.floats("losses", BATCH);
-        passes.push(summing(device, loss, &losses));
+        for (at, (parts, count)) in loss.iter().enumerate() {
+            passes.push(total(device, parts, [0, *count], &losses, true, at > 0));
+        }
         let slots = Slots::new(device, moved.len(), BATCH);
-        Self { gpu, passes, slots, losses, moved }
+        Self { gpu, passes, slots, losses, moved, done: 0 }
     }
 
     fn check<T>(&self, result: Result<T, DeviceError>) -> Result<T, DeviceError> {
@@ -89,14 +88,19 @@ impl<'a> Program<'a> {
     }
 }
 
-fn summing(device: &Device, loss: &LossParts, losses: &wgpu::Buffer) -> Pass {
-    let kernel: Arc<Kernel> = device.kernel("loss", include_str!("wgsl/loss.wgsl"), &[], "urrw+");
-    let (samples, count) = &loss.samples;
-    let nothing = device.floats("no prior", 1);
-    let (prior, prior_count) =
-        loss.prior.as_ref().map_or((&nothing, 0), |(sums, count)| (sums, *count));
-    let parameters = device.uniform(&[*count as u32, prior_count as u32]);
-    Pass::new(device, &kernel, &[&parameters, samples, prior, losses], 1).with_slot(0)
+/// The sum of `count` parts from `first` on: into the place of the step, or the first; `add` to it.
+pub(super) fn total(
+    device: &Device,
+    parts: &wgpu::Buffer,
+    [first, count]: [usize; 2],
+    to: &wgpu::Buffer,
+    by_step: bool,
+    add: bool,
+) -> Pass {
+    let kernel = device.kernel("sum", include_str!("wgsl/total.wgsl"), &[], "urw+");
+    let words = [first, count, usize::from(by_step), usize::from(add)].map(|word| word as u32);
+    let parameters = device.uniform(&words);
+    Pass::new(device, &kernel, &[&parameters, parts, to], 1).with_slot(0)
 }
 
 /// The pass of the albedo prior, which writes the gradient anew; nothing without a weight.
@@ -105,14 +109,14 @@ pub(super) fn prior(
     albedo: &Moved,
     size: usize,
     weight: f32,
-) -> Option<(Pass, (wgpu::Buffer, usize))> {
+) -> Option<(Pass, LossPart)> {
     if weight == 0.0 {
         return None;
     }
     let kernel = device.kernel("prior", include_str!("wgsl/prior.wgsl"), &[], "urww");
     let scale = weight / albedo.count as f32;
     let parameters = device.uniform(&[size as u32, scale.to_bits()]);
-    let groups = albedo.count.div_ceil(super::kernel::THREADS);
+    let groups = albedo.count.div_ceil(THREADS);
     let sums = device.floats("prior", groups);
     let buffers = [&parameters, &albedo.values, &albedo.gradient, &sums];
     Some((Pass::new(device, &kernel, &buffers, groups), (sums, groups)))
@@ -121,13 +125,15 @@ pub(super) fn prior(
 impl Resident for Program<'_> {
     fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError> {
         let queue = &self.gpu.device.queue;
+        // The first one is never held.
+        self.done = variables.first().map_or(0, |variable| variable.adam.steps());
         for (moved, variable) in self.moved.iter_mut().zip(variables) {
             let [first, second] = variable.adam.moments();
             let places = [&moved.values, &moved.moments[0], &moved.moments[1]];
             for (place, content) in places.into_iter().zip([variable.values, first, second]) {
                 queue.write_buffer(place, 0, &moved.to_device(content));
             }
-            moved.steps = variable.adam.steps();
+            moved.hold = variable.hold;
             moved.factors = Some(AdamFactors::of(variable));
         }
         self.check(self.gpu.device.check())
@@ -139,16 +145,19 @@ impl Resident for Program<'_> {
             .iter()
             .enumerate()
             .flat_map(|(step, share)| {
+                let number = self.done + step + 1;
                 self.moved.iter().map(move |moved| match &moved.factors {
-                    Some(factors) => Factors::adam(factors, moved.steps + step + 1, *share, step),
-                    None => Factors::still(step),
+                    Some(factors) if number > moved.hold => {
+                        Factors::adam(factors, number - moved.hold, *share, step)
+                    }
+                    _ => Factors::still(step),
                 })
             })
             .collect();
         self.slots.write(device, &factors);
         device.submit(&self.passes, Some(&self.slots), shares.len());
         let losses = self.check(device.read::<f32>(&[&self.losses]))?;
-        self.moved.iter_mut().for_each(|moved| moved.steps += shares.len());
+        self.done += shares.len();
         Ok(losses[0][..shares.len()].iter().map(|loss| f64::from(*loss)).collect())
     }
 
@@ -163,7 +172,7 @@ impl Resident for Program<'_> {
             let mut next = || moved.to_host(contents.next().unwrap_or_default());
             *variable.values = next();
             let (first, second) = (next(), next());
-            variable.adam.restore(moved.steps, first, second);
+            variable.adam.restore(self.done.saturating_sub(moved.hold), first, second);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::device::Device;
 use super::kernel::{Pass, THREADS};
 use super::layout::Layout;
 use super::pieces::{DeviceTaps, Pieces};
-use super::program::{LossParts, Moved, Program};
+use super::program::{Moved, Program};
 use crate::backend::BENT;
 use crate::backend::resident::ReliefJob;
 use crate::model::blur::Blur;
@@ -64,8 +64,8 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
         passes.extend(taps.gather(device, by_sample, [row, BENT], gradient, channels, false));
     }
     passes.extend(chart.back(&sharp, &by_sharp, &by_blurred, &by_deviation.gradient));
-    let loss = LossParts { samples: (bending.losses, bending.groups), prior: None };
-    Program::new(gpu, passes, &loss, vec![by_deviation, by_specular])
+    let losses = [(bending.losses, bending.groups)];
+    Program::new(gpu, passes, &losses, vec![by_deviation, by_specular])
 }
 
 /// The deviation texture and its blurs.

@@ -76,7 +76,8 @@ mod tests {
 
     #[test]
     fn loops_are_written_out_inside_each_other() {
-        let source = "a\n#for j in 0..W\n#for k in 1..3 reversed\ns[j] += jk * h[k];\n#end\n#end\nb\n";
+        let source =
+            "a\n#for j in 0..W\n#for k in 1..3 reversed\ns[j] += jk * h[k];\n#end\n#end\nb\n";
         let expected = "a{{s[0u] += jk * h[2u];}{s[0u] += jk * h[1u];}}\
                         {{s[1u] += jk * h[2u];}{s[1u] += jk * h[1u];}}b";
         assert_eq!(unrolled(source, &[("W", 2)]).replace('\n', ""), expected);

@@ -12,6 +12,7 @@ struct Factors {
     moves: u32,
     // Number of the step within its submission.
     step: u32,
+    most: f32,
 }
 
 struct Parameters {
@@ -42,5 +43,6 @@ fn main(
     second[at] = v;
     let moved = values[at] - factors.rate * m / (sqrt(v) * factors.root + factors.epsilon);
     // Unlike max, this lets a NaN through, which the loss then shows.
-    values[at] = select(moved, factors.least, moved < factors.least);
+    let above = select(moved, factors.least, moved < factors.least);
+    values[at] = select(above, factors.most, above > factors.most);
 }
