@@ -38,13 +38,14 @@ const SHARED: [(&str, Body); 3] = [
 ];
 
 /// Of backends that take in whole stages.
-const RESIDENT: [(&str, Body); 6] = [
+const RESIDENT: [(&str, Body); 7] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
     ("50 steps of the specular stage are the processor's", stages::specular),
     ("50 steps of normals and specular albedo are the processor's", stages::relief),
     ("50 steps under explicit transport are the processor's", stages::transported),
     ("a solve is as near to the processor's as another seed's", solves::whole),
+    ("an interrupted solve goes on to the same bytes", solves::resumed),
 ];
 
 /// Of devices that can be lost.
@@ -55,7 +56,7 @@ const LOST: [(&str, OnAdapter); 2] = [
 
 /// Where the GPU's tests run.
 static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var(VARIABLE) {
-    Ok(_) => Adapter::chosen().ok(),
+    Ok(_) => Some(Adapter::chosen().unwrap()),
     Err(_) => {
         let all = adapters();
         all.iter().find(|adapter| adapter.software).or(all.first()).cloned()

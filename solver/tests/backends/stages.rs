@@ -19,12 +19,13 @@ const TOLERANCE: f64 = 1e-4;
 /// whole step of the faintest gradient, whose sign is rounding.
 const WAY: f64 = 0.01;
 
-/// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead.
-fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, State) {
+/// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead: the state,
+/// and what is the stage's own.
+fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, End) {
     let shares: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
     let Some(mut program) = backend.resident(&stage.job().unwrap()) else {
         let losses = shares.iter().map(|share| stage.step(&mut state, backend, *share)).collect();
-        return (losses, state);
+        return (losses, End::of(state, stage));
     };
     program.upload(&stage.variables(&mut state)).unwrap();
     let mut losses = vec![];
@@ -34,14 +35,27 @@ fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec
         program.download(&mut stage.variables(&mut state)).unwrap();
         program.upload(&stage.variables(&mut state)).unwrap();
     }
-    (losses, state)
+    (losses, End::of(state, stage))
+}
+
+struct End {
+    state: State,
+    own: Vec<f32>,
+}
+
+impl End {
+    fn of(state: State, stage: &mut dyn Stage) -> Self {
+        let own = stage.memory().own.iter().flat_map(|own| own.iter()).copied().collect();
+        Self { state, own }
+    }
 }
 
 /// `new` makes the stage with the help of a backend.
 fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Backend) -> S) {
     let cpu = Cpu::new();
     assert!(backend.resident(&new(backend).job().unwrap()).is_some(), "{}", backend.name());
-    let (losses, state) = steps(backend, &mut new(backend), start.clone());
+    let first = End::of(start.clone(), &mut new(backend));
+    let (losses, found) = steps(backend, &mut new(backend), start.clone());
     let (expected, reference) = steps(&cpu, &mut new(&cpu), start.clone());
     for (step, (loss, expected)) in losses.iter().zip(&expected).enumerate() {
         let off = loss / expected - 1.0;
@@ -50,25 +64,26 @@ fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Bac
     assert!(expected[STEPS - 1] < 0.995 * expected[0], "nothing was learnt: {expected:?}");
     let mut moved = 0;
     for (what, field) in FIELDS {
-        let (start, state, reference) = (field(start), field(&state), field(&reference));
+        let [start, found, reference] = [&first, &found, &reference].map(field);
         let distance = |a: &[f32], b: &[f32]| -> f64 {
             a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>().sqrt()
         };
         let way = distance(reference, start);
-        let off = distance(state, reference);
+        let off = distance(found, reference);
         assert!(off <= WAY * way, "{what}: {off} of {way}");
         moved += usize::from(way > 0.0);
     }
     assert!(moved > 0);
 }
 
-type Field = fn(&State) -> &[f32];
+type Field = fn(&End) -> &[f32];
 
-const FIELDS: [(&str, Field); 4] = [
-    ("networks", |state| &state.networks.parameters),
-    ("diffuse", |state| &state.diffuse),
-    ("specular", |state| &state.specular),
-    ("deviation", |state| &state.deviation),
+const FIELDS: [(&str, Field); 5] = [
+    ("networks", |end| &end.state.networks.parameters),
+    ("diffuse", |end| &end.state.diffuse),
+    ("specular", |end| &end.state.specular),
+    ("deviation", |end| &end.state.deviation),
+    ("the stage's own", |end| &end.own),
 ];
 
 pub fn warm_up(backend: &dyn Backend) {
