@@ -47,8 +47,12 @@ software-gpu:
 	  apt-get -qq update && apt-get -qq install --no-install-recommends -y mesa-vulkan-drivers; } >/dev/null 2>&1 || \
 	  echo "no software GPU: mesa-vulkan-drivers cannot be installed here, so the GPU's tests are skipped"
 
-# Heavier than a test: what the cheap tiers of skin are worth, with docs/subsurface.md written anew.
+# Heavier than a test: the solver's kernels and steps (UNSHADE_TORCH names a Python with PyTorch, to
+# stand beside), and what the cheap tiers of skin are worth; docs/performance.md and docs/subsurface.md
+# are written anew.
 bench: build
+	@mkdir -p runs/bench
+	$(BIN)/unshade bench --json -o runs/bench/performance.json --markdown docs/performance.md
 	$(BIN)/python synth/bench/subsurface.py -o runs/bench/subsurface
 
 lint: build

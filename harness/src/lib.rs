@@ -3,6 +3,7 @@
 //! [`suite`] walks through the stages: [`synth`] calls the path tracer, the solver makes maps,
 //! [`score`] measures them with [`metrics`], [`report`] shows them, [`compare`] guards them.
 
+pub mod bench;
 pub mod cli;
 pub mod compare;
 pub mod metrics;

@@ -8,6 +8,7 @@ pub mod backend;
 pub mod baselines;
 pub mod capture;
 pub mod config;
+mod convolution;
 pub mod error;
 pub mod fill;
 pub mod gbuffer;
@@ -18,6 +19,7 @@ pub mod optimise;
 pub mod picture;
 pub mod projection;
 pub mod semantic;
+mod simd;
 pub mod solution;
 #[cfg(test)]
 mod testing;

@@ -167,6 +167,47 @@ pub fn available() -> Option<u64> {
     Some(group.map_or(machine, |(most, now)| machine.min(most.saturating_sub(now))))
 }
 
+/// Sizes from which on the allocator asks the system, bytes: none, and the documented default.
+const EVERYTHING: i32 = i32::MAX;
+const USUAL: i32 = 128 * 1024;
+
+/// While it lives, the allocator keeps what is freed for the next allocation. Every step takes and gives
+/// back the same tens of megabytes; if they went to the system in between, clearing their pages anew
+/// would be half of a step with large textures.
+#[derive(Debug)]
+pub struct Hoard(());
+
+impl Hoard {
+    /// From now on.
+    pub fn begin() -> Self {
+        Self::set(EVERYTHING);
+        Self(())
+    }
+
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    fn set(bytes: i32) {
+        // SAFETY: both calls only change limits of the allocator, under its own lock.
+        unsafe {
+            libc::mallopt(libc::M_MMAP_THRESHOLD, bytes);
+            libc::mallopt(libc::M_TRIM_THRESHOLD, bytes);
+        }
+    }
+
+    #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+    fn set(_: i32) {}
+}
+
+impl Drop for Hoard {
+    fn drop(&mut self) {
+        Self::set(USUAL);
+        // SAFETY: gives free memory back to the system, under the allocator's own lock.
+        #[cfg(all(target_os = "linux", target_env = "gnu"))]
+        unsafe {
+            libc::malloc_trim(0);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,7 +9,8 @@ use solver::{Choice, atomic};
 
 use super::progress::Progress;
 use super::{
-    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, doctor,
+    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
+    doctor,
 };
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
@@ -39,6 +40,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             report::write_results(&runs, &out, &words.join(" "))?;
         }
         Verb::Compare(arguments) => return compare_run(&arguments),
+        Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)

@@ -1,6 +1,7 @@
 //! The `unshade` command. Exit codes: 0 done, 1 a check failed, 2 bad input or usage,
 //! 3 interrupted.
 
+mod bench;
 mod commands;
 mod doctor;
 mod progress;
@@ -78,6 +79,8 @@ enum Verb {
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
+    /// Time the solver's kernels and steps against what this machine reaches.
+    Bench(bench::BenchArgs),
     /// Say what this machine has, and what is missing with the mend.
     Doctor {
         /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.

@@ -54,6 +54,8 @@ pub enum RunError {
     Report(#[from] ReportError),
     #[error(transparent)]
     Compare(#[from] CompareError),
+    #[error(transparent)]
+    Torch(#[from] crate::bench::TorchError),
     #[error("solver {name}: {reason}")]
     Program { name: String, reason: String },
     #[error("{0}: another run is using this folder; wait for it or choose another")]

@@ -9,6 +9,7 @@ use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
+use crate::model::taps::Taps;
 use crate::optimise::adam::Adam;
 use crate::transport::Transport;
 
@@ -25,14 +26,13 @@ pub enum Job<'a> {
         /// Weight of the albedo prior.
         prior: f32,
     },
-    /// Moves one of the albedos under known shading.
+    /// Moves one of the albedos, in which the model is linear while everything else stays.
     Layer {
-        /// The pixels.
-        samples: &'a Samples,
-        /// Diffuse R, G, B, then specular: of the albedo's own layer the shading, of the other all.
-        shading: &'a Planes,
-        /// Of the albedo: 3 for the diffuse one, 1 for the specular.
-        channels: usize,
+        /// From texels to pixels.
+        taps: &'a Taps,
+        /// Rows: what the other layer leaves of the target R, G, B; the weight; and the shading of this
+        /// layer, R, G, B under the diffuse albedo, one value under the specular one.
+        known: Planes,
         /// Weight of the albedo prior.
         prior: f32,
     },

@@ -9,9 +9,8 @@
 //! w = max(cos, 0) / (1 + [`FALLOFF`] · s̄), which is in 0 to 1 and does not depend on the unit of
 //! length. The paper names the factors but neither their scale nor the blur; these are ours.
 
-use rayon::prelude::*;
-
 use super::GBuffer;
+use crate::convolution::{Shape, convolve, gaussian};
 
 /// Default standard deviation of the blur, in pixels of the full picture.
 pub const BLUR_SIGMA_PX: f32 = 2.0;
@@ -30,9 +29,9 @@ pub fn cosine_weights(gbuffer: &GBuffer) -> Vec<f32> {
 pub fn view_weights(gbuffer: &GBuffer, blur_sigma_px: f32) -> Vec<f32> {
     let slope = gbuffer.spread(&slopes(gbuffer), 0.0);
     let covered = gbuffer.spread(&vec![1.0; gbuffer.len()], 0.0);
-    let (width, height) = (gbuffer.width, gbuffer.height);
-    let slope = blurred(&slope, width, height, blur_sigma_px);
-    let covered = blurred(&covered, width, height, blur_sigma_px);
+    let shape = Shape { width: gbuffer.width, height: gbuffer.height, channels: 1 };
+    let slope = blurred(&slope, shape, blur_sigma_px);
+    let covered = blurred(&covered, shape, blur_sigma_px);
     let cosines = cosine_weights(gbuffer);
     let mean = |pixel: &u32| slope[*pixel as usize] / covered[*pixel as usize];
     cosines
@@ -60,21 +59,8 @@ fn slopes(gbuffer: &GBuffer) -> Vec<f32> {
     gbuffer.pixels.iter().zip(&gbuffer.depths).map(slope).collect()
 }
 
-/// Gaussian blur to three standard deviations; nothing comes in from outside the picture.
-pub(crate) fn blurred(plane: &[f32], width: usize, height: usize, sigma: f32) -> Vec<f32> {
-    if sigma <= 0.0 {
-        return plane.to_vec();
-    }
-    let reach = (3.0 * sigma).ceil() as usize;
-    let kernel: Vec<f32> = (0..=reach).map(|i| (-0.5 * (i as f32 / sigma).powi(2)).exp()).collect();
-    let pass = |source: &[f32], step: usize, length: usize, place: fn(usize, usize) -> usize| {
-        let value = |index: usize| {
-            let at = place(index, width);
-            let taps = at.saturating_sub(reach)..(at + reach + 1).min(length);
-            taps.map(|tap| kernel[tap.abs_diff(at)] * source[index + tap * step - at * step]).sum()
-        };
-        (0..width * height).into_par_iter().map(value).collect::<Vec<f32>>()
-    };
-    let rows = pass(plane, 1, width, |index, width| index % width);
-    pass(&rows, width, height, |index, width| index / width)
+/// Gaussian blur to three standard deviations, not normalised; nothing comes in from outside the
+/// picture.
+pub(crate) fn blurred(picture: &[f32], shape: Shape, sigma: f32) -> Vec<f32> {
+    convolve(picture, &gaussian(sigma), shape, |_| 1.0, |_, _| {}, |_, _| {})
 }

@@ -1,6 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
-use rayon::prelude::*;
+use crate::convolution::{Shape, convolve, gaussian};
 
 /// Gaussian blur of square interleaved textures; near the border the weights that remain are
 /// scaled to sum to one.
@@ -17,10 +17,8 @@ pub struct Blur {
 impl Blur {
     /// `sigma` is the standard deviation in texels; zero leaves textures as they are.
     pub fn new(size: usize, channels: usize, sigma: f32) -> Self {
-        let reach = (3.0 * sigma).ceil() as usize;
-        let weight =
-            |d: usize| if d == 0 { 1.0 } else { (-0.5 * (d as f32 / sigma).powi(2)).exp() };
-        let kernel: Vec<f32> = (0..=reach).map(weight).collect();
+        let kernel = gaussian(sigma);
+        let reach = kernel.len() - 1;
         let inside = |at: usize| {
             let (first, last) = (at.saturating_sub(reach), (at + reach).min(size - 1));
             (first..=last).map(|other| kernel[other.abs_diff(at)]).sum::<f32>()
@@ -41,82 +39,26 @@ impl Blur {
 
     /// The blurred texture.
     pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
-        let mut out = self.vertical(&self.horizontal(texture));
-        self.scale(&mut out);
-        out
+        let after = |row: usize, out: &mut [f32]| self.scale(out, self.norms[row]);
+        convolve(texture, &self.kernel, self.shape(), |_| 1.0, |_, _| {}, after)
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
     pub fn adjoint(&self, gradient: &[f32]) -> Vec<f32> {
         // apply = N K with K symmetric and N diagonal, so the transpose is K N.
-        let mut scaled = gradient.to_vec();
-        self.scale(&mut scaled);
-        self.horizontal(&self.vertical(&scaled))
+        let between = |_: usize, line: &mut [f32]| self.scale(line, 1.0);
+        convolve(gradient, &self.kernel, self.shape(), |row| self.norms[row], between, |_, _| {})
     }
 
-    fn scale(&self, texture: &mut [f32]) {
-        let lines = texture.par_chunks_mut(self.size * self.channels);
-        lines.zip(&self.norms).for_each(|(line, row)| {
-            for (texel, column) in line.chunks_exact_mut(self.channels).zip(&self.norms) {
-                texel.iter_mut().for_each(|value| *value *= row * column);
-            }
-        });
+    fn shape(&self) -> Shape {
+        Shape { width: self.size, height: self.size, channels: self.channels }
     }
 
-    fn horizontal(&self, texture: &[f32]) -> Vec<f32> {
-        let length = self.size * self.channels;
-        let mut out = vec![0.0; texture.len()];
-        out.par_chunks_mut(length).zip(texture.par_chunks(length)).for_each(|(out, line)| {
-            for (distance, weight) in self.kernel.iter().enumerate() {
-                let shift = (distance * self.channels).min(length);
-                add_scaled(&mut out[..length - shift], &line[shift..], *weight);
-                if distance > 0 {
-                    add_scaled(&mut out[shift..], &line[..length - shift], *weight);
-                }
-            }
-        });
-        out
-    }
-
-    fn vertical(&self, texture: &[f32]) -> Vec<f32> {
-        let length = self.size * self.channels;
-        let line = |row: usize| &texture[row * length..][..length];
-        let mut out = vec![0.0; texture.len()];
-        out.par_chunks_mut(length).enumerate().for_each(|(row, out)| {
-            for (distance, weight) in self.kernel.iter().enumerate() {
-                if row + distance < self.size {
-                    add_scaled(out, line(row + distance), *weight);
-                }
-                if distance > 0 && row >= distance {
-                    add_scaled(out, line(row - distance), *weight);
-                }
-            }
-        });
-        out
-    }
-}
-
-/// sum += factor x values; as wide as the machine allows, with the same result everywhere, since
-/// products and sums are rounded one by one.
-fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
-    #[inline(always)]
-    fn body(sum: &mut [f32], values: &[f32], factor: f32) {
-        for (sum, value) in sum.iter_mut().zip(values) {
-            *sum += factor * value;
+    fn scale(&self, line: &mut [f32], row: f32) {
+        for (texel, column) in line.chunks_exact_mut(self.channels).zip(&self.norms) {
+            texel.iter_mut().for_each(|value| *value *= row * column);
         }
     }
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn avx2(sum: &mut [f32], values: &[f32], factor: f32) {
-            body(sum, values, factor);
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: AVX2 was just found.
-            return unsafe { avx2(sum, values, factor) };
-        }
-    }
-    body(sum, values, factor);
 }
 
 #[cfg(test)]

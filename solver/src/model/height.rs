@@ -76,7 +76,13 @@ impl HeightField {
             };
             self.right[at] * across(1, x) + self.down[at] * across(size, y)
         };
-        (0..self.len()).into_par_iter().flat_map_iter(|at| texel(at).to_array()).collect()
+        let mut bend = vec![0.0; 3 * self.len()];
+        bend.par_chunks_mut(3 * size).enumerate().for_each(|(y, line)| {
+            for (x, out) in line.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+                *out = texel(y * size + x).to_array();
+            }
+        });
+        bend
     }
 
     /// The transpose of [`Self::bend`].
@@ -94,7 +100,7 @@ impl HeightField {
             };
             sum(&self.right, 1, x) + sum(&self.down, size, y)
         };
-        (0..self.len()).into_par_iter().map(texel).collect()
+        (0..self.len()).into_par_iter().with_min_len(size).map(texel).collect()
     }
 }
 

@@ -4,9 +4,10 @@
 
 use glam::Vec3;
 
-use super::planes::Planes;
+use super::planes::{BLOCK, Planes, Row, first_rows};
 use super::samples::Samples;
 use crate::config::NetworkConfig;
+use crate::simd::widened;
 
 /// Rows of the directions: scaled diffuse normal, then scaled reflected direction.
 pub const DIRECTIONS: usize = 6;
@@ -30,43 +31,83 @@ impl DirectionScale {
     /// Directions of every sample. `deviation` has the rows d (3) and blur(d) (3), and maybe more;
     /// without it, the mesh normal serves for both.
     pub fn directions(&self, samples: &Samples, deviation: Option<&Planes>) -> Planes {
-        Planes::from_fn(samples.len(), |i| {
-            let [d, b] = deviation.map_or([Vec3::ZERO; 2], |planes| split(planes.sample(i, 0)));
-            let normal = Vec3::from_array(samples.normal.sample(i, 0));
-            let view = Vec3::from_array(samples.view.sample(i, 0));
-            let specular = (normal + d).normalize();
-            let reflected = 2.0 * specular.dot(view) * specular - view;
-            let diffuse = (normal + b).normalize() * self.normal;
-            join(diffuse, reflected * self.reflection)
+        Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
+            let (normal, view) = (samples.normal.block(block), samples.view.block(block));
+            bend(self, normal, view, deviation.map_or(&STILL, |planes| planes.block(block)), out);
         })
     }
 
     /// Carries gradients of the directions (the first six rows of `gradient`) to the deviation and
     /// its blur.
     pub fn adjoint(&self, samples: &Samples, deviation: &Planes, gradient: &Planes) -> Planes {
-        Planes::from_fn(samples.len(), |i| {
-            let [d, b] = split(deviation.sample(i, 0));
-            let [by_diffuse, by_reflected] = split(gradient.sample(i, 0));
-            let normal = Vec3::from_array(samples.normal.sample(i, 0));
-            let view = Vec3::from_array(samples.view.sample(i, 0));
-            let specular = (normal + d).normalize();
-            let g = by_reflected * self.reflection;
-            let by_specular = 2.0 * (specular.dot(g) * view + specular.dot(view) * g);
-            let by_d = normalize_adjoint(normal + d, by_specular);
-            let by_b = normalize_adjoint(normal + b, by_diffuse * self.normal);
-            join(by_d, by_b)
+        Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
+            let (normal, view) = (samples.normal.block(block), samples.view.block(block));
+            bend_adjoint(self, normal, view, deviation.block(block), gradient.block(block), out);
         })
     }
 }
 
-fn split(rows: [f32; 6]) -> [Vec3; 2] {
-    [Vec3::from_slice(&rows[..3]), Vec3::from_slice(&rows[3..])]
+/// No deviation.
+static STILL: [Row; DIRECTIONS] = [Row::ZERO; DIRECTIONS];
+
+widened! {
+    fn bend(scale: &DirectionScale, normal: &[Row], view: &[Row], deviation: &[Row], out: &mut [Row]) {
+        let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
+        let (deviation, out) = (first_rows::<DIRECTIONS>(deviation), rows_mut(out));
+        for lane in 0..BLOCK {
+            let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
+            let specular = (normal + vector(deviation, 0, lane)).normalize();
+            let reflected = 2.0 * specular.dot(view) * specular - view;
+            let diffuse = (normal + vector(deviation, 3, lane)).normalize() * scale.normal;
+            store(out, lane, diffuse, reflected * scale.reflection);
+        }
+    }
 }
 
-fn join(a: Vec3, b: Vec3) -> [f32; 6] {
-    [a.x, a.y, a.z, b.x, b.y, b.z]
+widened! {
+    fn bend_adjoint(
+        scale: &DirectionScale,
+        normal: &[Row],
+        view: &[Row],
+        deviation: &[Row],
+        gradient: &[Row],
+        out: &mut [Row],
+    ) {
+        let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
+        let (deviation, gradient) = (first_rows::<DIRECTIONS>(deviation), first_rows::<DIRECTIONS>(gradient));
+        let out = rows_mut(out);
+        for lane in 0..BLOCK {
+            let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
+            let bent = normal + vector(deviation, 0, lane);
+            let specular = bent.normalize();
+            let g = vector(gradient, 3, lane) * scale.reflection;
+            let by_specular = 2.0 * (specular.dot(g) * view + specular.dot(view) * g);
+            let by_d = normalize_adjoint(bent, by_specular);
+            let by_diffuse = vector(gradient, 0, lane) * scale.normal;
+            let by_b = normalize_adjoint(normal + vector(deviation, 3, lane), by_diffuse);
+            store(out, lane, by_d, by_b);
+        }
+    }
 }
 
+#[inline(always)]
+fn rows_mut(rows: &mut [Row]) -> &mut [Row; DIRECTIONS] {
+    rows.first_chunk_mut().unwrap_or_else(|| unreachable!("planes have rows for two vectors"))
+}
+
+#[inline(always)]
+fn vector<const R: usize>(rows: &[Row; R], first: usize, lane: usize) -> Vec3 {
+    Vec3::new(rows[first].0[lane], rows[first + 1].0[lane], rows[first + 2].0[lane])
+}
+
+#[inline(always)]
+fn store(rows: &mut [Row; DIRECTIONS], lane: usize, a: Vec3, b: Vec3) {
+    for (row, value) in rows.iter_mut().zip([a.x, a.y, a.z, b.x, b.y, b.z]) {
+        row.0[lane] = value;
+    }
+}
+
+#[inline(always)]
 fn normalize_adjoint(vector: Vec3, gradient: Vec3) -> Vec3 {
     let length = vector.length();
     let unit = vector / length;

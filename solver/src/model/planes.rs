@@ -1,6 +1,8 @@
 //! Per-sample quantities in the layout of the kernels: blocks of 256 samples, each quantity of a
 //! block in one contiguous row, so that a chunk of samples is one contiguous piece of memory.
 
+use std::mem::MaybeUninit;
+
 use rayon::prelude::*;
 
 /// Samples per block.
@@ -19,6 +21,13 @@ impl Row {
     pub const ZERO: Self = Self([0.0; BLOCK]);
 }
 
+/// The first `R` rows: with their number known, a compiler keeps them apart.
+#[inline(always)]
+pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
+    // Planes are made with the rows that are asked of them.
+    rows.first_chunk().unwrap_or_else(|| unreachable!("{} rows instead of {R}", rows.len()))
+}
+
 /// `rows` quantities of `len` samples; the samples that fill up the last block are zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planes {
@@ -35,16 +44,55 @@ impl Planes {
 
     /// `value(sample)[row]`, computed in parallel.
     pub fn from_fn<const R: usize>(len: usize, value: impl Fn(usize) -> [f32; R] + Sync) -> Self {
-        let mut planes = Self::new(R, len);
-        planes.data.par_chunks_mut(R).enumerate().for_each(|(block, rows)| {
+        Self::from_blocks(R, len, |block, rows| {
             let first = block * BLOCK;
             for lane in 0..BLOCK.min(len - first) {
                 for (row, value) in rows.iter_mut().zip(value(first + lane)) {
                     row.0[lane] = value;
                 }
             }
-        });
-        planes
+        })
+    }
+
+    /// What `fill` makes of the rows of every block, which are zero at first, in parallel.
+    pub fn from_blocks(rows: usize, len: usize, fill: impl Fn(usize, &mut [Row]) + Sync) -> Self {
+        Self::from_tasks(rows, len, 1, || (), |(), block, rows| fill(block, rows)).0
+    }
+
+    /// The same for tasks of `blocks` blocks each: `fill(scratch, first block, rows)`. Returns the
+    /// planes and the results of the tasks in their order.
+    pub fn from_tasks<S, T: Send>(
+        rows: usize,
+        len: usize,
+        blocks: usize,
+        scratch: impl Fn() -> S + Send + Sync,
+        fill: impl Fn(&mut S, usize, &mut [Row]) -> T + Sync,
+    ) -> (Self, Vec<T>) {
+        let count = rows * len.div_ceil(BLOCK);
+        let mut data = Vec::<Row>::with_capacity(count);
+        let task = |scratch: &mut S, (task, part): (usize, &mut [MaybeUninit<Row>])| {
+            // Zeroed here, so that it is in this core's cache when it is filled.
+            part.iter_mut().for_each(|row| _ = row.write(Row::ZERO));
+            let (start, length) = (part.as_mut_ptr().cast::<Row>(), part.len());
+            // SAFETY: all of the part was just written, and nothing else refers to it meanwhile.
+            let part = unsafe { std::slice::from_raw_parts_mut(start, length) };
+            let first = task * blocks;
+            let result = fill(scratch, first, part);
+            let filled = len - first * BLOCK;
+            if filled < blocks * BLOCK && !filled.is_multiple_of(BLOCK) {
+                let last = &mut part[filled / BLOCK * rows..];
+                last.iter_mut().for_each(|row| row.0[filled % BLOCK..].fill(0.0));
+            }
+            result
+        };
+        let results = data.spare_capacity_mut()[..count]
+            .par_chunks_mut((rows * blocks).max(1))
+            .enumerate()
+            .map_init(scratch, task)
+            .collect();
+        // SAFETY: the tasks have written every one of the rows.
+        unsafe { data.set_len(count) };
+        (Self { rows, len, data }, results)
     }
 
     /// Number of quantities.
@@ -76,6 +124,11 @@ impl Planes {
     /// The rows of block number `block`.
     pub fn block(&self, block: usize) -> &[Row] {
         &self.data[block * self.rows..][..self.rows]
+    }
+
+    /// The rows of block number `block`, of which there are `R` or more.
+    pub fn rows_of<const R: usize>(&self, block: usize) -> &[Row; R] {
+        first_rows(self.block(block))
     }
 
     /// The rows of all blocks, one block after the other.

@@ -2,8 +2,14 @@
 
 use rayon::prelude::*;
 
+use crate::simd::widened;
+
 /// Channels of the diffuse albedo.
 const CHANNELS: usize = 3;
+/// Rows that one task works through.
+const ROWS: usize = 16;
+/// Independent sums, which a compiler turns into vectors.
+const LANES: usize = 8;
 
 /// `weight` times the average over texels and channels of sqrt(1 + |du A|) - 1 + sqrt(1 + |dv A|)
 /// - 1 with differences to the next texel; its gradient is added to `gradient`.
@@ -13,42 +19,76 @@ pub fn prior(albedo: &[f32], size: usize, weight: f32, gradient: &mut [f32]) -> 
     }
     let line = size * CHANNELS;
     let scale = weight / albedo.len() as f32;
-    let row = |(y, gradient): (usize, &mut [f32])| {
+    let task = |(task, gradient): (usize, &mut [f32])| {
+        // Slopes to the texel on the right, to the row below and from the row above.
+        let mut across = vec![0.0; line];
+        let [mut below, mut above] = [vec![0.0; line], vec![0.0; line]];
+        let first = task * ROWS;
+        let row = |y: usize| &albedo[y * line..][..line];
+        if first > 0 {
+            slopes(row(first - 1), row(first), &mut above);
+        }
         let mut sum = 0.0;
-        for (x, gradient) in gradient.iter_mut().enumerate() {
-            let at = y * line + x;
-            let value = albedo[at];
-            if x + CHANNELS < line {
-                sum += penalty(albedo[at + CHANNELS] - value);
-                *gradient -= scale * slope(albedo[at + CHANNELS] - value);
+        for (y, gradient) in (first..).zip(gradient.chunks_exact_mut(line)) {
+            sum += slopes(row(y), &row(y)[CHANNELS..], &mut across);
+            match y + 1 < size {
+                true => sum += slopes(row(y), row(y + 1), &mut below),
+                false => below.fill(0.0),
             }
-            if x >= CHANNELS {
-                *gradient += scale * slope(value - albedo[at - CHANNELS]);
-            }
-            if y + 1 < size {
-                sum += penalty(albedo[at + line] - value);
-                *gradient -= scale * slope(albedo[at + line] - value);
-            }
-            if y > 0 {
-                *gradient += scale * slope(value - albedo[at - line]);
-            }
+            pull(gradient, &across, &above, &below, scale);
+            std::mem::swap(&mut above, &mut below);
         }
         sum
     };
-    let sums: Vec<f64> = gradient.par_chunks_mut(line).enumerate().map(row).collect();
+    let sums: Vec<f64> = gradient.par_chunks_mut(ROWS * line).enumerate().map(task).collect();
     f64::from(weight) * sums.iter().sum::<f64>() / albedo.len() as f64
 }
 
-fn penalty(difference: f32) -> f64 {
-    f64::from((1.0 + difference.abs()).sqrt() - 1.0)
+widened! {
+    /// The penalty's derivatives by the differences `b` - `a`; the sum of the penalties.
+    fn slopes(a: &[f32], b: &[f32], slopes: &mut [f32]) -> f64 {
+        let mut sums = [0.0f64; LANES];
+        let ((a, a_rest), (b, b_rest)) = (a[..b.len()].as_chunks::<LANES>(), b.as_chunks::<LANES>());
+        let (out, out_rest) = slopes[..a.len() * LANES + a_rest.len()].as_chunks_mut::<LANES>();
+        for ((a, b), out) in a.iter().zip(b).zip(out) {
+            for lane in 0..LANES {
+                let (penalty, slope) = penalty(b[lane] - a[lane]);
+                out[lane] = slope;
+                sums[lane] += f64::from(penalty);
+            }
+        }
+        let mut sum: f64 = sums.iter().sum();
+        for ((a, b), out) in a_rest.iter().zip(b_rest).zip(out_rest) {
+            let (penalty, slope) = penalty(b - a);
+            *out = slope;
+            sum += f64::from(penalty);
+        }
+        sum
+    }
 }
 
-/// Derivative of the penalty; zero where it has none.
-fn slope(difference: f32) -> f32 {
-    if difference == 0.0 {
-        return 0.0;
+widened! {
+    /// Adds what a row's texels gain from their four differences.
+    fn pull(gradient: &mut [f32], across: &[f32], above: &[f32], below: &[f32], scale: f32) {
+        let line = gradient.len();
+        let (across, above, below) = (&across[..line], &above[..line], &below[..line]);
+        for x in 0..CHANNELS.min(line) {
+            gradient[x] += scale * (above[x] - below[x] - across[x]);
+        }
+        let before = across.iter();
+        let rest = gradient.iter_mut().zip(above).zip(below).zip(across).skip(CHANNELS);
+        for ((((gradient, above), below), after), before) in rest.zip(before) {
+            *gradient += scale * (above - below + (before - after));
+        }
     }
-    (0.5 / (1.0 + difference.abs()).sqrt()).copysign(difference)
+}
+
+/// sqrt(1 + |d|) - 1 and its derivative, zero where it has none.
+#[inline(always)]
+fn penalty(difference: f32) -> (f32, f32) {
+    let root = (1.0 + difference.abs()).sqrt();
+    let slope = (0.5 / root).copysign(difference);
+    (root - 1.0, if difference == 0.0 { 0.0 } else { slope })
 }
 
 #[cfg(test)]

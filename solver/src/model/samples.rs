@@ -121,6 +121,22 @@ impl SampleSpace {
 }
 
 impl Samples {
+    /// No samples, for textures of side `size`.
+    pub fn none(size: usize) -> Self {
+        let none = |rows: usize| Planes::new(rows, 0);
+        Self {
+            position: none(3),
+            normal: none(3),
+            view: none(3),
+            fresnel: none(1),
+            target: none(3),
+            weight: none(1),
+            taps: Taps::sorted(size, &[]).0,
+            pixel: vec![],
+            view_index: vec![],
+        }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.pixel.len()

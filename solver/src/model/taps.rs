@@ -1,12 +1,22 @@
 //! Bilinear taps, computed once: textures are sampled per pixel, gradients are gathered per texel.
 //!
-//! Samples are sorted by texel. The gradient of a texture row then comes from two contiguous runs
-//! of samples, read in a fixed order: no atomics, and the same sums for any number of threads.
+//! Samples are sorted by texel. The gradient of a strip of texture rows then comes from one contiguous
+//! run of samples, read in a fixed order: no atomics, and the same sums for any number of threads; the
+//! sums of a cell stay in registers while its samples pass. A sample's place is 12 bytes.
+
+use std::ops::Range;
+use std::sync::Mutex;
 
 use glam::Vec2;
 use rayon::prelude::*;
 
-use super::planes::Planes;
+use super::planes::{BLOCK, Planes, Row};
+use crate::simd::widened;
+
+/// A gather is cut into about this many strips, whatever the number of threads.
+const STRIPS: usize = 64;
+/// Rows of a strip, at least.
+const LEAST_ROWS: usize = 4;
 
 /// The four texels around each sample, with bilinear weights; outside the texture it is clamped.
 #[derive(Clone, Debug)]
@@ -55,49 +65,203 @@ impl Taps {
         &self.fraction
     }
 
+    /// Where a sample lies: column and row, counted in texels from the first texel's centre.
+    pub fn place(&self, sample: usize) -> [f32; 2] {
+        let (cell, [fx, fy]) = (self.cell[sample] as usize, self.fraction[sample]);
+        [(cell % self.size) as f32 + fx, (cell / self.size) as f32 + fy]
+    }
+
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
         let (texels, _) = texture.as_chunks::<C>();
-        Planes::from_fn(self.cell.len(), |i| {
-            let at = self.cell[i] as usize;
-            let [fx, fy] = self.fraction[i];
-            let [top, bottom] = [at, at + self.size].map(|left| {
-                let (a, b) = (&texels[left], &texels[left + 1]);
-                std::array::from_fn::<f32, C, _>(|c| a[c] + fx * (b[c] - a[c]))
+        Planes::from_blocks(C, self.cell.len(), |block, rows| {
+            let first = block * BLOCK;
+            let last = (first + BLOCK).min(self.cell.len());
+            let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
+            let rows = rows.first_chunk_mut::<C>();
+            rows.into_iter().for_each(|rows| {
+                sample_block(cell, fraction, texels, self.size, 0, rows);
             });
-            std::array::from_fn::<f32, C, _>(|c| top[c] + fy * (bottom[c] - top[c]))
         })
     }
 
     /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
     /// the texels they were interpolated from.
     pub fn gather<const C: usize>(&self, gradient: &Planes, first: usize) -> Vec<f32> {
-        let mut texels = vec![0.0; self.size * self.size * C];
-        texels.par_chunks_mut(self.size * C).enumerate().for_each(|(row, line)| {
-            let (line, _) = line.as_chunks_mut::<C>();
-            if row > 0 {
-                self.add_cells(row - 1, line, gradient, first, |fy| fy);
+        let rows = |block: usize| gradient.block(block)[first..].first_chunk::<C>();
+        self.by_strip(|strip| {
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                rows(block).into_iter().for_each(|rows| strip.add(block, lanes.clone(), rows));
             }
-            self.add_cells(row, line, gradient, first, |fy| 1.0 - fy);
-        });
-        texels
+        })
     }
 
-    fn add_cells<const C: usize>(
+    /// [`Taps::sample`] and [`Taps::gather`] in one pass, without planes between them. Given the number
+    /// of a block and the texture values of its samples, `value` writes their gradients and their
+    /// terms of the loss. Returns the texels' gradients and the sum of the terms. (Blocks at the ends
+    /// of a strip are seen twice, with other samples valid.)
+    pub fn exchange<const C: usize, const D: usize>(
         &self,
-        row: usize,
-        line: &mut [[f32; C]],
-        gradient: &Planes,
+        texture: &[f32],
+        value: impl Fn(usize, &[Row; C], &mut [Row; D], &mut Row) + Sync,
+    ) -> (Vec<f32>, f64) {
+        let (texels, _) = texture.as_chunks::<C>();
+        let sums = Mutex::new(vec![0.0; self.size.div_ceil(self.strip())]);
+        let gradient = self.by_strip(|strip| {
+            let (mut values, mut gradient) = ([Row::ZERO; C], [Row::ZERO; D]);
+            let mut loss = Row::ZERO;
+            let mut sum = 0.0;
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
+                let (cell, fraction) = (&self.cell[samples.clone()], &self.fraction[samples]);
+                sample_block(cell, fraction, texels, self.size, lanes.start, &mut values);
+                value(block, &values, &mut gradient, &mut loss);
+                sum += loss.0[lanes.clone()].iter().map(|term| f64::from(*term)).sum::<f64>();
+                strip.add(block, lanes, &gradient);
+            }
+            if let Ok(mut sums) = sums.lock() {
+                sums[strip.number] = sum;
+            }
+        });
+        let sums = sums.into_inner().unwrap_or_default();
+        (gradient, sums.iter().sum())
+    }
+
+    /// Rows of a strip.
+    fn strip(&self) -> usize {
+        self.size.div_ceil(STRIPS).max(LEAST_ROWS)
+    }
+
+    /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
+    /// contiguous. The row below a strip's last, which the next strip begins with, is added at the
+    /// end.
+    fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
+        let (line, rows) = (self.size * D, self.strip());
+        let mut texels = vec![0.0; self.size * line];
+        let task = |(number, texels): (usize, &mut [f32])| {
+            let (first, rows) = (number * rows, texels.len() / line);
+            let samples = self.row_start[first]..self.row_start[first + rows];
+            let mut below = vec![0.0; line];
+            let below_texels = below.as_chunks_mut().0;
+            let texels = texels.as_chunks_mut().0;
+            work(&mut Strip { taps: self, number, first, samples, texels, below: below_texels });
+            below
+        };
+        let below: Vec<Vec<f32>> =
+            texels.par_chunks_mut(rows * line).enumerate().map(task).collect();
+        for (texels, below) in texels.chunks_mut(rows * line).skip(1).zip(&below) {
+            texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
+        }
+        texels
+    }
+}
+
+/// The blocks that a range of samples lies in, with its lanes of each.
+fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let first = samples.start / BLOCK;
+    (first..samples.end.div_ceil(BLOCK).max(first)).map(move |block| {
+        let start = block * BLOCK;
+        (block, samples.start.max(start) - start..samples.end.min(start + BLOCK) - start)
+    })
+}
+
+/// Some rows of a texture of `D` channels, and the row below them.
+struct Strip<'a, const D: usize> {
+    taps: &'a Taps,
+    number: usize,
+    /// The first row.
+    first: usize,
+    /// Samples whose upper texels are in these rows.
+    samples: Range<usize>,
+    texels: &'a mut [[f32; D]],
+    below: &'a mut [[f32; D]],
+}
+
+impl<const D: usize> Strip<'_, D> {
+    /// Adds some lanes of a block. The sums of a cell stay in registers while its samples pass.
+    fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
+        let Taps { size, cell, fraction, .. } = self.taps;
+        let start = self.first * size;
+        let cells = &cell[block * BLOCK..][lanes.clone()];
+        let fractions = &fraction[block * BLOCK..][lanes.clone()];
+        let mut samples = cells.iter().zip(fractions).zip(lanes).peekable();
+        while let Some(((cell, _), _)) = samples.peek().copied() {
+            let mut corners = Corners::default();
+            while let Some(((_, fraction), lane)) = samples.next_if(|next| next.0.0 == cell) {
+                corners.add(*fraction, std::array::from_fn(|channel| rows[channel].0[lane]));
+            }
+            let Corners([a, b, c, d]) = corners;
+            let at = *cell as usize - start;
+            add(&mut self.texels[at], a);
+            add(&mut self.texels[at + 1], b);
+            let next = match (at + size).checked_sub(self.texels.len()) {
+                None => &mut self.texels[at + size..at + size + 2],
+                Some(at) => &mut self.below[at..at + 2],
+            };
+            add(&mut next[0], c);
+            add(&mut next[1], d);
+        }
+    }
+}
+
+/// Sums at the four texels of a cell: upper left, upper right, lower left, lower right.
+struct Corners<const D: usize>([[f32; D]; 4]);
+
+impl<const D: usize> Default for Corners<D> {
+    fn default() -> Self {
+        Self([[0.0; D]; 4])
+    }
+}
+
+impl<const D: usize> Corners<D> {
+    #[inline(always)]
+    fn add(&mut self, [fx, fy]: [f32; 2], gradient: [f32; D]) {
+        let [a, b, c, d] = &mut self.0;
+        for (channel, g) in gradient.into_iter().enumerate() {
+            let (upper, lower) = ((1.0 - fy) * g, fy * g);
+            a[channel] += (1.0 - fx) * upper;
+            b[channel] += fx * upper;
+            c[channel] += (1.0 - fx) * lower;
+            d[channel] += fx * lower;
+        }
+    }
+}
+
+#[inline(always)]
+fn add<const D: usize>(sum: &mut [f32; D], value: [f32; D]) {
+    sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+}
+
+/// The texels of a cell, in the order of [`Corners`].
+#[inline(always)]
+fn surrounding<const C: usize>(texels: &[[f32; C]], size: usize, cell: usize) -> [&[f32; C]; 4] {
+    let (upper, lower) = (&texels[cell..cell + 2], &texels[cell + size..cell + size + 2]);
+    [&upper[0], &upper[1], &lower[0], &lower[1]]
+}
+
+#[inline(always)]
+fn blend<const C: usize>([a, b, c, d]: [&[f32; C]; 4], [fx, fy]: [f32; 2]) -> [f32; C] {
+    std::array::from_fn(|k| {
+        let (upper, lower) = (a[k] + fx * (b[k] - a[k]), c[k] + fx * (d[k] - c[k]));
+        upper + fy * (lower - upper)
+    })
+}
+
+widened! {
+    /// The texture values of some samples, from lane `first` on.
+    fn sample_block<const C: usize>(
+        cell: &[u32],
+        fraction: &[[f32; 2]],
+        texels: &[[f32; C]],
+        size: usize,
         first: usize,
-        vertical: impl Fn(f32) -> f32,
+        rows: &mut [Row; C],
     ) {
-        for i in self.row_start[row]..self.row_start[row + 1] {
-            let x = self.cell[i] as usize - row * self.size;
-            let [fx, fy] = self.fraction[i];
-            let value = gradient.sample::<C>(i, first).map(|g| g * vertical(fy));
-            for c in 0..C {
-                line[x][c] += (1.0 - fx) * value[c];
-                line[x + 1][c] += fx * value[c];
+        assert!(first + cell.len() <= BLOCK);
+        for (lane, (cell, fraction)) in cell.iter().zip(fraction).enumerate() {
+            let value = blend(surrounding(texels, size, *cell as usize), *fraction);
+            for (row, value) in rows.iter_mut().zip(value) {
+                row.0[first + lane] = value;
             }
         }
     }
@@ -142,5 +306,25 @@ mod tests {
         let right: f64 =
             gathered.iter().zip(&texture).map(|(g, t)| f64::from(*g) * f64::from(*t)).sum();
         assert!((left - right).abs() < 1e-3 * left.abs().max(1.0), "{left} {right}");
+    }
+
+    #[test]
+    fn an_exchange_is_a_sample_and_a_gather() {
+        // More rows than a strip has.
+        let (taps, _) = Taps::sorted(300, &points(5000));
+        let texture: Vec<f32> = (0..300 * 300 * 2).map(|i| (i as f32 * 0.37).sin()).collect();
+        let swap = |i: usize, [a, b]: [f32; 2]| [b, a * (i % 7) as f32, 1.0];
+        let sampled = taps.sample::<2>(&texture);
+        let planes = Planes::from_fn(5000, |i| swap(i, sampled.sample(i, 0)));
+        let (gathered, sum) = taps.exchange::<2, 3>(&texture, |block, values, gradient, loss| {
+            for lane in 0..BLOCK {
+                let [a, b, c] = swap(block * BLOCK + lane, [0, 1].map(|c| values[c].0[lane]));
+                (gradient[0].0[lane], gradient[1].0[lane], gradient[2].0[lane]) = (a, b, c);
+                loss.0[lane] = values[0].0[lane];
+            }
+        });
+        assert_eq!(gathered, taps.gather::<3>(&planes, 0));
+        let expected: f64 = (0..5000).map(|i| f64::from(sampled.get(0, i))).sum();
+        assert!((sum - expected).abs() < 1e-9, "{sum} {expected}");
     }
 }

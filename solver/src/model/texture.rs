@@ -29,12 +29,27 @@ pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec
 pub fn interleave<const C: usize>(parts: &[(&[f32], usize)]) -> Vec<f32> {
     let texels = parts.first().map_or(0, |(texture, channels)| texture.len() / channels);
     let mut out = vec![0.0; texels * C];
-    out.par_chunks_mut(C).enumerate().for_each(|(at, texel)| {
+    out.par_chunks_mut(C << 12).enumerate().for_each(|(task, out)| {
+        let (out, _) = out.as_chunks_mut::<C>();
         let mut first = 0;
         for (texture, channels) in parts {
-            let source = &texture[at * channels..][..*channels];
-            texel[first..first + channels].copy_from_slice(source);
+            let source = &texture[(task << 12) * channels..];
+            for (texel, source) in out.iter_mut().zip(source.chunks_exact(*channels)) {
+                texel[first..first + channels].copy_from_slice(source);
+            }
             first += channels;
+        }
+    });
+    out
+}
+
+/// The reverse of [`interleave`]: `D` channels from `first` on, of `C`.
+pub fn part<const C: usize, const D: usize>(texture: &[f32], first: usize) -> Vec<f32> {
+    let (texels, _) = texture.as_chunks::<C>();
+    let mut out = vec![0.0; texels.len() * D];
+    out.par_chunks_mut(D << 12).zip(texels.par_chunks(1 << 12)).for_each(|(out, texels)| {
+        for (out, texel) in out.as_chunks_mut::<D>().0.iter_mut().zip(texels) {
+            out.copy_from_slice(&texel[first..first + D]);
         }
     });
     out
@@ -57,6 +72,9 @@ mod tests {
     #[test]
     fn interleaving_keeps_the_order() {
         let (a, b) = ([1.0, 2.0, 3.0, 4.0], [5.0, 6.0]);
-        assert_eq!(interleave::<3>(&[(&a, 2), (&b, 1)]), [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]);
+        let both = interleave::<3>(&[(&a, 2), (&b, 1)]);
+        assert_eq!(both, [1.0, 2.0, 5.0, 3.0, 4.0, 6.0]);
+        assert_eq!(part::<3, 2>(&both, 0), a);
+        assert_eq!(part::<3, 1>(&both, 2), b);
     }
 }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::config::AdamConfig;
+use crate::simd::widened;
 
 /// Elements that one task works through.
 const CHUNK: usize = 1 << 14;
@@ -90,15 +91,32 @@ impl Adam {
             .zip(gradient.par_chunks(CHUNK))
             .zip(self.first.par_chunks_mut(CHUNK).zip(self.second.par_chunks_mut(CHUNK)))
             .for_each(|((parameters, gradient), (first, second))| {
-                let moments = first.iter_mut().zip(second);
-                for ((p, g), (m, v)) in parameters.iter_mut().zip(gradient).zip(moments) {
-                    *m = beta1 * *m + (1.0 - beta1) * g;
-                    *v = beta2 * *v + (1.0 - beta2) * g * g;
-                    let moved = *p - rate * *m / (v.sqrt() * root + epsilon);
-                    // Unlike max, this lets a NaN through, which the loss then shows.
-                    *p = if moved < least { least } else { moved };
-                }
+                let factors = Factors { beta1, beta2, epsilon, rate, root, least };
+                step(parameters, gradient, first, second, &factors);
             });
+    }
+}
+
+/// What a step does to every element.
+struct Factors {
+    beta1: f32,
+    beta2: f32,
+    epsilon: f32,
+    rate: f32,
+    root: f32,
+    least: f32,
+}
+
+widened! {
+    fn step(parameters: &mut [f32], gradient: &[f32], first: &mut [f32], second: &mut [f32], f: &Factors) {
+        let moments = first.iter_mut().zip(second);
+        for ((p, g), (m, v)) in parameters.iter_mut().zip(gradient).zip(moments) {
+            *m = f.beta1 * *m + (1.0 - f.beta1) * g;
+            *v = f.beta2 * *v + (1.0 - f.beta2) * g * g;
+            let moved = *p - f.rate * *m / (v.sqrt() * f.root + f.epsilon);
+            // Unlike max, this lets a NaN through, which the loss then shows.
+            *p = if moved < f.least { f.least } else { moved };
+        }
     }
 }
 

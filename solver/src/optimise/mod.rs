@@ -12,6 +12,7 @@ mod run;
 pub(crate) mod site;
 mod snapshot;
 pub mod solve;
+pub mod specular;
 pub mod stage;
 pub mod transported;
 

@@ -13,15 +13,17 @@ use super::stage::State;
 use super::transported::{LIT, Lit, bent_shading};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
+use crate::convolution::Shape;
 use crate::error::SolveError;
 use crate::gbuffer::{Atlas, GBuffer, blurred};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::Planes;
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
-use crate::model::texture::{interleave, resample};
+use crate::model::texture::{interleave, part, resample};
+use crate::simd::widened;
 
 /// Rows of the sampled unknowns: specular and diffuse deviation, albedo.
 const UNKNOWNS: usize = 9;
@@ -33,6 +35,8 @@ const ALBEDO_UNIT: f32 = 0.1;
 const LEAST_CONTRAST: f32 = 1e-3;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
+/// Values that one task works through.
+const CHUNK: usize = 1 << 14;
 
 /// The linearised problem.
 pub struct ReliefSolve<'a> {
@@ -195,10 +199,14 @@ impl<'a> ReliefSolve<'a> {
         // A target far below makes every residual positive, and weight and albedos are chosen so
         // that the gradient of the loss is the derivative itself: the red channel alone holds S_d,
         // all three hold F S_s.
-        let mut probe = samples.clone();
         let unit = 3.0 * samples.len() as f32;
-        probe.target = Planes::from_fn(samples.len(), |_| [-1e6f32; 3]);
-        probe.weight = Planes::from_fn(samples.len(), |_| [unit]);
+        let probe = Samples {
+            fresnel: samples.fresnel.clone(),
+            target: Planes::from_fn(samples.len(), |_| [-1e6f32; 3]),
+            weight: Planes::from_fn(samples.len(), |_| [unit]),
+            pixel: samples.pixel.clone(),
+            ..Samples::none(samples.taps.size())
+        };
         let albedo = Planes::from_fn(samples.len(), |_| [1.0, 0.0, 0.0, 1.0 / 3.0]);
         let (_, gradient) =
             self.backend.bend(self.networks, &probe, &self.light, directions, &albedo);
@@ -207,50 +215,31 @@ impl<'a> ReliefSolve<'a> {
 
     /// The unknowns at every sample: both deviations, change of the albedo.
     fn sampled(&self, x: &[f32]) -> Planes {
-        let texels = self.size * self.size;
-        let sharp = self.field.bend(&x[..texels]);
-        let soft = self.blur.apply(&sharp);
-        let albedo: Vec<f32> = x[texels..].iter().map(|x| ALBEDO_UNIT * x).collect();
-        let parts: [(&[f32], usize); 3] = [(&sharp, 3), (&soft, 3), (&albedo, 3)];
-        self.samples.taps.sample::<UNKNOWNS>(&interleave::<UNKNOWNS>(&parts))
+        let (height, albedo) = x.split_at(self.size * self.size);
+        self.samples.taps.sample::<UNKNOWNS>(&self.texture(&self.field.bend(height), albedo))
+    }
+
+    /// The unknowns of every texel, interleaved; `sharp` is the deviation.
+    fn texture(&self, sharp: &[f32], albedo: &[f32]) -> Vec<f32> {
+        let soft = self.blur.apply(sharp);
+        let albedo: Vec<f32> = albedo.par_iter().map(|x| ALBEDO_UNIT * x).collect();
+        interleave::<UNKNOWNS>(&[(sharp, 3), (&soft, 3), (&albedo, 3)])
     }
 
     fn forward(&self, slopes: &Planes, q: &Planes) -> Planes {
-        Planes::from_fn(self.samples.len(), |i| {
-            let s: [f32; SLOPES] = slopes.sample(i, 0);
-            let q: [f32; UNKNOWNS] = q.sample(i, 0);
-            let highlight = s[0] * q[0] + s[1] * q[1] + s[2] * q[2];
-            std::array::from_fn::<f32, 3, _>(|c| {
-                let slope = &s[3 + 3 * c..];
-                let shading = slope[0] * q[3] + slope[1] * q[4] + slope[2] * q[5];
-                shading + highlight + s[12 + c] * q[6 + c]
-            })
-        })
+        Planes::from_fn(self.samples.len(), |i| explained(&slopes.sample(i, 0), &q.sample(i, 0)))
     }
 
-    /// The transpose of [`Self::forward`] and [`Self::sampled`].
-    fn adjoint(&self, slopes: &Planes, z: &Planes) -> Vec<f32> {
-        let q = Planes::from_fn(self.samples.len(), |i| {
-            let s: [f32; SLOPES] = slopes.sample(i, 0);
-            let z: [f32; 3] = z.sample(i, 0);
-            let all = z[0] + z[1] + z[2];
-            let mut q = [0.0; UNKNOWNS];
-            for k in 0..3 {
-                q[k] = s[k] * all;
-                q[3 + k] = s[3 + k] * z[0] + s[6 + k] * z[1] + s[9 + k] * z[2];
-                q[6 + k] = s[12 + k] * z[k];
-            }
-            q
-        });
-        let gathered = self.samples.taps.gather::<UNKNOWNS>(&q, 0);
-        let (texels, _) = gathered.as_chunks::<UNKNOWNS>();
-        let part = |first: usize| -> Vec<f32> {
-            texels.par_iter().flat_map_iter(|t| [t[first], t[first + 1], t[first + 2]]).collect()
-        };
-        let mut sharp = part(0);
-        add(&mut sharp, &self.blur.adjoint(&part(3)));
+    /// Carries gradients by the interleaved unknowns, with `by_sharp` more by the deviation, to heights
+    /// and albedo: the transpose of [`Self::texture`].
+    fn carried(&self, gathered: &[f32], by_sharp: Option<&[f32]>) -> Vec<f32> {
+        let mut sharp = part::<UNKNOWNS, 3>(gathered, 0);
+        add(&mut sharp, &self.blur.adjoint(&part::<UNKNOWNS, 3>(gathered, 3)));
+        if let Some(more) = by_sharp {
+            add(&mut sharp, more);
+        }
         let mut gradient = self.field.adjoint(&sharp);
-        gradient.extend(part(6).iter().map(|g| ALBEDO_UNIT * g));
+        gradient.par_extend(part::<UNKNOWNS, 3>(gathered, 6).par_iter().map(|g| ALBEDO_UNIT * g));
         gradient
     }
 
@@ -282,28 +271,28 @@ impl<'a> ReliefSolve<'a> {
         residual: f64,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<(), SolveError> {
-        let weighted = |z: &Planes| -> Planes {
-            Planes::from_fn(self.samples.len(), |i| {
-                let (z, weight): ([f32; 3], f32) = (z.sample(i, 0), weight.get(0, i));
-                z.map(|z| weight * z)
-            })
-        };
+        let taps = &self.samples.taps;
         let texels = self.size * self.size;
+        // One pass over the samples: 16 values and the place of each, 76 bytes.
         let normal = |x: &[f32]| {
-            let mut out = self.adjoint(slopes, &weighted(&self.forward(slopes, &self.sampled(x))));
-            let (by_height, by_albedo) = out.split_at_mut(texels);
             let (height, albedo) = x.split_at(texels);
             let bend = self.field.bend(height);
-            let mut penalty = laplacian(&bend, self.size, 3, self.config.smoothness);
-            let flatness = self.flatness;
-            penalty.iter_mut().zip(&bend).for_each(|(p, d)| *p += flatness * d);
-            add(by_height, &self.field.adjoint(&penalty));
-            by_height.iter_mut().zip(height).for_each(|(g, h)| *g += REST * h);
-            let damping = self.config.albedo_damping;
-            by_albedo.iter_mut().zip(albedo).for_each(|(g, a)| *g += damping * a);
+            let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |block, q, out, _| {
+                normal_block(slopes.rows_of(block), weight.rows_of(block), q, out);
+            });
+            let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
+            let mut out = self.carried(&gathered, Some(&penalty));
+            let (by_height, by_albedo) = out.split_at_mut(texels);
+            add_scaled(by_height, height, REST);
+            add_scaled(by_albedo, albedo, self.config.albedo_damping);
             out
         };
-        let goal = self.adjoint(slopes, &weighted(target));
+        let rows = Planes::from_fn(self.samples.len(), |i| {
+            let (target, weight): ([f32; 3], f32) = (target.sample(i, 0), weight.get(0, i));
+            transposed(&slopes.sample(i, 0), target.map(|z| weight * z))
+        });
+        let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
+        drop(rows);
         let start = normal(x);
         let mut rest: Vec<f32> = goal.iter().zip(&start).map(|(b, ax)| b - ax).collect();
         let mut direction = rest.clone();
@@ -316,8 +305,8 @@ impl<'a> ReliefSolve<'a> {
             }
             let image = normal(&direction);
             let length = (energy / dot(&direction, &image)) as f32;
-            x.par_iter_mut().zip(&direction).for_each(|(x, d)| *x += length * d);
-            rest.par_iter_mut().zip(&image).for_each(|(r, q)| *r -= length * q);
+            add_scaled(x, &direction, length);
+            add_scaled(&mut rest, &image, -length);
             let next = dot(&rest, &rest);
             let turn = (next / energy) as f32;
             direction.par_iter_mut().zip(&rest).for_each(|(d, r)| *d = r + turn * *d);
@@ -332,70 +321,148 @@ impl<'a> ReliefSolve<'a> {
         if sigma == 0.0 {
             return residual.clone();
         }
-        let channels: Vec<Vec<Vec<f32>>> = self
-            .views
-            .par_iter()
-            .enumerate()
-            .map(|(view, gbuffer)| {
-                let (width, height) = (gbuffer.width, gbuffer.height);
-                let mut planes = vec![vec![0.0f32; width * height]; 4];
-                for (i, (of, pixel)) in
-                    self.samples.view_index.iter().zip(&self.samples.pixel).enumerate()
-                {
-                    if *of as usize == view {
-                        (0..3).for_each(|c| planes[c][*pixel as usize] = residual.get(c, i));
-                        planes[3][*pixel as usize] = 1.0;
-                    }
-                }
-                planes.iter().map(|plane| blurred(plane, width, height, sigma)).collect()
-            })
-            .collect();
+        // R, G, B and cover of every view.
+        let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
+        let mut views: Vec<Vec<f32>> =
+            self.views.iter().map(|view| vec![0.0; 4 * view.width * view.height]).collect();
+        let places = self.samples.view_index.iter().zip(&self.samples.pixel);
+        for (i, (view, pixel)) in places.clone().enumerate() {
+            let [r, g, b] = residual.sample(i, 0);
+            views[*view as usize][4 * *pixel as usize..][..4].copy_from_slice(&[r, g, b, 1.0]);
+        }
+        for (picture, view) in views.iter_mut().zip(self.views) {
+            *picture = blurred(picture, shape(view), sigma);
+        }
         Planes::from_fn(self.samples.len(), |i| {
-            let view = &channels[self.samples.view_index[i] as usize];
-            let pixel = self.samples.pixel[i] as usize;
-            let cover = view[3][pixel].max(f32::MIN_POSITIVE);
+            let (view, pixel) = (self.samples.view_index[i], self.samples.pixel[i]);
+            let coarse = &views[view as usize][4 * pixel as usize..][..4];
+            let cover = coarse[3].max(f32::MIN_POSITIVE);
             let residual: [f32; 3] = residual.sample(i, 0);
-            std::array::from_fn::<f32, 3, _>(|c| residual[c] - view[c][pixel] / cover)
+            std::array::from_fn::<f32, 3, _>(|c| residual[c] - coarse[c] / cover)
         })
     }
 }
 
-/// `weight` times the transpose-times-itself of the forward differences.
-fn laplacian(texture: &[f32], size: usize, channels: usize, weight: f32) -> Vec<f32> {
-    let line = size * channels;
-    (0..texture.len())
-        .into_par_iter()
-        .map(|at| {
-            let (x, y, value) = (at % line, at / line, texture[at]);
-            let mut sum = 0.0;
-            let mut pull = |neighbour: usize| sum += value - texture[neighbour];
-            if x >= channels {
-                pull(at - channels);
+/// The change of a sample's colour by its unknowns.
+#[inline(always)]
+fn explained(s: &[f32; SLOPES], q: &[f32; UNKNOWNS]) -> [f32; 3] {
+    let highlight = s[0] * q[0] + s[1] * q[1] + s[2] * q[2];
+    std::array::from_fn(|c| {
+        let slope = &s[3 + 3 * c..];
+        let shading = slope[0] * q[3] + slope[1] * q[4] + slope[2] * q[5];
+        shading + highlight + s[12 + c] * q[6 + c]
+    })
+}
+
+/// The transpose of [`explained`].
+#[inline(always)]
+fn transposed(s: &[f32; SLOPES], z: [f32; 3]) -> [f32; UNKNOWNS] {
+    let all = z[0] + z[1] + z[2];
+    let mut q = [0.0; UNKNOWNS];
+    for k in 0..3 {
+        q[k] = s[k] * all;
+        q[3 + k] = s[3 + k] * z[0] + s[6 + k] * z[1] + s[9 + k] * z[2];
+        q[6 + k] = s[12 + k] * z[k];
+    }
+    q
+}
+
+widened! {
+    /// What a block's unknowns explain, weighted, as gradients by the unknowns.
+    fn normal_block(
+        slopes: &[Row; SLOPES],
+        weight: &[Row; 1],
+        q: &[Row; UNKNOWNS],
+        out: &mut [Row; UNKNOWNS],
+    ) {
+        for lane in 0..BLOCK {
+            let s = std::array::from_fn(|row| slopes[row].0[lane]);
+            let q = std::array::from_fn(|row| q[row].0[lane]);
+            let colour = explained(&s, &q).map(|z| weight[0].0[lane] * z);
+            let by = transposed(&s, colour);
+            for row in 0..UNKNOWNS {
+                out[row].0[lane] = by[row];
             }
-            if x + channels < line {
-                pull(at + channels);
-            }
-            if y > 0 {
-                pull(at - line);
-            }
-            if y + 1 < size {
-                pull(at + line);
-            }
-            weight * sum
-        })
-        .collect()
+        }
+    }
+}
+
+/// `flatness` times the deviation, plus `smoothness` times the transpose-times-itself of its forward
+/// differences.
+fn bending_penalty(bend: &[f32], size: usize, flatness: f32, smoothness: f32) -> Vec<f32> {
+    let line = 3 * size;
+    let row = |y: usize| &bend[y * line..][..line];
+    let mut out = vec![0.0; bend.len()];
+    out.par_chunks_mut(line).enumerate().for_each(|(y, out)| {
+        let here = row(y);
+        scaled(out, here, flatness);
+        let mut pull = |to: std::ops::Range<usize>, neighbour: &[f32]| {
+            add_difference(&mut out[to.clone()], &here[to], neighbour, smoothness);
+        };
+        pull(3..line, here);
+        pull(0..line - 3, &here[3..]);
+        if y > 0 {
+            pull(0..line, row(y - 1));
+        }
+        if y + 1 < size {
+            pull(0..line, row(y + 1));
+        }
+    });
+    out
+}
+
+widened! {
+    fn scaled(out: &mut [f32], values: &[f32], factor: f32) {
+        for (out, value) in out.iter_mut().zip(values) {
+            *out = factor * value;
+        }
+    }
+}
+
+widened! {
+    fn add_difference(sum: &mut [f32], a: &[f32], b: &[f32], factor: f32) {
+        for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
+            *sum += factor * (a - b);
+        }
+    }
 }
 
 fn add(sum: &mut [f32], values: &[f32]) {
-    sum.par_iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+    add_scaled(sum, values, 1.0);
+}
+
+fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
+    let values = values.par_chunks(CHUNK);
+    sum.par_chunks_mut(CHUNK).zip(values).for_each(|(sum, values)| {
+        add_scaled_part(sum, values, factor);
+    });
+}
+
+widened! {
+    fn add_scaled_part(sum: &mut [f32], values: &[f32], factor: f32) {
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
+    }
 }
 
 /// In fixed chunks, so that threads do not matter.
 fn dot(a: &[f32], b: &[f32]) -> f64 {
-    let parts: Vec<f64> = a
-        .par_chunks(1 << 14)
-        .zip(b.par_chunks(1 << 14))
-        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum())
-        .collect();
+    let parts: Vec<f64> =
+        a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).map(|(a, b)| dot_part(a, b)).collect();
     parts.iter().sum()
+}
+
+widened! {
+    fn dot_part(a: &[f32], b: &[f32]) -> f64 {
+        let mut lanes = [0.0f64; 8];
+        let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+        for (a, b) in a.iter().zip(b) {
+            for lane in 0..8 {
+                lanes[lane] += f64::from(a[lane]) * f64::from(b[lane]);
+            }
+        }
+        let rest = a_rest.iter().zip(b_rest).map(|(a, b)| f64::from(*a) * f64::from(*b));
+        lanes.iter().sum::<f64>() + rest.sum::<f64>()
+    }
 }

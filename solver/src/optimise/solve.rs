@@ -12,7 +12,8 @@ use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
-use super::stage::{Diffuse, Relief, State, WarmUp};
+use super::specular::Specular;
+use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined};
 use crate::atomic::Folder;
 use crate::backend::Backend;
@@ -109,6 +110,7 @@ pub fn solve_on(
 ) -> Result<Solution, SolveError> {
     config.validate()?;
     Estimate::new(capture, config).fits(memory::available())?;
+    let _hoard = memory::Hoard::begin();
     let mut site = Site::new(backend, capture, config);
     let steps = Step::all(config);
     let mut work: Vec<Work> = steps.iter().map(|step| step.work(&site)).collect();
@@ -325,9 +327,14 @@ impl Step {
             Self::Relief(round) => {
                 solve.state.resize(site.size);
                 let (fine, state) = (site.fine(), &solve.state);
-                let mut stage =
-                    Relief::new(config, &fine.samples, &fine.deviation, state, backend, *round);
-                run.stage(&mut stage, &mut solve.state)?;
+                let (samples, deviation) = (&fine.samples, &fine.deviation);
+                let mut stage: Box<dyn Stage> = match config.fine_tuning.deviation_rate {
+                    0.0 => {
+                        Box::new(Specular::new(config, samples, deviation, state, backend, *round))
+                    }
+                    _ => Box::new(Relief::new(config, samples, deviation, state, backend, *round)),
+                };
+                run.stage(&mut *stage, &mut solve.state)?;
             }
             Self::Diffuse(round) => {
                 let (fine, state) = (site.fine(), &solve.state);

@@ -1,7 +1,6 @@
 //! The stages of the optimisation. Each owns its optimisers and what stays fixed while it runs;
 //! another update of the state is another stage.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
@@ -14,7 +13,8 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::model::texture::{interleave, resample};
+use crate::model::texture::{interleave, part, resample};
+use crate::simd::widened;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,8 +118,9 @@ impl<'a> WarmUp<'a> {
         let (samples, taps) = (self.samples, &self.samples.taps);
         let joint =
             backend.joint(&state.networks, samples, &self.directions, &state.albedo(samples));
-        let mut diffuse = taps.gather::<3>(&joint.albedo, 0);
-        let specular = taps.gather::<1>(&joint.albedo, 3);
+        let by_albedo = taps.gather::<ALBEDOS>(&joint.albedo, 0);
+        let mut diffuse = part::<ALBEDOS, 3>(&by_albedo, 0);
+        let specular = part::<ALBEDOS, 1>(&by_albedo, 3);
         let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut diffuse);
         WarmUpGradient { loss: joint.loss + prior, networks: joint.networks, diffuse, specular }
     }
@@ -181,8 +182,6 @@ pub struct Relief<'a> {
     networks: Networks,
     light: Planes,
     albedo: Planes,
-    /// The diffuse layer and F S_s, if the normals stay: then no network is evaluated again.
-    shading: Option<Planes>,
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -198,28 +197,14 @@ impl<'a> Relief<'a> {
         round: usize,
     ) -> Self {
         let (f, adam) = (&config.fine_tuning, &config.adam);
-        let light = backend.light(&state.networks, &samples.position);
-        let albedo = state.albedo(samples);
-        let known = || {
-            let bent = deviation.textures(&state.deviation).sample(&state.specular, samples);
-            let directions = deviation.scale.directions(samples, Some(&bent));
-            let shading = backend.shade(&state.networks, &light, &directions);
-            Planes::from_fn(samples.len(), |i| {
-                let ([diffuse, specular], [r, g, b]) = (shading.sample(i, 0), albedo.sample(i, 0));
-                let highlight = samples.fresnel.get(0, i) * specular;
-                [r * diffuse, g * diffuse, b * diffuse, highlight]
-            })
-        };
-        let shading = (f.deviation_rate == 0.0).then(known);
         Self {
             config,
             samples,
             deviation,
             name: format!("normals and specular {round}"),
-            shading,
             networks: state.networks.clone(),
-            light,
-            albedo,
+            light: backend.light(&state.networks, &samples.position),
+            albedo: state.albedo(samples),
             by_deviation: Adam::new(adam, f.deviation_rate, state.deviation.len()),
             by_specular: Adam::new(adam, f.specular_rate, state.specular.len()),
         }
@@ -240,8 +225,8 @@ impl<'a> Relief<'a> {
             backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
         let by_specular = taps.gather::<1>(&gradient, 6);
         let gradient = scale.adjoint(samples, &bent, &gradient);
-        let by_sharp = taps.gather::<3>(&gradient, 0);
-        let by_blurred = taps.gather::<3>(&gradient, 3);
+        let gathered = taps.gather::<6>(&gradient, 0);
+        let (by_sharp, by_blurred) = (part::<6, 3>(&gathered, 0), part::<6, 3>(&gathered, 3));
         (loss, self.deviation.adjoint(&bend, &by_sharp, &by_blurred), by_specular)
     }
 }
@@ -257,11 +242,6 @@ impl Stage for Relief<'_> {
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
         let least = least_albedo(self.config);
-        if let Some(shading) = &self.shading {
-            let (loss, by_specular) = layer_gradient::<1>(self.samples, shading, &state.specular);
-            self.by_specular.step(&mut state.specular, &by_specular, share, least);
-            return loss;
-        }
         let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
         self.by_specular.step(&mut state.specular, &by_specular, share, least);
@@ -273,27 +253,21 @@ impl Stage for Relief<'_> {
     }
 
     fn job(&self) -> Option<Job<'_>> {
-        let samples = self.samples;
-        Some(match &self.shading {
-            Some(shading) => Job::Layer { samples, shading, channels: 1, prior: 0.0 },
-            None => Job::Relief(ReliefJob {
-                samples,
-                deviation: self.deviation,
-                networks: &self.networks,
-                light: &self.light,
-                albedo: &self.albedo,
-            }),
-        })
+        Some(Job::Relief(ReliefJob {
+            samples: self.samples,
+            deviation: self.deviation,
+            networks: &self.networks,
+            light: &self.light,
+            albedo: &self.albedo,
+        }))
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
         let least = least_albedo(self.config);
-        let specular = Variable::new(&mut state.specular, &mut self.by_specular, least);
-        let (bend, free) = (&mut self.by_deviation, f32::NEG_INFINITY);
-        match &self.shading {
-            Some(_) => vec![specular],
-            None => vec![Variable::new(&mut state.deviation, bend, free), specular],
-        }
+        vec![
+            Variable::new(&mut state.deviation, &mut self.by_deviation, f32::NEG_INFINITY),
+            Variable::new(&mut state.specular, &mut self.by_specular, least),
+        ]
     }
 }
 
@@ -344,8 +318,7 @@ impl<'a> Diffuse<'a> {
 
     /// Loss and its gradient by the diffuse albedo.
     pub(super) fn gradient(&self, state: &State) -> (f64, Vec<f32>) {
-        let (loss, mut by_diffuse) =
-            layer_gradient::<3>(self.samples, &self.shading, &state.diffuse);
+        let (loss, mut by_diffuse) = diffuse_gradient(self.samples, &self.shading, &state.diffuse);
         let prior = prior(&state.diffuse, state.size, self.prior, &mut by_diffuse);
         (loss + prior, by_diffuse)
     }
@@ -371,8 +344,14 @@ impl Stage for Diffuse<'_> {
     }
 
     fn job(&self) -> Option<Job<'_>> {
-        let Self { samples, shading, prior, .. } = self;
-        Some(Job::Layer { samples, shading, channels: 3, prior: *prior })
+        let samples = self.samples;
+        let known = Planes::from_fn(samples.len(), |i| {
+            let [r, g, b, specular]: [f32; 4] = self.shading.sample(i, 0);
+            let target: [f32; 3] = samples.target.sample(i, 0);
+            let rest = target.map(|target| target - specular);
+            [rest[0], rest[1], rest[2], samples.weight.get(0, i), r, g, b]
+        });
+        Some(Job::Layer { taps: &samples.taps, known, prior: self.prior })
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
@@ -398,38 +377,41 @@ pub fn layers(
     })
 }
 
-/// Loss and gradient by one of the albedos, with all shading known: of `shading`'s rows (diffuse R, G,
-/// B, specular), those of the albedo's own `C` channels are multiplied with it, the others are added.
-fn layer_gradient<const C: usize>(
-    samples: &Samples,
-    shading: &Planes,
-    texture: &[f32],
-) -> (f64, Vec<f32>) {
-    let albedo = samples.taps.sample::<C>(texture);
+/// Loss and gradient by the diffuse albedo, with the shading known.
+fn diffuse_gradient(samples: &Samples, shading: &Planes, diffuse: &[f32]) -> (f64, Vec<f32>) {
     let scale = 1.0 / (3.0 * samples.len() as f32);
-    let mut gradient = Planes::new(C, samples.len());
-    let block = |(block, out): (usize, &mut [Row])| {
-        let (shading, albedo) = (shading.block(block), albedo.block(block));
-        let (target, weight) = (samples.target.block(block), &samples.weight.block(block)[0]);
-        let mut loss = 0.0f64;
-        for lane in 0..BLOCK {
-            let weight = weight.0[lane];
-            for channel in 0..3 {
-                let (own, other) = if C == 3 { (channel, 3) } else { (3, channel) };
-                let slope = shading[own].0[lane];
-                let model = albedo[channel % C].0[lane] * slope + shading[other].0[lane];
-                let residual = model - target[channel].0[lane];
-                let sign = if residual == 0.0 { 0.0 } else { residual.signum() };
-                loss += f64::from(weight * residual.abs());
-                out[channel % C].0[lane] += weight * scale * sign * slope;
-            }
-        }
-        loss
+    let value = |block: usize, albedo: &[Row; 3], gradient: &mut [Row; 3], loss: &mut Row| {
+        let (target, weight) = (samples.target.rows_of(block), samples.weight.rows_of(block));
+        diffuse_block(shading.rows_of(block), target, weight, scale, albedo, gradient, loss);
     };
-    let losses: Vec<f64> = gradient.data_mut().par_chunks_mut(C).enumerate().map(block).collect();
-    (losses.iter().sum::<f64>() * f64::from(scale), samples.taps.gather::<C>(&gradient, 0))
+    let (gradient, sum) = samples.taps.exchange::<3, 3>(diffuse, value);
+    (sum * f64::from(scale), gradient)
 }
 
-fn least_albedo(config: &Config) -> f32 {
+widened! {
+    fn diffuse_block(
+        shading: &[Row; 4],
+        target: &[Row; 3],
+        weight: &[Row; 1],
+        scale: f32,
+        albedo: &[Row; 3],
+        gradient: &mut [Row; 3],
+        loss: &mut Row,
+    ) {
+        loss.0.fill(0.0);
+        for channel in 0..3 {
+            let (shading, specular) = (&shading[channel].0, &shading[3].0);
+            for lane in 0..BLOCK {
+                let model = albedo[channel].0[lane] * shading[lane] + specular[lane];
+                let residual = model - target[channel].0[lane];
+                let sign = if residual == 0.0 { 0.0 } else { 1.0f32.copysign(residual) };
+                loss.0[lane] += weight[0].0[lane] * residual.abs();
+                gradient[channel].0[lane] = weight[0].0[lane] * scale * sign * shading[lane];
+            }
+        }
+    }
+}
+
+pub(super) fn least_albedo(config: &Config) -> f32 {
     if config.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
 }

@@ -22,6 +22,7 @@ use crate::capture::Mesh;
 use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
+use crate::simd::widened;
 pub use rays::{Impact, Occluder};
 pub use sky::{Sky, SkyRay, contrast};
 
@@ -275,7 +276,7 @@ impl Matrix {
             std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect());
         self.rows
             .par_chunks(self.cells)
-            .map(|row| std::array::from_fn(|c| dot(row, &planes[c])))
+            .map(|row| dots(row, [&planes[0], &planes[1], &planes[2]]))
             .collect()
     }
 
@@ -283,9 +284,8 @@ impl Matrix {
         let part = |(rows, by_row): (&[f32], &[[f32; CHANNELS]])| {
             let mut sums = vec![0.0f32; CHANNELS * self.cells];
             for (row, gradient) in rows.chunks_exact(self.cells).zip(by_row) {
-                for (channel, sums) in sums.chunks_exact_mut(self.cells).enumerate() {
-                    let gradient = gradient[channel];
-                    sums.iter_mut().zip(row).for_each(|(sum, t)| *sum += gradient * t);
+                for (sums, gradient) in sums.chunks_exact_mut(self.cells).zip(gradient) {
+                    add_scaled(sums, row, *gradient);
                 }
             }
             sums
@@ -396,21 +396,38 @@ fn bounced(bounces: &[Bounces], rows: &[f32], cells: usize) -> Vec<f32> {
     out.par_chunks_mut(cells.max(1)).zip(bounces).for_each(|(out, bounces)| {
         for (row, weight) in bounces {
             let from = &rows[*row as usize * cells..][..cells];
-            out.iter_mut().zip(from).for_each(|(sum, value)| *sum += weight * value);
+            add_scaled(out, from, *weight);
         }
     });
     out
 }
 
-fn dot(a: &[f32], b: &[f32]) -> f32 {
-    let mut lanes = [0.0f32; LANES];
-    let (a, a_rest) = a.as_chunks::<LANES>();
-    let (b, b_rest) = b.as_chunks::<LANES>();
-    for (a, b) in a.iter().zip(b) {
-        (0..LANES).for_each(|lane| lanes[lane] += a[lane] * b[lane]);
+widened! {
+    fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
     }
-    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    lanes.iter().sum::<f32>() + rest
+}
+
+widened! {
+    /// The products of `row` with the light of each channel.
+    fn dots(row: &[f32], light: [&[f32]; CHANNELS]) -> [f32; CHANNELS] {
+        let mut lanes = [[0.0f32; LANES]; CHANNELS];
+        let (whole, rest) = row.as_chunks::<LANES>();
+        let parts = light.map(|light| light[..row.len()].as_chunks::<LANES>());
+        for (at, row) in whole.iter().enumerate() {
+            for (lanes, (light, _)) in lanes.iter_mut().zip(parts) {
+                for lane in 0..LANES {
+                    lanes[lane] += row[lane] * light[at][lane];
+                }
+            }
+        }
+        std::array::from_fn(|c| {
+            let rest: f32 = rest.iter().zip(parts[c].1).map(|(a, b)| a * b).sum();
+            lanes[c].iter().sum::<f32>() + rest
+        })
+    }
 }
 
 #[cfg(test)]

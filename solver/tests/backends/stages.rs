@@ -4,6 +4,7 @@ use solver::Config;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::model::deviation::Deviation;
+use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use solver::optimise::transported::Transported;
 use solver::transport::{Beside, Sky, Transport};
@@ -125,7 +126,7 @@ pub fn specular(backend: &dyn Backend) {
     let (samples, state) = problem(&config);
     let deviation = Deviation::new(&config, state.size);
     compare(backend, &state, |backend| {
-        Relief::new(&config, &samples, &deviation, &state, backend, 1)
+        Specular::new(&config, &samples, &deviation, &state, backend, 1)
     });
 }
 

@@ -11,6 +11,9 @@ use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
 
+/// Chains of [`peak`]: more than the latency of a multiply-add times those begun per cycle.
+pub const PEAK_CHAINS: usize = 12;
+
 /// Buffers of one task, reused from chunk to chunk.
 pub struct Scratch {
     light: Trace,
@@ -177,6 +180,22 @@ fn shade_body<S: Lanes, const C: usize>(
     }
 }
 
+/// `rounds` x [`PEAK_CHAINS`] multiply-adds on vectors, independent but for their own chain; and what
+/// came out, so that they are not left out.
+#[inline(always)]
+fn peak_body<S: Lanes, const C: usize>(rounds: usize) -> f32 {
+    let (factor, term) = (S::splat(0.999), S::splat(1e-3));
+    let mut sums = [S::splat(0.5); PEAK_CHAINS];
+    for _ in 0..rounds {
+        for sum in &mut sums {
+            *sum = sum.mul_add(factor, term);
+        }
+    }
+    let mut total = LaneSum([0.0; 16]);
+    sums.into_iter().reduce(S::add).unwrap_or(term).store_sum(&mut total);
+    total.0[0]
+}
+
 /// An entry point per instruction set; the tiles are as wide as the registers allow.
 macro_rules! entry {
     ($name:ident, $body:ident($($arg:ident: $type:ty),*) $(-> $out:ty)?) => {
@@ -207,3 +226,4 @@ entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &m
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
+entry!(peak, peak_body(rounds: usize) -> f32);

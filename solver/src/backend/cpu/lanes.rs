@@ -90,7 +90,7 @@ pub fn softplus<S: Lanes>(x: S) -> (S, S) {
 
 /// Plain arrays, left to the compiler.
 #[derive(Clone, Copy)]
-pub struct Portable([f32; 8]);
+pub struct Portable(pub [f32; 8]);
 
 #[inline(always)]
 fn zip(mut a: Portable, b: Portable, f: impl Fn(f32, f32) -> f32) -> Portable {

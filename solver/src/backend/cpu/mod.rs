@@ -13,8 +13,6 @@ mod shade;
 
 use std::fmt;
 
-use rayon::prelude::*;
-
 use self::kernels::{Inputs, Scratch};
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient};
@@ -78,9 +76,35 @@ impl Cpu {
         Self { level }
     }
 
-    /// At a level of [`Level::available`]; at the fastest if it is none of them.
+    /// At a level of [`Level::available`].
+    ///
+    /// # Panics
+    /// If this machine does not have it.
     pub fn at(level: Level) -> Self {
-        if Level::available().contains(&level) { Self { level } } else { Self::new() }
+        assert!(Level::available().contains(&level));
+        Self { level }
+    }
+}
+
+impl Level {
+    /// Floating-point operations in a vector's multiply-add.
+    pub fn flops_per_multiply_add(self) -> usize {
+        2 * match self {
+            Self::Portable => 8,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => 8,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => 16,
+        }
+    }
+}
+
+impl Cpu {
+    /// Does nothing but multiply-adds on one thread, of the backend's own vectors; how many operations
+    /// (two each). For benchmarks: what a kernel could reach.
+    pub fn multiply_adds(&self, rounds: usize) -> f64 {
+        std::hint::black_box(kernels::peak(self.level, rounds));
+        (rounds * kernels::PEAK_CHAINS * self.level.flops_per_multiply_add()) as f64
     }
 }
 
@@ -94,21 +118,23 @@ fn pack(networks: &Networks) -> [Packed; 3] {
     Network::ALL.map(|network| Packed::new(networks, network))
 }
 
-/// Runs `pass` over the chunks of `out` in parallel; its results, in the chunks' order.
+/// Planes of `rows` rows, made by `pass` in parallel chunks; and its results, in the chunks' order.
 fn chunks<T: Send>(
     networks: &Networks,
-    out: &mut Planes,
+    rows: usize,
+    len: usize,
     pass: impl Fn(usize, &mut Scratch, &mut [Row]) -> T + Sync,
-) -> Vec<T> {
-    let rows = out.rows() * CHUNK_BLOCKS;
-    out.data_mut()
-        .par_chunks_mut(rows)
-        .enumerate()
-        .map_init(
-            || Scratch::new(networks),
-            |scratch, (chunk, out)| pass(chunk * CHUNK_BLOCKS, scratch, out),
-        )
-        .collect()
+) -> (Planes, Vec<T>) {
+    let scratch = || Scratch::new(networks);
+    Planes::from_tasks(rows, len, CHUNK_BLOCKS, scratch, |scratch, first, out| {
+        pass(first, scratch, out)
+    })
+}
+
+/// e^x, relative error about 1e-7, in plain operations that a compiler makes vectors of.
+#[inline(always)]
+pub(crate) fn exp(x: [f32; 8]) -> [f32; 8] {
+    lanes::exp(lanes::Portable(x)).0
 }
 
 impl Backend for Cpu {
@@ -125,8 +151,7 @@ impl Backend for Cpu {
     ) -> JointGradient {
         let packed = &pack(networks);
         let inputs = Inputs { packed, samples, directions, albedo };
-        let mut by_albedo = Planes::new(ALBEDOS, samples.len());
-        let parts = chunks(networks, &mut by_albedo, |first, scratch, out| {
+        let (by_albedo, parts) = chunks(networks, ALBEDOS, samples.len(), |first, scratch, out| {
             let loss = kernels::joint(self.level, &inputs, first, scratch, out);
             let sum = |lanes: &lanes::LaneSum| lanes.0.iter().sum::<f32>();
             (loss, scratch.sums.iter().map(sum).collect::<Vec<f32>>())
@@ -143,11 +168,10 @@ impl Backend for Cpu {
 
     fn light(&self, networks: &Networks, position: &Planes) -> Planes {
         let packed = &pack(networks);
-        let mut light = Planes::new(networks.outputs(), position.len());
-        chunks(networks, &mut light, |first, scratch, out| {
+        let pass = |first: usize, scratch: &mut Scratch, out: &mut [Row]| {
             kernels::light(self.level, packed, position, first, scratch, out);
-        });
-        light
+        };
+        chunks(networks, networks.outputs(), position.len(), pass).0
     }
 
     fn bend(
@@ -160,8 +184,7 @@ impl Backend for Cpu {
     ) -> (f64, Planes) {
         let packed = &pack(networks);
         let inputs = Inputs { packed, samples, directions, albedo };
-        let mut gradient = Planes::new(BENT, samples.len());
-        let losses = chunks(networks, &mut gradient, |first, scratch, out| {
+        let (gradient, losses) = chunks(networks, BENT, samples.len(), |first, scratch, out| {
             kernels::bend(self.level, &inputs, light, first, scratch, out)
         });
         (losses.iter().sum(), gradient)
@@ -169,10 +192,9 @@ impl Backend for Cpu {
 
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {
         let packed = &pack(networks);
-        let mut shading = Planes::new(2, light.len());
-        chunks(networks, &mut shading, |first, scratch, out| {
+        let pass = |first: usize, scratch: &mut Scratch, out: &mut [Row]| {
             kernels::shade_blocks(self.level, packed, light, directions, first, scratch, out);
-        });
-        shading
+        };
+        chunks(networks, 2, light.len(), pass).0
     }
 }

@@ -2,34 +2,31 @@
 
 use super::Gpu;
 use super::kernel::{Pass, THREADS};
-use super::pieces::{DeviceTaps, Pieces, pixels};
+use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program, prior};
 use crate::model::planes::Planes;
-use crate::model::samples::Samples;
+use crate::model::taps::Taps;
+
+/// Rows of what is known before the shading; see [`crate::backend::resident::Job::Layer`].
+const FIRST: usize = 4;
 
 /// The diffuse stages, the refinement, and the specular stages under normals that stay.
-pub(super) fn program<'a>(
-    gpu: &'a Gpu,
-    samples: &Samples,
-    shading: &Planes,
-    channels: usize,
-    weight: f32,
-) -> Program<'a> {
+pub(super) fn program<'a>(gpu: &'a Gpu, taps: &Taps, known: &Planes, weight: f32) -> Program<'a> {
     let device = &gpu.device;
-    let pieces = Pieces::new(samples.len(), ALL);
-    let taps = DeviceTaps::new(device, &pieces, &samples.taps);
-    let size = samples.taps.size();
+    let channels = known.rows() - FIRST;
+    let pieces = Pieces::new(known.len(), known.rows());
+    let size = taps.size();
+    let taps = DeviceTaps::new(device, &pieces, taps);
     let albedo = Moved::new(device, "albedo", channels * size * size);
-    let shading = pieces.upload(device, "shading", &[shading]);
-    let pixels = pixels(device, &pieces, samples);
+    let shading = pieces.upload(device, "shading", &[known]);
     let by_albedo = pieces.zeros(device, "albedo gradients", channels);
     let groups: Vec<usize> = pieces.0.iter().map(|piece| piece.len().div_ceil(THREADS)).collect();
     let losses = device.floats("partial losses", groups.iter().sum());
 
     let constants = [("CHANNELS", channels as u32)];
     let source = include_str!("wgsl/layer.wgsl");
-    let kernel = device.kernel("albedo", source, &constants, "urrrrrww");
-    let scale = 1.0 / (3.0 * samples.len() as f32);
+    let kernel = device.kernel("albedo", source, &constants, "urrrrww");
+    let scale = 1.0 / (3.0 * known.len() as f32);
     let mut first = 0;
     let mut passes = vec![];
     for (at, (piece, groups)) in pieces.0.iter().zip(&groups).enumerate() {
@@ -40,7 +37,6 @@ pub(super) fn program<'a>(
             &taps.fraction[at],
             &albedo.values,
             &shading[at],
-            &pixels[at],
             &by_albedo[at],
             &losses,
         ];
@@ -50,11 +46,9 @@ pub(super) fn program<'a>(
     let (prior_pass, prior_sums) = prior(device, &albedo, size, weight).unzip();
     let add = prior_pass.is_some();
     passes.extend(prior_pass);
-    passes.extend(taps.gather(device, &by_albedo, [0, channels], &albedo.gradient, channels, add));
+    let rows = [0, channels];
+    passes.extend(taps.gather(device, &by_albedo, rows, &albedo.gradient, channels, add));
     let mut losses = vec![(losses, first)];
     losses.extend(prior_sums);
     Program::new(gpu, passes, &losses, vec![albedo])
 }
-
-/// Widest planes, rows.
-const ALL: usize = 5;

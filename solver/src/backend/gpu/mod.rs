@@ -171,8 +171,8 @@ impl Backend for Gpu {
                 }
                 Some(Box::new(joint::program(self, layout, samples, directions, *prior)))
             }
-            Job::Layer { samples, shading, channels, prior } => {
-                Some(Box::new(layer::program(self, samples, shading, *channels, *prior)))
+            Job::Layer { taps, known, prior } => {
+                Some(Box::new(layer::program(self, taps, known, *prior)))
             }
             Job::Transported(job) => {
                 let layout = Layout::new(job.shape);

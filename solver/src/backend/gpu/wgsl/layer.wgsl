@@ -1,5 +1,5 @@
-// Loss and gradient by a sampled albedo where the shading is known. CHANNELS: 3 for the diffuse albedo,
-// 1 for the specular one; see optimise/stage.rs.
+// Loss and gradient by a sampled albedo in which the model is linear. CHANNELS: 3 for the diffuse albedo,
+// 1 for the specular one. See Job::Layer of backend/resident.rs.
 
 struct Parameters {
     samples: u32,
@@ -12,11 +12,12 @@ struct Parameters {
 @group(0) @binding(1) var<storage, read> cell: array<u32>;
 @group(0) @binding(2) var<storage, read> fraction: array<vec2<f32>>;
 @group(0) @binding(3) var<storage, read> texels: array<f32>;
-// Diffuse R, G, B, then specular: of the albedo's own layer the shading, of the other all.
-@group(0) @binding(4) var<storage, read> shading: array<f32>;
-@group(0) @binding(5) var<storage, read> pixels: array<f32>;
-@group(0) @binding(6) var<storage, read_write> by_albedo: array<f32>;
-@group(0) @binding(7) var<storage, read_write> losses: array<f32>;
+// Rows: what is left of the target R, G, B, weight, shading of CHANNELS.
+@group(0) @binding(4) var<storage, read> known: array<f32>;
+@group(0) @binding(5) var<storage, read_write> by_albedo: array<f32>;
+@group(0) @binding(6) var<storage, read_write> losses: array<f32>;
+
+const ROWS: u32 = 4u + CHANNELS;
 
 var<workgroup> sums: array<f32, 256>;
 
@@ -42,15 +43,13 @@ fn main(
             let lower = b + f.x * (texels[below + CHANNELS + c] - b);
             value[c] = upper + f.y * (lower - upper);
         }
-        let weight = pixels[place(i, 4u, 5u)];
+        let weight = known[place(i, 3u, ROWS)];
         for (var c = 0u; c < 3u; c++) {
-            let own = select(3u, c, CHANNELS == 3u);
-            let slope = shading[place(i, own, 4u)];
-            let rest = shading[place(i, 3u + c - own, 4u)];
-            let model = value[c % CHANNELS] * slope + rest;
-            let residual = model - pixels[place(i, 1u + c, 5u)];
+            let own = c % CHANNELS;
+            let slope = known[place(i, 4u + own, ROWS)];
+            let residual = value[own] * slope - known[place(i, c, ROWS)];
             loss += weight * abs(residual);
-            by_value[c % CHANNELS] += weight * parameters.scale * sign(residual) * slope;
+            by_value[own] += weight * parameters.scale * sign(residual) * slope;
         }
         for (var c = 0u; c < CHANNELS; c++) {
             by_albedo[place(i, c, CHANNELS)] = by_value[c];

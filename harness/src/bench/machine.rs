@@ -1,0 +1,87 @@
+//! The machine: what it calls itself, and what it reaches in this very run.
+
+use std::fs;
+use std::time::Duration;
+
+use rayon::prelude::*;
+use serde::Serialize;
+use solver::backend::cpu::{Cpu, Level};
+
+use super::clock::best;
+
+/// Rounds of multiply-adds on one thread, about 10 ms.
+const ROUNDS: usize = 4_000_000;
+
+/// The machine in words, for whoever reads the table elsewhere.
+#[derive(Clone, Debug, Serialize)]
+pub struct Machine {
+    /// The processor's name.
+    pub processor: String,
+    /// Hardware threads that the run used.
+    pub threads: usize,
+    /// Sizes of the caches, the smallest first, as the system names them.
+    pub caches: Vec<String>,
+    /// Bytes of memory.
+    pub memory: Option<u64>,
+    /// Operating system and architecture.
+    pub system: String,
+    /// Of this program.
+    pub version: String,
+}
+
+impl Machine {
+    /// This one. What the system does not say is left out.
+    pub fn here() -> Self {
+        let line = |file: &str, key: &str| {
+            let text = fs::read_to_string(file).ok()?;
+            let line = text.lines().find(|line| line.starts_with(key))?;
+            line.split_once(':').map(|(_, value)| value.trim().to_owned())
+        };
+        let kilobytes = |value: String| value.trim_end_matches(" kB").parse::<u64>().ok();
+        let cache = |index: usize| {
+            let of = |what: &str| {
+                let file = format!("/sys/devices/system/cpu/cpu0/cache/index{index}/{what}");
+                fs::read_to_string(file).ok().map(|text| text.trim().to_owned())
+            };
+            let (level, kind, size) = (of("level")?, of("type")?, of("size")?);
+            (kind != "Instruction").then(|| format!("L{level} {size}"))
+        };
+        Self {
+            processor: line("/proc/cpuinfo", "model name").unwrap_or_else(|| "unknown".to_owned()),
+            threads: rayon::current_num_threads(),
+            caches: (0..8).filter_map(cache).collect(),
+            memory: line("/proc/meminfo", "MemTotal").and_then(kilobytes).map(|kb| kb * 1024),
+            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+/// Multiply-adds per second of all threads, in FLOP/s.
+pub fn peak(level: Level, budget: Duration) -> f64 {
+    let cpu = Cpu::at(level);
+    let threads = rayon::current_num_threads();
+    let mut flops = 0.0;
+    let seconds = best(budget, 3, || {
+        let each = rayon::broadcast(|_| cpu.multiply_adds(ROUNDS));
+        flops = each.iter().sum();
+        debug_assert_eq!(each.len(), threads);
+    });
+    flops / seconds
+}
+
+/// Bytes per second of a = b + s c over arrays of `bytes` each, which no cache should hold, all threads
+/// (STREAM's triad: two reads and a write are counted).
+pub fn bandwidth(bytes: usize, budget: Duration) -> f64 {
+    let count = bytes / size_of::<f32>();
+    let mut a = vec![0.0f32; count];
+    let (b, c) = (vec![1.0f32; count], vec![2.0f32; count]);
+    let seconds = best(budget, 3, || {
+        let sources = b.par_chunks(1 << 16).zip(c.par_chunks(1 << 16));
+        a.par_chunks_mut(1 << 16).zip(sources).for_each(|(a, (b, c))| {
+            a.iter_mut().zip(b.iter().zip(c)).for_each(|(a, (b, c))| *a = b + 3.0 * c);
+        });
+    });
+    std::hint::black_box(&a);
+    3.0 * bytes as f64 / seconds
+}

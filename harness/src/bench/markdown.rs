@@ -1,0 +1,158 @@
+//! A report as a page.
+
+use std::fmt::Write;
+
+use super::{Report, Step, Torch};
+
+/// The page that `docs/performance.md` is; `command` wrote it.
+pub fn markdown(report: &Report, command: &str) -> String {
+    let mut page = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_page(&mut page, report, command);
+    page
+}
+
+fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Result {
+    let machine = &report.machine;
+    writeln!(page, "# Performance\n")?;
+    writeln!(page, "Written by `{command}`; times are the shortest of several runs.\n")?;
+    let memory = machine.memory.map_or(String::new(), |bytes| format!(", {} memory", size(bytes)));
+    writeln!(
+        page,
+        "Machine: {}, {} threads, {}{memory}, {}; unshade {}.\n",
+        machine.processor,
+        machine.threads,
+        machine.caches.join(", "),
+        machine.system,
+        machine.version
+    )?;
+    writeln!(page, "| backend | multiply-adds, GFLOP/s | memory, GB/s |\n|---|---|---|")?;
+    for (name, reach) in &report.reach {
+        writeln!(page, "| {name} | {:.0} | {:.1} |", reach.flops / 1e9, reach.bytes / 1e9)?;
+    }
+    writeln!(page, "| gpu | not yet measured | |\n")?;
+
+    writeln!(page, "## Steps\n")?;
+    writeln!(
+        page,
+        "One step of the paper's stages on synthetic G-buffers of ten views. The floors are the \
+         operations over the multiply-adds per second, and the bytes (every value read once and \
+         written once) over the memory's.\n"
+    )?;
+    write_steps(page, report.steps.iter())?;
+    if report.steps.iter().all(|step| step.backend.starts_with("cpu")) {
+        writeln!(page, "| all | gpu | | | not yet measured | | | | |")?;
+    }
+
+    writeln!(page, "\n## PyTorch\n")?;
+    match &report.torch {
+        Torch::Absent { mend } => writeln!(page, "Not in this run. To have it: {mend}.")?,
+        Torch::Measured(rows) => {
+            writeln!(
+                page,
+                "The same steps in eager PyTorch on the same numbers and threads, in the same run.\n"
+            )?;
+            writeln!(
+                page,
+                "| step | pixels | textures | PyTorch, ms | memory | faster: | losses differ by |\n\
+                 |---|---|---|---|---|---|---|"
+            )?;
+            for row in rows {
+                let ours = row.ours.iter().map(|step| {
+                    let times = row.torch.milliseconds / step.milliseconds;
+                    format!("{} {times:.1} x", step.backend.trim_start_matches("cpu, "))
+                });
+                writeln!(
+                    page,
+                    "| {} | {} | {}² | {:.1} ({}) | {} | {} | {:.1e} |",
+                    row.kind.name(),
+                    count(row.pixels),
+                    row.texture,
+                    row.torch.milliseconds,
+                    row.torch.version,
+                    size(row.torch.peak_memory),
+                    ours.collect::<Vec<_>>().join(", "),
+                    row.loss_difference
+                )?;
+            }
+        }
+    }
+
+    writeln!(page, "\n## Kernels\n")?;
+    writeln!(page, "At the best level.\n\n| kernel | ms | GFLOP/s | GB/s |\n|---|---|---|---|")?;
+    for kernel in &report.kernels {
+        let rate = |work: f64, digits: usize| match work > 0.0 {
+            true => format!("{:.digits$}", work / kernel.milliseconds / 1e6),
+            false => String::new(),
+        };
+        let (flops, bytes) = (rate(kernel.cost.flops, 0), rate(kernel.cost.bytes, 1));
+        writeln!(page, "| {} | {:.3} | {flops} | {bytes} |", kernel.name, kernel.milliseconds)?;
+    }
+
+    writeln!(page, "\n## Scaling\n")?;
+    write_steps(page, report.scaling.iter())?;
+
+    writeln!(page, "\n## The paper's capture\n")?;
+    writeln!(
+        page,
+        "Ten views, 12 million pixels in half resolution for 2000 steps, 48 million in full for 1000, \
+         2048² textures; the paper reports under 30 minutes on an RTX 3080.\n"
+    )?;
+    for paper in &report.paper {
+        let backend = paper.steps.first().map_or("", |step| &step.backend);
+        let share = match paper.share {
+            1 => "in full".to_owned(),
+            share => format!("on one pixel of {share}, multiplied by {share}"),
+        };
+        writeln!(page, "- {backend}: {:.0} s, {share}.", paper.seconds)?;
+    }
+    if report.paper.len() == 1 {
+        writeln!(page, "- gpu: not yet measured.")?;
+    }
+    writeln!(page)?;
+    write_steps(page, report.paper.iter().flat_map(|paper| &paper.steps))
+}
+
+fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> std::fmt::Result {
+    writeln!(
+        page,
+        "| step | backend | pixels | textures | ms | floor: compute / memory, ms | share of the peak | \
+         GB/s | memory |\n|---|---|---|---|---|---|---|---|---|"
+    )?;
+    for step in steps {
+        let threads = if step.threads == 1 {
+            "1 thread".to_owned()
+        } else {
+            format!("{} threads", step.threads)
+        };
+        writeln!(
+            page,
+            "| {} | {}, {threads} | {} | {}² | {:.2} | {:.2} / {:.2} | {:.0} % | {:.1} | {} |",
+            step.kind.name(),
+            step.backend,
+            count(step.pixels),
+            step.texture,
+            step.milliseconds,
+            step.compute_floor,
+            step.memory_floor,
+            100.0 * step.share_of_peak(),
+            step.cost.bytes / step.milliseconds / 1e6,
+            step.peak_memory.map_or(String::new(), size),
+        )?;
+    }
+    Ok(())
+}
+
+fn count(number: usize) -> String {
+    match number {
+        0..1_000_000 => format!("{} thousand", number as f64 / 1e3),
+        _ => format!("{} million", number as f64 / 1e6),
+    }
+}
+
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..1_000_000_000 => format!("{} MB", bytes.div_ceil(1_000_000)),
+        _ => format!("{:.1} GB", bytes as f64 / 1e9),
+    }
+}

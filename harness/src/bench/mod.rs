@@ -1,0 +1,323 @@
+//! `unshade bench`: what the solver's arithmetic takes, against what the machine reaches in the same
+//! run.
+//!
+//! Everything runs through [`solver::backend::Backend`] and the stages of a solve, so that a backend is
+//! measured by being in [`Options::backends`].
+
+mod clock;
+mod cost;
+mod kernels;
+mod machine;
+mod markdown;
+mod steps;
+mod synthetic;
+mod torch;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use rayon::ThreadPoolBuilder;
+use serde::Serialize;
+use solver::backend::Backend;
+use solver::backend::cpu::{Cpu, Level};
+use solver::memory::Hoard;
+use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
+
+pub use kernels::Kernel;
+pub use machine::Machine;
+pub use markdown::markdown;
+pub use steps::{Kind, Reach, Step};
+pub use torch::{MEND, TorchError, TorchStep};
+
+use synthetic::Problem;
+
+/// Pixels of the steps that stand for a capture of the demo's kind, half resolution.
+const SMALL: usize = 300_000;
+const LARGE: usize = 3_000_000;
+/// Textures of the warm-up, and of the fine-tuning.
+const COARSE: usize = 128;
+const FINE: usize = 1024;
+/// The paper's capture: ten views of 12 million pixels in half resolution, 48 million in full,
+/// textures of 2048²; steps of each kind.
+const PAPER_PIXELS: [usize; 2] = [12_000_000, 48_000_000];
+const PAPER_TEXTURE: usize = 2048;
+const PAPER_STEPS: [usize; 3] = [2000, 500, 500];
+/// A processor does this share of its pixels.
+const PAPER_SHARE: usize = 16;
+/// Bytes of each array of the bandwidth measurement: far more than any cache.
+const ARRAY: usize = 128 << 20;
+/// Steps whose losses are compared with PyTorch's.
+const TORCH_STEPS: usize = 8;
+
+/// What to measure.
+pub struct Options {
+    /// One of every kind of row, as small as it goes: does the command work?
+    pub quick: bool,
+    /// Devices beside the processor, which is measured at each of its levels.
+    pub backends: Vec<Box<dyn Backend>>,
+    /// A Python that has PyTorch.
+    pub torch: Option<PathBuf>,
+}
+
+/// All that was measured.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// On what.
+    pub machine: Machine,
+    /// What it reaches, level by level.
+    pub reach: Vec<(String, Reach)>,
+    /// The paper's steps at every level.
+    pub steps: Vec<Step>,
+    /// The parts of the steps, at the best level.
+    pub kernels: Vec<Kernel>,
+    /// Warm-up steps over pixels, fine-tuning over textures, warm-up over threads; at the best level.
+    pub scaling: Vec<Step>,
+    /// The paper's capture.
+    pub paper: Vec<PaperSize>,
+    /// The same steps in PyTorch.
+    pub torch: Torch,
+}
+
+/// The paper's capture on one backend.
+#[derive(Debug, Serialize)]
+pub struct PaperSize {
+    /// One over the share of the pixels that was really there.
+    pub share: usize,
+    /// One step of each kind.
+    pub steps: Vec<Step>,
+    /// Seconds of all 3000 steps on all pixels: the measured ones times `share`.
+    pub seconds: f64,
+}
+
+/// PyTorch's rows.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum Torch {
+    /// None, and how to get them.
+    Absent {
+        /// What to type.
+        mend: String,
+    },
+    /// Of each kind and size.
+    Measured(Vec<TorchRow>),
+}
+
+/// PyTorch beside ours.
+#[derive(Debug, Serialize)]
+pub struct TorchRow {
+    /// What was done.
+    pub kind: Kind,
+    /// Pixels of all views.
+    pub pixels: usize,
+    /// Side of the textures.
+    pub texture: usize,
+    /// There.
+    pub torch: TorchStep,
+    /// Here, level by level.
+    pub ours: Vec<Step>,
+    /// Largest relative difference of the losses of the first steps.
+    pub loss_difference: f64,
+}
+
+/// Measures everything; `progress` hears what comes next.
+pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, TorchError> {
+    let bench = Bench { quick: options.quick };
+    let _hoard = Hoard::begin();
+    progress("bandwidth");
+    let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
+    let mut devices: Vec<(Box<dyn Backend>, Reach)> = vec![];
+    for level in Level::available() {
+        progress(&format!("multiply-adds, {level}"));
+        let flops = machine::peak(level, bench.budget());
+        devices.push((Box::new(Cpu::at(level)), Reach { flops, bytes: bandwidth }));
+    }
+    let reach = devices.iter().map(|(device, reach)| (device.name(), *reach)).collect();
+    let mut steps = vec![];
+    for (kind, size) in bench.sizes() {
+        for (device, reach) in &devices {
+            progress(&format!("{}, {} pixels, {}", kind.name(), size.0, device.name()));
+            steps.push(steps::measure(kind, &**device, *reach, size, bench.budget()));
+        }
+    }
+    // Levels come in rising order, and there is always the portable one.
+    let Some((device, reach_of_best)) = devices.last() else { unreachable!("no level at all") };
+    progress("kernels");
+    let kernels = kernels::measure(&**device, &bench.kernel_size());
+    let scaling = bench.scaling(&**device, *reach_of_best, progress);
+    let mut paper = vec![bench.paper_size(&**device, *reach_of_best, PAPER_SHARE, progress)];
+    for device in &options.backends {
+        // What a device with memory of its own reaches is not known here: no floors.
+        let unknown = Reach { flops: f64::INFINITY, bytes: f64::INFINITY };
+        for (kind, size) in bench.sizes() {
+            progress(&format!("{}, {} pixels, {}", kind.name(), size.0, device.name()));
+            steps.push(steps::measure(kind, &**device, unknown, size, bench.budget()));
+        }
+        paper.push(bench.paper_size(&**device, unknown, 1, progress));
+    }
+    let torch = match &options.torch {
+        None => Torch::Absent { mend: MEND.to_owned() },
+        Some(python) => {
+            let mut rows = vec![];
+            for (kind, size) in bench.sizes() {
+                progress(&format!("{}, {} pixels, PyTorch", kind.name(), size.0));
+                rows.push(torch_row(python, kind, size, &**device, &steps)?);
+            }
+            Torch::Measured(rows)
+        }
+    };
+    Ok(Report { machine: Machine::here(), reach, steps, kernels, scaling, paper, torch })
+}
+
+struct Bench {
+    quick: bool,
+}
+
+impl Bench {
+    fn budget(&self) -> Duration {
+        Duration::from_millis(if self.quick { 1 } else { 1500 })
+    }
+
+    fn sizes(&self) -> Vec<(Kind, (usize, usize))> {
+        if self.quick {
+            return Kind::ALL.map(|kind| (kind, (5000, 32))).to_vec();
+        }
+        let warm_up = [SMALL, LARGE].map(|pixels| (Kind::WarmUp, (pixels, COARSE)));
+        let fine = [Kind::Normals, Kind::Diffuse].into_iter();
+        let fine = fine.flat_map(|kind| [SMALL, LARGE].map(|pixels| (kind, (pixels, FINE))));
+        warm_up.into_iter().chain(fine).collect()
+    }
+
+    fn kernel_size(&self) -> kernels::Size {
+        let budget = self.budget() / 3;
+        match self.quick {
+            true => kernels::Size { pixels: 5000, texture: 32, transport: 16, budget },
+            false => kernels::Size { pixels: SMALL, texture: FINE, transport: 128, budget },
+        }
+    }
+
+    fn scaling(
+        &self,
+        device: &dyn Backend,
+        reach: Reach,
+        progress: &mut dyn FnMut(&str),
+    ) -> Vec<Step> {
+        let (pixels, textures): (&[usize], &[usize]) = match self.quick {
+            true => (&[1000, 4000], &[16, 32]),
+            false => (&[10_000, 100_000, 1_000_000, 10_000_000], &[128, 256, 512, 1024, 2048]),
+        };
+        let over_pixels = pixels.iter().map(|pixels| (Kind::WarmUp, (*pixels, COARSE)));
+        let over_textures = [Kind::Normals, Kind::Diffuse].into_iter().flat_map(|kind| {
+            textures
+                .iter()
+                .map(move |texture| (kind, (SMALL.min(100 * texture * texture), *texture)))
+        });
+        let mut rows = vec![];
+        for (kind, size) in over_pixels.chain(over_textures) {
+            progress(&format!("{}, {} pixels, {}² textures", kind.name(), size.0, size.1));
+            rows.push(steps::measure(kind, device, reach, size, self.budget()));
+        }
+        let all = rayon::current_num_threads();
+        let size = (if self.quick { 4000 } else { SMALL }, COARSE);
+        for threads in (0..).map(|power| 1 << power).take_while(|threads| *threads < all) {
+            progress(&format!("warm-up, {threads} threads"));
+            // A machine that cannot start a thread has no row for it.
+            let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
+            let share = threads as f64 / all as f64;
+            let reach = Reach { flops: share * reach.flops, ..reach };
+            let budget = self.budget();
+            rows.push(pool.install(|| steps::measure(Kind::WarmUp, device, reach, size, budget)));
+        }
+        rows
+    }
+
+    fn paper_size(
+        &self,
+        device: &dyn Backend,
+        reach: Reach,
+        share: usize,
+        progress: &mut dyn FnMut(&str),
+    ) -> PaperSize {
+        let share = if self.quick { 10_000 } else { share };
+        let texture = if self.quick { 32 } else { PAPER_TEXTURE };
+        let [half, full] = PAPER_PIXELS.map(|pixels| pixels / share);
+        let sizes = [(half, COARSE), (full, texture), (full, texture)];
+        let mut steps = vec![];
+        for (kind, size) in Kind::ALL.into_iter().zip(sizes) {
+            progress(&format!("the paper's capture, {}, {}", kind.name(), device.name()));
+            steps.push(steps::measure(kind, device, reach, size, self.budget()));
+        }
+        let seconds = steps
+            .iter()
+            .zip(PAPER_STEPS)
+            .map(|(step, steps)| 1e-3 * step.milliseconds * steps as f64 * share as f64);
+        PaperSize { share, seconds: seconds.sum(), steps }
+    }
+}
+
+fn torch_row(
+    python: &std::path::Path,
+    kind: Kind,
+    (pixels, texture): (usize, usize),
+    device: &dyn Backend,
+    steps: &[Step],
+) -> Result<TorchRow, TorchError> {
+    let problem = Problem::new(pixels, texture);
+    let torch = torch::measure(python, kind, &problem, TORCH_STEPS)?;
+    let ours = losses(kind, problem, device);
+    let difference = ours.iter().zip(&torch.losses).map(|(a, b)| (a / b - 1.0).abs());
+    let same = |step: &&Step| (step.kind, step.pixels, step.texture) == (kind, pixels, texture);
+    Ok(TorchRow {
+        kind,
+        pixels,
+        texture,
+        loss_difference: difference.fold(0.0, f64::max),
+        torch,
+        ours: steps.iter().filter(same).cloned().collect(),
+    })
+}
+
+/// The losses before the first steps.
+fn losses(kind: Kind, problem: Problem, device: &dyn Backend) -> Vec<f64> {
+    let Problem { config, samples, mut state } = problem;
+    let deviation = solver::model::deviation::Deviation::new(&config, state.size);
+    let mut stage: Box<dyn Stage> = match kind {
+        Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
+        Kind::Normals => Box::new(Relief::new(&config, &samples, &deviation, &state, device, 1)),
+        Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, device, 1)),
+    };
+    (0..TORCH_STEPS).map(|_| stage.step(&mut state, device, 1.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every row is there and finite; nothing is said about its time.
+    #[test]
+    fn the_smallest_run_has_every_row_and_a_table() {
+        let options = Options { quick: true, backends: vec![Box::new(Cpu::new())], torch: None };
+        let mut heard = 0;
+        let report = run(&options, &mut |_| heard += 1).unwrap();
+        let levels = Level::available().len();
+        assert_eq!(report.reach.len(), levels);
+        assert_eq!(report.steps.len(), 3 * levels + 3);
+        assert!(report.steps.iter().all(|step| step.milliseconds > 0.0));
+        assert!(report.kernels.len() > 10 && heard > report.steps.len());
+        assert_eq!(report.paper.len(), 2);
+        let text = markdown(&report, "unshade bench");
+        assert!(text.contains("pip install torch"), "{text}");
+        let value = serde_json::to_value(&report).unwrap();
+        assert_eq!(value["steps"][0]["kind"], "warm-up");
+    }
+
+    #[test]
+    fn a_python_without_torch_is_named_with_the_mend() {
+        let problem = Problem::new(100, 8);
+        let python = std::path::Path::new("/nowhere/python");
+        let error = torch::measure(python, Kind::WarmUp, &problem, 1).unwrap_err().to_string();
+        assert!(
+            error.contains("/nowhere/python") && error.contains("pip install torch"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,100 @@
+//! The work that is timed: synthetic G-buffers of any size, so that a benchmark needs no capture.
+//!
+//! Every view sees the same bump of a surface through a turned square grid of pixels, so that
+//! neighbouring pixels share texels as on a real chart, and views meet them in different places.
+
+use glam::{Vec2, Vec3};
+use solver::Config;
+use solver::model::networks::Networks;
+use solver::model::planes::Planes;
+use solver::model::samples::{Samples, schlick};
+use solver::model::taps::Taps;
+use solver::optimise::stage::State;
+
+/// Views of every problem.
+pub const VIEWS: usize = 10;
+/// Side of the square of the chart that a view sees.
+const SEEN: f32 = 0.8;
+/// Reflectance at normal incidence in the Fresnel factor.
+const F0: f32 = 0.04;
+
+/// What the stages of an optimisation start from.
+pub struct Problem {
+    /// The configuration `paper`.
+    pub config: Config,
+    /// Pixels of all views, in texel order.
+    pub samples: Samples,
+    /// Textures with some structure, and networks of seed 0.
+    pub state: State,
+}
+
+impl Problem {
+    /// `pixels` in ten views, with textures of side `size`.
+    pub fn new(pixels: usize, size: usize) -> Self {
+        let per_view = pixels.div_ceil(VIEWS);
+        let side = (per_view as f32).sqrt().ceil();
+        let place = |i: usize| place(i % per_view, i / per_view, side);
+        let uvs: Vec<Vec2> = (0..pixels).map(|i| place(i).0).collect();
+        let (taps, order) = Taps::sorted(size, &uvs);
+        drop(uvs);
+        let at = |i: usize| pixel(place(order[i]));
+        let vector =
+            |part: fn(&Pixel) -> Vec3| Planes::from_fn(pixels, |i| part(&at(i)).to_array());
+        let samples = Samples {
+            position: vector(|p| p.position),
+            normal: vector(|p| p.normal),
+            view: vector(|p| p.view),
+            fresnel: Planes::from_fn(pixels, |i| [schlick(F0, at(i).normal.dot(at(i).view))]),
+            target: vector(|p| p.colour),
+            weight: Planes::from_fn(pixels, |_| [1.0]),
+            pixel: order.iter().map(|i| (i % per_view) as u32).collect(),
+            view_index: order.iter().map(|i| (i / per_view) as u32).collect(),
+            taps,
+        };
+        let config = paper();
+        let wave = |i: usize| 0.5 + 0.4 * (i as f32 * 0.37).sin();
+        let texels = size * size;
+        let state = State {
+            networks: Networks::new(&config.networks, 0),
+            size,
+            diffuse: (0..3 * texels).map(wave).collect(),
+            specular: (0..texels).map(|i| 0.03 * wave(i)).collect(),
+            deviation: vec![0.0; 3 * texels],
+        };
+        Self { config, samples, state }
+    }
+}
+
+/// The configuration whose steps are timed.
+pub fn paper() -> Config {
+    // The default only stands for a name that does not exist.
+    Config::preset("paper").unwrap_or_default()
+}
+
+/// A pixel of a synthetic G-buffer.
+struct Pixel {
+    position: Vec3,
+    normal: Vec3,
+    view: Vec3,
+    colour: Vec3,
+}
+
+/// Where pixel `i` of a view's grid of side `side` lies on the chart, and how far the view is turned.
+fn place(i: usize, view: usize, side: f32) -> (Vec2, f32) {
+    let (x, y) = (i as f32 % side, (i as f32 / side).floor());
+    let local = (Vec2::new(x, y) + 0.5) / side - 0.5;
+    let turn = (view as f32 + 0.5) / VIEWS as f32 - 0.5;
+    (Vec2::splat(0.5) + SEEN * Vec2::from_angle(0.3 * turn).rotate(local), turn)
+}
+
+fn pixel((uv, turn): (Vec2, f32)) -> Pixel {
+    let Vec2 { x, y } = 2.0 * uv - 1.0;
+    let normal = Vec3::new(x, y, 1.0).normalize();
+    let position = Vec3::new(x, y, -0.5 * (x * x + y * y));
+    let view = (Vec3::new(2.0 * turn, 0.1, 3.0) - position).normalize();
+    let light = Vec3::new(0.4, 0.5, 0.77);
+    let shine = (view + light).normalize().dot(normal).max(0.0).powi(40);
+    let tone = Vec3::new(0.6, 0.4, 0.3) * (1.0 + 0.3 * (40.0 * x).sin() * (30.0 * y).cos());
+    let colour = tone * normal.dot(light).max(0.1) + 0.2 * shine;
+    Pixel { position, normal, view, colour }
+}

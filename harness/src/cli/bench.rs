@@ -1,0 +1,57 @@
+//! `unshade bench`.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use solver::atomic;
+
+use crate::bench::{Options, markdown, run};
+use crate::suite::RunError;
+
+/// What to measure, and where to put it.
+#[derive(Args)]
+pub(super) struct BenchArgs {
+    /// Print JSON instead of the tables.
+    #[arg(long)]
+    json: bool,
+    /// Write what is printed into this file instead.
+    #[arg(short, long)]
+    out: Option<PathBuf>,
+    /// Also write the tables into this file.
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// A Python that has PyTorch, for the same steps there.
+    #[arg(long, value_name = "PYTHON", env = "UNSHADE_TORCH")]
+    torch: Option<PathBuf>,
+    /// Only see that everything works, as small as it goes; the times mean nothing.
+    #[arg(long)]
+    quick: bool,
+}
+
+pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
+    let BenchArgs { json, out, markdown: page, torch, quick } = arguments;
+    let options = Options { quick: *quick, backends: vec![], torch: torch.clone() };
+    let report = run(&options, &mut |what| eprintln!("bench: {what}"))?;
+    let mut command = "unshade bench".to_owned();
+    if torch.is_some() {
+        command += " --torch PYTHON";
+    }
+    if let Some(page) = page {
+        command += &format!(" --markdown {}", page.display());
+    }
+    let tables = markdown(&report, &command);
+    if let Some(page) = page {
+        atomic::write_file(page, tables.as_bytes())?;
+    }
+    let text = match json {
+        true => serde_json::to_string_pretty(&report).map_err(std::io::Error::other)? + "\n",
+        false => tables,
+    };
+    match out {
+        Some(out) => fs::create_dir_all(out.parent().unwrap_or(out.as_path()))
+            .and_then(|()| atomic::write_file(out, text.as_bytes()))?,
+        None => print!("{text}"),
+    }
+    Ok(())
+}
