@@ -12,7 +12,7 @@ pub use choice::{BackendError, Choice};
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
-use resident::{Job, Resident};
+use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
 pub const ALBEDOS: usize = 4;
@@ -57,6 +57,11 @@ pub trait Backend: Sync {
     /// The program of a stage on the device; nothing if its steps are taken through the methods
     /// above.
     fn resident(&self, _job: &Job) -> Option<Box<dyn Resident + '_>> {
+        None
+    }
+
+    /// Conjugate gradients on the device; nothing if the host takes their steps.
+    fn descent(&self, _problem: &NormalEquations) -> Option<Box<dyn Descent + '_>> {
         None
     }
 }

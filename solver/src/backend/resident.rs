@@ -5,6 +5,9 @@
 //! [`Resident::download`]: that is what checkpoints are made of, and where the processor goes on
 //! should the device fail.
 
+use glam::Vec3;
+
+use crate::model::blur::Blur;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
@@ -112,6 +115,48 @@ pub trait Resident {
 
     /// The reverse of [`Resident::upload`]; on an error the host's copies are as they were.
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
+}
+
+/// The normal equations of the height solve, see [`crate::optimise::relief`]: unknown are a height per texel
+/// and three changes of the albedo.
+pub struct NormalEquations<'a> {
+    /// From texels to pixels.
+    pub taps: &'a Taps,
+    /// What a colour gains: by the specular deviation (3 rows), by the diffuse one (3 of R, then of G and
+    /// B), by the albedo (R, G, B).
+    pub slopes: &'a Planes,
+    /// Of every sample.
+    pub weight: &'a Planes,
+    /// The right-hand side.
+    pub goal: &'a [f32],
+    /// Where to start.
+    pub x: &'a [f32],
+    /// Deviation by the height's change to the right, and downwards.
+    pub basis: [&'a [Vec3]; 2],
+    /// From the specular deviation to the diffuse one.
+    pub blur: &'a Blur,
+    /// Change of the albedo that is one unit of its unknown.
+    pub albedo_unit: f32,
+    /// Weights of the squared deviation, of its squared differences, of squared heights, and of the
+    /// albedo's squared unknowns.
+    pub flatness: f32,
+    /// See `flatness`.
+    pub smoothness: f32,
+    /// See `flatness`.
+    pub rest: f32,
+    /// See `flatness`.
+    pub damping: f32,
+    /// Squared norm of the residual, over that of the goal, at which nothing moves any more.
+    pub enough: f64,
+}
+
+/// Conjugate gradients on a device.
+pub trait Descent {
+    /// Takes steps.
+    fn steps(&mut self, count: usize) -> Result<(), DeviceError>;
+
+    /// Where they have led.
+    fn unknowns(&mut self) -> Result<Vec<f32>, DeviceError>;
 }
 
 /// Most steps between two submissions.

@@ -9,16 +9,18 @@ use solver::{Config, Options, Solution, solve_on};
 
 use super::scene::{capture, short};
 
-/// Two stages and nothing else.
+/// The networks' stages, and heights.
 fn config() -> Config {
     let mut config = short();
     config.initialisation.starts = 1;
     config.warm_up.iterations = 60;
     config.transport.enabled = false;
-    config.height.enabled = false;
     config.records = solver::config::RecordConfig { stages: false, layers: false };
     config
 }
+
+/// Of all stages.
+const STEPS: usize = 160;
 
 /// Loses the device once `at` steps are done.
 fn solve(gpu: &Gpu, at: usize) -> (Solution, Vec<usize>) {
@@ -39,7 +41,7 @@ fn assert_complete(solution: &Solution) {
     let record = &solution.record;
     assert_eq!(record.interrupted, None);
     let losses = |stage: usize| &record.stages[stage].loss;
-    assert_eq!([losses(0).len(), losses(1).len(), losses(2).len()], [60, 40, 40]);
+    assert_eq!([0, 1, 2, 3].map(|stage| losses(stage).len()), [60, 20, 40, 40]);
     let folder = tempfile::tempdir().unwrap();
     let silent = &mut |_: &solver::Progress| ControlFlow::Continue(());
     let capture = capture(folder.path());
@@ -53,13 +55,22 @@ fn assert_complete(solution: &Solution) {
     }
 }
 
+pub fn within_the_heights(adapter: &Adapter) {
+    let gpu = Gpu::open(adapter).unwrap();
+    let (solution, heard) = solve(&gpu, 63);
+    assert_complete(&solution);
+    // The warm-up comes in submissions, heights are heard of step by step, and once.
+    let heights: Vec<usize> = heard.iter().copied().filter(|step| *step > 60).collect();
+    assert_eq!(heights, (61..=STEPS).collect::<Vec<_>>());
+}
+
 pub fn within_a_stage(adapter: &Adapter) {
     let gpu = Gpu::open(adapter).unwrap();
     let (solution, heard) = solve(&gpu, 5);
     assert_complete(&solution);
     // The host knows nothing of the steps that were lost, so they are done and heard of again.
     assert!(heard.iter().filter(|step| **step <= 5).count() > 5, "{heard:?}");
-    assert_eq!(heard.last(), Some(&140));
+    assert_eq!(heard.last(), Some(&STEPS));
 }
 
 pub fn before(adapter: &Adapter) {
@@ -68,5 +79,5 @@ pub fn before(adapter: &Adapter) {
     gpu.destroy();
     let (solution, heard) = solve(&gpu, 0);
     assert_complete(&solution);
-    assert_eq!(heard, (1..=140).collect::<Vec<_>>());
+    assert_eq!(heard, (1..=STEPS).collect::<Vec<_>>());
 }

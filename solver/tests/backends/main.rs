@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod heights;
 mod kernels;
 mod lost;
 mod model;
@@ -38,19 +39,21 @@ const SHARED: [(&str, Body); 3] = [
 ];
 
 /// Of backends that take in whole stages.
-const RESIDENT: [(&str, Body); 7] = [
+const RESIDENT: [(&str, Body); 8] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
     ("50 steps of the specular stage are the processor's", stages::specular),
     ("50 steps of normals and specular albedo are the processor's", stages::relief),
     ("50 steps under explicit transport are the processor's", stages::transported),
+    ("12 steps of the height solve are those written out", heights::conjugate_gradients),
     ("a solve is as near to the processor's as another seed's", solves::whole),
     ("an interrupted solve goes on to the same bytes", solves::resumed),
 ];
 
 /// Of devices that can be lost.
-const LOST: [(&str, OnAdapter); 2] = [
+const LOST: [(&str, OnAdapter); 3] = [
     ("a device lost within a stage leaves it to the processor", lost::within_a_stage),
+    ("a device lost within the height solve leaves it to the processor", lost::within_the_heights),
     ("a device lost before everything leaves everything to the processor", lost::before),
 ];
 

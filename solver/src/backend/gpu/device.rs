@@ -204,6 +204,14 @@ impl Device {
         }
     }
 
+    /// Until everything that was submitted is done.
+    pub fn wait(&self) -> Result<(), DeviceError> {
+        self.check()?;
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check()?;
+        polled.map(drop).map_err(|error| DeviceError(one_line(&error.to_string())))
+    }
+
     /// What is in these buffers after all that was submitted.
     pub fn read<T: bytemuck::Pod>(
         &self,
@@ -226,9 +234,7 @@ impl Device {
             .collect();
         self.queue.submit([encoder.finish()]);
         copies.iter().for_each(|copy| copy.slice(..).map_async(wgpu::MapMode::Read, |_| {}));
-        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
-        self.check()?;
-        polled.map_err(|error| DeviceError(one_line(&error.to_string())))?;
+        self.wait()?;
         let content = |copy: &wgpu::Buffer| match copy.slice(..).get_mapped_range() {
             Ok(range) => Ok(bytemuck::pod_collect_to_vec(&range)),
             Err(error) => Err(DeviceError(one_line(&error.to_string()))),

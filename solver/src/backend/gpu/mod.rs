@@ -11,6 +11,7 @@
 mod adapter;
 mod bending;
 mod device;
+mod heights;
 mod joint;
 mod kernel;
 mod layer;
@@ -29,7 +30,7 @@ pub use device::Timings;
 use self::device::Device;
 use self::layout::Layout;
 use super::cpu::Cpu;
-use super::resident::{DeviceError, Job, Resident};
+use super::resident::{Descent, DeviceError, Job, NormalEquations, Resident};
 use super::{Backend, BackendError, JointGradient};
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
@@ -157,6 +158,19 @@ impl Backend for Gpu {
             |device| bending::shade(device, networks, light, directions),
             |cpu| cpu.shade(networks, light, directions),
         )
+    }
+
+    fn descent(&self, problem: &NormalEquations) -> Option<Box<dyn Descent + '_>> {
+        if self.failure.get().is_some() {
+            return None;
+        }
+        match heights::Heights::new(self, problem) {
+            Ok(heights) => Some(Box::new(heights)),
+            Err(error) => {
+                self.falls(&error);
+                None
+            }
+        }
     }
 
     fn resident(&self, job: &Job) -> Option<Box<dyn Resident + '_>> {

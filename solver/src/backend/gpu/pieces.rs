@@ -124,11 +124,24 @@ impl DeviceTaps {
         texture: &wgpu::Buffer,
         channels: usize,
         planes: &[wgpu::Buffer],
+        rows: [usize; 2],
+    ) -> Vec<Pass> {
+        self.sample_from(device, (texture, 0), channels, planes, rows)
+    }
+
+    /// [`Self::sample`] of a texture that begins within its buffer.
+    pub fn sample_from(
+        &self,
+        device: &Device,
+        (texture, first): (&wgpu::Buffer, usize),
+        channels: usize,
+        planes: &[wgpu::Buffer],
         [row, rows]: [usize; 2],
     ) -> Vec<Pass> {
         let kernel = device.kernel("sampling", include_str!("wgsl/sample.wgsl"), &[], "urrrw");
         let one = |(at, piece): (usize, &Range<usize>)| {
-            let words = [piece.len(), self.size, channels, row, rows].map(|word| word as u32);
+            let words =
+                [piece.len(), self.size, channels, row, rows, first].map(|word| word as u32);
             let parameters = device.uniform(&words);
             let buffers = [&parameters, &self.cell[at], &self.fraction[at], texture, &planes[at]];
             Pass::over(device, &kernel, &buffers, piece.len())
@@ -147,6 +160,19 @@ impl DeviceTaps {
         channels: usize,
         add: bool,
     ) -> Vec<Pass> {
+        self.gather_to(device, planes, [row, rows], (gradient, 0), channels, add)
+    }
+
+    /// [`Self::gather`] into a gradient that begins within its buffer.
+    pub fn gather_to(
+        &self,
+        device: &Device,
+        planes: &[wgpu::Buffer],
+        [row, rows]: [usize; 2],
+        (gradient, offset): (&wgpu::Buffer, usize),
+        channels: usize,
+        add: bool,
+    ) -> Vec<Pass> {
         // As many threads to a texel as keep a few samples for each.
         let each = 4 * self.len / (self.size * self.size);
         let lanes = [64, 16, 4].into_iter().find(|lanes| each >= 4 * lanes).unwrap_or(1);
@@ -162,7 +188,8 @@ impl DeviceTaps {
             };
             let texels = last + 1 - first;
             let add = usize::from(add || at > 0);
-            let words = [self.size, first, texels, piece.start, piece.len(), row, rows, add];
+            let words =
+                [self.size, first, texels, piece.start, piece.len(), row, rows, add, offset];
             let parameters = device.uniform(&words.map(|word| word as u32));
             let buffers = [&parameters, &self.start, &self.fraction[at], &planes[at], gradient];
             Pass::new(device, &kernel, &buffers, texels.div_ceil(64 / lanes))

@@ -3,7 +3,7 @@
 use super::Gpu;
 use super::bending::Bending;
 use super::device::Device;
-use super::kernel::{Pass, THREADS};
+use super::kernel::Pass;
 use super::layout::Layout;
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program};
@@ -38,7 +38,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
 
     let chart = Chart { device, deviation, count };
     let mut passes = chart.forth(&by_deviation.values, &sharp);
-    passes.extend(chart.blur(deviation.parts().blur, &sharp, &blurred, false));
+    passes.extend(blurring(device, deviation.parts().blur, &sharp, &blurred, false));
     passes.extend(taps.sample(device, &sharp, 3, &bent, [0, DIRECTIONS]));
     passes.extend(taps.sample(device, &blurred, 3, &bent, [3, DIRECTIONS]));
     passes.extend(taps.sample(device, &by_specular.values, 1, &albedo, [3, 4]));
@@ -81,10 +81,10 @@ impl Chart<'_> {
     fn forth(&self, texture: &wgpu::Buffer, d: &wgpu::Buffer) -> Vec<Pass> {
         let parts = self.deviation.parts();
         let band = self.device.floats("band", self.count);
-        let mut passes = self.blur(parts.narrow, texture, &band, false);
+        let mut passes = Vec::from(blurring(self.device, parts.narrow, texture, &band, false));
         let coarse = self.device.floats("coarse", self.count);
         if let Some(wide) = parts.wide {
-            passes.extend(self.blur(wide, texture, &coarse, false));
+            passes.extend(blurring(self.device, wide, texture, &coarse, false));
         }
         passes.push(self.value_by_value(0, [&band, &coarse, &coarse], d));
         passes
@@ -102,11 +102,11 @@ impl Chart<'_> {
         let texture = |name| self.device.floats(name, self.count);
         let [unblurred, by_band, narrow, coarse] =
             ["unblurred", "by band", "by narrow blur", "by wide blur"].map(texture);
-        let mut passes = self.blur(parts.blur, by_blur, &unblurred, true);
+        let mut passes = Vec::from(blurring(self.device, parts.blur, by_blur, &unblurred, true));
         passes.push(self.value_by_value(1, [&unblurred, by_d, d], &by_band));
-        passes.extend(self.blur(parts.narrow, &by_band, &narrow, true));
+        passes.extend(blurring(self.device, parts.narrow, &by_band, &narrow, true));
         if let Some(wide) = parts.wide {
-            passes.extend(self.blur(wide, &by_band, &coarse, true));
+            passes.extend(blurring(self.device, wide, &by_band, &coarse, true));
         }
         passes.push(self.value_by_value(2, [&narrow, &coarse, d], gradient));
         passes
@@ -126,30 +126,29 @@ impl Chart<'_> {
         let [a, b, d] = inputs;
         Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count)
     }
+}
 
-    /// A blur, or its adjoint.
-    fn blur(
-        &self,
-        blur: &Blur,
-        from: &wgpu::Buffer,
-        to: &wgpu::Buffer,
-        adjoint: bool,
-    ) -> Vec<Pass> {
-        let between = self.device.floats("half blurred", self.count);
-        let weights = self.device.filled("blur", blur.kernel());
-        let norms = self.device.filled("blur's sums", blur.norms());
-        let size = blur.norms().len() as u32;
-        let axis = |vertical: bool, scaled: u32, from: &wgpu::Buffer, to: &wgpu::Buffer| {
-            let constants = [("VERTICAL", u32::from(vertical)), ("SCALED", scaled)];
-            let source = include_str!("wgsl/blur.wgsl");
-            let kernel = self.device.kernel("blur", source, &constants, "urrrw");
-            let parameters = self.device.uniform(&[size, blur.kernel().len() as u32 - 1]);
-            let buffers = [&parameters, &weights, &norms, from, to];
-            Pass::new(self.device, &kernel, &buffers, self.count.div_ceil(THREADS))
-        };
-        match adjoint {
-            false => vec![axis(false, 0, from, &between), axis(true, 2, &between, to)],
-            true => vec![axis(true, 1, from, &between), axis(false, 0, &between, to)],
-        }
+/// A blur of a texture of 3 channels, or its adjoint.
+pub(super) fn blurring(
+    device: &Device,
+    blur: &Blur,
+    from: &wgpu::Buffer,
+    to: &wgpu::Buffer,
+    adjoint: bool,
+) -> [Pass; 2] {
+    let size = blur.norms().len();
+    let count = 3 * size * size;
+    let between = device.floats("half blurred", count);
+    let weights = device.filled("blur", blur.kernel());
+    let norms = device.filled("blur's sums", blur.norms());
+    let axis = |vertical: bool, scaled: u32, from: &wgpu::Buffer, to: &wgpu::Buffer| {
+        let constants = [("VERTICAL", u32::from(vertical)), ("SCALED", scaled)];
+        let kernel = device.kernel("blur", include_str!("wgsl/blur.wgsl"), &constants, "urrrw");
+        let parameters = device.uniform(&[size as u32, blur.kernel().len() as u32 - 1]);
+        Pass::over(device, &kernel, &[&parameters, &weights, &norms, from, to], count)
+    };
+    match adjoint {
+        false => [axis(false, 0, from, &between), axis(true, 2, &between, to)],
+        true => [axis(true, 1, from, &between), axis(false, 0, &between, to)],
     }
 }

@@ -15,6 +15,8 @@ struct Parameters {
     rows: u32,
     // 1: add to what is there.
     add: u32,
+    // Where the gradient begins.
+    offset: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -76,7 +78,7 @@ fn main(
     workgroupBarrier();
     if here && lane == 0u {
         for (var c = 0u; c < CHANNELS; c++) {
-            let at = texel * CHANNELS + c;
+            let at = parameters.offset + texel * CHANNELS + c;
             let before = select(0.0, gradient[at], parameters.add == 1u);
             gradient[at] = before + sums[t][c];
         }

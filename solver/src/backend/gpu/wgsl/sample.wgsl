@@ -7,6 +7,8 @@ struct Parameters {
     // First of the rows written, and all rows of the planes.
     row: u32,
     rows: u32,
+    // Where the texture begins.
+    first: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -26,7 +28,7 @@ fn main(
         return;
     }
     let channels = parameters.channels;
-    let above = cell[i] * channels;
+    let above = parameters.first + cell[i] * channels;
     let below = above + parameters.size * channels;
     let f = fraction[i];
     for (var c = 0u; c < channels; c++) {
