@@ -50,8 +50,9 @@ const RESIDENT: [(&str, Body); 8] = [
     ("an interrupted solve goes on to the same bytes", solves::resumed),
 ];
 
-/// Of devices that can be lost.
-const LOST: [(&str, OnAdapter); 3] = [
+/// Of devices that are opened for the test.
+const OWN: [(&str, OnAdapter); 4] = [
+    ("every pass is timed, and has the same result", stages::timed),
     ("a device lost within a stage leaves it to the processor", lost::within_a_stage),
     ("a device lost within the height solve leaves it to the processor", lost::within_the_heights),
     ("a device lost before everything leaves everything to the processor", lost::before),
@@ -68,7 +69,10 @@ static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var
 
 /// Opened once, since its kernels take seconds to compile.
 static GPU: LazyLock<Option<Gpu>> =
-    LazyLock::new(|| ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap()));
+    LazyLock::new(|| ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap().in_pieces(PIECE)));
+
+/// Samples of a piece: the tests have a few thousand, in several pieces.
+const PIECE: usize = 1024;
 
 fn main() {
     let mut arguments = Arguments::from_args();
@@ -89,7 +93,7 @@ fn main() {
         let run = move || passed(GPU.as_ref().unwrap(), body);
         trials.push(Trial::test(format!("{gpu}: {name}"), run));
     }
-    for (name, body) in LOST {
+    for (name, body) in OWN {
         let run = move || {
             body(ADAPTER.as_ref().unwrap());
             Ok(())

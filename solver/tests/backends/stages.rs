@@ -3,6 +3,7 @@
 use solver::Config;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
+use solver::backend::gpu::{Adapter, Gpu};
 use solver::model::deviation::Deviation;
 use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
@@ -145,5 +146,27 @@ pub fn transported(backend: &dyn Backend) {
         compare(backend, &state, |_| {
             Transported::new(&config, &transport, &samples, &state, light.clone())
         });
+    }
+}
+
+/// Without a clock of the adapter's there is nothing to compare.
+pub fn timed(adapter: &Adapter) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    let run = |gpu: &Gpu| {
+        let (mut stage, mut state) = (WarmUp::new(&config, &samples, &state), state.clone());
+        let mut program = gpu.resident(&stage.job().unwrap()).unwrap();
+        program.upload(&stage.variables(&mut state)).unwrap();
+        program.steps(&[1.0; 3]).unwrap()
+    };
+    let plain = Gpu::open(adapter).unwrap();
+    assert_eq!(plain.timings(), None);
+    let gpu = Gpu::timed(adapter).unwrap();
+    assert_eq!(run(&gpu), run(&plain));
+    let timings = gpu.timings();
+    assert_eq!(timings.is_some(), adapter.has_clock());
+    for name in timings.iter().flat_map(|_| ["networks", "weight gradients", "gather", "adam"]) {
+        let (milliseconds, count) = timings.as_ref().unwrap()[name];
+        assert!(count >= 3 && milliseconds > 0.0, "{name}: {milliseconds} ms, {count} times");
     }
 }

@@ -41,6 +41,11 @@ impl Adapter {
         }
     }
 
+    /// Whether it can time what it does; see [`super::Gpu::timed`].
+    pub fn has_clock(&self) -> bool {
+        self.adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY)
+    }
+
     /// The adapter that [`VARIABLE`] names, or else the best real GPU.
     pub fn chosen() -> Result<Self, BackendError> {
         let named = std::env::var(VARIABLE).ok().filter(|name| !name.is_empty());

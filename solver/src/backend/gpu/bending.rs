@@ -38,7 +38,7 @@ fn evaluated(
 ) -> Result<Planes, DeviceError> {
     let layout = Layout::new(&networks.shape);
     let rows = if light.is_some() { 2 } else { networks.outputs() };
-    let pieces = Pieces::new(inputs.len(), networks.outputs());
+    let pieces = Pieces::new(device, inputs.len(), networks.outputs());
     let constants = [("WHAT", u32::from(light.is_some()))];
     let source = include_str!("wgsl/shading.wgsl");
     let kernel = layout.kernel(device, "shading", source, &constants, "unrrw");
@@ -128,7 +128,7 @@ pub(super) fn bend(
     albedo: &Planes,
 ) -> Result<(f64, Planes), DeviceError> {
     let layout = Layout::new(&networks.shape);
-    let pieces = Pieces::new(samples.len(), networks.outputs());
+    let pieces = Pieces::new(device, samples.len(), networks.outputs());
     let directions = pieces.upload(device, "directions", &[directions]);
     let albedo = pieces.upload(device, "albedos", &[albedo]);
     let bending = Bending::new(device, pieces, samples, light);

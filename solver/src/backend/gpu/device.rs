@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::kernel::{Kernel, Pass, Slots};
+use super::pieces::PIECE;
 use super::unroll::unrolled;
 use crate::backend::resident::DeviceError;
 
@@ -20,6 +21,8 @@ pub(super) struct Device {
     /// The first thing that went wrong.
     fault: Arc<OnceLock<String>>,
     kernels: Mutex<HashMap<String, Arc<Kernel>>>,
+    /// Samples of a piece; see [`super::pieces`].
+    pub piece: usize,
     /// Present if passes are timed.
     timings: Option<Mutex<Timings>>,
 }
@@ -58,7 +61,7 @@ impl Device {
             let _ = heard.set(one_line(&format!("device lost ({reason:?}) {message}")));
         });
         let timings = timed.then(Mutex::default);
-        Ok(Self { device, queue, fault, kernels: Mutex::default(), timings })
+        Ok(Self { device, queue, fault, kernels: Mutex::default(), piece: PIECE, timings })
     }
 
     /// An error if anything has gone wrong since the device was opened.

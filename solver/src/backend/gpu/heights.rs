@@ -112,7 +112,7 @@ fn image(
     let texels = size * size;
     let rows = problem.slopes.rows() + 1;
     debug_assert_eq!(rows, SLOPES);
-    let pieces = Pieces::new(problem.slopes.len(), rows);
+    let pieces = Pieces::new(device, problem.slopes.len(), rows);
     let taps = DeviceTaps::new(device, &pieces, problem.taps);
     let slopes = pieces.upload(device, "slopes", &[problem.slopes, problem.weight]);
     let unknowns = pieces.zeros(device, "sampled unknowns", UNKNOWNS);

@@ -112,7 +112,7 @@ pub(super) fn joint(
     directions: &Planes,
     albedo: &Planes,
 ) -> Result<JointGradient, DeviceError> {
-    let pieces = Pieces::new(samples.len(), ALBEDOS);
+    let pieces = Pieces::new(device, samples.len(), ALBEDOS);
     let albedo = pieces.upload(device, "albedos", &[albedo]);
     let joint = Joint::new(device, layout, pieces, albedo);
     let weights = device.filled("networks", &layout.pack(&networks.parameters));
@@ -139,7 +139,7 @@ pub(super) fn program<'a>(
     weight: f32,
 ) -> Program<'a> {
     let device = &gpu.device;
-    let pieces = Pieces::new(samples.len(), ALBEDOS);
+    let pieces = Pieces::new(device, samples.len(), ALBEDOS);
     let taps = DeviceTaps::new(device, &pieces, &samples.taps);
     let size = samples.taps.size();
     let albedo = pieces.zeros(device, "albedos", ALBEDOS);

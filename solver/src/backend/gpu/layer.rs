@@ -14,7 +14,7 @@ const FIRST: usize = 4;
 pub(super) fn program<'a>(gpu: &'a Gpu, taps: &Taps, known: &Planes, weight: f32) -> Program<'a> {
     let device = &gpu.device;
     let channels = known.rows() - FIRST;
-    let pieces = Pieces::new(known.len(), known.rows());
+    let pieces = Pieces::new(device, known.len(), known.rows());
     let size = taps.size();
     let taps = DeviceTaps::new(device, &pieces, taps);
     let albedo = Moved::new(device, "albedo", channels * size * size);

@@ -1,10 +1,18 @@
 //! Graphics processors, through wgpu's compute shaders (Vulkan, Metal, DirectX 12).
 //!
-//! Warm-ups (starts, too), the networks' fine-tuning and the albedo's refinement run on the device from
-//! end to end, see [`super::resident`]; explicit transport and heights ask it for shading and gradients
-//! of the networks only. Layouts are those of the processor: planes of blocks of 256 samples, texture
-//! gradients by gather in texel order, sums in a fixed order. The results of one adapter and driver are
-//! therefore the same every time, and close to the processor's, whose rounding differs.
+//! All stages of gradient steps and the height solve's conjugate gradients run on the device from end to
+//! end, see [`super::resident`]. The processor does what happens once: G-buffers, rays, linearisations of
+//! the height solve (with shading and gradients of the networks from here), maps and views.
+//!
+//! Layouts are the processor's: planes of blocks of 256 samples, gradients of textures by gather in texel
+//! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
+//! bytes every time; the processor's differ by rounding.
+//!
+//! Samples come in pieces that fit the bindings of 128 MiB which every adapter has. A sample and step of
+//! the warm-up moves 36 bytes of inputs, 20 of targets, 12 of taps, and albedos with their gradients
+//! twice, 64: 132 bytes for about 9300 operations, so that it is bound by arithmetic wherever a byte
+//! costs less than 70 of them. The diffuse stage moves 28 + 12 bytes and its gradient, 12, twice, for
+//! about 60 operations, and is bound by memory.
 //!
 //! A device that fails says so in one line, and the processor goes on.
 
@@ -55,6 +63,13 @@ impl Gpu {
     /// Measures the time of every pass on the device, which costs time; see [`Gpu::timings`].
     pub fn timed(adapter: &Adapter) -> Result<Self, BackendError> {
         Self::with(adapter, true)
+    }
+
+    /// With samples in pieces of this many, as if bindings were that small.
+    #[must_use]
+    pub fn in_pieces(mut self, samples: usize) -> Self {
+        self.device.piece = samples;
+        self
     }
 
     fn with(adapter: &Adapter, timed: bool) -> Result<Self, BackendError> {

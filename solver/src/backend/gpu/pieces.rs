@@ -10,7 +10,7 @@ use crate::model::samples::Samples;
 use crate::model::taps::Taps;
 
 /// Samples of a piece: 16 rows of them are the 128 MiB that a binding may have by default.
-const PIECE: usize = 1 << 21;
+pub(super) const PIECE: usize = 1 << 21;
 /// Rows that a piece of [`PIECE`] samples may have.
 const ROWS: usize = 16;
 
@@ -20,8 +20,8 @@ pub(super) struct Pieces(pub Vec<Range<usize>>);
 
 impl Pieces {
     /// Of `len` samples whose widest planes have `rows` rows.
-    pub fn new(len: usize, rows: usize) -> Self {
-        let piece = (PIECE * ROWS / rows.max(ROWS)) / BLOCK * BLOCK;
+    pub fn new(device: &Device, len: usize, rows: usize) -> Self {
+        let piece = (device.piece * ROWS / rows.max(ROWS)).next_multiple_of(BLOCK);
         let cut = |first: usize| first..len.min(first + piece);
         Self((0..len).step_by(piece).map(cut).collect())
     }

@@ -20,7 +20,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
     let device = &gpu.device;
     let ReliefJob { samples, deviation, networks, light, albedo } = *job;
     let layout = Layout::new(&networks.shape);
-    let pieces = Pieces::new(samples.len(), networks.outputs());
+    let pieces = Pieces::new(device, samples.len(), networks.outputs());
     let taps = DeviceTaps::new(device, &pieces, &samples.taps);
     let size = samples.taps.size();
     let count = 3 * size * size;

@@ -31,7 +31,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, layout: Layout, job: &TransportedJob) ->
     let layer = device.floats("diffuse layer", texels);
     let by_layer = device.floats("by diffuse layer", texels);
 
-    let pieces = Pieces::new(samples.len(), ALBEDOS);
+    let pieces = Pieces::new(device, samples.len(), ALBEDOS);
     let taps = DeviceTaps::new(device, &pieces, &samples.taps);
     let albedo = pieces.zeros(device, "albedos", ALBEDOS);
     let joint = Joint::new(device, &layout, pieces, albedo).layered();
