@@ -78,6 +78,38 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
         }
     }
 
+    if !report.solves.is_empty() {
+        writeln!(page, "\n## Whole solves\n")?;
+        writeln!(
+            page,
+            "From the files of the capture to the files of the maps, ten training views, one run each; \
+             `paper` with textures of the same side.\n"
+        )?;
+        let head =
+            "| capture | configuration | pixels | textures | s | memory: measured / said before |";
+        writeln!(page, "{head}\n|---|---|---|---|---|---|")?;
+        for solve in &report.solves {
+            writeln!(
+                page,
+                "| {} | {} | {:.0} thousand | {}² | {:.1} | {} / {} |",
+                solve.capture,
+                solve.config,
+                solve.pixels as f64 / 1e3,
+                solve.texture,
+                solve.seconds,
+                solve.peak_memory.map_or(String::new(), size),
+                size(solve.estimated_memory),
+            )?;
+        }
+        writeln!(page)?;
+        for solve in &report.solves {
+            let stages =
+                solve.stages.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1}"));
+            let stages = stages.collect::<Vec<_>>().join(", ");
+            writeln!(page, "- {}, {}: {stages} s.", solve.capture, solve.config)?;
+        }
+    }
+
     writeln!(page, "\n## Kernels\n")?;
     writeln!(page, "At the best level.\n\n| kernel | ms | GFLOP/s | GB/s |\n|---|---|---|---|")?;
     for kernel in &report.kernels {

@@ -9,6 +9,7 @@ mod cost;
 mod kernels;
 mod machine;
 mod markdown;
+mod solves;
 mod steps;
 mod synthetic;
 mod torch;
@@ -26,9 +27,11 @@ use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 pub use kernels::Kernel;
 pub use machine::Machine;
 pub use markdown::markdown;
+pub use solves::Solved;
 pub use steps::{Kind, Reach, Step};
 pub use torch::{MEND, TorchError, TorchStep};
 
+use crate::suite::RunError;
 use synthetic::Problem;
 
 /// Pixels of the steps that stand for a capture of the demo's kind, half resolution.
@@ -57,6 +60,8 @@ pub struct Options {
     pub backends: Vec<Box<dyn Backend>>,
     /// A Python that has PyTorch.
     pub torch: Option<PathBuf>,
+    /// Captures to be solved as a whole.
+    pub captures: Vec<PathBuf>,
 }
 
 /// All that was measured.
@@ -76,6 +81,8 @@ pub struct Report {
     pub paper: Vec<PaperSize>,
     /// The same steps in PyTorch.
     pub torch: Torch,
+    /// Whole solves.
+    pub solves: Vec<Solved>,
 }
 
 /// The paper's capture on one backend.
@@ -120,7 +127,7 @@ pub struct TorchRow {
 }
 
 /// Measures everything; `progress` hears what comes next.
-pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, TorchError> {
+pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
     let bench = Bench { quick: options.quick };
     let _hoard = Hoard::begin();
     progress("bandwidth");
@@ -165,7 +172,12 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
             Torch::Measured(rows)
         }
     };
-    Ok(Report { machine: Machine::here(), reach, steps, kernels, scaling, paper, torch })
+    let mut solves = vec![];
+    for capture in &options.captures {
+        progress(&format!("solving {}", capture.display()));
+        solves.extend(solves::measure(capture)?);
+    }
+    Ok(Report { machine: Machine::here(), reach, steps, kernels, scaling, paper, torch, solves })
 }
 
 struct Bench {
@@ -295,7 +307,12 @@ mod tests {
     /// Every row is there and finite; nothing is said about its time.
     #[test]
     fn the_smallest_run_has_every_row_and_a_table() {
-        let options = Options { quick: true, backends: vec![Box::new(Cpu::new())], torch: None };
+        let options = Options {
+            quick: true,
+            backends: vec![Box::new(Cpu::new())],
+            torch: None,
+            captures: vec![],
+        };
         let mut heard = 0;
         let report = run(&options, &mut |_| heard += 1).unwrap();
         let levels = Level::available().len();

@@ -24,18 +24,25 @@ pub(super) struct BenchArgs {
     /// A Python that has PyTorch, for the same steps there.
     #[arg(long, value_name = "PYTHON", env = "UNSHADE_TORCH")]
     torch: Option<PathBuf>,
+    /// Also solve this capture as a whole, with `unshade` and `paper`; may be given again.
+    #[arg(long, value_name = "CAPTURE")]
+    solve: Vec<PathBuf>,
     /// Only see that everything works, as small as it goes; the times mean nothing.
     #[arg(long)]
     quick: bool,
 }
 
 pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
-    let BenchArgs { json, out, markdown: page, torch, quick } = arguments;
-    let options = Options { quick: *quick, backends: vec![], torch: torch.clone() };
+    let BenchArgs { json, out, markdown: page, torch, solve, quick } = arguments;
+    let options =
+        Options { quick: *quick, backends: vec![], torch: torch.clone(), captures: solve.clone() };
     let report = run(&options, &mut |what| eprintln!("bench: {what}"))?;
     let mut command = "unshade bench".to_owned();
     if torch.is_some() {
         command += " --torch PYTHON";
+    }
+    for _ in solve {
+        command += " --solve CAPTURE";
     }
     if let Some(page) = page {
         command += &format!(" --markdown {}", page.display());

@@ -102,6 +102,7 @@ impl Config {
         config.rendering.positive_albedo = true;
         // Some weights never learn the highlights, and the loss shows it early.
         config.initialisation.starts = 4;
+        config.initialisation.start_iterations = 400;
         config.warm_up.network_rate = 5e-3;
         config.warm_up.diffuse_rate = 3e-4;
         config.warm_up.specular_rate = 5e-5;

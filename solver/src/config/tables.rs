@@ -50,10 +50,10 @@ pub struct InitialisationConfig {
     pub semantic: bool,
     /// The brightest initial specular albedo; 0.05.
     pub specular_maximum: f32,
-    /// Seeds of the networks that are tried, from `seed` on; the one with the lowest loss is
-    /// taken. 1, as in the paper, tries none.
+    /// Seeds of the networks that are tried, from `seed` on; the warm-up goes on with the one that has
+    /// the lowest loss. 1, as in the paper, tries none.
     pub starts: usize,
-    /// Steps of the warm-up that each of them is given.
+    /// Steps of the warm-up that each of them is given; those of the best count.
     pub start_iterations: usize,
 }
 

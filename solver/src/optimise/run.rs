@@ -162,6 +162,13 @@ impl<'a, 'b> Run<'a, 'b> {
         Ok(())
     }
 
+    /// The last stage went on from these steps.
+    pub fn began_with(&mut self, losses: Vec<f64>) {
+        if let Some(last) = self.log.stages.last_mut() {
+            last.loss.splice(0..0, losses);
+        }
+    }
+
     /// Does the steps of a start, which is no stage of the record, and returns the losses.
     pub fn trial(
         &mut self,

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
@@ -149,8 +150,8 @@ pub(super) struct Solve {
     pub finished: usize,
     /// What the textures start from.
     pub initial: State,
-    /// The best of the starts so far: its loss and its initial networks.
-    pub best: Option<(f64, Networks)>,
+    /// The best of the starts so far, with which the warm-up goes on.
+    pub best: Option<Start>,
     /// The networks' own model of the pictures.
     pub state: State,
     /// The light that the semantic colours show, until the albedo moves too.
@@ -161,6 +162,22 @@ pub(super) struct Solve {
     pub physical: Option<Physical>,
     /// The textures after every stage.
     pub snapshots: Vec<Snapshot>,
+}
+
+/// A short warm-up from the networks of one seed.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Start {
+    losses: Vec<f64>,
+    state: State,
+    optimisers: Vec<Adam>,
+}
+
+impl Start {
+    /// How far it has come: the mean of the last tenth of its losses.
+    fn loss(&self) -> f64 {
+        let tail = &self.losses[self.losses.len() - self.losses.len().div_ceil(10)..];
+        tail.iter().sum::<f64>() / tail.len() as f64
+    }
 }
 
 impl Solve {
@@ -231,7 +248,13 @@ impl Step {
         let height = &config.height;
         match self {
             Self::Start(_) => config.initialisation.start_iterations,
-            Self::WarmUp => config.warm_up.iterations,
+            // The best start's steps are done.
+            Self::WarmUp => match config.initialisation.starts {
+                0 | 1 => config.warm_up.iterations,
+                _ => {
+                    config.warm_up.iterations.saturating_sub(config.initialisation.start_iterations)
+                }
+            },
             Self::Light => config.transport.probe,
             Self::Transport => config.transport.iterations,
             Self::Heights => height.linearisations * height.reweightings * height.steps,
@@ -282,11 +305,21 @@ impl Step {
         match self {
             Self::Start(number) => start(*number, site, run, solve)?,
             Self::WarmUp => {
-                if let Some((_, networks)) = solve.best.take() {
-                    solve.state.networks = networks;
+                let mut config = config.clone();
+                config.warm_up.iterations = self.iterations(site.config);
+                let best = solve.best.take();
+                if let Some(best) = &best {
+                    solve.state = best.state.clone();
                 }
-                let mut stage = WarmUp::new(config, site.coarse(), &solve.state);
+                let mut stage = WarmUp::new(&config, site.coarse(), &solve.state);
+                let mut losses = vec![];
+                if let Some(best) = best {
+                    let places = stage.memory().optimisers.into_iter();
+                    places.zip(best.optimisers).for_each(|(place, kept)| *place = kept);
+                    losses = best.losses;
+                }
                 run.stage(&mut stage, &mut solve.state)?;
+                run.began_with(losses);
             }
             Self::Light => {
                 let start =
@@ -382,22 +415,22 @@ impl Step {
     }
 }
 
-/// Tries the networks of one seed; those from which a short warm-up comes furthest are kept.
+/// Warms up the networks of one seed; what has come furthest is kept.
 fn start(number: usize, site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
     let mut config = site.config.clone();
     config.warm_up.iterations = config.initialisation.start_iterations;
     let networks = Networks::new(&config.networks, config.seed + number as u64);
-    let mut state = State { networks: networks.clone(), ..solve.initial.clone() };
+    let mut state = State { networks, ..solve.initial.clone() };
     let mut stage = WarmUp::new(&config, site.coarse(), &state);
     let losses = run.trial(&format!("start {}", number + 1), &mut stage, &mut state)?;
+    let optimisers = stage.memory().optimisers.into_iter().map(|adam| adam.clone()).collect();
     if run.cut().is_some() {
         solve.state = state;
         return Ok(());
     }
-    let tail = &losses[losses.len() - losses.len().div_ceil(10)..];
-    let loss = tail.iter().sum::<f64>() / tail.len() as f64;
-    if solve.best.as_ref().is_none_or(|(best, _)| loss < *best) {
-        solve.best = Some((loss, networks));
+    let start = Start { losses, state, optimisers };
+    if solve.best.as_ref().is_none_or(|best| start.loss() < best.loss()) {
+        solve.best = Some(start);
     }
     Ok(())
 }

@@ -32,8 +32,8 @@ pub trait Lanes: Copy {
     fn sub(self, b: Self) -> Self;
     /// self * b.
     fn mul(self, b: Self) -> Self;
-    /// self / b.
-    fn div(self, b: Self) -> Self;
+    /// 1 / self, relative error at most 1e-7.
+    fn reciprocal(self) -> Self;
     /// self * b + c, rounded once where the hardware can.
     fn mul_add(self, b: Self, c: Self) -> Self;
     /// The larger one; `b` if either is NaN.
@@ -48,20 +48,28 @@ pub trait Lanes: Copy {
     fn scale(self, n: Self) -> Self;
     /// self where `gate` > 0, else 0.
     fn where_positive(self, gate: Self) -> Self;
+    /// self where `gate` > 0, else `other`.
+    fn where_positive_else(self, gate: Self, other: Self) -> Self;
 }
 
 /// e^x, relative error about 1e-7; x is clamped to [-87, 88].
 #[inline(always)]
 pub fn exp<S: Lanes>(x: S) -> S {
     // In this order a NaN passes through, so that a diverged solve shows in its loss.
-    let x = S::splat(88.0).min(S::splat(-87.0).max(x));
+    exp_below(S::splat(88.0).min(x))
+}
+
+/// [`exp`] of what is not above 88.
+#[inline(always)]
+fn exp_below<S: Lanes>(x: S) -> S {
+    let x = S::splat(-87.0).max(x);
     let n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
     // ln 2 in two parts, the first with so few bits that its product with n is exact.
     let r = n.mul_add(S::splat(-0.693_359_4), x);
     let r = n.mul_add(S::splat(2.121_944_4e-4), r);
-    // Taylor's series: |r| <= 0.347, so the first term left out is below 6e-9.
-    let mut sum = S::splat(1.0 / 5040.0);
-    for factor in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0] {
+    // 1 + r + r^2 p(r) with the p that has the least largest error on |r| <= ln 2 / 2: 1.1e-8.
+    let mut sum = S::splat(0.001_394_111_3);
+    for factor in [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0] {
         sum = sum.mul_add(r, S::splat(factor));
     }
     sum.scale(n)
@@ -72,20 +80,24 @@ pub fn exp<S: Lanes>(x: S) -> S {
 pub fn softplus<S: Lanes>(x: S) -> (S, S) {
     let one = S::splat(1.0);
     let zero = S::splat(0.0);
-    let e = exp(zero.sub(x.abs()));
-    // log(1 + e) = 2 artanh(s) with s = e / (2 + e) <= 1/3: its series converges fast.
-    let (a, b) = (one.add(e), S::splat(2.0).add(e));
-    let inverse = one.div(a.mul(b));
-    let (logistic, s) = (inverse.mul(b), e.mul(inverse).mul(a));
-    let square = s.mul(s);
-    let mut sum = S::splat(1.0 / 13.0);
-    for factor in [1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
-        sum = sum.mul_add(square, S::splat(factor));
+    let e = exp_below(zero.sub(x.abs()));
+    let logistic = one.add(e).reciprocal();
+    // log(1 + e) / e on 0 to 1, with the least largest relative error: 3.3e-8.
+    let mut sum = S::splat(0.005_364_822_7);
+    for factor in [
+        -0.030_065_786,
+        0.079_204_52,
+        -0.137_538_02,
+        0.191_536_55,
+        -0.248_571_63,
+        0.333_213_24,
+        -0.499_996_48,
+        1.0,
+    ] {
+        sum = sum.mul_add(e, S::splat(factor));
     }
-    let log = s.add(s).mul(sum);
-    let other = e.mul(logistic);
-    let slope = logistic.where_positive(x).add(other.sub(other.where_positive(x)));
-    (x.max(zero).add(log), slope)
+    let slope = logistic.where_positive_else(x, e.mul(logistic));
+    (sum.mul_add(e, x.max(zero)), slope)
 }
 
 /// Plain arrays, left to the compiler.
@@ -119,7 +131,7 @@ impl Lanes for Portable {
     #[inline(always)] fn add(self, b: Self) -> Self { zip(self, b, |a, b| a + b) }
     #[inline(always)] fn sub(self, b: Self) -> Self { zip(self, b, |a, b| a - b) }
     #[inline(always)] fn mul(self, b: Self) -> Self { zip(self, b, |a, b| a * b) }
-    #[inline(always)] fn div(self, b: Self) -> Self { zip(self, b, |a, b| a / b) }
+    #[inline(always)] fn reciprocal(self) -> Self { zip(self, self, |a, _| 1.0 / a) }
     #[inline(always)] fn mul_add(self, b: Self, c: Self) -> Self { self.mul(b).add(c) }
     #[inline(always)] fn max(self, b: Self) -> Self { zip(self, b, |a, b| if a > b { a } else { b }) }
     #[inline(always)] fn min(self, b: Self) -> Self { zip(self, b, |a, b| if a < b { a } else { b }) }
@@ -132,6 +144,12 @@ impl Lanes for Portable {
         zip(self, n, |a, n| a * f32::from_bits(((n as i32 + 127) as u32) << 23))
     }
     #[inline(always)] fn where_positive(self, gate: Self) -> Self { zip(self, gate, |a, g| if g > 0.0 { a } else { 0.0 }) }
+    #[inline(always)] fn where_positive_else(mut self, gate: Self, other: Self) -> Self {
+        for (lane, a) in self.0.iter_mut().enumerate() {
+            *a = if gate.0[lane] > 0.0 { *a } else { other.0[lane] };
+        }
+        self
+    }
 }
 
 /// A row's lanes must exist before they are read or written through a pointer.
@@ -206,7 +224,11 @@ mod x86 {
             add(a, b) = _mm512_add_ps(a, b);
             sub(a, b) = _mm512_sub_ps(a, b);
             mul(a, b) = _mm512_mul_ps(a, b);
-            div(a, b) = _mm512_div_ps(a, b);
+            reciprocal(a) = {
+                // 14 bits, doubled by one step of Newton's method.
+                let y = _mm512_rcp14_ps(a);
+                _mm512_fmadd_ps(_mm512_fnmadd_ps(a, y, _mm512_set1_ps(1.0)), y, y)
+            };
             mul_add(a, b, c) = _mm512_fmadd_ps(a, b, c);
             max(a, b) = _mm512_max_ps(a, b);
             min(a, b) = _mm512_min_ps(a, b);
@@ -215,6 +237,8 @@ mod x86 {
             scale(a, n) = _mm512_scalef_ps(a, n);
             where_positive(a, gate) = _mm512_maskz_mov_ps(
                 _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), a);
+            where_positive_else(a, gate, other) = _mm512_mask_blend_ps(
+                _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), other, a);
         }
     }
 
@@ -246,7 +270,7 @@ mod x86 {
             add(a, b) = _mm256_add_ps(a, b);
             sub(a, b) = _mm256_sub_ps(a, b);
             mul(a, b) = _mm256_mul_ps(a, b);
-            div(a, b) = _mm256_div_ps(a, b);
+            reciprocal(a) = _mm256_div_ps(_mm256_set1_ps(1.0), a);
             mul_add(a, b, c) = _mm256_fmadd_ps(a, b, c);
             max(a, b) = _mm256_max_ps(a, b);
             min(a, b) = _mm256_min_ps(a, b);
@@ -256,6 +280,8 @@ mod x86 {
                 _mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)))));
             where_positive(a, gate) = _mm256_and_ps(
                 _mm256_cmp_ps::<_CMP_GT_OQ>(gate, _mm256_setzero_ps()), a);
+            where_positive_else(a, gate, other) = _mm256_blendv_ps(
+                other, a, _mm256_cmp_ps::<_CMP_GT_OQ>(gate, _mm256_setzero_ps()));
         }
     }
 }

@@ -77,9 +77,9 @@ pub fn forward<S: Lanes, const C: usize>(packed: &Packed, input: &[Row], trace: 
         let (before, rest) = trace.layers.split_at_mut(index);
         let input = before.last().map_or(input, Vec::as_slice);
         if index < last {
-            product::<S, C, true>(&layer.forward, &layer.bias, input, &mut rest[0]);
+            product::<S, C, RELU>(&layer.forward, &layer.bias, input, &[], &mut rest[0]);
         } else {
-            product::<S, C, false>(&layer.forward, &layer.bias, input, &mut rest[0]);
+            product::<S, C, PLAIN>(&layer.forward, &layer.bias, input, &[], &mut rest[0]);
         }
     }
 }
@@ -92,30 +92,28 @@ pub fn backward<S: Lanes, const C: usize>(
     input: &[Row],
     trace: &mut Trace,
     mut sums: Option<&mut [LaneSum]>,
-    by_input: Option<&mut [Row]>,
+    mut by_input: Option<&mut [Row]>,
 ) {
     let [mut delta, mut next] = std::mem::take(&mut trace.delta);
     let last = packed.layers.len() - 1;
-    delta[..trace.layers[last].len()].copy_from_slice(&trace.layers[last]);
+    let top = std::mem::take(&mut trace.layers[last]);
     for (index, layer) in packed.layers.iter().enumerate().rev() {
         let input = if index == 0 { input } else { &trace.layers[index - 1] };
-        let outputs = trace.layers[index].len();
+        let by_output = if index == last { &top } else { &delta[..trace.layers[index].len()] };
         if let Some(sums) = sums.as_deref_mut() {
             let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
             let sums = &mut sums[before..before + layer.parameters()];
-            weight_gradient::<S>(&delta[..outputs], input, sums);
+            weight_gradient::<S>(by_output, input, sums);
         }
         if index > 0 {
-            let width = input.len();
-            product::<S, C, false>(&layer.backward, &[], &delta[..outputs], &mut next[..width]);
-            gate::<S>(&mut next[..width], input);
-            std::mem::swap(&mut delta, &mut next);
+            let next = &mut next[..input.len()];
+            product::<S, C, GATED>(&layer.backward, &[], by_output, input, next);
+        } else if let Some(by_input) = by_input.as_deref_mut() {
+            product::<S, C, PLAIN>(&layer.backward, &[], by_output, &[], by_input);
         }
+        std::mem::swap(&mut delta, &mut next);
     }
-    if let Some(by_input) = by_input {
-        let outputs = trace.layers[0].len();
-        product::<S, C, false>(&packed.layers[0].backward, &[], &delta[..outputs], by_input);
-    }
+    trace.layers[last] = top;
     trace.delta = [delta, next];
 }
 
@@ -125,12 +123,18 @@ impl PackedLayer {
     }
 }
 
-/// output = matrix x input (+ bias), optionally through ReLU.
+/// What becomes of a product: nothing, ReLU, or zero where another ReLU was closed.
+const PLAIN: u8 = 0;
+const RELU: u8 = 1;
+const GATED: u8 = 2;
+
+/// output = matrix x input (+ bias), through `THEN`; `gate` has the activations that close gates.
 #[inline(always)]
-fn product<S: Lanes, const C: usize, const RELU: bool>(
+fn product<S: Lanes, const C: usize, const THEN: u8>(
     weights: &[[f32; TILE]],
     bias: &[[f32; TILE]],
     input: &[Row],
+    gate: &[Row],
     output: &mut [Row],
 ) {
     for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
@@ -154,25 +158,18 @@ fn product<S: Lanes, const C: usize, const RELU: bool>(
                     }
                 }
             }
-            for (row, sums) in output.iter_mut().zip(sums) {
+            for (index, (row, sums)) in output.iter_mut().zip(sums).enumerate() {
                 for (c, sum) in sums.into_iter().enumerate() {
-                    let value = if RELU { S::splat(0.0).max(sum) } else { sum };
-                    value.store(row, at + c * S::WIDTH);
+                    let at = at + c * S::WIDTH;
+                    let value = match THEN {
+                        RELU => S::splat(0.0).max(sum),
+                        GATED => sum.where_positive(S::load(&gate[tile * TILE + index], at)),
+                        _ => sum,
+                    };
+                    value.store(row, at);
                 }
             }
             at += C * S::WIDTH;
-        }
-    }
-}
-
-/// Zeroes gradients where ReLU was closed.
-#[inline(always)]
-fn gate<S: Lanes>(delta: &mut [Row], activation: &[Row]) {
-    for (delta, activation) in delta.iter_mut().zip(activation) {
-        let mut at = 0;
-        while at < BLOCK {
-            S::load(delta, at).where_positive(S::load(activation, at)).store(delta, at);
-            at += S::WIDTH;
         }
     }
 }
@@ -181,49 +178,51 @@ fn gate<S: Lanes>(delta: &mut [Row], activation: &[Row]) {
 #[inline(always)]
 fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [LaneSum]) {
     let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
-    for (tile, delta) in delta.chunks_exact(TILE).enumerate() {
+    let tiles = delta.chunks_exact(TILE).zip(biases.chunks_exact_mut(TILE));
+    for (tile, (delta, bias)) in tiles.enumerate() {
         let first = tile * TILE * input.len();
         let weights = &mut weights[first..first + TILE * input.len()];
         let mut column = 0;
         while column < input.len() {
             let rest = &input[column..];
-            column += match rest.len() {
-                1 => outer::<S, 1>(delta, rest, column, weights),
-                2 => outer::<S, 2>(delta, rest, column, weights),
-                3 => outer::<S, 3>(delta, rest, column, weights),
-                _ => outer::<S, TILE>(delta, rest, column, weights),
+            let at = column;
+            column += match (rest.len(), column) {
+                (1, _) => outer::<S, 1, false>(delta, rest, at, weights, bias),
+                (2, _) => outer::<S, 2, false>(delta, rest, at, weights, bias),
+                (3, 0) => outer::<S, 3, true>(delta, rest, at, weights, bias),
+                (3, _) => outer::<S, 3, false>(delta, rest, at, weights, bias),
+                (_, 0) => outer::<S, TILE, true>(delta, rest, at, weights, bias),
+                _ => outer::<S, TILE, false>(delta, rest, at, weights, bias),
             };
         }
     }
-    for (delta, bias) in delta.iter().zip(biases) {
-        let mut sum = S::load_sum(bias);
-        let mut at = 0;
-        while at < BLOCK {
-            sum = sum.add(S::load(delta, at));
-            at += S::WIDTH;
-        }
-        sum.store_sum(bias);
-    }
 }
 
-/// One tile of the outer product, 4 x `K`; returns `K`.
+/// One tile of the outer product, 4 x `K`, and with `BIAS` the sums of delta; returns `K`.
 #[inline(always)]
-fn outer<S: Lanes, const K: usize>(
+fn outer<S: Lanes, const K: usize, const BIAS: bool>(
     delta: &[Row],
     input: &[Row],
     column: usize,
     weights: &mut [LaneSum],
+    bias: &mut [LaneSum],
 ) -> usize {
     let stride = weights.len() / TILE;
-    let (Some((delta, _)), Some((input, _))) =
-        (delta.split_first_chunk::<TILE>(), input.split_first_chunk::<K>())
-    else {
+    let (Some((delta, _)), Some((input, _)), Some((bias, _))) = (
+        delta.split_first_chunk::<TILE>(),
+        input.split_first_chunk::<K>(),
+        bias.split_first_chunk_mut::<TILE>(),
+    ) else {
         return K;
     };
     let mut sums = [[S::splat(0.0); K]; TILE];
+    let mut totals = [S::splat(0.0); TILE];
     for (j, sums) in sums.iter_mut().enumerate() {
         for (k, sum) in sums.iter_mut().enumerate() {
             *sum = S::load_sum(&weights[j * stride + column + k]);
+        }
+        if BIAS {
+            totals[j] = S::load_sum(&bias[j]);
         }
     }
     let mut at = 0;
@@ -232,10 +231,13 @@ fn outer<S: Lanes, const K: usize>(
         for (x, row) in x.iter_mut().zip(input) {
             *x = S::load(row, at);
         }
-        for (sums, row) in sums.iter_mut().zip(delta) {
+        for (j, (sums, row)) in sums.iter_mut().zip(delta).enumerate() {
             let d = S::load(row, at);
             for (sum, x) in sums.iter_mut().zip(x) {
                 *sum = d.mul_add(x, *sum);
+            }
+            if BIAS {
+                totals[j] = totals[j].add(d);
             }
         }
         at += S::WIDTH;
@@ -243,6 +245,9 @@ fn outer<S: Lanes, const K: usize>(
     for (j, sums) in sums.into_iter().enumerate() {
         for (k, sum) in sums.into_iter().enumerate() {
             sum.store_sum(&mut weights[j * stride + column + k]);
+        }
+        if BIAS {
+            totals[j].store_sum(&mut bias[j]);
         }
     }
     K

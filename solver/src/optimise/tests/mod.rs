@@ -12,8 +12,8 @@ use std::ops::ControlFlow;
 use glam::{Vec2, Vec3};
 
 use super::solve::{Options, solve_on};
-use super::stage::{Diffuse, Relief, State, WarmUp};
-use crate::backend::cpu::Cpu;
+use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use crate::backend::cpu::{Cpu, Level};
 use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
 use crate::error::{CaptureError, SolveError};
@@ -169,6 +169,39 @@ fn warm_up_gradients_reach_networks_and_textures() {
         &mut state.networks.parameters
     }
     assert_gradient("networks", &state, &gradient.networks, networks, 1e-3, loss);
+}
+
+/// Fifty warm-up steps and ten of each other kind from the same state: what rounding does to the losses.
+#[test]
+fn the_instruction_sets_agree_over_fifty_steps() {
+    let mut config = Config::preset("paper").unwrap();
+    config.fine_tuning.deviation_blur = 0.05;
+    let mesh = testing::dome(12);
+    let views = views(3, 40);
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let space = SampleSpace::new(&mesh, &config);
+    let samples = space.training(&views, &gbuffers, &config.view_weights, SIDE);
+    let deviation = Deviation::new(&config, SIDE);
+    let losses = |level: Level| {
+        let backend = Cpu::at(level);
+        let mut state = State { size: SIDE, ..problem().state };
+        let mut losses = vec![];
+        let mut warm_up = WarmUp::new(&config, &samples, &state);
+        losses.extend((0..50).map(|_| warm_up.step(&mut state, &backend, 1.0)));
+        let mut relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
+        losses.extend((0..10).map(|_| relief.step(&mut state, &backend, 1.0)));
+        let mut diffuse = Diffuse::new(&config, &samples, &deviation, &state, &backend, 1);
+        losses.extend((0..10).map(|_| diffuse.step(&mut state, &backend, 1.0)));
+        losses
+    };
+    let expected = losses(Level::Portable);
+    assert!(expected[49] < 0.9 * expected[0], "{} {}", expected[0], expected[49]);
+    for level in Level::available() {
+        for (step, (loss, expected)) in losses(level).iter().zip(&expected).enumerate() {
+            let error = (loss / expected - 1.0).abs();
+            assert!(error < 1e-5, "{level}, step {step}: {loss} instead of {expected}");
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,71 @@
+//! Whole solves of captures, everything included.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+use serde::Serialize;
+use solver::backend::cpu::Cpu;
+use solver::config::{TextureRule, TextureSize};
+use solver::memory::Estimate;
+use solver::{Capture, Config};
+
+use super::clock::{forget_peak, peak_memory};
+use crate::suite::RunError;
+
+/// A solve.
+#[derive(Debug, Serialize)]
+pub struct Solved {
+    /// The capture's name.
+    pub capture: String,
+    /// The configuration's name.
+    pub config: &'static str,
+    /// Training views and their foreground pixels.
+    pub views: usize,
+    /// Foreground pixels.
+    pub pixels: usize,
+    /// Side of the fine-tuned textures.
+    pub texture: usize,
+    /// From the files of the capture to the files of the maps.
+    pub seconds: f64,
+    /// Stage by stage.
+    pub stages: Vec<(String, f64)>,
+    /// Largest resident set, bytes.
+    pub peak_memory: Option<u64>,
+    /// What was said beforehand.
+    pub estimated_memory: u64,
+}
+
+/// Solves a capture with `unshade` and with `paper`, the latter with textures of the same side.
+pub fn measure(capture: &Path) -> Result<[Solved; 2], RunError> {
+    let mut paper = Config::preset("paper")?;
+    paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
+    Ok([solve(capture, "unshade", &Config::default())?, solve(capture, "paper", &paper)?])
+}
+
+fn solve(folder: &Path, name: &'static str, config: &Config) -> Result<Solved, RunError> {
+    let out = tempfile::tempdir()?;
+    let forgot = forget_peak();
+    let start = Instant::now();
+    let capture = Capture::open(folder)?;
+    let estimate = Estimate::new(&capture, config);
+    let maps = out.path().join("maps");
+    let go_on = &mut |_: &solver::Progress| ControlFlow::Continue(());
+    let solution = solver::solve_into(&Cpu::new(), &maps, "bench", &capture, config, go_on)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let stages = solution.timing.seconds.iter();
+    let name_of = |folder: &Path| folder.file_name().unwrap_or_default().display().to_string();
+    Ok(Solved {
+        capture: name_of(folder),
+        config: name,
+        views: estimate.views,
+        pixels: solution.record.samples,
+        texture: solution.record.texture_size,
+        seconds,
+        stages: stages
+            .map(|(stage, seconds)| (stage.clone(), seconds.as_f64().unwrap_or(0.0)))
+            .collect(),
+        peak_memory: forgot.then(peak_memory).flatten(),
+        estimated_memory: estimate.peak,
+    })
+}
