@@ -247,7 +247,7 @@ impl<'a, 'b> Run<'a, 'b> {
         match program.upload(&stage.variables(state)) {
             Ok(()) => Some(program),
             Err(_) => {
-                tracing::warn!("{name}: does not fit the device; it runs on the processor");
+                tracing::info!("{name}: the device cannot take it in");
                 None
             }
         }
@@ -255,7 +255,7 @@ impl<'a, 'b> Run<'a, 'b> {
 
     /// Goes back to what the host has seen of a stage whose device failed. The device has said why.
     fn fall_back(&mut self, name: &str, known: usize, losses: &mut Vec<f64>) {
-        tracing::warn!("{name}: goes on from step {known} on the processor");
+        tracing::info!("{name}: goes on behind step {known}");
         self.log.done -= losses.len() - known;
         losses.truncate(known);
         self.cut = None;
