@@ -22,9 +22,9 @@ use libtest_mimic::{Arguments, Failed, Trial};
 // What `testing` calls its own crate's.
 use solver::{capture, gbuffer, picture};
 
-use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::{Adapter, Gpu, VARIABLE, adapters};
+use solver::backend::{Backend, Choice};
 
 /// A test's body: on a backend, against the processor where it needs a reference.
 type Body = fn(&dyn Backend);
@@ -51,7 +51,8 @@ const RESIDENT: [(&str, Body); 8] = [
 ];
 
 /// Of devices that are opened for the test.
-const OWN: [(&str, OnAdapter); 4] = [
+const OWN: [(&str, OnAdapter); 5] = [
+    ("no choice but a name leads to a software adapter", choice),
     ("every pass is timed, and has the same result", stages::timed),
     ("a device lost within a stage leaves it to the processor", lost::within_a_stage),
     ("a device lost within the height solve leaves it to the processor", lost::within_the_heights),
@@ -115,6 +116,22 @@ fn main() {
         }
     }
     libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn choice(adapter: &Adapter) {
+    let named = std::env::var(VARIABLE).is_ok();
+    let real = adapters().iter().any(|adapter| !adapter.software);
+    let auto = Choice::Auto.open().unwrap().name();
+    assert_eq!(auto.starts_with("gpu, "), if named { !adapter.software } else { real }, "{auto}");
+    match Choice::Gpu.open() {
+        Ok(gpu) => assert!((named || real) && gpu.name().starts_with("gpu, "), "{}", gpu.name()),
+        Err(error) => {
+            let line = error.to_string();
+            assert!(!named && !real && line.contains(&adapter.name), "{line}");
+            assert!(line.starts_with("no GPU was found") && !line.contains('\n'), "{line}");
+        }
+    }
+    assert!(Choice::Cpu.open().unwrap().name().starts_with("cpu, "));
 }
 
 /// A device that fails in a test must not pass it on the processor.
