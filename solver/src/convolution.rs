@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use crate::simd::widened;
 
-/// Rows that one task works through.
-const ROWS: usize = 8;
-/// Values that are summed up together, in registers.
+/// Rows that are summed up together, and that one task works through.
+const ROWS: usize = 4;
+/// Values of a row that are summed up together.
 const TILE: usize = 32;
 
 /// Columns, rows and interleaved channels.
@@ -43,44 +43,65 @@ pub fn convolve(
     let (line, reach) = (width * channels, kernel.len() - 1);
     let margin = reach * channels;
     let mut out = vec![0.0; picture.len()];
+    let stride = line + 2 * margin;
     out.par_chunks_mut(ROWS * line).enumerate().for_each(|(task, out)| {
-        let mut padded = vec![0.0; line + 2 * margin];
-        for (row, out) in (task * ROWS..).zip(out.chunks_exact_mut(line)) {
-            let rows = row.saturating_sub(reach)..(row + reach + 1).min(height);
-            let tap = |other: usize| {
-                let tap = kernel[other.abs_diff(row)] * weight(other);
-                (&picture[other * line..][..line], tap)
-            };
-            let lines: Vec<(&[f32], f32)> = rows.map(tap).collect();
-            let middle = &mut padded[margin..margin + line];
-            weighted_sum(middle, &lines);
-            between(row, middle);
-            horizontal(out, &padded, kernel, channels);
-            after(row, out);
+        // Zeros on either side stand for what lies outside the picture.
+        let mut padded = vec![0.0; ROWS * stride];
+        let first = task * ROWS;
+        let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(height);
+        let lines: Vec<(&[f32], [f32; ROWS])> = rows
+            .map(|row| {
+                let tap = |to: usize| kernel.get(row.abs_diff(first + to)).unwrap_or(&0.0);
+                let taps = std::array::from_fn(|to| tap(to) * weight(row));
+                (&picture[row * line..][..line], taps)
+            })
+            .collect();
+        columns(&mut padded[margin..], stride, line, &lines);
+        for (row, out) in out.chunks_exact_mut(line).enumerate() {
+            let padded = &mut padded[row * stride..][..stride];
+            between(first + row, &mut padded[margin..margin + line]);
+            horizontal(out, padded, kernel, channels);
+            after(first + row, out);
         }
     });
     out
 }
 
+/// One vector of most machines.
+type Eight = [f32; 8];
+
+#[inline(always)]
+fn add_scaled(sum: &mut Eight, factor: f32, values: Eight) {
+    for lane in 0..8 {
+        sum[lane] += factor * values[lane];
+    }
+}
+
 widened! {
-    /// out = sum of weight x line, a few vectors at a time.
-    fn weighted_sum(out: &mut [f32], lines: &[(&[f32], f32)]) {
-        let (whole, rest) = out.as_chunks_mut::<TILE>();
-        let done = whole.len() * TILE;
-        for (tile, out) in whole.iter_mut().enumerate() {
-            let mut sum = [0.0f32; TILE];
-            for (line, weight) in lines {
-                let line = &line[tile * TILE..][..TILE];
-                for lane in 0..TILE {
-                    sum[lane] += weight * line[lane];
+    /// Rows of sums, `stride` apart in `out`: each the sum of its weight times every line. A line is
+    /// read once for all rows.
+    fn columns(out: &mut [f32], stride: usize, length: usize, lines: &[(&[f32], [f32; ROWS])]) {
+        let whole = length / 16 * 16;
+        for at in (0..whole).step_by(16) {
+            let mut sums = [[[0.0f32; 8]; 2]; ROWS];
+            for (line, weights) in lines {
+                let (tile, _) = line[at..at + 16].as_chunks::<8>();
+                for (sums, weight) in sums.iter_mut().zip(weights) {
+                    add_scaled(&mut sums[0], *weight, tile[0]);
+                    add_scaled(&mut sums[1], *weight, tile[1]);
                 }
             }
-            *out = sum;
+            for (row, sums) in sums.iter().enumerate() {
+                out[row * stride + at..][..16].copy_from_slice(sums.as_flattened());
+            }
         }
-        rest.fill(0.0);
-        for (line, weight) in lines {
-            for (sum, value) in rest.iter_mut().zip(&line[done..]) {
-                *sum += weight * value;
+        for row in 0..ROWS {
+            for at in whole..length {
+                let mut sum = 0.0;
+                for (line, weights) in lines {
+                    sum += weights[row] * line[at];
+                }
+                out[row * stride + at] = sum;
             }
         }
     }
@@ -90,29 +111,34 @@ widened! {
     /// Convolves a line with zeros on either side.
     fn horizontal(out: &mut [f32], padded: &[f32], kernel: &[f32], channels: usize) {
         let middle = (kernel.len() - 1) * channels;
-        for (tile, out) in out.chunks_mut(TILE).enumerate() {
+        let (tiles, rest) = out.as_chunks_mut::<TILE>();
+        let done = tiles.len() * TILE;
+        for (tile, out) in tiles.iter_mut().enumerate() {
             let at = middle + tile * TILE;
-            let mut sum = [0.0f32; TILE];
-            for (sum, value) in sum.iter_mut().zip(&padded[at..at + out.len()]) {
-                *sum = kernel[0] * value;
+            let mut sums = [[0.0f32; 8]; TILE / 8];
+            let (here, _) = padded[at..at + TILE].as_chunks::<8>();
+            for (sum, here) in sums.iter_mut().zip(here) {
+                add_scaled(sum, kernel[0], *here);
             }
             for (distance, weight) in kernel.iter().enumerate().skip(1) {
                 let shift = distance * channels;
-                let left = &padded[at - shift..][..out.len()];
-                let right = &padded[at + shift..][..out.len()];
-                if out.len() == TILE {
-                    // A known length keeps the sums in registers.
-                    let (left, right) = (&left[..TILE], &right[..TILE]);
-                    for lane in 0..TILE {
-                        sum[lane] += weight * (left[lane] + right[lane]);
-                    }
-                } else {
-                    for ((sum, left), right) in sum.iter_mut().zip(left).zip(right) {
-                        *sum += weight * (left + right);
-                    }
+                let (left, _) = padded[at - shift..at - shift + TILE].as_chunks::<8>();
+                let (right, _) = padded[at + shift..at + shift + TILE].as_chunks::<8>();
+                for (sum, (left, right)) in sums.iter_mut().zip(left.iter().zip(right)) {
+                    let mut both = *left;
+                    add_scaled(&mut both, 1.0, *right);
+                    add_scaled(sum, *weight, both);
                 }
             }
-            out.copy_from_slice(&sum[..out.len()]);
+            out.copy_from_slice(sums.as_flattened());
+        }
+        for (x, out) in rest.iter_mut().enumerate() {
+            let at = middle + done + x;
+            let mut sum = kernel[0] * padded[at];
+            for (distance, weight) in kernel.iter().enumerate().skip(1) {
+                sum += weight * (padded[at - distance * channels] + padded[at + distance * channels]);
+            }
+            *out = sum;
         }
     }
 }

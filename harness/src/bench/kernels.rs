@@ -6,6 +6,7 @@ use glam::{Vec2, Vec3};
 use serde::Serialize;
 use solver::backend::Backend;
 use solver::capture::Mesh;
+use solver::memory::Hoard;
 use solver::model::blur::Blur;
 use solver::model::normals::DirectionScale;
 use solver::model::prior::prior;
@@ -41,6 +42,7 @@ pub struct Size {
 
 /// All kernels of a backend.
 pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
+    let _hoard = Hoard::begin();
     let Problem { config, samples, mut state } = Problem::new(size.pixels, size.texture);
     let mut kernels = vec![];
     let (pixels, texels) = (size.pixels as f64, (size.texture * size.texture) as f64);

@@ -15,7 +15,11 @@ pub fn markdown(report: &Report, command: &str) -> String {
 fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Result {
     let machine = &report.machine;
     writeln!(page, "# Performance\n")?;
-    writeln!(page, "Written by `{command}`; times are the shortest of several runs.\n")?;
+    writeln!(
+        page,
+        "Written by `{command}`; times are the shortest of several \
+         runs.\n"
+    )?;
     let memory = machine.memory.map_or(String::new(), |bytes| format!(", {} memory", size(bytes)));
     writeln!(
         page,

@@ -21,7 +21,6 @@ use rayon::ThreadPoolBuilder;
 use serde::Serialize;
 use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
-use solver::memory::Hoard;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
 pub use kernels::Kernel;
@@ -129,7 +128,6 @@ pub struct TorchRow {
 /// Measures everything; `progress` hears what comes next.
 pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
     let bench = Bench { quick: options.quick };
-    let _hoard = Hoard::begin();
     progress("bandwidth");
     let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
     let mut devices: Vec<(Box<dyn Backend>, Reach)> = vec![];
@@ -165,7 +163,10 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
         None => Torch::Absent { mend: MEND.to_owned() },
         Some(python) => {
             let mut rows = vec![];
-            for (kind, size) in bench.sizes() {
+            // Large fine-tuning steps take PyTorch many seconds each and say nothing new.
+            let worth =
+                |(kind, size): &(Kind, (usize, usize))| *kind == Kind::WarmUp || size.0 < LARGE;
+            for (kind, size) in bench.sizes().into_iter().filter(worth) {
                 progress(&format!("{}, {} pixels, PyTorch", kind.name(), size.0));
                 rows.push(torch_row(python, kind, size, &**device, &steps)?);
             }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 use solver::backend::Backend;
+use solver::memory::Hoard;
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
@@ -100,6 +101,8 @@ pub fn measure(
     (pixels, texture): (usize, usize),
     budget: Duration,
 ) -> Step {
+    // As in a solve; dropped last, so that the next measurement begins with little memory.
+    let _hoard = Hoard::begin();
     let forgot = forget_peak();
     let Problem { config, samples, mut state } = Problem::new(pixels, texture);
     let deviation = Deviation::new(&config, texture);

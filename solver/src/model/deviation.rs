@@ -110,16 +110,26 @@ impl Deviation {
 widened! {
     /// t becomes range x tanh(t), accurate to about 1e-7 absolute.
     fn squash(values: &mut [f32], range: f32) {
-        for values in values.chunks_mut(8) {
-            let mut t = [0.0; 8];
-            for (t, value) in t.iter_mut().zip(&*values) {
-                *t = 2.0 * value;
-            }
-            let e = cpu::exp(t);
-            for (value, e) in values.iter_mut().zip(e) {
-                *value = range * (1.0 - 2.0 / (e + 1.0));
-            }
+        let (whole, rest) = values.as_chunks_mut::<8>();
+        for values in whole {
+            squash_eight(values, range);
         }
+        let mut last = [0.0; 8];
+        last[..rest.len()].copy_from_slice(rest);
+        squash_eight(&mut last, range);
+        rest.copy_from_slice(&last[..rest.len()]);
+    }
+}
+
+#[inline(always)]
+fn squash_eight(values: &mut [f32; 8], range: f32) {
+    let mut t = [0.0; 8];
+    for lane in 0..8 {
+        t[lane] = 2.0 * values[lane];
+    }
+    let e = cpu::exp(t);
+    for lane in 0..8 {
+        values[lane] = range * (1.0 - 2.0 / (e[lane] + 1.0));
     }
 }
 
