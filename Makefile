@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test bench lint clean
+.PHONY: build demo emily results test software-gpu bench lint clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -40,6 +40,12 @@ results: build
 test: build
 	cargo test --release --workspace --quiet
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile
+
+# A Vulkan driver in software, for the GPU's tests: Debian's mesa-vulkan-drivers, where root and apt allow.
+software-gpu:
+	@ls /usr/share/vulkan/icd.d/lvp_icd*.json >/dev/null 2>&1 || { test "$$(id -u)" = 0 && \
+	  apt-get -qq update && apt-get -qq install --no-install-recommends -y mesa-vulkan-drivers; } >/dev/null 2>&1 || \
+	  echo "no software GPU: mesa-vulkan-drivers cannot be installed here, so the GPU's tests are skipped"
 
 # Heavier than a test: the solver's kernels and steps (UNSHADE_TORCH names a Python with PyTorch, to
 # stand beside), and what the cheap tiers of skin are worth; docs/performance.md and docs/subsurface.md

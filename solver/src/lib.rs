@@ -12,7 +12,6 @@ mod convolution;
 pub mod error;
 pub mod fill;
 pub mod gbuffer;
-pub mod machine;
 pub mod maps;
 pub mod memory;
 pub mod model;
@@ -26,13 +25,14 @@ pub mod solution;
 mod testing;
 pub mod transport;
 
+pub use backend::{Backend, BackendError, Choice};
 pub use capture::{Camera, Capture, Mesh, View};
 pub use config::Config;
 pub use error::{CaptureError, ConfigError, MapsError, SolveError};
 pub use gbuffer::mesh_normal_map;
 pub use maps::Maps;
 pub use optimise::checkpoint::Checkpoint;
-pub use optimise::solve::{Options, Progress, solve, solve_into, solve_on};
+pub use optimise::solve::{Options, Progress, solve_into, solve_on};
 pub use solution::{Record, Solution, StageMaps, Timing, ViewLayers};
 
 /// The instruction set that the processor backend uses on this machine.

@@ -108,13 +108,15 @@ def solve(
     config: str = "unshade",
     out: _Path | None = None,
     progress: Callable[[str, int, int, float], object] | None = None,
+    backend: str = "auto",
 ) -> Maps:
     """Recover maps; ``config`` is a preset's name or the text of a configuration.
 
     ``progress(stage, iteration, total, loss)`` hears how it goes. What it raises stops the solve
     and is raised here, as is Ctrl-C; returning ``False`` stops it and returns the maps so far,
     whose ``interrupted`` says where. With ``out`` the whole maps folder is written there, after a
-    stop as well; the same call then goes on from there, to the same bytes.
+    stop as well; the same call then goes on from there, to the same bytes. ``backend`` is ``auto``
+    (a real GPU if there is one), ``cpu`` or ``gpu``.
     """
 
 def run_command_line(arguments: list[str]) -> int: ...

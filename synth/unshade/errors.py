@@ -41,6 +41,10 @@ class ConfigError(UnshadeError):
     """A solver's configuration has an unknown key or a value out of range."""
 
 
+class BackendError(UnshadeError):
+    """A device that cannot compute here was asked for."""
+
+
 class SolveError(UnshadeError):
     """A capture cannot be solved."""
 

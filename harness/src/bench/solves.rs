@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
+use solver::backend::cpu::Cpu;
 use solver::config::{TextureRule, TextureSize};
 use solver::memory::Estimate;
 use solver::{Capture, Config};
@@ -50,7 +51,7 @@ fn solve(folder: &Path, name: &'static str, config: &Config) -> Result<Solved, R
     let estimate = Estimate::new(&capture, config);
     let maps = out.path().join("maps");
     let go_on = &mut |_: &solver::Progress| ControlFlow::Continue(());
-    let solution = solver::solve_into(&maps, "bench", &capture, config, go_on)?;
+    let solution = solver::solve_into(&Cpu::new(), &maps, "bench", &capture, config, go_on)?;
     let seconds = start.elapsed().as_secs_f64();
     let stages = solution.timing.seconds.iter();
     let name_of = |folder: &Path| folder.file_name().unwrap_or_default().display().to_string();

@@ -5,11 +5,12 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::atomic;
+use solver::{Choice, atomic};
 
 use super::progress::Progress;
 use super::{
-    CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench, doctor,
+    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
+    doctor,
 };
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report;
@@ -102,7 +103,16 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
         SolverName::Fields => {
             let capture = solver::Capture::open(capture)?;
             eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
-            alone("solve", |tools, step| suite::solve(&capture, &config, out, tools, step))
+            let backend = match arguments.backend {
+                BackendName::Auto => Choice::Auto,
+                BackendName::Cpu => Choice::Cpu,
+                BackendName::Gpu => Choice::Gpu,
+            };
+            let backend = backend.open()?;
+            eprintln!("solve: {}", backend.name());
+            alone("solve", |tools, step| {
+                suite::solve(&*backend, &capture, &config, out, tools, step)
+            })
         }
         SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),
         SolverName::SemanticInitialisation => {

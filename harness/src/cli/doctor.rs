@@ -1,6 +1,8 @@
 //! `unshade doctor`: what was found, and what is missing with the mend.
 
 use serde_json::Value;
+use solver::Choice;
+use solver::backend::gpu::{VARIABLE, adapters};
 
 use super::progress::Progress;
 use super::{CHECK_FAILED, DONE};
@@ -12,14 +14,18 @@ pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
     println!("unshade      {}", env!("CARGO_PKG_VERSION"));
     println!("python       {}", tools.interpreter.path().display());
     println!("cpu          {} threads, {}", rayon::current_num_threads(), solver::simd_level());
-    let adapters = solver::machine::adapters();
+    let adapters = adapters();
     if adapters.is_empty() {
-        println!("gpu          none; the solver runs on the CPU");
+        println!("gpu          none");
     }
     for adapter in adapters {
-        let kind = if adapter.software { "software, never chosen" } else { "GPU" };
+        let kind = match adapter.software {
+            true => format!("software: only if {VARIABLE} names it"),
+            false => "GPU".to_owned(),
+        };
         println!("gpu          {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
     }
+    println!("backend auto {}", Choice::Auto.open().map_or_else(|e| e.to_string(), |b| b.name()));
     let mut complete = checks(tools, "doctor", &mut |_, _, _| {})?;
     if complete && physics {
         let mut progress = Progress::new();

@@ -158,10 +158,12 @@ enum SolverName {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BackendName {
-    /// A real GPU where the solver has kernels for it, else the CPU.
+    /// A real GPU if there is one, else the CPU.
     Auto,
     /// The CPU.
     Cpu,
+    /// A real GPU, or the adapter that UNSHADE_ADAPTER names by a part of its name.
+    Gpu,
 }
 
 /// Exit codes.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
+use solver::{Choice, Options};
 
 use super::capture::Capture;
 use super::errors::{named_error, raise};
@@ -24,13 +25,14 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
 /// are returned. With `out`, the whole maps folder is written there, after a stop as well, and the
 /// same call goes on from where it stopped.
 #[pyfunction]
-#[pyo3(signature = (capture, *, config="unshade", out=None, progress=None))]
+#[pyo3(signature = (capture, *, config="unshade", out=None, progress=None, backend="auto"))]
 pub(super) fn solve(
     py: Python<'_>,
     capture: &Bound<'_, Capture>,
     config: &str,
     out: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
+    backend: &str,
 ) -> PyResult<Maps> {
     // A preset's name, or the text of a configuration.
     let mut config = if config.contains('=') {
@@ -43,7 +45,9 @@ pub(super) fn solve(
         // Nobody would see them.
         config.records = solver::config::RecordConfig { stages: false, layers: false };
     }
+    let backend: Choice = backend.parse().map_err(raise)?;
     let capture = &capture.get().inner;
+    let opened = py.detach(|| backend.open()).map_err(raise)?;
     let mut raised: Option<PyErr> = None;
     let solution = py.detach(|| {
         let mut hear = |step: &solver::Progress| {
@@ -62,9 +66,12 @@ pub(super) fn solve(
             }
             ControlFlow::Break(())
         };
+        let backend = &*opened;
         match &out {
-            Some(out) => solver::solve_into(out, SOLVER_SOURCES, capture, &config, &mut hear),
-            None => solver::solve(capture, &config, &mut hear),
+            Some(out) => {
+                solver::solve_into(backend, out, SOLVER_SOURCES, capture, &config, &mut hear)
+            }
+            None => solver::solve_on(backend, capture, &config, Options::default(), &mut hear),
         }
     });
     if let Some(error) = raised {

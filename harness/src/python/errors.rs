@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 
 use crate::score::ScoreError;
 use crate::suite::RunError;
-use solver::{CaptureError, ConfigError, MapsError, SolveError};
+use solver::{BackendError, CaptureError, ConfigError, MapsError, SolveError};
 
 /// An error that has a Python exception of its own.
 pub(super) trait Named: std::error::Error {
@@ -19,6 +19,7 @@ macro_rules! named {
 }
 
 named! {
+    BackendError => "BackendError",
     CaptureError => "CaptureError",
     MapsError => "MapsError",
     ConfigError => "ConfigError",

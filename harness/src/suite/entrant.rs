@@ -30,9 +30,10 @@ pub(super) fn make_maps(
     match &entrant.method {
         Method::Oracle => Ok(score::oracle_maps(capture, maps)?),
         Method::Baseline { method, texture_size } => method.make(capture, maps, *texture_size),
-        Method::Fields { config, .. } => {
+        Method::Fields { config, backend } => {
             let config = solver::Config::from_toml(config)?;
-            solve(&solver::Capture::open(capture)?, &config, maps, tools, progress)
+            let backend = backend.open()?;
+            solve(&*backend, &solver::Capture::open(capture)?, &config, maps, tools, progress)
         }
         Method::Command(words) => {
             let (program, arguments) = words.split_first().ok_or_else(|| RunError::Program {
@@ -56,27 +57,29 @@ pub(super) fn make_maps(
 /// Our own solver. An interrupt leaves maps of what there is, and a checkpoint beside them; it is an
 /// error nevertheless, so that nobody takes them for finished.
 pub fn solve(
+    backend: &dyn solver::Backend,
     capture: &solver::Capture,
     config: &solver::Config,
     maps: &Path,
     tools: &Tools,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let solution = solver::solve_into(maps, SOLVER_SOURCES, capture, config, &mut |step| {
-        if tools.interrupt.load(Ordering::Relaxed) {
-            return ControlFlow::Break(());
-        }
-        let what = format!(
-            "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
-            step.stage,
-            step.step,
-            step.steps,
-            step.loss,
-            HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
-        );
-        progress(step.iteration as u64, step.total as u64, &what);
-        ControlFlow::Continue(())
-    })?;
+    let solution =
+        solver::solve_into(backend, maps, SOLVER_SOURCES, capture, config, &mut |step| {
+            if tools.interrupt.load(Ordering::Relaxed) {
+                return ControlFlow::Break(());
+            }
+            let what = format!(
+                "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
+                step.stage,
+                step.step,
+                step.steps,
+                step.loss,
+                HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
+            );
+            progress(step.iteration as u64, step.total as u64, &what);
+            ControlFlow::Continue(())
+        })?;
     match solution.record.interrupted {
         Some(place) => Err(RunError::Stopped { place, maps: maps.to_path_buf() }),
         None => Ok(()),

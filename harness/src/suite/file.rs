@@ -213,6 +213,10 @@ mod tests {
                 &*format!("{head}[[solver]]\nname = \"mean_texture\"\ntexture_size = 4\n"),
                 "texture_size: 4 of \"mean_texture\" is not from 16 to 8192",
             ),
+            (
+                &*format!("{head}[[solver]]\nname = \"paper\"\nbackend = \"tpu\"\n"),
+                "backend: no backend is named \"tpu\"; there are auto, cpu and gpu",
+            ),
             (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),
             (&*format!("{head}[variant]\nname = \"a\"\n"), "variant: must be tables"),
             (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),

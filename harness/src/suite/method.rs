@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::Deserialize;
+use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
@@ -15,8 +16,8 @@ pub enum Method {
     Fields {
         /// A preset's name or the text of a configuration.
         config: String,
-        /// `auto`, `cpu` or `gpu`.
-        backend: String,
+        /// What it runs on.
+        backend: Choice,
     },
     /// Any program: arguments with `{capture}` and `{maps}` replaced.
     Command(Vec<String>),
@@ -123,7 +124,9 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
             }
             None => Method::Fields {
                 config: config_text(path, solver.config.as_deref().unwrap_or(name), &solver.set)?,
-                backend: solver.backend.unwrap_or_else(|| "auto".to_owned()),
+                backend: solver.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
+                    |error: BackendError| SceneError::value(path, "backend", error.to_string()),
+                )?,
             },
         },
     };

@@ -43,6 +43,8 @@ pub enum RunError {
     #[error(transparent)]
     Config(#[from] solver::ConfigError),
     #[error(transparent)]
+    Backend(#[from] solver::BackendError),
+    #[error(transparent)]
     Solve(#[from] solver::SolveError),
     #[error(transparent)]
     Maps(#[from] solver::MapsError),
@@ -256,9 +258,10 @@ impl Stages<'_> {
         let name = format!("{}/{}", case.id, entrant.id);
         let method = match &entrant.method {
             Method::Fields { config, backend } => {
-                // The resolved values, so that a preset that changed is solved again.
+                // The resolved values, so that a preset that changed is solved again; and what
+                // computes here, since no two devices give the same bytes.
                 let config = solver::Config::from_toml(config)?.to_toml();
-                hash_parts(&["fields", &config, backend, SOLVER_SOURCES])
+                hash_parts(&["fields", &config, &backend.open()?.name(), SOLVER_SOURCES])
             }
             Method::Oracle => hash_parts(&["oracle", SCORE_SOURCES]),
             Method::Baseline { method, texture_size } => {

@@ -1,11 +1,18 @@
-//! What the networks are evaluated on. The boundary is narrow: samples, directions and albedos
-//! already sampled from their textures go in; losses, gradients and shading come out.
+//! What the arithmetic runs on. The boundary is narrow: samples, directions and albedos already
+//! sampled from their textures go in; losses, gradients and shading come out. A device with memory of
+//! its own may besides take in whole stages, see [`resident`].
 
+mod choice;
 pub mod cpu;
+pub mod gpu;
+pub mod resident;
+
+pub use choice::{BackendError, Choice};
 
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
+use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
 pub const ALBEDOS: usize = 4;
@@ -18,7 +25,7 @@ pub const BENT: usize = 7;
 /// The loss is the mean over samples and channels of weight x |model - target|. Results are
 /// bit-identical for any number of threads.
 pub trait Backend: Sync {
-    /// Device and instruction set, for the record.
+    /// Device and instruction set or driver, for the record; and what became of it.
     fn name(&self) -> String;
 
     /// Loss of the whole model; gradients of every network parameter and of the sampled albedos.
@@ -46,6 +53,17 @@ pub trait Backend: Sync {
 
     /// S_d and S_s of every sample (2 rows).
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes;
+
+    /// The program of a stage on the device; nothing if its steps are taken through the methods
+    /// above.
+    fn resident(&self, _job: &Job) -> Option<Box<dyn Resident + '_>> {
+        None
+    }
+
+    /// Conjugate gradients on the device; nothing if the host takes their steps.
+    fn descent(&self, _problem: &NormalEquations) -> Option<Box<dyn Descent + '_>> {
+        None
+    }
 }
 
 /// What [`Backend::joint`] finds.

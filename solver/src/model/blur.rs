@@ -27,6 +27,16 @@ impl Blur {
         Self { size, channels, kernel, norms }
     }
 
+    /// Weights from the centre outwards, before they are scaled.
+    pub(crate) fn kernel(&self) -> &[f32] {
+        &self.kernel
+    }
+
+    /// Of every column (and row), one over the sum of the weights inside the texture.
+    pub(crate) fn norms(&self) -> &[f32] {
+        &self.norms
+    }
+
     /// The blurred texture.
     pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
         let after = |row: usize, out: &mut [f32]| self.scale(out, self.norms[row]);

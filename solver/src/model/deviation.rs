@@ -36,7 +36,21 @@ pub struct Bend {
     pub blurred: Vec<f32>,
 }
 
+/// What [`Deviation`] is made of.
+pub(crate) struct Parts<'a> {
+    pub range: Option<f32>,
+    pub narrow: &'a Blur,
+    pub wide: Option<&'a Blur>,
+    pub blur: &'a Blur,
+}
+
 impl Deviation {
+    /// For a device that does the same.
+    pub(crate) fn parts(&self) -> Parts<'_> {
+        let Self { range, narrow, wide, blur, .. } = self;
+        Parts { range: *range, narrow, wide: wide.as_ref(), blur }
+    }
+
     /// For textures of side `size`.
     pub fn new(config: &Config, size: usize) -> Self {
         let fine = &config.fine_tuning;

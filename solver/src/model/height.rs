@@ -55,6 +55,11 @@ impl HeightField {
         Self { size, right, down }
     }
 
+    /// Deviation by the height's change to the right and downwards, of every texel.
+    pub fn basis(&self) -> [&[Vec3]; 2] {
+        [&self.right, &self.down]
+    }
+
     /// Texels.
     pub fn len(&self) -> usize {
         self.right.len()

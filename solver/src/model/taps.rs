@@ -61,6 +61,16 @@ impl Taps {
         self.cell[sample] as usize + fy * self.size + fx
     }
 
+    /// Upper left texel of every sample, row-major, ascending.
+    pub fn cells(&self) -> &[u32] {
+        &self.cell
+    }
+
+    /// Of every sample, its place between that texel's centre and the next ones', right and down.
+    pub fn fractions(&self) -> &[[f32; 2]] {
+        &self.fraction
+    }
+
     /// Where a sample lies: column and row, counted in texels from the first texel's centre.
     pub fn place(&self, sample: usize) -> [f32; 2] {
         let (cell, [fx, fy]) = (self.cell[sample] as usize, self.fraction[sample]);

@@ -36,6 +36,45 @@ impl Adam {
         self.steps as usize
     }
 
+    /// The configuration.
+    pub fn config(&self) -> &AdamConfig {
+        &self.config
+    }
+
+    /// Whether it moves anything.
+    pub fn moves(&self) -> bool {
+        self.rate != 0.0
+    }
+
+    /// For a device that keeps the moments itself.
+    pub(crate) fn without_moments(&self) -> Self {
+        Self {
+            config: self.config.clone(),
+            rate: self.rate,
+            steps: self.steps,
+            first: vec![],
+            second: vec![],
+        }
+    }
+
+    /// First and second moment.
+    pub(crate) fn moments(&self) -> [&[f32]; 2] {
+        [&self.first, &self.second]
+    }
+
+    /// After `steps` steps that a device has done.
+    pub(crate) fn restore(&mut self, steps: usize, first: Vec<f32>, second: Vec<f32>) {
+        (self.steps, self.first, self.second) = (steps as i32, first, second);
+    }
+
+    /// At step `number`, from 1, by `share` of the learning rate: what the first moment is multiplied
+    /// with, and the root of the second one.
+    pub(crate) fn factors(&self, number: i32, share: f32) -> [f32; 2] {
+        let correction = |beta: f32| 1.0 - f64::from(beta).powi(number);
+        let rate = (f64::from(share * self.rate) / correction(self.config.beta1)) as f32;
+        [rate, (1.0 / correction(self.config.beta2).sqrt()) as f32]
+    }
+
     /// Number of parameters.
     pub fn count(&self) -> usize {
         self.first.len()
@@ -46,9 +85,7 @@ impl Adam {
     pub fn step(&mut self, parameters: &mut [f32], gradient: &[f32], share: f32, least: f32) {
         self.steps += 1;
         let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
-        let correction = |beta: f32| 1.0 - f64::from(beta).powi(self.steps);
-        let rate = (f64::from(share * self.rate) / correction(beta1)) as f32;
-        let root = (1.0 / correction(beta2).sqrt()) as f32;
+        let [rate, root] = self.factors(self.steps, share);
         parameters
             .par_chunks_mut(CHUNK)
             .zip(gradient.par_chunks(CHUNK))

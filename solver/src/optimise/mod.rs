@@ -12,7 +12,7 @@ mod run;
 pub(crate) mod site;
 mod snapshot;
 pub mod solve;
-mod specular;
+pub mod specular;
 pub mod stage;
 pub mod transported;
 mod veil;

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::stage::State;
 use super::transported::{LIT, Lit, bent_shading};
+use crate::backend::resident::NormalEquations;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
 use crate::convolution::Shape;
@@ -33,6 +34,10 @@ const DARKEST: f32 = 1e-3;
 const ALBEDO_UNIT: f32 = 0.1;
 /// Least square of a light's contrast.
 const LEAST_CONTRAST: f32 = 1e-3;
+/// Squared norm of the rest, over that of the goal, at which a solve has converged.
+const ENOUGH: f64 = 1e-5;
+/// Steps that a device takes between two words with the caller.
+const SUBMITTED: usize = 5;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
 /// Values that one task works through.
@@ -293,13 +298,20 @@ impl<'a> ReliefSolve<'a> {
         });
         let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
         drop(rows);
+        // Steps that were lost with a device are heard of once.
+        let heard = match self.on_device(slopes, weight, &goal, x, residual, step) {
+            Ok(done) => return done,
+            Err(heard) => heard,
+        };
         let start = normal(x);
         let mut rest: Vec<f32> = goal.iter().zip(&start).map(|(b, ax)| b - ax).collect();
         let mut direction = rest.clone();
-        let enough = 1e-5 * dot(&goal, &goal);
+        let enough = ENOUGH * dot(&goal, &goal);
         let mut energy = dot(&rest, &rest);
-        for _ in 0..self.config.steps {
-            step(residual)?;
+        for number in 0..self.config.steps {
+            if number >= heard {
+                step(residual)?;
+            }
             if energy <= enough {
                 continue;
             }
@@ -313,6 +325,44 @@ impl<'a> ReliefSolve<'a> {
             energy = next;
         }
         Ok(())
+    }
+
+    /// The same steps on a device that takes them. If there is none, or if it fails, the unknowns are as
+    /// they were, and the error is the number of steps that `step` has heard of.
+    fn on_device(
+        &self,
+        slopes: &Planes,
+        weight: &Planes,
+        goal: &[f32],
+        x: &mut [f32],
+        residual: f64,
+        step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
+    ) -> Result<Result<(), SolveError>, usize> {
+        let problem = NormalEquations {
+            taps: &self.samples.taps,
+            slopes,
+            weight,
+            goal,
+            x,
+            basis: self.field.basis(),
+            blur: &self.blur,
+            albedo_unit: ALBEDO_UNIT,
+            flatness: self.flatness,
+            smoothness: self.config.smoothness,
+            rest: REST,
+            damping: self.config.albedo_damping,
+            enough: ENOUGH,
+        };
+        let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
+        let (mut heard, mut told) = (0, Ok(()));
+        while heard < self.config.steps && told.is_ok() {
+            let batch = SUBMITTED.min(self.config.steps - heard);
+            told = (0..batch).try_for_each(|_| step(residual));
+            heard += batch;
+            descent.steps(batch).map_err(|_| heard)?;
+        }
+        x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
+        Ok(told)
     }
 
     /// The residual of every view less its own blur over the covered pixels.

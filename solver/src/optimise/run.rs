@@ -1,7 +1,7 @@
 //! The bookkeeping of a solve: progress, losses, times, interrupts, checkpoints.
 
 use std::fmt;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
@@ -10,9 +10,15 @@ use super::clock::{Clock, Work};
 use super::solve::{Callback, Progress, Solve};
 use super::stage::{Stage, State};
 use crate::backend::Backend;
+use crate::backend::resident::{BATCH, DeviceError, Resident};
 use crate::config::Config;
 use crate::error::SolveError;
 use crate::solution::{StageRecord, Timing};
+
+/// Between two copies of what a device moves: a failure costs no more than that.
+const FETCH: Duration = Duration::from_secs(20);
+/// A submission takes about this long: systems reset a device that does not answer for seconds.
+const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// The bookkeeping of a solve.
 pub(super) struct Run<'a, 'b> {
@@ -136,7 +142,7 @@ impl<'a, 'b> Run<'a, 'b> {
         let mut losses = vec![];
         let bend = solve(&mut |loss| {
             losses.push(loss);
-            self.report(name, losses.len(), of, loss);
+            self.report(name, losses.len(), of, &[loss]);
             if self.cut.is_some() { Err(SolveError::Interrupted) } else { Ok(()) }
         })?;
         self.lap(name);
@@ -183,34 +189,91 @@ impl<'a, 'b> Run<'a, 'b> {
     ) -> Result<Vec<f64>, SolveError> {
         let of = stage.iterations();
         let mut losses = self.recall(name, stage, state);
+        let mut device = self.take_in(name, stage, state);
+        // Steps that the host's copy of a device's values has seen, and when it was made.
+        let (mut known, mut fetched) = (losses.len(), Instant::now());
+        let mut pace = Pace::default();
         while losses.len() < of && self.cut.is_none() {
-            let step = losses.len() + 1;
-            let loss = stage.step(state, self.backend, share(self.final_share, step, of));
-            if !loss.is_finite() {
+            let first = losses.len() + 1;
+            let share = |step: usize| share(self.final_share, step, of);
+            let batch = match &mut device {
+                None => Ok(vec![stage.step(state, self.backend, share(first))]),
+                Some(program) => {
+                    let last = of.min(losses.len() + pace.steps());
+                    let shares: Vec<f32> = (first..=last).map(share).collect();
+                    pace.time(shares.len(), || program.steps(&shares))
+                }
+            };
+            let Ok(batch) = batch else {
+                device = None;
+                self.fall_back(name, known, &mut losses);
+                continue;
+            };
+            if let Some(at) = batch.iter().position(|loss| !loss.is_finite()) {
+                let stage = name.to_owned();
                 return Err(SolveError::NotFinite {
-                    stage: name.to_owned(),
-                    iteration: step,
-                    loss,
+                    stage,
+                    iteration: first + at,
+                    loss: batch[at],
                 });
             }
-            losses.push(loss);
-            self.report(name, step, of, loss);
+            losses.extend_from_slice(&batch);
+            self.report(name, losses.len(), of, &batch);
+            if let Some(program) = &mut device {
+                let over = losses.len() == of || self.cut.is_some();
+                if !over && fetched.elapsed() < FETCH {
+                    continue;
+                }
+                if program.download(&mut stage.variables(state)).is_err() {
+                    device = None;
+                    self.fall_back(name, known, &mut losses);
+                    continue;
+                }
+                (known, fetched) = (losses.len(), Instant::now());
+            }
             self.remember(name, &losses, stage, state);
         }
         Ok(losses)
     }
 
-    /// Tells the caller of a step, and hears whether to go on.
-    fn report(&mut self, stage: &str, step: usize, of: usize, loss: f64) {
-        self.log.done += 1;
+    /// The stage as a program of the device, if it has one for it.
+    fn take_in(
+        &self,
+        name: &str,
+        stage: &mut dyn Stage,
+        state: &mut State,
+    ) -> Option<Box<dyn Resident + 'a>> {
+        let mut program = self.backend.resident(&stage.job()?)?;
+        match program.upload(&stage.variables(state)) {
+            Ok(()) => Some(program),
+            Err(_) => {
+                tracing::info!("{name}: the device cannot take it in");
+                None
+            }
+        }
+    }
+
+    /// Goes back to what the host has seen of a stage whose device failed. The device has said why.
+    fn fall_back(&mut self, name: &str, known: usize, losses: &mut Vec<f64>) {
+        tracing::info!("{name}: goes on behind step {known}");
+        self.log.done -= losses.len() - known;
+        losses.truncate(known);
+        self.cut = None;
+    }
+
+    /// Tells the caller of steps, of which `step` was the last, and hears whether to go on.
+    fn report(&mut self, stage: &str, step: usize, of: usize, losses: &[f64]) {
+        self.log.done += losses.len();
+        let mut seconds_left = 0.0;
+        losses.iter().for_each(|_| seconds_left = self.clock.tick());
         let progress = Progress {
             stage,
             step,
             steps: of,
             iteration: self.log.done,
             total: self.total,
-            loss,
-            seconds_left: self.clock.tick(),
+            loss: losses.last().copied().unwrap_or_default(),
+            seconds_left,
         };
         if (self.progress)(&progress).is_break() {
             self.cut = Some(Cut { stage: stage.to_owned(), step, of });
@@ -237,6 +300,31 @@ impl<'a, 'b> Run<'a, 'b> {
             let seconds = self.earlier + self.lap.elapsed().as_secs_f64();
             checkpoint.save_stage(name, losses, seconds, stage, state);
         }
+    }
+}
+
+/// How many steps make a submission.
+#[derive(Default)]
+struct Pace {
+    seconds_per_step: Option<f64>,
+}
+
+impl Pace {
+    fn steps(&self) -> usize {
+        // The first step alone shows how long one takes.
+        self.seconds_per_step
+            .map_or(1, |s| ((SUBMISSION.as_secs_f64() / s) as usize).clamp(1, BATCH))
+    }
+
+    fn time<T>(
+        &mut self,
+        steps: usize,
+        work: impl FnOnce() -> Result<T, DeviceError>,
+    ) -> Result<T, DeviceError> {
+        let start = Instant::now();
+        let done = work();
+        self.seconds_per_step = Some(start.elapsed().as_secs_f64() / steps as f64);
+        done
     }
 }
 

@@ -19,7 +19,6 @@ use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined
 use super::veil::specular_albedo;
 use crate::atomic::Folder;
 use crate::backend::Backend;
-use crate::backend::cpu::Cpu;
 use crate::capture::Capture;
 use crate::config::Config;
 use crate::error::{CaptureError, MapsError, SolveError};
@@ -63,23 +62,11 @@ pub struct Options<'a> {
     pub layers: Option<&'a mut LayerSink<'a>>,
 }
 
-/// Decomposes a capture into maps on the processor. `progress` is called after every step and may
-/// stop the solve, which then makes maps of what it has and says so in
-/// [`crate::Record::interrupted`].
-///
-/// The same capture and configuration give the same solution for any number of threads.
-pub fn solve(
-    capture: &Capture,
-    config: &Config,
-    progress: &mut Callback,
-) -> Result<Solution, SolveError> {
-    solve_on(&Cpu::new(), capture, config, Options::default(), progress)
-}
-
-/// [`solve`] into the folder `maps`, with a checkpoint beside it (`<maps>.checkpoint`) from which
+/// [`solve_on`] into the folder `maps`, with a checkpoint beside it (`<maps>.checkpoint`) from which
 /// the same call goes on after an interrupt, to the same bytes. `program` tells apart programs that
-/// would not: a checkpoint of another one is not used.
+/// would not: a checkpoint of another one is not used, nor of another backend.
 pub fn solve_into(
+    backend: &dyn Backend,
     maps: &Path,
     program: &str,
     capture: &Capture,
@@ -98,7 +85,7 @@ pub fn solve_into(
         view.write_layers(folder.path())
     };
     let options = Options { checkpoint: Some(checkpoint), layers: Some(&mut layers) };
-    let solution = solve_on(&Cpu::new(), capture, config, options, progress)?;
+    let solution = solve_on(backend, capture, config, options, progress)?;
     let folder = match partial {
         Some(folder) => folder,
         None => Folder::begin(maps).map_err(io)?,
@@ -111,7 +98,11 @@ pub fn solve_into(
     Ok(solution)
 }
 
-/// [`solve`] on a given backend.
+/// Decomposes a capture into maps. `progress` is called after every step (a device that takes in whole
+/// stages: every submission) and may stop the solve, which then makes maps of what it has and says so
+/// in [`crate::Record::interrupted`].
+///
+/// The same capture, configuration and backend give the same solution for any number of threads.
 pub fn solve_on(
     backend: &dyn Backend,
     capture: &Capture,

@@ -3,6 +3,7 @@
 use super::adam::Adam;
 use super::stage::{Memory, Stage, State, layers, least_albedo};
 use crate::backend::Backend;
+use crate::backend::resident::{Job, Variable};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
 use crate::model::planes::{BLOCK, Planes, Row};
@@ -74,6 +75,19 @@ impl Stage for Specular<'_> {
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_specular])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        let known = Planes::from_fn(self.samples.len(), |i| {
+            let [r, g, b, gloss, weight]: [f32; 5] = self.rest.sample(i, 0);
+            [r, g, b, weight, gloss]
+        });
+        Some(Job::Layer { taps: &self.samples.taps, known, prior: 0.0 })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let least = least_albedo(self.config);
+        vec![Variable::new(&mut state.specular, &mut self.by_specular, least)]
     }
 }
 

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
@@ -59,6 +60,14 @@ pub trait Stage {
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
     /// For checkpoints: with the state, all that is needed to go on with the same bits.
     fn memory(&mut self) -> Memory<'_>;
+    /// For a device that may take the stage in; nothing if there is no program for it.
+    fn job(&self) -> Option<Job<'_>> {
+        None
+    }
+    /// What moves, in the order that the job says.
+    fn variables<'a>(&'a mut self, _state: &'a mut State) -> Vec<Variable<'a>> {
+        vec![]
+    }
 }
 
 /// What a stage keeps from step to step besides the state, in a fixed order.
@@ -82,6 +91,8 @@ pub struct WarmUp<'a> {
     config: &'a Config,
     samples: &'a Samples,
     directions: Planes,
+    /// Of the networks.
+    shape: Vec<usize>,
     networks: Adam,
     diffuse: Adam,
     specular: Adam,
@@ -95,6 +106,7 @@ impl<'a> WarmUp<'a> {
             config,
             samples,
             directions: DirectionScale::from(&config.networks).directions(samples, None),
+            shape: state.networks.shape.clone(),
             networks: Adam::new(adam, w.network_rate, state.networks.parameters.len()),
             diffuse: Adam::new(adam, w.diffuse_rate, state.diffuse.len()),
             specular: Adam::new(adam, w.specular_rate, state.specular.len()),
@@ -132,17 +144,32 @@ impl Stage for WarmUp<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let gradient = self.gradient(state, backend);
-        let free = f32::NEG_INFINITY;
-        let least = least_albedo(self.config);
-        self.networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
-        self.diffuse.step(&mut state.diffuse, &gradient.diffuse, share, least);
-        self.specular.step(&mut state.specular, &gradient.specular, share, least);
-        gradient.loss
+        let WarmUpGradient { loss, networks, diffuse, specular } = self.gradient(state, backend);
+        let gradients = [networks, diffuse, specular];
+        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, share));
+        loss
     }
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.networks, &mut self.diffuse, &mut self.specular])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        Some(Job::Joint {
+            samples: self.samples,
+            directions: &self.directions,
+            shape: &self.shape,
+            prior: self.config.warm_up.prior,
+        })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let (free, least) = (f32::NEG_INFINITY, least_albedo(self.config));
+        vec![
+            Variable::new(&mut state.networks.parameters, &mut self.networks, free),
+            Variable::new(&mut state.diffuse, &mut self.diffuse, least),
+            Variable::new(&mut state.specular, &mut self.specular, least),
+        ]
     }
 }
 
@@ -152,6 +179,7 @@ pub struct Relief<'a> {
     samples: &'a Samples,
     deviation: &'a Deviation,
     name: String,
+    networks: Networks,
     light: Planes,
     albedo: Planes,
     by_deviation: Adam,
@@ -174,6 +202,7 @@ impl<'a> Relief<'a> {
             samples,
             deviation,
             name: format!("normals and specular {round}"),
+            networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
             albedo: state.albedo(samples),
             by_deviation: Adam::new(adam, f.deviation_rate, state.deviation.len()),
@@ -212,8 +241,8 @@ impl Stage for Relief<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         let least = least_albedo(self.config);
+        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
         self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
         self.by_specular.step(&mut state.specular, &by_specular, share, least);
         loss
@@ -221,6 +250,24 @@ impl Stage for Relief<'_> {
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_deviation, &mut self.by_specular])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        Some(Job::Relief(ReliefJob {
+            samples: self.samples,
+            deviation: self.deviation,
+            networks: &self.networks,
+            light: &self.light,
+            albedo: &self.albedo,
+        }))
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let least = least_albedo(self.config);
+        vec![
+            Variable::new(&mut state.deviation, &mut self.by_deviation, f32::NEG_INFINITY),
+            Variable::new(&mut state.specular, &mut self.by_specular, least),
+        ]
     }
 }
 
@@ -294,6 +341,22 @@ impl Stage for Diffuse<'_> {
 
     fn memory(&mut self) -> Memory<'_> {
         Memory::new(vec![&mut self.by_diffuse])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        let samples = self.samples;
+        let known = Planes::from_fn(samples.len(), |i| {
+            let [r, g, b, specular]: [f32; 4] = self.shading.sample(i, 0);
+            let target: [f32; 3] = samples.target.sample(i, 0);
+            let rest = target.map(|target| target - specular);
+            [rest[0], rest[1], rest[2], samples.weight.get(0, i), r, g, b]
+        });
+        Some(Job::Layer { taps: &samples.taps, known, prior: self.prior })
+    }
+
+    fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
+        let least = least_albedo(self.config);
+        vec![Variable::new(&mut state.diffuse, &mut self.by_diffuse, least)]
     }
 }
 

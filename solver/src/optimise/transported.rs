@@ -11,6 +11,7 @@ use super::run::Run;
 use super::site::WarmUpPictures;
 use super::stage::{Diffuse, Memory, Stage, State, layers};
 use super::veil::{unveiled, veil};
+use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
 use crate::config::{Config, TransportConfig};
@@ -207,6 +208,8 @@ pub struct Transported<'a> {
     config: &'a TransportConfig,
     transport: &'a Transport,
     samples: &'a Samples,
+    /// Of the networks.
+    shape: Vec<usize>,
     /// The samples with what the diffuse layer leaves as their target.
     rest: Samples,
     directions: Planes,
@@ -252,6 +255,7 @@ impl<'a> Transported<'a> {
             config: t,
             transport,
             samples,
+            shape: state.networks.shape.clone(),
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
             nearness: vec![0.0],
@@ -406,6 +410,32 @@ impl Stage for Transported<'_> {
         self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);
         self.by_networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
         gradient.loss
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        Some(Job::Transported(TransportedJob {
+            samples: self.samples,
+            directions: &self.directions,
+            shape: &self.shape,
+            transport: self.transport,
+            prior: self.config.prior,
+            grey_mean: self.config.grey_mean,
+            grey_texel: self.config.grey_texel,
+        }))
+    }
+
+    fn variables<'b>(&'b mut self, state: &'b mut State) -> Vec<Variable<'b>> {
+        let free = f32::NEG_INFINITY;
+        let nearness = Variable::new(&mut self.nearness, &mut self.by_nearness, 0.0);
+        let diffuse = Variable::new(&mut state.diffuse, &mut self.by_diffuse, 0.0);
+        let networks = &mut state.networks.parameters;
+        vec![
+            Variable::new(&mut self.log_light, &mut self.by_light, free),
+            Variable { most: Transport::nearest(), ..nearness },
+            Variable { hold: self.hold, ..diffuse },
+            Variable::new(&mut state.specular, &mut self.by_specular, 0.0),
+            Variable::new(networks, &mut self.by_networks, free),
+        ]
     }
 
     fn memory(&mut self) -> Memory<'_> {

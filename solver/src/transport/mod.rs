@@ -144,6 +144,16 @@ impl Transport {
         self.matrix.rows.is_empty()
     }
 
+    /// The matrices, for a device that multiplies with them.
+    pub(crate) fn parts(&self) -> Parts<'_> {
+        Parts {
+            matrix: &self.matrix.rows,
+            gain: self.gain.as_ref().map(|gain| gain.rows.as_slice()),
+            cells: self.cells(),
+            row: &self.row,
+        }
+    }
+
     /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
     pub fn near(&self) -> f32 {
         self.near
@@ -229,6 +239,16 @@ impl Transport {
 fn luminances(light: &[f32]) -> Vec<f32> {
     let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
     light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
+}
+
+/// See [`Transport::parts`].
+pub(crate) struct Parts<'a> {
+    /// Rows of `cells` weights.
+    pub matrix: &'a [f32],
+    pub gain: Option<&'a [f32]>,
+    pub cells: usize,
+    /// Of every texel of the square.
+    pub row: &'a [u32],
 }
 
 /// Rows of `cells` weights.

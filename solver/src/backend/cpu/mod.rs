@@ -198,6 +198,3 @@ impl Backend for Cpu {
         chunks(networks, 2, light.len(), pass).0
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -75,7 +75,7 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
     let checkpoint = folder.path().join("maps.checkpoint");
     let config = short();
     let mut heard = vec![];
-    let solution = solve_into(&whole, PROGRAM, &capture, &config, &mut |progress| {
+    let solution = solve_into(&Cpu::new(), &whole, PROGRAM, &capture, &config, &mut |progress| {
         assert!(progress.step <= progress.steps);
         assert!(progress.seconds_left.is_finite() && progress.seconds_left >= 0.0);
         heard.push((progress.iteration, progress.total));
@@ -88,7 +88,8 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
     layers_show_the_pictures(&whole, &capture);
 
     for (step, place) in CUTS {
-        let solution = solve_into(&maps, PROGRAM, &capture, &config, &mut stop_at(step)).unwrap();
+        let solution =
+            solve_into(&Cpu::new(), &maps, PROGRAM, &capture, &config, &mut stop_at(step)).unwrap();
         assert_eq!(solution.record.interrupted.as_deref(), Some(place));
         assert!(checkpoint.is_dir(), "{place}");
         let written = Maps::read(&maps).unwrap();
@@ -103,7 +104,7 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
         assert_eq!(record["interrupted"], place);
 
         let mut first = None;
-        solve_into(&maps, PROGRAM, &capture, &config, &mut |progress| {
+        solve_into(&Cpu::new(), &maps, PROGRAM, &capture, &config, &mut |progress| {
             first.get_or_insert(progress.iteration);
             ControlFlow::Continue(())
         })
@@ -186,7 +187,7 @@ fn a_checkpoint_of_another_solve_is_not_used() {
     let checkpoint = folder.path().join("maps.checkpoint");
     let begun_at = |program: &str, config: &Config| {
         let mut first = 0;
-        solve_into(&maps, program, &capture, config, &mut |progress| {
+        solve_into(&Cpu::new(), &maps, program, &capture, config, &mut |progress| {
             first = progress.iteration;
             ControlFlow::Break(())
         })

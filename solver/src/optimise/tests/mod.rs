@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 
 use glam::{Vec2, Vec3};
 
-use super::solve::solve;
+use super::solve::{Options, solve_on};
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use crate::backend::cpu::{Cpu, Level};
 use crate::capture::{Capture, View};
@@ -78,6 +78,14 @@ fn small() -> Config {
     config.height.linearisations = 1;
     config.height.steps = 10;
     config
+}
+
+fn solve(
+    capture: &Capture,
+    config: &Config,
+    progress: &mut super::solve::Callback,
+) -> Result<Solution, SolveError> {
+    solve_on(&Cpu::new(), capture, config, Options::default(), progress)
 }
 
 fn silent(_: &crate::Progress) -> ControlFlow<()> {

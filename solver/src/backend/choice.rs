@@ -1,0 +1,104 @@
+//! Which backend a solve runs on.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::Backend;
+use super::cpu::Cpu;
+use super::gpu::{Adapter, Gpu, VARIABLE};
+
+/// What the user asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// A real GPU if there is one, else the processor; never a software adapter.
+    #[default]
+    Auto,
+    /// The processor.
+    Cpu,
+    /// A real GPU, or the adapter that the environment names; an error without one.
+    Gpu,
+}
+
+/// A backend that cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum BackendError {
+    /// There are no real GPUs.
+    #[error(
+        "no GPU was found ({}); install its Vulkan driver, or take the backend cpu or auto",
+        listed(there)
+    )]
+    NoGpu {
+        /// Adapters that there are.
+        there: Vec<String>,
+    },
+    /// The environment names an adapter that is not there.
+    #[error(
+        "no adapter is called {named:?} ({}); correct {VARIABLE} or take it away",
+        listed(there)
+    )]
+    NotThere {
+        /// What was asked for.
+        named: String,
+        /// Adapters that there are.
+        there: Vec<String>,
+    },
+    /// The adapter gives no device.
+    #[error("{name} cannot be used: {reason}; take the backend cpu")]
+    Refused {
+        /// The adapter.
+        name: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// No such backend.
+    #[error("no backend is named {0:?}; there are auto, cpu and gpu")]
+    Unknown(String),
+}
+
+fn listed(adapters: &[String]) -> String {
+    if adapters.is_empty() { "no adapter at all".to_owned() } else { adapters.join(", ") }
+}
+
+impl Choice {
+    /// Opens the backend.
+    pub fn open(self) -> Result<Box<dyn Backend>, BackendError> {
+        let gpu = || Adapter::chosen().and_then(|adapter| Gpu::open(&adapter));
+        match self {
+            Self::Cpu => Ok(Box::new(Cpu::new())),
+            Self::Gpu => Ok(Box::new(gpu()?)),
+            Self::Auto => match Adapter::chosen().ok().filter(|adapter| !adapter.software) {
+                None => Ok(Box::new(Cpu::new())),
+                Some(adapter) => match Gpu::open(&adapter) {
+                    Ok(gpu) => Ok(Box::new(gpu)),
+                    Err(error) => {
+                        tracing::warn!("{error}; the solve runs on the processor");
+                        Ok(Box::new(Cpu::new()))
+                    }
+                },
+            },
+        }
+    }
+}
+
+impl FromStr for Choice {
+    type Err = BackendError;
+
+    fn from_str(name: &str) -> Result<Self, BackendError> {
+        match name {
+            "auto" => Ok(Self::Auto),
+            "cpu" => Ok(Self::Cpu),
+            "gpu" => Ok(Self::Gpu),
+            other => Err(BackendError::Unknown(other.to_owned())),
+        }
+    }
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Cpu => "cpu",
+            Self::Gpu => "gpu",
+        })
+    }
+}

@@ -1,0 +1,246 @@
+//! Compute kernels, their bindings, and dispatches that are recorded once and submitted often.
+
+use std::sync::Arc;
+
+use super::device::Device;
+use crate::backend::resident::Variable;
+
+/// Threads of a workgroup of the kernels that have one thread per value.
+pub(super) const THREADS: usize = 256;
+/// Workgroups along one axis; a limit of WebGPU.
+const AXIS: usize = 65535;
+/// Distance of uniforms with dynamic offsets; the default limit of WebGPU.
+const SLOT: usize = 256;
+/// In every kernel: where samples lie in planes, and workgroups in a grid of two axes.
+const COMMON: &str = include_str!("wgsl/common.wgsl");
+
+/// A compiled kernel.
+pub(super) struct Kernel {
+    name: &'static str,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl Kernel {
+    /// The entry point `main` of `source`. `bindings` has a letter for each binding of group 0: `u` a
+    /// uniform, `r` a storage buffer that is read, `w` one that is written; `+` at the end stands for
+    /// a slot of the step in group 1.
+    pub fn new(device: &wgpu::Device, name: &'static str, source: &str, bindings: &str) -> Self {
+        let entry = |(binding, letter): (usize, char)| {
+            let ty = match letter {
+                'u' => wgpu::BufferBindingType::Uniform,
+                letter => wgpu::BufferBindingType::Storage { read_only: letter == 'r' },
+            };
+            wgpu::BindGroupLayoutEntry {
+                binding: binding as u32,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }
+        };
+        let (fixed, dynamic) = match bindings.strip_suffix('+') {
+            Some(fixed) => (fixed, true),
+            None => (bindings, false),
+        };
+        let entries: Vec<_> = fixed.chars().enumerate().map(entry).collect();
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(name),
+            entries: &entries,
+        });
+        let slots = Slots::layout(device);
+        let groups = [Some(&layout), Some(&slots)];
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(name),
+            bind_group_layouts: if dynamic { &groups } else { &groups[..1] },
+            immediate_size: 0,
+        });
+        let descriptor = wgpu::ShaderModuleDescriptor {
+            label: Some(name),
+            source: wgpu::ShaderSource::Wgsl((COMMON.to_owned() + source).into()),
+        };
+        let checks = wgpu::ShaderRuntimeChecks {
+            force_loop_bounding: false,
+            ..wgpu::ShaderRuntimeChecks::checked()
+        };
+        // SAFETY: every loop of the kernels counts up to a constant or to a number of samples, texels
+        // or workgroups that it was given, so that all of them end; indices stay checked. The guard
+        // against endless loops would keep drivers from unrolling the networks' short ones.
+        let module = unsafe { device.create_shader_module_trusted(descriptor, checks) };
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(name),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                // Every kernel writes what it reads.
+                zero_initialize_workgroup_memory: false,
+                ..Default::default()
+            },
+            cache: None,
+        });
+        Self { name, pipeline, layout }
+    }
+}
+
+/// A dispatch with its buffers.
+pub(super) struct Pass {
+    kernel: Arc<Kernel>,
+    buffers: wgpu::BindGroup,
+    slot: Option<usize>,
+    grid: [u32; 2],
+}
+
+impl Pass {
+    /// Of `workgroups` workgroups, whatever their number.
+    pub fn new(
+        device: &Device,
+        kernel: &Arc<Kernel>,
+        buffers: &[&wgpu::Buffer],
+        workgroups: usize,
+    ) -> Self {
+        let entries: Vec<_> = buffers
+            .iter()
+            .enumerate()
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding: binding as u32,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let buffers = device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(kernel.name),
+            layout: &kernel.layout,
+            entries: &entries,
+        });
+        let rows = workgroups.div_ceil(AXIS).max(1);
+        let grid = [workgroups.div_ceil(rows) as u32, rows as u32];
+        Self { kernel: Arc::clone(kernel), buffers, slot: None, grid }
+    }
+
+    /// One thread for each of `count` values.
+    pub fn over(
+        device: &Device,
+        kernel: &Arc<Kernel>,
+        buffers: &[&wgpu::Buffer],
+        count: usize,
+    ) -> Self {
+        Self::new(device, kernel, buffers, count.div_ceil(THREADS))
+    }
+
+    /// Reads the step's slot number `slot`.
+    #[must_use]
+    pub fn with_slot(self, slot: usize) -> Self {
+        Self { slot: Some(slot), ..self }
+    }
+
+    pub fn name(&self) -> &'static str {
+        self.kernel.name
+    }
+
+    pub fn encode(&self, pass: &mut wgpu::ComputePass, slots: Option<&Slots>, step: usize) {
+        pass.set_pipeline(&self.kernel.pipeline);
+        pass.set_bind_group(0, &self.buffers, &[]);
+        if let (Some(slot), Some(slots)) = (self.slot, slots) {
+            let offset = (step * slots.per_step + slot) * SLOT;
+            pass.set_bind_group(1, &slots.bindings, &[offset as u32]);
+        }
+        pass.dispatch_workgroups(self.grid[0], self.grid[1], 1);
+    }
+}
+
+/// What differs from step to step: factors of the optimisers, and where the loss belongs.
+pub(super) struct Slots {
+    buffer: wgpu::Buffer,
+    bindings: wgpu::BindGroup,
+    per_step: usize,
+}
+
+impl Slots {
+    fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("slots"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: true,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        })
+    }
+
+    /// `per_step` slots for each of `steps` steps.
+    pub fn new(device: &Device, per_step: usize, steps: usize) -> Self {
+        let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("slots"),
+            size: (per_step * steps * SLOT) as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let bindings = device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("slots"),
+            layout: &Self::layout(&device.device),
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer: &buffer,
+                    offset: 0,
+                    size: std::num::NonZeroU64::new(4 * Factors::WORDS as u64),
+                }),
+            }],
+        });
+        Self { buffer, bindings, per_step }
+    }
+
+    /// Writes the slots, step by step.
+    pub fn write(&self, device: &Device, slots: &[Factors]) {
+        let mut bytes = vec![0u8; slots.len() * SLOT];
+        for (slot, factors) in bytes.chunks_exact_mut(SLOT).zip(slots) {
+            slot[..4 * Factors::WORDS].copy_from_slice(bytemuck::cast_slice(&factors.0));
+        }
+        device.queue.write_buffer(&self.buffer, 0, &bytes);
+    }
+}
+
+/// A slot's content; see `struct Factors` in `adam.wgsl`.
+#[derive(Clone, Copy)]
+pub(super) struct Factors([u32; Self::WORDS]);
+
+impl Factors {
+    const WORDS: usize = 12;
+
+    /// Of a variable's step number `number`, from 1.
+    pub fn adam(variable: &AdamFactors, number: usize, share: f32, step: usize) -> Self {
+        let [rate, root] = variable.optimiser.factors(number as i32, share);
+        let c = variable.optimiser.config();
+        let floats = [rate, root, c.beta1, c.beta2, c.epsilon, variable.least].map(f32::to_bits);
+        let [a, b, c, d, e, f] = floats;
+        Self([a, b, c, d, e, f, 1, step as u32, variable.most.to_bits(), 0, 0, 0])
+    }
+
+    /// Of a variable that stays where it is.
+    pub fn still(step: usize) -> Self {
+        Self([0, 0, 0, 0, 0, 0, 0, step as u32, 0, 0, 0, 0])
+    }
+}
+
+/// What a device needs to know of a variable's optimiser.
+pub(super) struct AdamFactors {
+    optimiser: crate::optimise::adam::Adam,
+    least: f32,
+    most: f32,
+}
+
+impl AdamFactors {
+    pub fn of(variable: &Variable) -> Self {
+        // Large numbers instead of infinity, which shaders may take for impossible.
+        let (least, most) = (variable.least.max(f32::MIN), variable.most.min(f32::MAX));
+        Self { optimiser: variable.adam.without_moments(), least, most }
+    }
+}

@@ -1,0 +1,216 @@
+//! Graphics processors, through wgpu's compute shaders (Vulkan, Metal, DirectX 12).
+//!
+//! All stages of gradient steps and the height solve's conjugate gradients run on the device from end to
+//! end, see [`super::resident`]. The processor does what happens once: G-buffers, rays, linearisations of
+//! the height solve (with shading and gradients of the networks from here), maps and views.
+//!
+//! Layouts are the processor's: planes of blocks of 256 samples, gradients of textures by gather in texel
+//! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
+//! bytes every time; the processor's differ by rounding.
+//!
+//! Samples come in pieces that fit the bindings of 128 MiB which every adapter has. A sample and step of
+//! the warm-up moves 36 bytes of inputs, 20 of targets, 12 of taps, and albedos with their gradients
+//! twice, 64: 132 bytes for about 9300 operations, so that it is bound by arithmetic wherever a byte
+//! costs less than 70 of them. The diffuse stage moves 28 + 12 bytes and its gradient, 12, twice, for
+//! about 60 operations, and is bound by memory.
+//!
+//! A device that fails says so in one line, and the processor goes on.
+
+mod adapter;
+mod bending;
+mod device;
+mod heights;
+mod joint;
+mod kernel;
+mod layer;
+mod layout;
+mod pieces;
+mod program;
+mod relief;
+mod transported;
+mod unroll;
+
+use std::sync::OnceLock;
+
+pub use adapter::{Adapter, VARIABLE, adapters};
+pub use device::Timings;
+
+use self::device::Device;
+use self::layout::Layout;
+use super::cpu::Cpu;
+use super::resident::{Descent, DeviceError, Job, NormalEquations, Resident};
+use super::{Backend, BackendError, JointGradient};
+use crate::model::networks::Networks;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+
+/// An adapter that computes.
+pub struct Gpu {
+    device: Device,
+    name: String,
+    /// Goes on if the device fails.
+    cpu: Cpu,
+    /// Why it did.
+    failure: OnceLock<DeviceError>,
+}
+
+impl Gpu {
+    /// On this adapter.
+    pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
+        Self::with(adapter, false)
+    }
+
+    /// Measures the time of every pass on the device, which costs time; see [`Gpu::timings`].
+    pub fn timed(adapter: &Adapter) -> Result<Self, BackendError> {
+        Self::with(adapter, true)
+    }
+
+    /// With samples in pieces of this many, as if bindings were that small.
+    #[must_use]
+    pub fn in_pieces(mut self, samples: usize) -> Self {
+        self.device.piece = samples;
+        self
+    }
+
+    fn with(adapter: &Adapter, timed: bool) -> Result<Self, BackendError> {
+        let refused = |error: DeviceError| BackendError::Refused {
+            name: adapter.name.clone(),
+            reason: error.to_string(),
+        };
+        let device = Device::open(&adapter.adapter, timed).map_err(refused)?;
+        let Adapter { name, api, driver, .. } = adapter;
+        let name = format!("gpu, {name}, {api}, {driver}");
+        Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
+    }
+
+    /// Milliseconds and dispatches of every pass so far; nothing if they are not timed, or the adapter
+    /// has no clock.
+    pub fn timings(&self) -> Option<Timings> {
+        self.device.timings()
+    }
+
+    /// Gives the device back. What still wants it goes on on the processor.
+    pub fn destroy(&self) {
+        self.device.device.destroy();
+    }
+
+    /// `run` on the device, or `otherwise` on the processor, whose answers are as good.
+    fn either<T>(
+        &self,
+        run: impl FnOnce(&Device) -> Result<T, DeviceError>,
+        otherwise: impl FnOnce(&Cpu) -> T,
+    ) -> T {
+        if self.failure.get().is_none() {
+            match run(&self.device) {
+                Ok(result) => return result,
+                Err(error) => self.falls(&error),
+            }
+        }
+        otherwise(&self.cpu)
+    }
+
+    fn falls(&self, error: &DeviceError) {
+        if self.failure.set(error.clone()).is_ok() {
+            tracing::warn!("{}: {error}; the rest runs on {}", self.name, self.cpu.name());
+        }
+    }
+
+    /// Whether the kernel of the joint gradient fits the adapter's workgroups.
+    fn fits(&self, layout: &Layout) -> bool {
+        let most = self.device.device.limits().max_compute_workgroup_storage_size;
+        layout.workgroup_bytes() <= most as usize
+    }
+}
+
+impl Backend for Gpu {
+    fn name(&self) -> String {
+        match self.failure.get() {
+            Some(error) => format!("{}; it failed ({error}); then {}", self.name, self.cpu.name()),
+            None => self.name.clone(),
+        }
+    }
+
+    fn joint(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> JointGradient {
+        let layout = Layout::new(&networks.shape);
+        if !self.fits(&layout) {
+            return self.cpu.joint(networks, samples, directions, albedo);
+        }
+        self.either(
+            |device| joint::joint(device, &layout, networks, samples, directions, albedo),
+            |cpu| cpu.joint(networks, samples, directions, albedo),
+        )
+    }
+
+    fn light(&self, networks: &Networks, position: &Planes) -> Planes {
+        self.either(
+            |device| bending::light(device, networks, position),
+            |cpu| cpu.light(networks, position),
+        )
+    }
+
+    fn bend(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        light: &Planes,
+        directions: &Planes,
+        albedo: &Planes,
+    ) -> (f64, Planes) {
+        self.either(
+            |device| bending::bend(device, networks, samples, light, directions, albedo),
+            |cpu| cpu.bend(networks, samples, light, directions, albedo),
+        )
+    }
+
+    fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {
+        self.either(
+            |device| bending::shade(device, networks, light, directions),
+            |cpu| cpu.shade(networks, light, directions),
+        )
+    }
+
+    fn descent(&self, problem: &NormalEquations) -> Option<Box<dyn Descent + '_>> {
+        if self.failure.get().is_some() {
+            return None;
+        }
+        match heights::Heights::new(self, problem) {
+            Ok(heights) => Some(Box::new(heights)),
+            Err(error) => {
+                self.falls(&error);
+                None
+            }
+        }
+    }
+
+    fn resident(&self, job: &Job) -> Option<Box<dyn Resident + '_>> {
+        if self.failure.get().is_some() {
+            return None;
+        }
+        match job {
+            Job::Joint { samples, directions, shape, prior } => {
+                let layout = Layout::new(shape);
+                if !self.fits(&layout) {
+                    return None;
+                }
+                Some(Box::new(joint::program(self, layout, samples, directions, *prior)))
+            }
+            Job::Layer { taps, known, prior } => {
+                Some(Box::new(layer::program(self, taps, known, *prior)))
+            }
+            Job::Transported(job) => {
+                let layout = Layout::new(job.shape);
+                if !self.fits(&layout) {
+                    return None;
+                }
+                Some(Box::new(transported::program(self, layout, job)))
+            }
+            Job::Relief(job) => Some(Box::new(relief::program(self, job))),
+        }
+    }
+}

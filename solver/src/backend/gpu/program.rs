@@ -1,0 +1,179 @@
+//! The program of a stage: its passes, recorded once, and its variables.
+
+use super::Gpu;
+use super::device::Device;
+use super::kernel::{AdamFactors, Factors, Pass, Slots, THREADS};
+use super::layout::Layout;
+use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
+
+/// Values on the device, with their gradient and moments.
+pub(super) struct Moved {
+    pub values: wgpu::Buffer,
+    pub gradient: wgpu::Buffer,
+    moments: [wgpu::Buffer; 2],
+    count: usize,
+    /// Of networks, whose order on the device is another one.
+    layout: Option<Layout>,
+    factors: Option<AdamFactors>,
+    /// Of the stage, before this moves.
+    hold: usize,
+}
+
+impl Moved {
+    pub fn new(device: &Device, name: &'static str, count: usize) -> Self {
+        Self {
+            values: device.floats(name, count),
+            gradient: device.floats("gradient", count),
+            moments: ["first moment", "second moment"].map(|name| device.floats(name, count)),
+            count,
+            layout: None,
+            factors: None,
+            hold: 0,
+        }
+    }
+
+    /// Networks, whose order on the host is another one.
+    pub fn in_layout(self, layout: Layout) -> Self {
+        Self { layout: Some(layout), ..self }
+    }
+
+    fn to_device(&self, values: &[f32]) -> Vec<u8> {
+        let packed = self.layout.as_ref().map(|layout| layout.pack(values));
+        bytemuck::cast_slice(packed.as_deref().unwrap_or(values)).to_vec()
+    }
+
+    fn to_host(&self, mut values: Vec<f32>) -> Vec<f32> {
+        values.truncate(self.count);
+        self.layout.as_ref().map_or_else(|| values.clone(), |layout| layout.unpack(&values))
+    }
+}
+
+/// Partial sums of a part of the loss, and their number.
+pub(super) type LossPart = (wgpu::Buffer, usize);
+
+/// A stage on the device.
+pub(super) struct Program<'a> {
+    gpu: &'a Gpu,
+    passes: Vec<Pass>,
+    slots: Slots,
+    losses: wgpu::Buffer,
+    moved: Vec<Moved>,
+    /// Done so far.
+    done: usize,
+}
+
+impl<'a> Program<'a> {
+    /// `gradients` leave the gradients of everything in `moved`, in whose order the host names its
+    /// variables.
+    pub fn new(gpu: &'a Gpu, gradients: Vec<Pass>, loss: &[LossPart], moved: Vec<Moved>) -> Self {
+        let device = &gpu.device;
+        let mut passes = gradients;
+        let adam = device.kernel("adam", include_str!("wgsl/adam.wgsl"), &[], "uwrww+");
+        for (slot, moved) in moved.iter().enumerate() {
+            let parameters = device.uniform(&[moved.count as u32]);
+            let [first, second] = &moved.moments;
+            let buffers = [&parameters, &moved.values, &moved.gradient, first, second];
+            passes.push(Pass::over(device, &adam, &buffers, moved.count).with_slot(slot));
+        }
+        let losses = device.floats("losses", BATCH);
+        for (at, (parts, count)) in loss.iter().enumerate() {
+            passes.push(total(device, parts, [0, *count], &losses, true, at > 0));
+        }
+        let slots = Slots::new(device, moved.len(), BATCH);
+        Self { gpu, passes, slots, losses, moved, done: 0 }
+    }
+
+    fn check<T>(&self, result: Result<T, DeviceError>) -> Result<T, DeviceError> {
+        result.inspect_err(|error| self.gpu.falls(error))
+    }
+}
+
+/// The sum of `count` parts from `first` on: into the place of the step, or the first; `add` to it.
+pub(super) fn total(
+    device: &Device,
+    parts: &wgpu::Buffer,
+    [first, count]: [usize; 2],
+    to: &wgpu::Buffer,
+    by_step: bool,
+    add: bool,
+) -> Pass {
+    let kernel = device.kernel("sum", include_str!("wgsl/total.wgsl"), &[], "urw+");
+    let words = [first, count, usize::from(by_step), usize::from(add)].map(|word| word as u32);
+    let parameters = device.uniform(&words);
+    Pass::new(device, &kernel, &[&parameters, parts, to], 1).with_slot(0)
+}
+
+/// The pass of the albedo prior, which writes the gradient anew; nothing without a weight.
+pub(super) fn prior(
+    device: &Device,
+    albedo: &Moved,
+    size: usize,
+    weight: f32,
+) -> Option<(Pass, LossPart)> {
+    if weight == 0.0 {
+        return None;
+    }
+    let kernel = device.kernel("prior", include_str!("wgsl/prior.wgsl"), &[], "urww");
+    let scale = weight / albedo.count as f32;
+    let parameters = device.uniform(&[size as u32, scale.to_bits()]);
+    let groups = albedo.count.div_ceil(THREADS);
+    let sums = device.floats("prior", groups);
+    let buffers = [&parameters, &albedo.values, &albedo.gradient, &sums];
+    Some((Pass::new(device, &kernel, &buffers, groups), (sums, groups)))
+}
+
+impl Resident for Program<'_> {
+    fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError> {
+        let queue = &self.gpu.device.queue;
+        // The first one is never held.
+        self.done = variables.first().map_or(0, |variable| variable.adam.steps());
+        for (moved, variable) in self.moved.iter_mut().zip(variables) {
+            let [first, second] = variable.adam.moments();
+            let places = [&moved.values, &moved.moments[0], &moved.moments[1]];
+            for (place, content) in places.into_iter().zip([variable.values, first, second]) {
+                queue.write_buffer(place, 0, &moved.to_device(content));
+            }
+            moved.hold = variable.hold;
+            moved.factors = Some(AdamFactors::of(variable));
+        }
+        self.check(self.gpu.device.check())
+    }
+
+    fn steps(&mut self, shares: &[f32]) -> Result<Vec<f64>, DeviceError> {
+        let device = &self.gpu.device;
+        let factors: Vec<Factors> = shares
+            .iter()
+            .enumerate()
+            .flat_map(|(step, share)| {
+                let number = self.done + step + 1;
+                self.moved.iter().map(move |moved| match &moved.factors {
+                    Some(factors) if number > moved.hold => {
+                        Factors::adam(factors, number - moved.hold, *share, step)
+                    }
+                    _ => Factors::still(step),
+                })
+            })
+            .collect();
+        self.slots.write(device, &factors);
+        device.submit(&self.passes, Some(&self.slots), shares.len());
+        let losses = self.check(device.read::<f32>(&[&self.losses]))?;
+        self.done += shares.len();
+        Ok(losses[0][..shares.len()].iter().map(|loss| f64::from(*loss)).collect())
+    }
+
+    fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError> {
+        let buffers: Vec<&wgpu::Buffer> = self
+            .moved
+            .iter()
+            .flat_map(|moved| [&moved.values, &moved.moments[0], &moved.moments[1]])
+            .collect();
+        let mut contents = self.check(self.gpu.device.read::<f32>(&buffers))?.into_iter();
+        for (moved, variable) in self.moved.iter().zip(variables) {
+            let mut next = || moved.to_host(contents.next().unwrap_or_default());
+            *variable.values = next();
+            let (first, second) = (next(), next());
+            variable.adam.restore(self.done.saturating_sub(moved.hold), first, second);
+        }
+        Ok(())
+    }
+}

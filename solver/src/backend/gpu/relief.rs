@@ -1,0 +1,154 @@
+//! Specular albedo and deviation, with frozen networks.
+
+use super::Gpu;
+use super::bending::Bending;
+use super::device::Device;
+use super::kernel::Pass;
+use super::layout::Layout;
+use super::pieces::{DeviceTaps, Pieces};
+use super::program::{Moved, Program};
+use crate::backend::BENT;
+use crate::backend::resident::ReliefJob;
+use crate::model::blur::Blur;
+use crate::model::deviation::Deviation;
+
+/// Rows of sampled deviations, and of directions.
+const DIRECTIONS: usize = 6;
+
+/// The stage of normals and specular albedo.
+pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
+    let device = &gpu.device;
+    let ReliefJob { samples, deviation, networks, light, albedo } = *job;
+    let layout = Layout::new(&networks.shape);
+    let pieces = Pieces::new(device, samples.len(), networks.outputs());
+    let taps = DeviceTaps::new(device, &pieces, &samples.taps);
+    let size = samples.taps.size();
+    let count = 3 * size * size;
+    let by_deviation = Moved::new(device, "deviation", count);
+    let by_specular = Moved::new(device, "specular albedo", size * size);
+    let texture = |name| device.floats(name, count);
+    let [sharp, blurred, by_sharp, by_blurred] =
+        ["deviation", "blurred deviation", "by deviation", "by its blur"].map(texture);
+    let bent = pieces.zeros(device, "sampled deviation", DIRECTIONS);
+    let surface = pieces.upload(device, "surface", &[&samples.normal, &samples.view]);
+    let directions = pieces.zeros(device, "directions", DIRECTIONS);
+    let albedo = pieces.upload(device, "albedos", &[albedo]);
+    let bending = Bending::new(device, pieces, samples, light);
+    let weights = device.filled("networks", &layout.pack(&networks.parameters));
+
+    let chart = Chart { device, deviation, count };
+    let mut passes = chart.forth(&by_deviation.values, &sharp);
+    passes.extend(blurring(device, deviation.parts().blur, &sharp, &blurred, false));
+    passes.extend(taps.sample(device, &sharp, 3, &bent, [0, DIRECTIONS]));
+    passes.extend(taps.sample(device, &blurred, 3, &bent, [3, DIRECTIONS]));
+    passes.extend(taps.sample(device, &by_specular.values, 1, &albedo, [3, 4]));
+    let turn = |what: u32, vectors: &[wgpu::Buffer]| -> Vec<Pass> {
+        let source = include_str!("wgsl/directions.wgsl");
+        let kernel = device.kernel("directions", source, &[("WHAT", what)], "urrw");
+        let one = |(at, piece): (usize, &std::ops::Range<usize>)| {
+            let scale = &deviation.scale;
+            let scales = [scale.normal.to_bits(), scale.reflection.to_bits()];
+            let parameters = device.uniform(&[piece.len() as u32, scales[0], scales[1]]);
+            let buffers = [&parameters, &bent[at], &surface[at], &vectors[at]];
+            Pass::over(device, &kernel, &buffers, piece.len())
+        };
+        bending.pieces.0.iter().enumerate().map(one).collect()
+    };
+    passes.extend(turn(0, &directions));
+    passes.extend(bending.passes(device, &layout, &weights, &directions, &albedo));
+    passes.extend(turn(1, &bending.gradient));
+    let by_sample = &bending.gradient;
+    for (row, gradient, channels) in
+        [(0, &by_sharp, 3), (3, &by_blurred, 3), (6, &by_specular.gradient, 1)]
+    {
+        passes.extend(taps.gather(device, by_sample, [row, BENT], gradient, channels, false));
+    }
+    passes.extend(chart.back(&sharp, &by_sharp, &by_blurred, &by_deviation.gradient));
+    let losses = [(bending.losses, bending.groups)];
+    Program::new(gpu, passes, &losses, vec![by_deviation, by_specular])
+}
+
+/// The deviation texture and its blurs.
+struct Chart<'a> {
+    device: &'a Device,
+    deviation: &'a Deviation,
+    /// Values of a texture.
+    count: usize,
+}
+
+impl Chart<'_> {
+    /// From the texture to the deviation d.
+    fn forth(&self, texture: &wgpu::Buffer, d: &wgpu::Buffer) -> Vec<Pass> {
+        let parts = self.deviation.parts();
+        let band = self.device.floats("band", self.count);
+        let mut passes = Vec::from(blurring(self.device, parts.narrow, texture, &band, false));
+        let coarse = self.device.floats("coarse", self.count);
+        if let Some(wide) = parts.wide {
+            passes.extend(blurring(self.device, wide, texture, &coarse, false));
+        }
+        passes.push(self.value_by_value(0, [&band, &coarse, &coarse], d));
+        passes
+    }
+
+    /// From gradients by d and by its blur to the gradient by the texture.
+    fn back(
+        &self,
+        d: &wgpu::Buffer,
+        by_d: &wgpu::Buffer,
+        by_blur: &wgpu::Buffer,
+        gradient: &wgpu::Buffer,
+    ) -> Vec<Pass> {
+        let parts = self.deviation.parts();
+        let texture = |name| self.device.floats(name, self.count);
+        let [unblurred, by_band, narrow, coarse] =
+            ["unblurred", "by band", "by narrow blur", "by wide blur"].map(texture);
+        let mut passes = Vec::from(blurring(self.device, parts.blur, by_blur, &unblurred, true));
+        passes.push(self.value_by_value(1, [&unblurred, by_d, d], &by_band));
+        passes.extend(blurring(self.device, parts.narrow, &by_band, &narrow, true));
+        if let Some(wide) = parts.wide {
+            passes.extend(blurring(self.device, wide, &by_band, &coarse, true));
+        }
+        passes.push(self.value_by_value(2, [&narrow, &coarse, d], gradient));
+        passes
+    }
+
+    fn value_by_value(&self, what: u32, inputs: [&wgpu::Buffer; 3], out: &wgpu::Buffer) -> Pass {
+        let parts = self.deviation.parts();
+        let constants = [
+            ("WHAT", what),
+            ("RANGED", u32::from(parts.range.is_some())),
+            ("BAND", u32::from(parts.wide.is_some())),
+        ];
+        let source = include_str!("wgsl/deviation.wgsl");
+        let kernel = self.device.kernel("deviation", source, &constants, "urrrw");
+        let range = parts.range.unwrap_or(1.0).to_bits();
+        let parameters = self.device.uniform(&[self.count as u32, range]);
+        let [a, b, d] = inputs;
+        Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count)
+    }
+}
+
+/// A blur of a texture of 3 channels, or its adjoint.
+pub(super) fn blurring(
+    device: &Device,
+    blur: &Blur,
+    from: &wgpu::Buffer,
+    to: &wgpu::Buffer,
+    adjoint: bool,
+) -> [Pass; 2] {
+    let size = blur.norms().len();
+    let count = 3 * size * size;
+    let between = device.floats("half blurred", count);
+    let weights = device.filled("blur", blur.kernel());
+    let norms = device.filled("blur's sums", blur.norms());
+    let axis = |vertical: bool, scaled: u32, from: &wgpu::Buffer, to: &wgpu::Buffer| {
+        let constants = [("VERTICAL", u32::from(vertical)), ("SCALED", scaled)];
+        let kernel = device.kernel("blur", include_str!("wgsl/blur.wgsl"), &constants, "urrrw");
+        let parameters = device.uniform(&[size as u32, blur.kernel().len() as u32 - 1]);
+        Pass::over(device, &kernel, &[&parameters, &weights, &norms, from, to], count)
+    };
+    match adjoint {
+        false => [axis(false, 0, from, &between), axis(true, 2, &between, to)],
+        true => [axis(true, 1, from, &between), axis(false, 0, &between, to)],
+    }
+}

@@ -1,0 +1,21 @@
+// The light from its logarithm.
+
+struct Parameters {
+    count: u32,
+}
+
+@group(0) @binding(0) var<uniform> parameters: Parameters;
+@group(0) @binding(1) var<storage, read> log_light: array<f32>;
+@group(0) @binding(2) var<storage, read_write> light: array<f32>;
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) t: u32,
+) {
+    let at = linear(group, groups) * 256u + t;
+    if at < parameters.count {
+        light[at] = exp(log_light[at]);
+    }
+}

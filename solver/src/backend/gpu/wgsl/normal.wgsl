@@ -1,0 +1,50 @@
+// What the unknowns explain of a sample's colour, weighted and carried back to the unknowns, in their
+// place: the product with the normal equations' matrix, of one sample. See optimise/relief.rs.
+
+struct Parameters {
+    samples: u32,
+    // Change of the albedo that is one unit of its unknown.
+    unit: f32,
+}
+
+@group(0) @binding(0) var<uniform> parameters: Parameters;
+// Slopes by n_s (3), by n_d of R, G, B (9), by the albedo (3); then the weight.
+@group(0) @binding(1) var<storage, read> slopes: array<f32>;
+// Both deviations and the albedo's unknowns.
+@group(0) @binding(2) var<storage, read_write> unknowns: array<f32>;
+
+fn slope(i: u32, row: u32) -> vec3<f32> {
+    return vec3(
+        slopes[place(i, row, 16u)], slopes[place(i, row + 1u, 16u)], slopes[place(i, row + 2u, 16u)]);
+}
+
+fn unknown(i: u32, row: u32) -> vec3<f32> {
+    return vec3(
+        unknowns[place(i, row, 9u)], unknowns[place(i, row + 1u, 9u)], unknowns[place(i, row + 2u, 9u)]);
+}
+
+@compute @workgroup_size(256)
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) t: u32,
+) {
+    let i = linear(group, groups) * 256u + t;
+    if i >= parameters.samples {
+        return;
+    }
+    let specular = slope(i, 0u);
+    // Columns: of R, G, B.
+    let diffuse = mat3x3(slope(i, 3u), slope(i, 6u), slope(i, 9u));
+    let shading = slope(i, 12u) * parameters.unit;
+    let explained = unknown(i, 3u) * diffuse + dot(specular, unknown(i, 0u)) + shading * unknown(i, 6u);
+    let z = slopes[place(i, 15u, 16u)] * explained;
+    let by_specular = specular * (z.x + z.y + z.z);
+    let by_diffuse = diffuse * z;
+    let by_albedo = shading * z;
+    for (var k = 0u; k < 3u; k++) {
+        unknowns[place(i, k, 9u)] = by_specular[k];
+        unknowns[place(i, 3u + k, 9u)] = by_diffuse[k];
+        unknowns[place(i, 6u + k, 9u)] = by_albedo[k];
+    }
+}

@@ -1,0 +1,44 @@
+// A sum in a fixed order, by one workgroup: into the place of the step's loss, or into the first place.
+
+struct Factors {
+    unused: array<vec4<u32>, 1>,
+    padding: vec3<u32>,
+    step: u32,
+}
+
+struct Parameters {
+    first: u32,
+    count: u32,
+    // 1: into the step's place.
+    by_step: u32,
+    // 1: add to what is there.
+    add: u32,
+}
+
+@group(0) @binding(0) var<uniform> parameters: Parameters;
+@group(0) @binding(1) var<storage, read> parts: array<f32>;
+@group(0) @binding(2) var<storage, read_write> result: array<f32>;
+@group(1) @binding(0) var<uniform> factors: Factors;
+
+var<workgroup> sums: array<f32, 256>;
+
+@compute @workgroup_size(256)
+fn main(@builtin(local_invocation_index) t: u32) {
+    var sum = 0.0;
+    for (var at = t; at < parameters.count; at += 256u) {
+        sum += parts[parameters.first + at];
+    }
+    sums[t] = sum;
+    workgroupBarrier();
+    for (var half = 128u; half > 0u; half /= 2u) {
+        if t < half {
+            sums[t] += sums[t + half];
+        }
+        workgroupBarrier();
+    }
+    if t == 0u {
+        let place = select(0u, factors.step, parameters.by_step == 1u);
+        let before = select(0.0, result[place], parameters.add == 1u);
+        result[place] = before + sums[0];
+    }
+}

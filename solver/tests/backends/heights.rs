@@ -1,0 +1,134 @@
+//! The height solve's conjugate gradients, against the same written out with the processor's operators.
+
+use solver::Config;
+use solver::backend::Backend;
+use solver::backend::resident::NormalEquations;
+use solver::gbuffer::Atlas;
+use solver::model::blur::Blur;
+use solver::model::height::HeightField;
+use solver::model::planes::Planes;
+
+use super::model::noise;
+use super::scene::problem;
+use super::testing;
+
+const SIDE: usize = 32;
+const TEXELS: usize = SIDE * SIDE;
+const STEPS: usize = 12;
+/// Change of the albedo, weights of flatness, smoothness, heights, albedo.
+const UNIT: f32 = 0.1;
+const WEIGHTS: [f32; 4] = [30.0, 60.0, 1e-3, 30.0];
+
+fn channels(values: &[f32], first: usize) -> Vec<f32> {
+    values.chunks_exact(9).flat_map(|texel| texel[first..first + 3].to_vec()).collect()
+}
+
+/// The product with the matrix.
+fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32> {
+    let [flatness, smoothness, rest, damping] = WEIGHTS;
+    let bend = field.bend(&x[..TEXELS]);
+    let soft = equations.blur.apply(&bend);
+    let texture: Vec<f32> = (0..TEXELS)
+        .flat_map(|t| {
+            let albedo = &x[TEXELS + 3 * t..][..3];
+            let parts = [&bend[3 * t..][..3], &soft[3 * t..][..3], albedo];
+            parts.concat()
+        })
+        .collect();
+    let q = equations.taps.sample::<9>(&texture);
+    let by = Planes::from_fn::<9>(q.len(), |i| {
+        let s: [f32; 15] = equations.slopes.sample(i, 0);
+        let q: [f32; 9] = q.sample(i, 0);
+        let mut by = [0.0; 9];
+        for c in 0..3 {
+            let row = |k: usize| match k / 3 {
+                0 => s[k],
+                1 => s[3 + 3 * c + k % 3],
+                _ if k % 3 == c => UNIT * s[12 + c],
+                _ => 0.0,
+            };
+            let colour: f32 = (0..9).map(|k| row(k) * q[k]).sum();
+            let z = equations.weight.get(0, i) * colour;
+            (0..9).for_each(|k| by[k] += row(k) * z);
+        }
+        by
+    });
+    let gathered = equations.taps.gather::<9>(&by, 0);
+    let soft = equations.blur.adjoint(&channels(&gathered, 3));
+    let sharp = channels(&gathered, 0);
+    let by_bend: Vec<f32> = (0..3 * TEXELS)
+        .map(|at| {
+            let (x, y) = (at / 3 % SIDE, at / 3 / SIDE);
+            let mut pull = 0.0;
+            let near = [(x > 0, at.wrapping_sub(3)), (x + 1 < SIDE, at + 3)];
+            let line = 3 * SIDE;
+            let far = [(y > 0, at.wrapping_sub(line)), (y + 1 < SIDE, at + line)];
+            for (_, other) in near.into_iter().chain(far).filter(|(inside, _)| *inside) {
+                pull += bend[at] - bend[other];
+            }
+            sharp[at] + soft[at] + flatness * bend[at] + smoothness * pull
+        })
+        .collect();
+    let heights = field.adjoint(&by_bend).into_iter().zip(x).map(|(g, x)| g + rest * x);
+    let albedo = channels(&gathered, 6).into_iter().zip(&x[TEXELS..]);
+    heights.chain(albedo.map(|(g, x)| g + damping * x)).collect()
+}
+
+fn dot(a: &[f32], b: &[f32]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+}
+
+pub fn conjugate_gradients(backend: &dyn Backend) {
+    let config = Config::default();
+    let (samples, _) = problem(&config);
+    let len = samples.len();
+    let field = HeightField::new(&Atlas::new(&testing::dome(24), SIDE));
+    let blur = Blur::new(SIDE, 3, 1.5);
+    let slopes = Planes::from_fn::<15>(len, |i| std::array::from_fn(|row| noise(row, i) - 0.3));
+    let weight = Planes::from_fn(len, |i| [0.5 + noise(20, i)]);
+    let goal: Vec<f32> = (0..4 * TEXELS).map(|i| noise(30, i) - 0.5).collect();
+    let start: Vec<f32> = (0..4 * TEXELS).map(|i| 0.01 * noise(40, i)).collect();
+    let [flatness, smoothness, rest, damping] = WEIGHTS;
+    let equations = NormalEquations {
+        taps: &samples.taps,
+        slopes: &slopes,
+        weight: &weight,
+        goal: &goal,
+        x: &start,
+        basis: field.basis(),
+        blur: &blur,
+        albedo_unit: UNIT,
+        flatness,
+        smoothness,
+        rest,
+        damping,
+        enough: 1e-12,
+    };
+    let mut descent = backend.descent(&equations).unwrap();
+    descent.steps(5).unwrap();
+    descent.steps(STEPS - 5).unwrap();
+    let found = descent.unknowns().unwrap();
+
+    let mut x = start.clone();
+    let first = image(&equations, &field, &x);
+    let mut left: Vec<f32> = goal.iter().zip(&first).map(|(b, ax)| b - ax).collect();
+    let (mut direction, mut energy) = (left.clone(), dot(&left, &left));
+    for _ in 0..STEPS {
+        let image = image(&equations, &field, &direction);
+        let length = (energy / dot(&direction, &image)) as f32;
+        x.iter_mut().zip(&direction).for_each(|(x, d)| *x += length * d);
+        left.iter_mut().zip(&image).for_each(|(r, a)| *r -= length * a);
+        let next = dot(&left, &left);
+        let turn = (next / energy) as f32;
+        direction.iter_mut().zip(&left).for_each(|(d, r)| *d = r + turn * *d);
+        energy = next;
+    }
+    for (what, part) in [("heights", 0..TEXELS), ("albedo", TEXELS..4 * TEXELS)] {
+        let [found, x, start] = [&found, &x, &start].map(|values| &values[part.clone()]);
+        let distance = |a: &[f32], b: &[f32]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        let (off, way) = (distance(found, x), distance(x, start));
+        assert!(off < 1e-4 * way, "{what}: {off} of {way}");
+    }
+}

@@ -1,0 +1,83 @@
+//! Devices that are lost: the solve goes on on the processor.
+
+use std::ops::ControlFlow;
+
+use solver::backend::Backend;
+use solver::backend::cpu::Cpu;
+use solver::backend::gpu::{Adapter, Gpu};
+use solver::{Config, Options, Solution, solve_on};
+
+use super::scene::{capture, short};
+
+/// The networks' stages, and heights.
+fn config() -> Config {
+    let mut config = short();
+    config.initialisation.starts = 1;
+    config.warm_up.iterations = 60;
+    config.transport.enabled = false;
+    config.records = solver::config::RecordConfig { stages: false, layers: false };
+    config
+}
+
+/// Of all stages.
+const STEPS: usize = 160;
+
+/// Loses the device once `at` steps are done.
+fn solve(gpu: &Gpu, at: usize) -> (Solution, Vec<usize>) {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = capture(folder.path());
+    let mut heard = vec![];
+    let solution = solve_on(gpu, &capture, &config(), Options::default(), &mut |progress| {
+        heard.push(progress.iteration);
+        if progress.iteration >= at {
+            gpu.destroy();
+        }
+        ControlFlow::Continue(())
+    });
+    (solution.unwrap(), heard)
+}
+
+fn assert_complete(solution: &Solution) {
+    let record = &solution.record;
+    assert_eq!(record.interrupted, None);
+    let losses = |stage: usize| &record.stages[stage].loss;
+    assert_eq!([0, 1, 2, 3].map(|stage| losses(stage).len()), [60, 20, 40, 40]);
+    let folder = tempfile::tempdir().unwrap();
+    let silent = &mut |_: &solver::Progress| ControlFlow::Continue(());
+    let capture = capture(folder.path());
+    let expected = solve_on(&Cpu::new(), &capture, &config(), Options::default(), silent).unwrap();
+    for (stage, expected) in record.stages.iter().zip(&expected.record.stages) {
+        let off = stage.loss.iter().zip(&expected.loss).map(|(a, b)| (a / b - 1.0).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-3, "{}", stage.name);
+    }
+    for word in ["gpu, ", "it failed (", "then cpu, "] {
+        assert!(record.backend.contains(word), "{}", record.backend);
+    }
+}
+
+pub fn within_the_heights(adapter: &Adapter) {
+    let gpu = Gpu::open(adapter).unwrap();
+    let (solution, heard) = solve(&gpu, 63);
+    assert_complete(&solution);
+    // The warm-up comes in submissions, heights are heard of step by step, and once.
+    let heights: Vec<usize> = heard.iter().copied().filter(|step| *step > 60).collect();
+    assert_eq!(heights, (61..=STEPS).collect::<Vec<_>>());
+}
+
+pub fn within_a_stage(adapter: &Adapter) {
+    let gpu = Gpu::open(adapter).unwrap();
+    let (solution, heard) = solve(&gpu, 5);
+    assert_complete(&solution);
+    // The host knows nothing of the steps that were lost, so they are done and heard of again.
+    assert!(heard.iter().filter(|step| **step <= 5).count() > 5, "{heard:?}");
+    assert_eq!(heard.last(), Some(&STEPS));
+}
+
+pub fn before(adapter: &Adapter) {
+    let gpu = Gpu::open(adapter).unwrap();
+    assert!(!gpu.name().contains("failed"));
+    gpu.destroy();
+    let (solution, heard) = solve(&gpu, 0);
+    assert_complete(&solution);
+    assert_eq!(heard, (1..=STEPS).collect::<Vec<_>>());
+}

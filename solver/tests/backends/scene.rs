@@ -1,0 +1,76 @@
+//! A small scene whose answer is known.
+
+use std::path::Path;
+
+use glam::Vec3;
+use solver::config::TextureSize;
+use solver::gbuffer::GBuffer;
+use solver::model::networks::Networks;
+use solver::model::samples::{SampleSpace, Samples};
+use solver::optimise::stage::State;
+use solver::{Capture, Config, View};
+
+use super::testing;
+
+/// Side of the textures of [`problem`].
+const SIDE: usize = 32;
+
+/// The unit dome of two paints under one soft light.
+fn lit(position: Vec3) -> (Vec3, u8) {
+    let inner = position.truncate().length() < 0.4;
+    let albedo = if inner { Vec3::new(0.6, 0.4, 0.3) } else { Vec3::new(0.3, 0.2, 0.15) };
+    let light = Vec3::new(0.4, 0.5, 0.77).normalize();
+    (albedo * (0.25 + 0.75 * position.dot(light).max(0.0)), 1 + u8::from(inner))
+}
+
+fn views(count: usize, size: usize) -> Vec<View> {
+    let mesh = testing::dome(24);
+    testing::rig(count, size).iter().map(|camera| testing::view(&mesh, camera, lit)).collect()
+}
+
+/// Samples of some views, and a state to start from; a few thousand samples, and no whole number of
+/// blocks.
+pub fn problem(config: &Config) -> (Samples, State) {
+    let mesh = testing::dome(24);
+    let views = views(3, 64);
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let space = SampleSpace::new(&mesh, config);
+    let samples = space.training(&views, &gbuffers, &config.view_weights, SIDE);
+    assert!(samples.len() > 4000 && !samples.len().is_multiple_of(256), "{}", samples.len());
+    let texels = SIDE * SIDE;
+    let state = State {
+        networks: Networks::new(&config.networks, 2),
+        size: SIDE,
+        diffuse: (0..3 * texels).map(|i| 0.3 + 0.1 * (i as f32 * 12.9898).sin()).collect(),
+        specular: (0..texels).map(|i| 0.03 + 0.01 * (i as f32 * 78.233).sin()).collect(),
+        deviation: vec![0.0; 3 * texels],
+    };
+    (samples, state)
+}
+
+/// A capture folder with five training views and one withheld.
+pub fn capture(folder: &Path) -> Capture {
+    testing::write_capture(folder, &testing::dome(24), &views(6, 48), 1);
+    Capture::open(folder).unwrap()
+}
+
+/// Every kind of stage, in seconds.
+pub fn short() -> Config {
+    let mut config = Config::default();
+    config.initialisation.starts = 2;
+    config.initialisation.start_iterations = 30;
+    config.warm_up.iterations = 300;
+    config.warm_up.texture_size = 64;
+    config.fine_tuning.iterations = 40;
+    config.fine_tuning.rounds = 1;
+    config.fine_tuning.texture_size = TextureSize::Side(64);
+    config.transport.texture_size = 32;
+    config.transport.rows = 8;
+    config.transport.probe = 60;
+    config.transport.iterations = 100;
+    config.transport.hold = 30;
+    config.transport.refinement = 40;
+    config.height.linearisations = 1;
+    config.height.steps = 10;
+    config
+}

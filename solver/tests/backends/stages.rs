@@ -1,0 +1,172 @@
+//! Stages that a device takes in whole, against the same stages on the processor.
+
+use solver::Config;
+use solver::backend::Backend;
+use solver::backend::cpu::Cpu;
+use solver::backend::gpu::{Adapter, Gpu};
+use solver::model::deviation::Deviation;
+use solver::optimise::specular::Specular;
+use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use solver::optimise::transported::Transported;
+use solver::transport::{Beside, Sky, Transport};
+
+use super::scene::problem;
+use super::testing;
+
+/// Steps that are compared.
+const STEPS: usize = 50;
+/// Of every loss, relative.
+const TOLERANCE: f64 = 1e-4;
+/// Of all values of a kind together: the norm of the difference over that of their way. Adam makes a
+/// whole step of the faintest gradient, whose sign is rounding.
+const WAY: f64 = 0.01;
+
+/// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead: the state,
+/// and what is the stage's own.
+fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, End) {
+    let shares: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
+    let Some(mut program) = backend.resident(&stage.job().unwrap()) else {
+        let losses = shares.iter().map(|share| stage.step(&mut state, backend, *share)).collect();
+        return (losses, End::of(state, stage));
+    };
+    program.upload(&stage.variables(&mut state)).unwrap();
+    let mut losses = vec![];
+    // By way of the host in the middle, as a checkpoint would have it.
+    for part in [&shares[..1], &shares[1..20], &shares[20..27], &shares[27..]] {
+        losses.extend(program.steps(part).unwrap());
+        program.download(&mut stage.variables(&mut state)).unwrap();
+        program.upload(&stage.variables(&mut state)).unwrap();
+    }
+    (losses, End::of(state, stage))
+}
+
+struct End {
+    state: State,
+    own: Vec<f32>,
+}
+
+impl End {
+    fn of(state: State, stage: &mut dyn Stage) -> Self {
+        let own = stage.memory().own.iter().flat_map(|own| own.iter()).copied().collect();
+        Self { state, own }
+    }
+}
+
+/// `new` makes the stage with the help of a backend.
+fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Backend) -> S) {
+    let cpu = Cpu::new();
+    assert!(backend.resident(&new(backend).job().unwrap()).is_some(), "{}", backend.name());
+    let first = End::of(start.clone(), &mut new(backend));
+    let (losses, found) = steps(backend, &mut new(backend), start.clone());
+    let (expected, reference) = steps(&cpu, &mut new(&cpu), start.clone());
+    for (step, (loss, expected)) in losses.iter().zip(&expected).enumerate() {
+        let off = loss / expected - 1.0;
+        assert!(off.abs() < TOLERANCE, "step {step}: {loss} instead of {expected}");
+    }
+    assert!(expected[STEPS - 1] < 0.995 * expected[0], "nothing was learnt: {expected:?}");
+    let mut moved = 0;
+    for (what, field) in FIELDS {
+        let [start, found, reference] = [&first, &found, &reference].map(field);
+        let distance = |a: &[f32], b: &[f32]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        let way = distance(reference, start);
+        let off = distance(found, reference);
+        assert!(off <= WAY * way, "{what}: {off} of {way}");
+        moved += usize::from(way > 0.0);
+    }
+    assert!(moved > 0);
+}
+
+type Field = fn(&End) -> &[f32];
+
+const FIELDS: [(&str, Field); 5] = [
+    ("networks", |end| &end.state.networks.parameters),
+    ("diffuse", |end| &end.state.diffuse),
+    ("specular", |end| &end.state.specular),
+    ("deviation", |end| &end.state.deviation),
+    ("the stage's own", |end| &end.own),
+];
+
+pub fn warm_up(backend: &dyn Backend) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    compare(backend, &state, |_| WarmUp::new(&config, &samples, &state));
+}
+
+pub fn diffuse(backend: &dyn Backend) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    let deviation = Deviation::new(&config, state.size);
+    compare(backend, &state, |backend| {
+        Diffuse::new(&config, &samples, &deviation, &state, backend, 1)
+    });
+}
+
+pub fn relief(backend: &dyn Backend) {
+    let mut config = Config::preset("paper").unwrap();
+    config.fine_tuning.deviation_blur = 0.03;
+    check_relief(backend, &config);
+    config.fine_tuning.deviation_smoothing = 0.03;
+    config.fine_tuning.deviation_extent = 0.1;
+    check_relief(backend, &config);
+}
+
+fn check_relief(backend: &dyn Backend, config: &Config) {
+    let (samples, mut state) = problem(config);
+    state.deviation.iter_mut().enumerate().for_each(|(i, t)| *t = 0.1 * (i as f32 * 0.37).sin());
+    let deviation = Deviation::new(config, state.size);
+    compare(backend, &state, |backend| {
+        Relief::new(config, &samples, &deviation, &state, backend, 1)
+    });
+}
+
+pub fn specular(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.fine_tuning.specular_rate = 1e-3;
+    let (samples, state) = problem(&config);
+    let deviation = Deviation::new(&config, state.size);
+    compare(backend, &state, |backend| {
+        Specular::new(&config, &samples, &deviation, &state, backend, 1)
+    });
+}
+
+pub fn transported(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.transport.texture_size = 32;
+    config.transport.rows = 6;
+    config.transport.hold = 22;
+    config.transport.grey_texel = 0.1;
+    let (samples, state) = problem(&config);
+    let mesh = testing::dome(24);
+    for beside in [Beside::Nearness, Beside::Nothing] {
+        let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
+        let light: Vec<f32> =
+            (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
+        compare(backend, &state, |_| {
+            Transported::new(&config, &transport, &samples, &state, light.clone())
+        });
+    }
+}
+
+/// Without a clock of the adapter's there is nothing to compare.
+pub fn timed(adapter: &Adapter) {
+    let config = Config::default();
+    let (samples, state) = problem(&config);
+    let run = |gpu: &Gpu| {
+        let (mut stage, mut state) = (WarmUp::new(&config, &samples, &state), state.clone());
+        let mut program = gpu.resident(&stage.job().unwrap()).unwrap();
+        program.upload(&stage.variables(&mut state)).unwrap();
+        program.steps(&[1.0; 3]).unwrap()
+    };
+    let plain = Gpu::open(adapter).unwrap();
+    assert_eq!(plain.timings(), None);
+    let gpu = Gpu::timed(adapter).unwrap();
+    assert_eq!(run(&gpu), run(&plain));
+    let timings = gpu.timings();
+    assert_eq!(timings.is_some(), adapter.has_clock());
+    for name in timings.iter().flat_map(|_| ["networks", "weight gradients", "gather", "adam"]) {
+        let (milliseconds, count) = timings.as_ref().unwrap()[name];
+        assert!(count >= 3 && milliseconds > 0.0, "{name}: {milliseconds} ms, {count} times");
+    }
+}
