@@ -24,7 +24,7 @@ pub const BENT: usize = 7;
 ///
 /// The loss is the mean over samples and channels of weight x |model - target|. Results are
 /// bit-identical for any number of threads.
-pub trait Backend: Sync {
+pub trait Backend: Send + Sync {
     /// Device and instruction set or driver, for the record; and what became of it.
     fn name(&self) -> String;
 
