@@ -57,10 +57,10 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     let directions = scale.directions(&samples, None);
     let light = backend.light(&networks, &samples.position);
 
-    time("networks: loss and gradients", 7488.0 * pixels, 21.0 * pixels, &mut || {
+    time("networks: loss and gradients", 7488.0 * pixels, 22.0 * pixels, &mut || {
         backend.joint(&networks, &samples, &directions, &albedo);
     });
-    time("networks: gradients by directions", 3456.0 * pixels, 29.0 * pixels, &mut || {
+    time("networks: gradients by directions", 3456.0 * pixels, 30.0 * pixels, &mut || {
         backend.bend(&networks, &samples, &light, &directions, &albedo);
     });
     time("networks: light vector", 864.0 * pixels, 11.0 * pixels, &mut || {

@@ -21,6 +21,8 @@ pub struct Machine {
     pub threads: usize,
     /// Sizes of the caches, the smallest first, as the system names them.
     pub caches: Vec<String>,
+    /// Processes that wanted to run when it was asked, mean of a minute, this one included.
+    pub load: Option<f64>,
     /// Bytes of memory.
     pub memory: Option<u64>,
     /// Operating system and architecture.
@@ -50,6 +52,9 @@ impl Machine {
             processor: line("/proc/cpuinfo", "model name").unwrap_or_else(|| "unknown".to_owned()),
             threads: rayon::current_num_threads(),
             caches: (0..8).filter_map(cache).collect(),
+            load: fs::read_to_string("/proc/loadavg")
+                .ok()
+                .and_then(|text| text.split_whitespace().next()?.parse().ok()),
             memory: line("/proc/meminfo", "MemTotal").and_then(kilobytes).map(|kb| kb * 1024),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -30,6 +30,13 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
         machine.system,
         machine.version
     )?;
+    if let Some(load) = machine.load.filter(|load| *load > 0.5) {
+        writeln!(
+            page,
+            "It was not idle: a load of {load:.1} when the run began. Every time is an upper bound, \
+             and the multiply-adds and the bandwidth are what was left to this run.\n"
+        )?;
+    }
     writeln!(page, "| backend | multiply-adds, GFLOP/s | memory, GB/s |\n|---|---|---|")?;
     for (name, reach) in &report.reach {
         writeln!(page, "| {name} | {:.0} | {:.1} |", reach.flops / 1e9, reach.bytes / 1e9)?;

@@ -128,6 +128,7 @@ pub struct TorchRow {
 /// Measures everything; `progress` hears what comes next.
 pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
     let bench = Bench { quick: options.quick };
+    let machine = Machine::here();
     progress("bandwidth");
     let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
     let mut devices: Vec<(Box<dyn Backend>, Reach)> = vec![];
@@ -178,7 +179,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
         progress(&format!("solving {}", capture.display()));
         solves.extend(solves::measure(capture)?);
     }
-    Ok(Report { machine: Machine::here(), reach, steps, kernels, scaling, paper, torch, solves })
+    Ok(Report { machine, reach, steps, kernels, scaling, paper, torch, solves })
 }
 
 struct Bench {

@@ -287,10 +287,14 @@ impl Step {
             }
             Self::Heights => {
                 let share = f64::from(config.height.texture_share);
-                work(70.0, pixels, 50.0, share * share * square(site.size))
+                work(25.0, pixels, 15.0, share * share * square(site.size))
             }
-            Self::Relief(_) => work(70.0, pixels, 60.0, square(site.size)),
-            Self::Diffuse(_) | Self::Albedo => work(20.0, pixels, 22.0, square(site.size)),
+            // Without a network where the normals stay.
+            Self::Relief(_) if config.fine_tuning.deviation_rate == 0.0 => {
+                work(4.0, pixels, 3.0, square(site.size))
+            }
+            Self::Relief(_) => work(60.0, pixels, 25.0, square(site.size)),
+            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(site.size)),
         }
     }
 

@@ -2,9 +2,24 @@
 //!
 //! Samples are worked through in chunks of [`CHUNK_BLOCKS`] blocks. A chunk's weight gradients stay
 //! in vector lanes; they are summed per chunk, and over the chunks in their order in f64, so that
-//! the number of threads has no influence. Per sample a joint pass reads 17 floats (position,
-//! directions, Fresnel factor, target, weight, albedos) and writes 4; everything else lives in
-//! about 200 KiB of scratch per thread.
+//! the number of threads has no influence.
+//!
+//! What passes between memory and a sample per iteration, in bytes; everything else lives in about
+//! 200 KiB of scratch per thread:
+//!
+//! | pass | read | written |
+//! |---|---|---|
+//! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
+//! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
+//! | [`Backend::shade`] | 56: light vector, two directions | 8 |
+//! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
+//! | a diffuse step ([`Taps::exchange`](crate::model::taps::Taps::exchange)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
+//! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
+//! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
+//!
+//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A joint step is 7488
+//! FLOP a sample, so that it is bound by arithmetic on every machine with more than 0.012 bytes
+//! of bandwidth per FLOP; the diffuse and specular steps are bound by memory.
 
 mod kernels;
 mod lanes;
