@@ -2,6 +2,7 @@
 //! the faces for each light, then face by face. Equal runs give equal bytes on any machine.
 
 mod figures;
+mod join;
 mod setting;
 mod tables;
 
@@ -33,7 +34,8 @@ impl Finished {
         if scores.iter().flatten().all(Option::is_none) {
             return Err(ReportError::NoScores(folder.to_path_buf()));
         }
-        Ok(Self { folder: folder.to_path_buf(), manifest, scores })
+        let folder = std::path::absolute(folder).map_err(|error| ReportError::read(folder, error))?;
+        Ok(Self { folder, manifest, scores })
     }
 
     fn title(&self) -> &str {
@@ -45,7 +47,7 @@ impl Finished {
 pub fn write_results(runs: &[PathBuf], out: &Path, command: &str) -> Result<(), ReportError> {
     let runs: Vec<Finished> =
         runs.iter().map(|run| Finished::read(run)).collect::<Result<_, _>>()?;
-    let text = markdown(&runs, command)?;
+    let text = markdown(&join::joined(runs), command)?;
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;
     }

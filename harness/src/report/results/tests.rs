@@ -138,3 +138,43 @@ fn a_face_without_a_score_is_counted_and_a_run_without_any_is_refused() {
     assert!(message.contains("nothing was scored yet; finish the run"), "{message}");
     assert!(!message.contains('\n'));
 }
+
+/// The fake run with a scene at its captures and with its methods called otherwise.
+fn one_suite(run: &Path, called: impl Fn(&str) -> String, scene: &str) {
+    fake::write(run);
+    let path = run.join("run.json");
+    let mut manifest = read(&path);
+    for case in manifest["cases"].as_array_mut().unwrap() {
+        let truth = run.join(case["capture"].as_str().unwrap()).join("truth");
+        fs::create_dir_all(&truth).unwrap();
+        fs::write(truth.join("scene.toml"), scene).unwrap();
+        for solver in case["solvers"].as_array_mut().unwrap() {
+            solver["id"] = json!(called(solver["id"].as_str().unwrap()));
+            solver["title"] = json!(called("method"));
+        }
+    }
+    manifest["versions"]["unshade"] = json!(called("0.1.0"));
+    save(&path, &manifest);
+}
+
+#[test]
+fn runs_of_one_suite_on_the_same_captures_share_their_tables() {
+    let root = tempfile::tempdir().unwrap();
+    let scene = "[render]\nwidth = 16\nheight = 16\n";
+    one_suite(&root.path().join("a"), str::to_owned, scene);
+    one_suite(&root.path().join("b"), |id| format!("late-{id}"), scene);
+    let text = results(root.path(), &["a", "b"]).unwrap();
+    assert_eq!(text.matches("\n## Two &lt;balls&gt;\n").count(), 1);
+    let light = text.split("\n### flash light\n").nth(1).unwrap();
+    let table = light.split("\n\n").nth(1).unwrap();
+    assert!(table.contains("\n| method |") && table.contains("\n| late-method |"), "{table}");
+    assert!(text.contains("unshade of late-method late-0.1.0"), "whose version it is");
+
+    // Another scene, or the same methods once more: a section of its own.
+    one_suite(&root.path().join("c"), |id| format!("late-{id}"), "[render]\nwidth = 32\n");
+    one_suite(&root.path().join("d"), str::to_owned, scene);
+    for other in ["c", "d"] {
+        let text = results(root.path(), &["a", other]).unwrap();
+        assert_eq!(text.matches("\n## Two &lt;balls&gt;\n").count(), 2, "{other}");
+    }
+}
