@@ -43,12 +43,16 @@ pub(super) struct Lit {
 }
 
 impl Lit {
-    /// The pictures less what all views share of the highlights.
+    /// The pictures less what all views share of the highlights; of little
+    /// of it where the light has contrast: there the networks see the highlights themselves, and the
+    /// prediction errs more.
     fn unveiled(&self, samples: &Samples) -> Planes {
-        match self.veil.is_empty() {
-            true => samples.target.clone(),
-            false => unveiled(samples, &self.veil, self.state.size),
+        if self.veil.is_empty() {
+            return samples.target.clone();
         }
+        let share = 1.0 / (1.0 + (self.light.contrast() / EVEN_CONTRAST).powi(2));
+        let veil: Vec<f32> = self.veil.iter().map(|veil| share * veil).collect();
+        unveiled(samples, &veil, self.state.size)
     }
 
     /// F A_s S_s of samples under the normals of `state`, with what all views share of the highlights.
@@ -80,6 +84,9 @@ impl Lit {
         samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
     }
 }
+
+/// Of a light with this contrast the albedo is cleared of half the veil.
+const EVEN_CONTRAST: f32 = 0.3;
 
 /// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
 pub(super) const LIT: usize = 4 * CHANNELS;
