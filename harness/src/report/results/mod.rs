@@ -34,7 +34,8 @@ impl Finished {
         if scores.iter().flatten().all(Option::is_none) {
             return Err(ReportError::NoScores(folder.to_path_buf()));
         }
-        let folder = std::path::absolute(folder).map_err(|error| ReportError::read(folder, error))?;
+        let folder =
+            std::path::absolute(folder).map_err(|error| ReportError::read(folder, error))?;
         Ok(Self { folder, manifest, scores })
     }
 
