@@ -104,7 +104,8 @@ mod tests {
     #[test]
     fn skin_reflects_its_reflectance_from_the_front_and_more_at_a_slant_but_never_all() {
         let front = under_a_dome(1.0);
-        assert!((0.95..1.05).contains(&(front / F0)), "{front}");
+        // Light that meets facets twice is not followed: a tenth is lost.
+        assert!((0.88..1.0).contains(&(front / F0)), "{front}");
         let slanting = under_a_dome(0.3);
         assert!(slanting > 2.0 * front, "{slanting} against {front}");
         assert!((1..10).all(|tenth| under_a_dome(0.1 * tenth as f32) < 1.0));
