@@ -11,7 +11,11 @@ Every fault is an exception of :mod:`unshade.errors` whose message says what is 
 and the mend.
 """
 
+import os
 from importlib import import_module
+
+# The solver chooses its device itself; without a desktop Mesa's own choice prints an error line.
+os.environ.setdefault("NODEVICE_SELECT", "1")
 
 _HOMES = {
     "Capture": "_native",
