@@ -16,7 +16,6 @@ use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined};
-use super::veil::specular_albedo;
 use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::capture::Capture;
@@ -334,12 +333,7 @@ impl Step {
             }
             Self::Transport => {
                 let Some(probed) = solve.probed.take() else { return Ok(()) };
-                let (mesh, pictures) = (&site.capture.mesh, site.pictures());
-                let start = solve.initial.clone();
-                let gloss = |state: &State| specular_albedo(site, state);
-                let space = &site.space;
-                let lit =
-                    light_and_albedo(run, config, mesh, space, pictures, start, probed, &gloss)?;
+                let lit = light_and_albedo(run, site, solve.initial.clone(), probed)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
                 let begun = config.transport.hold;
                 let moved =

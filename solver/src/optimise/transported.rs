@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::adam::Adam;
 use super::confidence::confidence;
 use super::run::Run;
-use super::site::WarmUpPictures;
+use super::site::{Site, WarmUpPictures};
 use super::stage::{Diffuse, Memory, Stage, State, layers};
-use super::veil::{unveiled, veil};
+use super::veil::{specular_albedo, unveiled, veil};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
@@ -139,29 +139,26 @@ pub(super) fn light(
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
-/// `start`; `gloss` makes a specular albedo of what was solved.
+/// `start`.
 pub(super) fn light_and_albedo(
     run: &mut Run,
-    config: &Config,
-    mesh: &Mesh,
-    space: &SampleSpace,
-    pictures: &WarmUpPictures,
+    site: &Site,
     start: State,
     probed: Probed,
-    gloss: &dyn Fn(&State) -> Option<Vec<f32>>,
 ) -> Result<Lit, SolveError> {
+    let config = site.config;
     let t = &config.transport;
     let sky = Sky::even(t.rows).at(probed.nearness);
-    let transport = Transport::new(mesh, &sky, t, config.seed, Beside::Bending);
+    let transport = Transport::new(&site.capture.mesh, &sky, t, config.seed, Beside::Bending);
     run.lap("rays at the light's distance");
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
-    let samples = pictures.samples(space, transport.size());
+    let samples = site.pictures().samples(&site.space, transport.size());
     let mut stage = Transported::new(config, &transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
     let radiance = stage.light();
     let wanted = config.transport.veil && config.normalisation.specular_skin > 0.0;
-    let gloss = wanted.then(|| gloss(&state)).flatten();
+    let gloss = wanted.then(|| specular_albedo(site, &state)).flatten();
     let hidden = gloss.map_or(vec![], |gloss| {
         veil(&config.networks, &transport, &samples, &state, run.backend, &radiance, &gloss)
     });
