@@ -15,6 +15,7 @@ pub mod solve;
 pub mod specular;
 pub mod stage;
 pub mod transported;
+mod vectors;
 mod veil;
 
 #[cfg(test)]
