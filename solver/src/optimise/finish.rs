@@ -8,7 +8,7 @@ use super::site::{Site, map_size};
 use super::snapshot::stage_maps;
 use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
-use super::transported::Lit;
+use super::transported::Highlights;
 use crate::capture::Camera;
 use crate::error::SolveError;
 use crate::fill;
@@ -40,7 +40,6 @@ pub(super) fn finish(
     // Does nothing unless an interrupt came before it.
     albedo(site, &mut run, &mut solve)?;
     let Solve { mut state, physical, lit, snapshots, .. } = solve;
-    let light = lit.as_ref().map(|lit| lit.light.clone());
     state.resize(size);
     let (samples, deviation) = (&site.fine().samples, &site.fine().deviation);
 
@@ -59,11 +58,14 @@ pub(super) fn finish(
     }
     let physical_scale = physical.as_ref().map(|physical| physical.scale);
     let stages = stage_maps(snapshots, scales, physical_scale, mesh, &projections);
-    let synthesise = |camera: &Camera| synthesised(camera, site, deviation, &state, lit.as_ref());
+    let highlights = lit.as_ref().and_then(|lit| lit.highlights(&state));
+    let synthesise =
+        |camera: &Camera| synthesised(camera, site, deviation, &state, highlights.as_ref());
     let views = capture.withheld.iter().map(synthesise).collect();
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
     }
+    let light = lit.map(|lit| lit.light);
     let mut confidence = None;
     if let Some(physical) = physical {
         confidence = Some(physical.confidence);
@@ -159,12 +161,12 @@ fn synthesised(
     site: &Site,
     deviation: &Deviation,
     state: &State,
-    lit: Option<&Lit>,
+    highlights: Option<&Highlights>,
 ) -> ViewLayers {
     let gbuffer = GBuffer::new(&site.capture.mesh, camera, None);
     let samples = site.space.withheld(&gbuffer, state.size);
     let shading = layers(&samples, deviation, state, site.backend);
-    let highlights = lit.and_then(|lit| lit.highlights(&samples, deviation, state, site.backend));
+    let highlights = highlights.map(|all| all.at(&samples, deviation, site.backend));
     let albedo = state.albedo(&samples);
     let channels = ViewLayers::CHANNELS.len();
     let mut picture = Picture::new(camera.width, camera.height, channels);

@@ -55,24 +55,16 @@ impl Lit {
         unveiled(samples, &veil, self.state.size)
     }
 
-    /// F A_s S_s of samples under the normals of `state`, with what all views share of the highlights.
-    pub fn highlights(
-        &self,
-        samples: &Samples,
-        deviation: &Deviation,
-        state: &State,
-        backend: &dyn Backend,
-    ) -> Option<Planes> {
+    /// The highlights on the textures and under the normals of `state`, if the veil is known.
+    pub fn highlights(&self, state: &State) -> Option<Highlights> {
         if self.veil.is_empty() {
             return None;
         }
+        let veil = resample(&self.veil, self.state.size, 1, state.size);
         let mut own = self.state.clone();
         own.resize(state.size);
         own.deviation.clone_from(&state.deviation);
-        let layers = layers(samples, deviation, &own, backend);
-        let veil = resample(&self.veil, self.state.size, 1, state.size);
-        let veil = samples.taps.sample::<1>(&veil);
-        Some(Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)]))
+        Some(Highlights { own, veil })
     }
 
     /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
@@ -82,6 +74,21 @@ impl Lit {
         let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
         let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
         samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
+    }
+}
+
+/// The specular layer with what all views share of it.
+pub(super) struct Highlights {
+    own: State,
+    veil: Vec<f32>,
+}
+
+impl Highlights {
+    /// One radiance per sample.
+    pub fn at(&self, samples: &Samples, deviation: &Deviation, backend: &dyn Backend) -> Planes {
+        let layers = layers(samples, deviation, &self.own, backend);
+        let veil = samples.taps.sample::<1>(&self.veil);
+        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
     }
 }
 
