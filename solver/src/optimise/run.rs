@@ -142,6 +142,10 @@ impl<'a, 'b> Run<'a, 'b> {
         let mut losses = vec![];
         let bend = solve(&mut |loss| {
             losses.push(loss);
+            if !loss.is_finite() {
+                let (stage, iteration) = (name.to_owned(), losses.len());
+                return Err(SolveError::NotFinite { stage, iteration, loss });
+            }
             self.report(name, losses.len(), of, &[loss]);
             if self.cut.is_some() { Err(SolveError::Interrupted) } else { Ok(()) }
         })?;

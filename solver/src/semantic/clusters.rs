@@ -61,3 +61,29 @@ fn nearest(points: &[Vec3], centres: &[Vec3]) -> Vec<(u8, f32)> {
     };
     points.par_iter().map(nearest).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_heaps_are_three_clusters() {
+        let heaps = [Vec3::ZERO, Vec3::new(4.0, 0.0, 1.0), Vec3::new(0.0, 5.0, -1.0)];
+        let points: Vec<Vec3> = (0..60)
+            .map(|i| heaps[i % 3] + 0.3 * Vec3::new((i as f32).sin(), (i as f32).cos(), 0.0))
+            .collect();
+        let found = clusters(&points, 3);
+        for (i, cluster) in found.iter().enumerate() {
+            assert_eq!(*cluster, found[i % 3]);
+        }
+        assert_eq!(found[..3].iter().collect::<std::collections::BTreeSet<_>>().len(), 3);
+        let again = lloyd(&points, found.clone(), 3);
+        assert_eq!(again, found);
+    }
+
+    #[test]
+    fn an_empty_cluster_stays_empty() {
+        let points = [Vec3::ZERO, Vec3::X];
+        assert_eq!(lloyd(&points, vec![0, 2], 3), [0, 2]);
+    }
+}

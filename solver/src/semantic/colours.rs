@@ -230,3 +230,67 @@ fn merged(seen: &[usize], albedo: &[Vec3], regions: Vec<u8>, count: usize) -> Ve
     }
     regions.into_iter().map(|region| joined[region as usize] as u8).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Config;
+    use crate::capture::View;
+    use crate::gbuffer::GBuffer;
+    use crate::testing;
+
+    const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
+    const HAIR: Vec3 = Vec3::new(0.08, 0.06, 0.05);
+
+    /// A dome in light from the right, darker than its brightest by a factor of four at the left.
+    fn found(albedo: impl Fn(Vec3) -> Vec3) -> Option<ColourRegions> {
+        let mesh = testing::dome(24);
+        let colour = |p: Vec3| (albedo(p) * (0.625 + 0.375 * p.x), 0);
+        let views: Vec<View> =
+            testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
+        let gbuffers = GBuffer::of_views(&mesh, &views);
+        let projections = Projection::of_views(&views, &gbuffers);
+        ColourRegions::new(&mesh, &projections, &Config::default().transport, 4)
+    }
+
+    /// The texels of the chart's disc, with where they lie from its centre.
+    fn inside() -> impl Iterator<Item = (usize, f32, f32)> {
+        let from_centre = |at: usize| (at as f32 + 0.5) / 64.0 - 0.5;
+        (0..64 * 64)
+            .map(move |at| (at, from_centre(at % 64), from_centre(at / 64)))
+            .filter(|(_, x, y)| x.hypot(*y) < 0.3)
+    }
+
+    #[test]
+    fn shading_makes_no_regions() {
+        let regions = found(|_| SKIN).unwrap().map(64);
+        let first = regions[64 * 32 + 32];
+        assert!(inside().all(|(at, ..)| regions[at] == first));
+    }
+
+    #[test]
+    fn hair_and_skin_are_two_regions_in_shade_and_in_light() {
+        let found = found(|p| if p.y > 0.3 { HAIR } else { SKIN }).unwrap();
+        let (regions, albedo) = (found.map(64), found.albedo(64));
+        let edge = 0.4 * 0.3_f32.asin() / 0.2_f32.acos();
+        let clear: Vec<_> = inside().filter(|(_, _, y)| (y.abs() - edge).abs() > 0.06).collect();
+        let of =
+            |hair: bool| clear.iter().filter(move |(_, _, y)| (y.abs() > edge && *y > 0.0) == hair);
+        let region = |hair: bool| regions[of(hair).next().unwrap().0];
+        // Rows of the chart run one way or the other.
+        let (first, second) = (region(true), region(false));
+        assert_ne!(first, second);
+        for hair in [true, false] {
+            let wrong = of(hair).filter(|(at, ..)| regions[*at] != region(hair)).count();
+            assert!(50 * wrong < of(hair).count(), "{wrong} of {}", of(hair).count());
+        }
+        let colour = |hair: bool| Vec3::from_slice(&albedo.data[3 * of(hair).next().unwrap().0..]);
+        let ratio = colour(true) / colour(false) / (HAIR / SKIN);
+        assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
+    }
+
+    #[test]
+    fn of_black_pictures_nothing_is_known() {
+        assert!(found(|_| Vec3::ZERO).is_none());
+    }
+}
