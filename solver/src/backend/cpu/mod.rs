@@ -11,6 +11,7 @@
 //! |---|---|---|
 //! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
 //! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
+//! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 28: gradients by both deviations and specular albedo |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
 //! | a diffuse step ([`Taps::exchange`](crate::model::taps::Taps::exchange)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
