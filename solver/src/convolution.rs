@@ -309,7 +309,9 @@ mod tests {
                 values.iter_mut().for_each(|value| *value *= 2.0);
             };
             let mark = |row: usize, column: usize, values: &mut [f32]| {
-                assert!(row < height && column % HALF == 0 && column * 2 + values.len() <= 600);
+                assert!(
+                    row < height && column.is_multiple_of(HALF) && column * 2 + values.len() <= 600
+                );
                 values.iter_mut().for_each(|value| *value += 1.0);
             };
             convolve(&picture, &kernel, shape, region, twice, mark)

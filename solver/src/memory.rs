@@ -12,9 +12,9 @@
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added.
 //! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
 //!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
-//! - Fine-tuning: 340 bytes a sample (samples, light vector, directions, gradients: 230; the rest is
-//!   what the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both
-//!   deviations, what is gathered and interleaved).
+//! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
+//!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both deviations,
+//!   what is gathered, and the gradient).
 //! - Maps: 155 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!

@@ -184,9 +184,10 @@ impl Taps {
             below
         };
         let (mut texels, below) = from_parts(self.size * line, rows * line, task);
-        for (texels, below) in texels.chunks_mut(rows * line).skip(1).zip(&below) {
+        let strips = texels.par_chunks_mut(rows * line).skip(1);
+        strips.zip(&below).for_each(|(texels, below)| {
             texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
-        }
+        });
         texels
     }
 }
@@ -213,58 +214,56 @@ struct Strip<'a, const D: usize> {
 }
 
 impl<const D: usize> Strip<'_, D> {
-    /// Adds some lanes of a block. The sums of a cell stay in registers while its samples pass.
+    /// Adds some lanes of a block.
     fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
-        let Taps { size, cell, fraction, .. } = self.taps;
-        let start = self.first * size;
-        let cells = &cell[block * BLOCK..][lanes.clone()];
-        let fractions = &fraction[block * BLOCK..][lanes.clone()];
-        let mut samples = cells.iter().zip(fractions).zip(lanes).peekable();
-        while let Some(((cell, _), _)) = samples.peek().copied() {
-            let mut corners = Corners::default();
-            while let Some(((_, fraction), lane)) = samples.next_if(|next| next.0.0 == cell) {
-                corners.add(*fraction, std::array::from_fn(|channel| rows[channel].0[lane]));
+        let Taps { cell, fraction, .. } = self.taps;
+        let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
+        let (cell, fraction) = (&cell[samples.clone()], &fraction[samples]);
+        add_lanes(self, cell, fraction, lanes.start, rows);
+    }
+}
+
+widened! {
+    /// Adds the gradients of samples that begin at a lane. The sums of a cell stay in registers while its
+    /// samples pass.
+    fn add_lanes<const D: usize>(
+        strip: &mut Strip<D>,
+        cell: &[u32],
+        fraction: &[[f32; 2]],
+        lane: usize,
+        rows: &[Row; D],
+    ) {
+        let Strip { taps: Taps { size, .. }, first, texels, below, .. } = strip;
+        assert!(lane + cell.len() <= BLOCK && fraction.len() == cell.len());
+        let mut sample = 0;
+        while sample < cell.len() {
+            let here = cell[sample];
+            let (mut upper, mut lower) = ([[0.0; D]; 2], [[0.0; D]; 2]);
+            while sample < cell.len() && cell[sample] == here {
+                let [fx, fy] = fraction[sample];
+                for (side, share) in [1.0 - fx, fx].into_iter().enumerate() {
+                    for channel in 0..D {
+                        let g = share * rows[channel].0[lane + sample];
+                        upper[side][channel] += (1.0 - fy) * g;
+                        lower[side][channel] += fy * g;
+                    }
+                }
+                sample += 1;
             }
-            let Corners([a, b, c, d]) = corners;
-            let at = *cell as usize - start;
-            add(&mut self.texels[at], a);
-            add(&mut self.texels[at + 1], b);
-            let next = match (at + size).checked_sub(self.texels.len()) {
-                None => &mut self.texels[at + size..at + size + 2],
-                Some(at) => &mut self.below[at..at + 2],
-            };
-            add(&mut next[0], c);
-            add(&mut next[1], d);
-        }
-    }
-}
-
-/// Sums at the four texels of a cell: upper left, upper right, lower left, lower right.
-struct Corners<const D: usize>([[f32; D]; 4]);
-
-impl<const D: usize> Default for Corners<D> {
-    fn default() -> Self {
-        Self([[0.0; D]; 4])
-    }
-}
-
-impl<const D: usize> Corners<D> {
-    #[inline(always)]
-    fn add(&mut self, [fx, fy]: [f32; 2], gradient: [f32; D]) {
-        let [a, b, c, d] = &mut self.0;
-        for (channel, g) in gradient.into_iter().enumerate() {
-            let (upper, lower) = ((1.0 - fy) * g, fy * g);
-            a[channel] += (1.0 - fx) * upper;
-            b[channel] += fx * upper;
-            c[channel] += (1.0 - fx) * lower;
-            d[channel] += fx * lower;
+            let at = here as usize - *first * size;
+            add(&mut texels[at..at + 2], &upper);
+            match (at + size).checked_sub(texels.len()) {
+                None => add(&mut texels[at + size..at + size + 2], &lower),
+                Some(at) => add(&mut below[at..at + 2], &lower),
+            }
         }
     }
 }
 
 #[inline(always)]
-fn add<const D: usize>(sum: &mut [f32; D], value: [f32; D]) {
-    sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+fn add<const D: usize>(sum: &mut [[f32; D]], values: &[[f32; D]; 2]) {
+    let values = values.as_flattened();
+    sum.as_flattened_mut().iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
 
 /// The upper two texels of a cell, and the lower two.
