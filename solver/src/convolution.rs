@@ -1,16 +1,29 @@
 //! Separable convolution with a symmetric kernel; what lies outside the picture is zero.
 //!
-//! Columns are convolved into one row's buffer, which is convolved in its turn: a value is read from
-//! memory about once and written once, everything between stays in the cache.
+//! A task works down a strip of columns: every row is convolved once, into a ring of as many lines as
+//! the kernel reaches over, and the columns of the ring are summed up. A value is read from memory about
+//! once and written once; the ring stays in the cache, whose lines rows of a picture would compete for
+//! where they are a power of two apart.
+
+use std::mem::MaybeUninit;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::parallel::from_parts;
+use crate::region::Region;
 use crate::simd::widened;
 
-/// Rows that are summed up together, and that one task works through.
+/// Columns of a strip.
+const STRIP: usize = 256;
+/// Rows that are summed up together.
 const ROWS: usize = 4;
-/// Values of a row that are summed up together.
+/// Values of a row that are summed up together: of a line, of the lines of the ring. What is asked for is
+/// rounded up to as many columns.
 const TILE: usize = 32;
+const HALF: usize = 16;
+/// Tasks per thread. (They share nothing, so that their number does not matter to the result.)
+const TASKS: usize = 4;
 
 /// Columns, rows and interleaved channels.
 #[derive(Clone, Copy)]
@@ -26,45 +39,193 @@ pub fn gaussian(sigma: f32) -> Vec<f32> {
     (0..=(3.0 * sigma).ceil() as usize).map(weight).collect()
 }
 
-/// Convolves with `kernel`, the weights from the centre outwards. Rows are weighted by `weight`; what
-/// lies between the two passes and what comes out of a row is passed to `between` and `after`.
+/// Convolves with `kernel`, the weights from the centre outwards (1 at the centre). What is read, and what comes out, is
+/// passed to `before` and `after`: the row, the first column, values. What is not in the region may be
+/// zero.
 pub fn convolve(
     picture: &[f32],
     kernel: &[f32],
     shape: Shape,
-    weight: impl Fn(usize) -> f32 + Sync,
-    between: impl Fn(usize, &mut [f32]) + Sync,
-    after: impl Fn(usize, &mut [f32]) + Sync,
+    region: &Region,
+    before: impl Fn(usize, usize, &mut [f32]) + Sync,
+    after: impl Fn(usize, usize, &mut [f32]) + Sync,
 ) -> Vec<f32> {
     if kernel.len() == 1 {
-        return picture.to_vec();
+        let fill = |row: usize, out: &mut [f32]| {
+            out.copy_from_slice(&picture[row * out.len()..][..out.len()]);
+            before(row, 0, out);
+            after(row, 0, out);
+        };
+        return from_parts(picture.len(), shape.width * shape.channels, fill).0;
     }
-    let Shape { width, height, channels } = shape;
-    let (line, reach) = (width * channels, kernel.len() - 1);
-    let margin = reach * channels;
-    let mut out = vec![0.0; picture.len()];
-    let stride = line + 2 * margin;
-    out.par_chunks_mut(ROWS * line).enumerate().for_each(|(task, out)| {
-        // Zeros on either side stand for what lies outside the picture.
-        let mut padded = vec![0.0; ROWS * stride];
-        let first = task * ROWS;
-        let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(height);
-        let lines: Vec<(&[f32], [f32; ROWS])> = rows
-            .map(|row| {
-                let tap = |to: usize| kernel.get(row.abs_diff(first + to)).unwrap_or(&0.0);
-                let taps = std::array::from_fn(|to| tap(to) * weight(row));
-                (&picture[row * line..][..line], taps)
-            })
-            .collect();
-        columns(&mut padded[margin..], stride, line, &lines);
-        for (row, out) in out.chunks_exact_mut(line).enumerate() {
-            let padded = &mut padded[row * stride..][..stride];
-            between(first + row, &mut padded[margin..margin + line]);
-            horizontal(out, padded, kernel, channels);
-            after(first + row, out);
+    let mut out = Vec::with_capacity(picture.len());
+    let tasks = tasks(&mut out.spare_capacity_mut()[..picture.len()], shape, kernel.len());
+    tasks.into_par_iter().for_each(|mut task| {
+        let mut strip = Strip::new(picture, kernel, shape, region, task.columns.clone());
+        for (row, out) in task.rows.zip(&mut task.out) {
+            let (first, values) = strip.row(row, &before);
+            after(row, task.columns.start + first / shape.channels, values);
+            let (left, rest) = out.split_at_mut(first);
+            let (inside, right) = rest.split_at_mut(values.len());
+            inside.iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
+            left.iter_mut().chain(right).for_each(|out| _ = out.write(0.0));
         }
     });
+    // SAFETY: the tasks have written every one of the values.
+    unsafe { out.set_len(picture.len()) };
     out
+}
+
+/// Some rows of a strip of columns.
+struct Task<'a> {
+    columns: Range<usize>,
+    rows: Range<usize>,
+    /// Where the rows go.
+    out: Vec<&'a mut [MaybeUninit<f32>]>,
+}
+
+fn tasks(out: &mut [MaybeUninit<f32>], shape: Shape, reach: usize) -> Vec<Task<'_>> {
+    let Shape { width, height, channels } = shape;
+    let (line, strips) = (width * channels, width.div_ceil(STRIP));
+    // The rows above and below a task's are convolved for its neighbours as well.
+    let rows = (strips * height).div_ceil(TASKS * rayon::current_num_threads()).max(4 * reach);
+    let mut tasks = vec![];
+    for (number, lines) in out.chunks_mut(rows.next_multiple_of(ROWS) * line).enumerate() {
+        let first = number * rows.next_multiple_of(ROWS);
+        let task = |strip: usize| Task {
+            columns: strip * STRIP..width.min((strip + 1) * STRIP),
+            rows: first..first + lines.len() / line,
+            out: vec![],
+        };
+        let begin = tasks.len();
+        tasks.extend((0..strips).map(task));
+        for line in lines.chunks_mut(line) {
+            let parts = line.chunks_mut(STRIP * channels);
+            tasks[begin..].iter_mut().zip(parts).for_each(|(task, part)| task.out.push(part));
+        }
+    }
+    tasks
+}
+
+/// The rows of a strip, asked for downwards.
+struct Strip<'a> {
+    picture: &'a [f32],
+    kernel: &'a [f32],
+    shape: Shape,
+    region: &'a Region,
+    columns: Range<usize>,
+    /// Values of a line, and with what fills up the last tile.
+    length: usize,
+    stride: usize,
+    /// A row, with the kernel's reach on either side; zeros stand for what lies outside the picture.
+    padded: Vec<f32>,
+    /// Convolved rows; row y is line y % lines.
+    ring: Vec<f32>,
+    lines: usize,
+    /// The rows that are in the ring, or have been.
+    seen: Range<usize>,
+    /// [`ROWS`] rows of sums, and their rows.
+    sums: Vec<f32>,
+    summed: Range<usize>,
+    /// Of these, the values that were asked for.
+    inside: Range<usize>,
+    /// Of the lines of a sum: where it begins, and its weights in the rows.
+    taps: Vec<(usize, [f32; ROWS])>,
+}
+
+impl<'a> Strip<'a> {
+    fn new(
+        picture: &'a [f32],
+        kernel: &'a [f32],
+        shape: Shape,
+        region: &'a Region,
+        columns: Range<usize>,
+    ) -> Self {
+        let (reach, length) = (kernel.len() - 1, columns.len() * shape.channels);
+        let (stride, lines) = (length.next_multiple_of(TILE), 2 * reach + ROWS);
+        Self {
+            picture,
+            kernel,
+            shape,
+            region,
+            columns,
+            length,
+            stride,
+            padded: vec![0.0; stride + 2 * reach * shape.channels],
+            ring: vec![0.0; lines * stride],
+            lines,
+            seen: 0..0,
+            sums: vec![0.0; ROWS * stride],
+            summed: 0..0,
+            inside: 0..0,
+            taps: Vec::with_capacity(lines),
+        }
+    }
+
+    /// What some rows have of the region, in whole tiles of `columns`: values of a line.
+    fn inside(&self, rows: Range<usize>, columns: usize) -> Range<usize> {
+        let hull = self.region.columns(rows.start..rows.end.min(self.shape.height));
+        let (start, end) = (hull.start.max(self.columns.start), hull.end.min(self.columns.end));
+        if start >= end {
+            return 0..0;
+        }
+        let [start, end] = [start, end].map(|column| column - self.columns.start);
+        let tile = columns * self.shape.channels;
+        start / columns * tile..(end.div_ceil(columns) * tile).min(self.stride)
+    }
+
+    /// A row of the result: where it begins, and its values.
+    fn row(
+        &mut self,
+        row: usize,
+        before: impl Fn(usize, usize, &mut [f32]),
+    ) -> (usize, &mut [f32]) {
+        if !self.summed.contains(&row) {
+            self.sum(row / ROWS * ROWS, before);
+        }
+        let end = self.inside.end.min(self.length);
+        let sums = &mut self.sums[(row - self.summed.start) * self.stride..];
+        (self.inside.start, &mut sums[self.inside.start..end])
+    }
+
+    /// Sums up the rows from `first` on.
+    fn sum(&mut self, first: usize, before: impl Fn(usize, usize, &mut [f32])) {
+        let Self { kernel, lines, stride, .. } = *self;
+        let reach = kernel.len() - 1;
+        let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(self.shape.height);
+        for row in rows.start.max(self.seen.end)..rows.end {
+            self.convolve(row, &before);
+        }
+        self.seen = rows.clone();
+        self.summed = first..first + ROWS;
+        self.inside = self.inside(self.summed.clone(), HALF);
+        self.taps.clear();
+        self.taps.extend(rows.map(|row| {
+            let tap = |to: usize| *kernel.get(row.abs_diff(first + to)).unwrap_or(&0.0);
+            (row % lines * stride, std::array::from_fn(tap))
+        }));
+        vertical(&mut self.sums, stride, self.inside.clone(), &self.ring, &self.taps);
+    }
+
+    /// Brings a row of the picture to the ring: what will be summed up of it.
+    fn convolve(&mut self, row: usize, before: impl Fn(usize, usize, &mut [f32])) {
+        let Shape { width, channels, .. } = self.shape;
+        let (first, reach) = (self.columns.start, self.kernel.len() - 1);
+        let near = (reach + ROWS).next_multiple_of(ROWS);
+        let inside = self.inside(row.saturating_sub(near)..row + near, TILE);
+        if inside.is_empty() {
+            return;
+        }
+        let from = (first + inside.start / channels).saturating_sub(reach);
+        let to = (first + inside.end.div_ceil(channels)).min(self.columns.end) + reach;
+        let read = (row * width + from) * channels..(row * width + to.min(width)) * channels;
+        let values = &mut self.padded[(from + reach - first) * channels..][..read.len()];
+        values.copy_from_slice(&self.picture[read]);
+        before(row, from, values);
+        let margins = inside.start..inside.end + 2 * reach * channels;
+        let line = &mut self.ring[row % self.lines * self.stride..][inside];
+        horizontal(line, &self.padded[margins], self.kernel, channels);
+    }
 }
 
 /// One vector of most machines.
@@ -78,42 +239,36 @@ fn add_scaled(sum: &mut Eight, factor: f32, values: Eight) {
 }
 
 widened! {
-    /// Rows of sums, `stride` apart in `out`: each the sum of its weight times every line. A line is
+    /// Rows of sums, `stride` apart: each the sum of its weight times every line of the ring. A line is
     /// read once for all rows.
-    fn columns(out: &mut [f32], stride: usize, length: usize, lines: &[(&[f32], [f32; ROWS])]) {
-        let whole = length / 16 * 16;
-        for at in (0..whole).step_by(16) {
-            let mut sums = [[[0.0f32; 8]; 2]; ROWS];
+    fn vertical(
+        sums: &mut [f32],
+        stride: usize,
+        values: Range<usize>,
+        ring: &[f32],
+        lines: &[(usize, [f32; ROWS])],
+    ) {
+        for at in values.step_by(HALF) {
+            let mut tile = [[[0.0f32; 8]; HALF / 8]; ROWS];
             for (line, weights) in lines {
-                let (tile, _) = line[at..at + 16].as_chunks::<8>();
-                for (sums, weight) in sums.iter_mut().zip(weights) {
-                    add_scaled(&mut sums[0], *weight, tile[0]);
-                    add_scaled(&mut sums[1], *weight, tile[1]);
+                let (values, _) = ring[line + at..][..HALF].as_chunks::<8>();
+                for (sums, weight) in tile.iter_mut().zip(weights) {
+                    add_scaled(&mut sums[0], *weight, values[0]);
+                    add_scaled(&mut sums[1], *weight, values[1]);
                 }
             }
-            for (row, sums) in sums.iter().enumerate() {
-                out[row * stride + at..][..16].copy_from_slice(sums.as_flattened());
-            }
-        }
-        for row in 0..ROWS {
-            for at in whole..length {
-                let mut sum = 0.0;
-                for (line, weights) in lines {
-                    sum += weights[row] * line[at];
-                }
-                out[row * stride + at] = sum;
+            for (row, tile) in tile.iter().enumerate() {
+                sums[row * stride + at..][..HALF].copy_from_slice(tile.as_flattened());
             }
         }
     }
 }
 
 widened! {
-    /// Convolves a line with zeros on either side.
+    /// Convolves a line of whole tiles, with the kernel's reach on either side.
     fn horizontal(out: &mut [f32], padded: &[f32], kernel: &[f32], channels: usize) {
         let middle = (kernel.len() - 1) * channels;
-        let (tiles, rest) = out.as_chunks_mut::<TILE>();
-        let done = tiles.len() * TILE;
-        for (tile, out) in tiles.iter_mut().enumerate() {
+        for (tile, out) in out.as_chunks_mut::<TILE>().0.iter_mut().enumerate() {
             let at = middle + tile * TILE;
             let mut sums = [[0.0f32; 8]; TILE / 8];
             let (here, _) = padded[at..at + TILE].as_chunks::<8>();
@@ -132,13 +287,49 @@ widened! {
             }
             out.copy_from_slice(sums.as_flattened());
         }
-        for (x, out) in rest.iter_mut().enumerate() {
-            let at = middle + done + x;
-            let mut sum = kernel[0] * padded[at];
-            for (distance, weight) in kernel.iter().enumerate().skip(1) {
-                sum += weight * (padded[at - distance * channels] + padded[at + distance * channels]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wider than a strip, with more rows than a task and than the ring has lines.
+    #[test]
+    fn strips_tasks_and_regions_are_the_sum_written_out() {
+        let (width, height, channels) = (300, 70, 2);
+        let shape = Shape { width, height, channels };
+        let picture: Vec<f32> = (0..width * height * 2).map(|i| (i as f32 * 0.7).sin()).collect();
+        let kernel = gaussian(1.0);
+        let mut region = Region(vec![200..280; height]);
+        region.0[..20].fill(0..0);
+        let whole = Region::whole(width, height);
+        let [all, part] = [&whole, &region].map(|region| {
+            let twice = |_: usize, _: usize, values: &mut [f32]| {
+                values.iter_mut().for_each(|value| *value *= 2.0);
+            };
+            let mark = |row: usize, column: usize, values: &mut [f32]| {
+                assert!(
+                    row < height && column.is_multiple_of(HALF) && column * 2 + values.len() <= 600
+                );
+                values.iter_mut().for_each(|value| *value += 1.0);
+            };
+            convolve(&picture, &kernel, shape, region, twice, mark)
+        });
+        let weight = |a: usize, b: usize| kernel.get(a.abs_diff(b)).map_or(0.0, |w| f64::from(*w));
+        for (x, y, c) in [(0, 0, 0), (255, 30, 1), (256, 31, 0), (299, 69, 1), (210, 35, 0)] {
+            let mut sum = 1.0;
+            for (v, u) in (0..height).flat_map(|v| (0..width).map(move |u| (v, u))) {
+                let value = f64::from(picture[(v * width + u) * channels + c]);
+                sum += 2.0 * weight(y, v) * weight(x, u) * value;
             }
-            *out = sum;
+            let got = f64::from(all[(y * width + x) * channels + c]);
+            assert!((got - sum).abs() < 1e-5, "{x} {y}: {got} {sum}");
         }
+        for (y, row) in region.0.iter().enumerate() {
+            let range = (y * width + row.start) * channels..(y * width + row.end) * channels;
+            assert_eq!(all[range.clone()], part[range]);
+        }
+        assert_eq!(part[0], 0.0);
     }
 }

@@ -12,9 +12,9 @@
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added.
 //! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
 //!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
-//! - Fine-tuning: 340 bytes a sample (samples, light vector, directions, gradients: 230; the rest is
-//!   what the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both
-//!   deviations, what is gathered and interleaved).
+//! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
+//!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both deviations,
+//!   what is gathered, and the gradient).
 //! - Maps: 155 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
@@ -167,9 +167,11 @@ pub fn available() -> Option<u64> {
     Some(group.map_or(machine, |(most, now)| machine.min(most.saturating_sub(now))))
 }
 
-/// Sizes from which on the allocator asks the system, bytes: none, and the documented default.
-const EVERYTHING: i32 = i32::MAX;
-const USUAL: i32 = 128 * 1024;
+/// The allocator's limits, here and by default: how many pieces of their own it may ask of the system,
+/// and from how many free bytes on it gives back. (The size of such a piece has a limit, 32 MiB, which
+/// the textures and planes of a large solve exceed.)
+const KEEPING: [i32; 2] = [0, i32::MAX];
+const USUAL: [i32; 2] = [65_536, 128 * 1024];
 
 /// While it lives, the allocator keeps what is freed for the next allocation. Every step takes and gives
 /// back the same tens of megabytes; if they went to the system in between, clearing their pages anew
@@ -180,21 +182,21 @@ pub struct Hoard(());
 impl Hoard {
     /// From now on.
     pub fn begin() -> Self {
-        Self::set(EVERYTHING);
+        Self::set(KEEPING);
         Self(())
     }
 
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
-    fn set(bytes: i32) {
+    fn set([pieces, bytes]: [i32; 2]) {
         // SAFETY: both calls only change limits of the allocator, under its own lock.
         unsafe {
-            libc::mallopt(libc::M_MMAP_THRESHOLD, bytes);
+            libc::mallopt(libc::M_MMAP_MAX, pieces);
             libc::mallopt(libc::M_TRIM_THRESHOLD, bytes);
         }
     }
 
     #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-    fn set(_: i32) {}
+    fn set(_: [i32; 2]) {}
 }
 
 impl Drop for Hoard {

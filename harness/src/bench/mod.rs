@@ -128,6 +128,12 @@ pub struct TorchRow {
 /// Measures everything; `progress` hears what comes next.
 pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
     let bench = Bench { quick: options.quick };
+    // First, so that what the process keeps of other measurements does not count as theirs.
+    let mut solves = vec![];
+    for capture in &options.captures {
+        progress(&format!("solving {}", capture.display()));
+        solves.extend(solves::measure(capture)?);
+    }
     let machine = Machine::here();
     progress("bandwidth");
     let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
@@ -174,11 +180,6 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
             Torch::Measured(rows)
         }
     };
-    let mut solves = vec![];
-    for capture in &options.captures {
-        progress(&format!("solving {}", capture.display()));
-        solves.extend(solves::measure(capture)?);
-    }
     Ok(Report { machine, reach, steps, kernels, scaling, paper, torch, solves })
 }
 

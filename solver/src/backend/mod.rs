@@ -9,7 +9,9 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
+use crate::model::deviation::Bend;
 use crate::model::networks::Networks;
+use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use resident::{Descent, Job, NormalEquations, Resident};
@@ -51,6 +53,23 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> (f64, Planes);
 
+    /// The same with the directions and the specular albedo of textures: gradients by d, by its blur and
+    /// by the specular albedo at the samples ([`BENT`] rows). The albedo's last row is not read.
+    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Planes) {
+        let TexturedRelief { networks, samples, light, albedo, bend, specular, scale } = *relief;
+        let bent = bend.sample(specular, samples);
+        let directions = scale.directions(samples, Some(&bent));
+        let mut albedo = albedo.clone();
+        albedo.copy_row(3, &bent, 6);
+        let (loss, gradient) = self.bend(networks, samples, light, &directions, &albedo);
+        let by_deviation = scale.adjoint(samples, &bent, &gradient);
+        let rows = Planes::from_blocks(BENT, samples.len(), |block, rows| {
+            rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
+            rows[DIRECTIONS] = gradient.block(block)[DIRECTIONS];
+        });
+        (loss, rows)
+    }
+
     /// S_d and S_s of every sample (2 rows).
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes;
 
@@ -64,6 +83,25 @@ pub trait Backend: Send + Sync {
     fn descent(&self, _problem: &NormalEquations) -> Option<Box<dyn Descent + '_>> {
         None
     }
+}
+
+/// What [`Backend::bend_textures`] works on.
+#[derive(Clone, Copy)]
+pub struct TexturedRelief<'a> {
+    /// Frozen.
+    pub networks: &'a Networks,
+    /// The pixels.
+    pub samples: &'a Samples,
+    /// L(p).
+    pub light: &'a Planes,
+    /// Sampled albedos, of which the diffuse one is read.
+    pub albedo: &'a Planes,
+    /// Deviations.
+    pub bend: &'a Bend,
+    /// The texture of the specular albedo.
+    pub specular: &'a [f32],
+    /// How directions are scaled.
+    pub scale: &'a DirectionScale,
 }
 
 /// What [`Backend::joint`] finds.

@@ -11,6 +11,7 @@
 
 use super::GBuffer;
 use crate::convolution::{Shape, convolve, gaussian};
+use crate::region::Region;
 
 /// Default standard deviation of the blur, in pixels of the full picture.
 pub const BLUR_SIGMA_PX: f32 = 2.0;
@@ -62,5 +63,6 @@ fn slopes(gbuffer: &GBuffer) -> Vec<f32> {
 /// Gaussian blur to three standard deviations, not normalised; nothing comes in from outside the
 /// picture.
 pub(crate) fn blurred(picture: &[f32], shape: Shape, sigma: f32) -> Vec<f32> {
-    convolve(picture, &gaussian(sigma), shape, |_| 1.0, |_, _| {}, |_, _| {})
+    let whole = Region::whole(shape.width, shape.height);
+    convolve(picture, &gaussian(sigma), shape, &whole, |_, _, _| {}, |_, _, _| {})
 }

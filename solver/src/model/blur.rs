@@ -1,6 +1,8 @@
 //! A separable Gaussian blur and its exact adjoint.
 
 use crate::convolution::{Shape, convolve, gaussian};
+use crate::region::Region;
+use crate::simd::widened;
 
 /// Gaussian blur of square interleaved textures; near the border the weights that remain are
 /// scaled to sum to one.
@@ -12,6 +14,9 @@ pub struct Blur {
     kernel: Vec<f32>,
     /// One over the sum of the weights inside the texture, by column (and by row).
     norms: Vec<f32>,
+    /// The same for every value of a row.
+    scales: Vec<f32>,
+    whole: Region,
 }
 
 impl Blur {
@@ -23,8 +28,9 @@ impl Blur {
             let (first, last) = (at.saturating_sub(reach), (at + reach).min(size - 1));
             (first..=last).map(|other| kernel[other.abs_diff(at)]).sum::<f32>()
         };
-        let norms = (0..size).map(|at| 1.0 / inside(at)).collect();
-        Self { size, channels, kernel, norms }
+        let norms: Vec<f32> = (0..size).map(|at| 1.0 / inside(at)).collect();
+        let scales = norms.iter().flat_map(|norm| vec![*norm; channels]).collect();
+        Self { size, channels, kernel, norms, scales, whole: Region::whole(size, size) }
     }
 
     /// Weights from the centre outwards, before they are scaled.
@@ -37,26 +43,57 @@ impl Blur {
         &self.norms
     }
 
+    /// Texels to which a weight reaches, in a row or column.
+    pub fn reach(&self) -> usize {
+        self.kernel.len() - 1
+    }
+
     /// The blurred texture.
     pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
-        let after = |row: usize, out: &mut [f32]| self.scale(out, self.norms[row]);
-        convolve(texture, &self.kernel, self.shape(), |_| 1.0, |_, _| {}, after)
+        self.apply_in(&self.whole, texture)
+    }
+
+    /// The blurred texture in a region; elsewhere it may be zero.
+    pub fn apply_in(&self, region: &Region, texture: &[f32]) -> Vec<f32> {
+        let after = |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
+        convolve(texture, &self.kernel, self.shape(), region, |_, _, _| {}, after)
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
     pub fn adjoint(&self, gradient: &[f32]) -> Vec<f32> {
+        self.adjoint_in(&self.whole, gradient, |_, _| {})
+    }
+
+    /// The transpose of [`Blur::apply`] in a region; elsewhere it may be zero. What comes out is passed to
+    /// `after`, with its place in the texture's values.
+    pub fn adjoint_in(
+        &self,
+        region: &Region,
+        gradient: &[f32],
+        after: impl Fn(usize, &mut [f32]) + Sync,
+    ) -> Vec<f32> {
         // apply = N K with K symmetric and N diagonal, so the transpose is K N.
-        let between = |_: usize, line: &mut [f32]| self.scale(line, 1.0);
-        convolve(gradient, &self.kernel, self.shape(), |row| self.norms[row], between, |_, _| {})
+        let before =
+            |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
+        let after = |row: usize, column: usize, values: &mut [f32]| {
+            after((row * self.size + column) * self.channels, values);
+        };
+        convolve(gradient, &self.kernel, self.shape(), region, before, after)
     }
 
     fn shape(&self) -> Shape {
         Shape { width: self.size, height: self.size, channels: self.channels }
     }
 
-    fn scale(&self, line: &mut [f32], row: f32) {
-        for (texel, column) in line.chunks_exact_mut(self.channels).zip(&self.norms) {
-            texel.iter_mut().for_each(|value| *value *= row * column);
+    fn scale(&self, row: usize, column: usize, values: &mut [f32]) {
+        scale(values, &self.scales[column * self.channels..], self.norms[row]);
+    }
+}
+
+widened! {
+    fn scale(values: &mut [f32], columns: &[f32], row: f32) {
+        for (value, column) in values.iter_mut().zip(columns) {
+            *value *= row * column;
         }
     }
 }

@@ -1,14 +1,18 @@
 //! The deviation texture: from what is optimised to what bends the normals, and back.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::blur::Blur;
 use super::normals::DirectionScale;
-use super::planes::Planes;
+use super::planes::{Planes, Row};
 use super::samples::Samples;
-use super::texture::interleave;
-use crate::backend::cpu;
+use crate::backend::BENT;
+use crate::backend::cpu::exp;
 use crate::config::Config;
+use crate::parallel::from_parts;
+use crate::region::Region;
 use crate::simd::widened;
 
 /// Values that one task works through.
@@ -21,6 +25,7 @@ const CHUNK: usize = 1 << 14;
 pub struct Deviation {
     /// Without it, the texture is d itself.
     range: Option<f32>,
+    size: usize,
     narrow: Blur,
     wide: Option<Blur>,
     blur: Blur,
@@ -58,6 +63,7 @@ impl Deviation {
         if config.height.enabled {
             return Self {
                 range: None,
+                size,
                 narrow: blur(0.0),
                 wide: None,
                 blur: blur(config.height.blur),
@@ -66,6 +72,7 @@ impl Deviation {
         }
         Self {
             range: Some(fine.deviation_range),
+            size,
             narrow: blur(fine.deviation_smoothing),
             wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
             blur: blur(fine.deviation_blur),
@@ -75,68 +82,105 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
-        let mut sharp = self.band(deviation, Blur::apply);
-        if let Some(range) = self.range {
-            sharp.par_chunks_mut(CHUNK).for_each(|values| squash(values, range));
-        }
-        let blurred = self.blur.apply(&sharp);
+        self.textures_in(&Region::whole(self.size, self.size), deviation)
+    }
+
+    /// The same; the blur in a region only.
+    pub fn textures_in(&self, region: &Region, deviation: &[f32]) -> Bend {
+        let band = self.band(Cow::Borrowed(deviation), Blur::apply);
+        let sharp = match self.range {
+            Some(range) => {
+                let fill = |part: usize, out: &mut [f32]| {
+                    squash(out, &band[part * CHUNK..], range);
+                };
+                from_parts(band.len(), CHUNK, fill).0
+            }
+            None => band.into_owned(),
+        };
+        let blurred = self.blur.apply_in(region, &sharp);
         Bend { sharp, blurred }
     }
 
-    /// Carries gradients by d and by its blur to the deviation texture.
-    pub fn adjoint(&self, bend: &Bend, by_sharp: &[f32], by_blurred: &[f32]) -> Vec<f32> {
-        let mut gradient = self.blur.adjoint(by_blurred);
-        let parts = by_sharp.par_chunks(CHUNK).zip(bend.sharp.par_chunks(CHUNK));
-        gradient.par_chunks_mut(CHUNK).zip(parts).for_each(|(gradient, (by_sharp, sharp))| {
-            for ((g, by_sharp), d) in gradient.iter_mut().zip(by_sharp).zip(sharp) {
-                // The derivative of d = range x tanh(t), by d.
-                *g = (*g + by_sharp) * self.range.map_or(1.0, |range| range - d * d / range);
-            }
-        });
-        self.band(&gradient, Blur::adjoint)
+    /// The region on which texels of another depend: where [`Self::adjoint_in`] is not zero if the
+    /// gradients are zero outside of the other.
+    pub fn reaches(&self, region: &Region) -> Region {
+        region.dilated(self.blur.reach(), self.size)
+    }
+
+    /// Carries gradients by d and by its blur, zero outside of a region, to the deviation texture;
+    /// `reached` is what it [reaches](Self::reaches).
+    pub fn adjoint_in(
+        &self,
+        reached: &Region,
+        bend: &Bend,
+        by_sharp: &[f32],
+        by_blurred: &[f32],
+    ) -> Vec<f32> {
+        let after = |at: usize, gradient: &mut [f32]| {
+            unsquash(gradient, &by_sharp[at..], &bend.sharp[at..], self.range);
+        };
+        let gradient = self.blur.adjoint_in(reached, by_blurred, after);
+        self.band(Cow::Owned(gradient), Blur::adjoint).into_owned()
     }
 
     /// B or its transpose.
-    fn band(&self, texture: &[f32], blur: fn(&Blur, &[f32]) -> Vec<f32>) -> Vec<f32> {
-        let mut band = blur(&self.narrow, texture);
-        if let Some(wide) = &self.wide {
-            let coarse = blur(wide, texture);
-            band.par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
+    fn band<'a>(
+        &self,
+        texture: Cow<'a, [f32]>,
+        blur: fn(&Blur, &[f32]) -> Vec<f32>,
+    ) -> Cow<'a, [f32]> {
+        let coarse = self.wide.as_ref().map(|wide| blur(wide, &texture));
+        let mut band = match self.narrow.reach() {
+            0 => texture,
+            _ => Cow::Owned(blur(&self.narrow, &texture)),
+        };
+        if let Some(coarse) = coarse {
+            band.to_mut().par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
         }
         band
     }
 }
 
 widened! {
-    /// t becomes range x tanh(t), accurate to about 1e-7 absolute.
-    fn squash(values: &mut [f32], range: f32) {
-        let (whole, rest) = values.as_chunks_mut::<8>();
-        for values in whole {
-            squash_eight(values, range);
+    /// The derivative of d = range x tanh(t), by d, times both gradients by d.
+    fn unsquash(gradient: &mut [f32], by_sharp: &[f32], sharp: &[f32], range: Option<f32>) {
+        let (range, square) = range.map_or((1.0, 0.0), |range| (range, 1.0 / range));
+        for ((g, by_sharp), d) in gradient.iter_mut().zip(by_sharp).zip(sharp) {
+            *g = (*g + by_sharp) * (range - d * d * square);
         }
-        let mut last = [0.0; 8];
-        last[..rest.len()].copy_from_slice(rest);
-        squash_eight(&mut last, range);
-        rest.copy_from_slice(&last[..rest.len()]);
     }
 }
 
-#[inline(always)]
-fn squash_eight(values: &mut [f32; 8], range: f32) {
-    let mut t = [0.0; 8];
-    for lane in 0..8 {
-        t[lane] = 2.0 * values[lane];
-    }
-    let e = cpu::exp(t);
-    for lane in 0..8 {
-        values[lane] = range * (1.0 - 2.0 / (e[lane] + 1.0));
+widened! {
+    /// range x tanh(t), accurate to about 1e-7 of the range.
+    fn squash(out: &mut [f32], t: &[f32], range: f32) {
+        for (out, t) in out.iter_mut().zip(t) {
+            *out = range * (1.0 - 2.0 / (exp(2.0 * t) + 1.0));
+        }
     }
 }
 
 impl Bend {
     /// d, its blur and the specular albedo at every sample.
     pub fn sample(&self, specular: &[f32], samples: &Samples) -> Planes {
-        let parts: [(&[f32], usize); 3] = [(&self.sharp, 3), (&self.blurred, 3), (specular, 1)];
-        samples.taps.sample::<7>(&interleave::<7>(&parts))
+        Planes::from_blocks(BENT, samples.len(), |block, rows| {
+            rows.first_chunk_mut().into_iter().for_each(|rows| {
+                self.sample_block(specular, samples, block, rows);
+            });
+        })
+    }
+
+    /// The same at the samples of a block.
+    pub fn sample_block(
+        &self,
+        specular: &[f32],
+        samples: &Samples,
+        block: usize,
+        rows: &mut [Row; BENT],
+    ) {
+        let [a, b, c, d, e, f, g] = rows;
+        samples.taps.sample_block(&self.sharp, block, [a, b, c]);
+        samples.taps.sample_block(&self.blurred, block, [d, e, f]);
+        samples.taps.sample_block(specular, block, [g]);
     }
 }

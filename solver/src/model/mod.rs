@@ -7,6 +7,7 @@ pub mod networks;
 pub mod normals;
 pub mod planes;
 pub mod prior;
+mod rows;
 pub mod samples;
 pub mod taps;
 pub mod texture;

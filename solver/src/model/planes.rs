@@ -5,6 +5,8 @@ use std::mem::MaybeUninit;
 
 use rayon::prelude::*;
 
+use super::rows::Rows;
+
 /// Samples per block.
 pub const BLOCK: usize = 256;
 /// Blocks that one task works through; sums are formed per chunk and added in chunk order, so that
@@ -33,13 +35,13 @@ pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
 pub struct Planes {
     rows: usize,
     len: usize,
-    data: Vec<Row>,
+    data: Rows,
 }
 
 impl Planes {
     /// Zeros.
     pub fn new(rows: usize, len: usize) -> Self {
-        Self { rows, len, data: vec![Row::ZERO; rows * len.div_ceil(BLOCK)] }
+        Self { rows, len, data: Rows::zeros(rows * len.div_ceil(BLOCK)) }
     }
 
     /// `value(sample)[row]`, computed in parallel.
@@ -69,7 +71,6 @@ impl Planes {
         fill: impl Fn(&mut S, usize, &mut [Row]) -> T + Sync,
     ) -> (Self, Vec<T>) {
         let count = rows * len.div_ceil(BLOCK);
-        let mut data = Vec::<Row>::with_capacity(count);
         let task = |scratch: &mut S, (task, part): (usize, &mut [MaybeUninit<Row>])| {
             // Zeroed here, so that it is in this core's cache when it is filled.
             part.iter_mut().for_each(|row| _ = row.write(Row::ZERO));
@@ -85,13 +86,12 @@ impl Planes {
             }
             result
         };
-        let results = data.spare_capacity_mut()[..count]
-            .par_chunks_mut((rows * blocks).max(1))
-            .enumerate()
-            .map_init(scratch, task)
-            .collect();
-        // SAFETY: the tasks have written every one of the rows.
-        unsafe { data.set_len(count) };
+        let write = |data: &mut [MaybeUninit<Row>]| {
+            let parts = data.par_chunks_mut((rows * blocks).max(1));
+            parts.enumerate().map_init(scratch, task).collect()
+        };
+        // SAFETY: the tasks write every one of the rows.
+        let (data, results) = unsafe { Rows::new(count, write) };
         (Self { rows, len, data }, results)
     }
 

@@ -11,6 +11,8 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::planes::{BLOCK, Planes, Row};
+use crate::parallel::from_parts;
+use crate::region::Region;
 use crate::simd::widened;
 
 /// A gather is cut into about this many strips, whatever the number of threads.
@@ -77,18 +79,46 @@ impl Taps {
         [(cell % self.size) as f32 + fx, (cell / self.size) as f32 + fy]
     }
 
+    /// The texels that have part in a sample: of every row, from the first to the last.
+    pub fn region(&self) -> Region {
+        let cells = |row: usize| match &self.cell[self.row_start[row]..self.row_start[row + 1]] {
+            [first, .., last] => first % self.size as u32..last % self.size as u32 + 2,
+            [only] => only % self.size as u32..only % self.size as u32 + 2,
+            [] => 0..0,
+        };
+        let texels = |row: usize| {
+            // Those below a row of cells as well.
+            let [here, above] = [cells(row), if row > 0 { cells(row - 1) } else { 0..0 }];
+            let hull = match (here.is_empty(), above.is_empty()) {
+                (true, _) => above,
+                (_, true) => here,
+                _ => here.start.min(above.start)..here.end.max(above.end),
+            };
+            hull.start as usize..hull.end as usize
+        };
+        Region((0..self.size).map(texels).collect())
+    }
+
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
-        let (texels, _) = texture.as_chunks::<C>();
         Planes::from_blocks(C, self.cell.len(), |block, rows| {
-            let first = block * BLOCK;
-            let last = (first + BLOCK).min(self.cell.len());
-            let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
-            let rows = rows.first_chunk_mut::<C>();
-            rows.into_iter().for_each(|rows| {
-                sample_block(cell, fraction, texels, self.size, 0, rows);
+            rows.first_chunk_mut().into_iter().for_each(|rows: &mut [Row; C]| {
+                self.sample_block(texture, block, rows.each_mut());
             });
         })
+    }
+
+    /// The values of a texture at the samples of a block.
+    pub fn sample_block<const C: usize>(
+        &self,
+        texture: &[f32],
+        block: usize,
+        mut rows: [&mut Row; C],
+    ) {
+        let first = block * BLOCK;
+        let last = (first + BLOCK).min(self.cell.len());
+        let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
+        sample_block(cell, fraction, texture.as_chunks().0, self.size, 0, &mut rows);
     }
 
     /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
@@ -120,7 +150,8 @@ impl Taps {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
                 let (cell, fraction) = (&self.cell[samples.clone()], &self.fraction[samples]);
-                sample_block(cell, fraction, texels, self.size, lanes.start, &mut values);
+                let rows = &mut values.each_mut();
+                sample_block(cell, fraction, texels, self.size, lanes.start, rows);
                 value(block, &values, &mut gradient, &mut loss);
                 sum += loss.0[lanes.clone()].iter().map(|term| f64::from(*term)).sum::<f64>();
                 strip.add(block, lanes, &gradient);
@@ -143,8 +174,7 @@ impl Taps {
     /// end.
     fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
         let (line, rows) = (self.size * D, self.strip());
-        let mut texels = vec![0.0; self.size * line];
-        let task = |(number, texels): (usize, &mut [f32])| {
+        let task = |number: usize, texels: &mut [f32]| {
             let (first, rows) = (number * rows, texels.len() / line);
             let samples = self.row_start[first]..self.row_start[first + rows];
             let mut below = vec![0.0; line];
@@ -153,11 +183,11 @@ impl Taps {
             work(&mut Strip { taps: self, number, first, samples, texels, below: below_texels });
             below
         };
-        let below: Vec<Vec<f32>> =
-            texels.par_chunks_mut(rows * line).enumerate().map(task).collect();
-        for (texels, below) in texels.chunks_mut(rows * line).skip(1).zip(&below) {
+        let (mut texels, below) = from_parts(self.size * line, rows * line, task);
+        let strips = texels.par_chunks_mut(rows * line).skip(1);
+        strips.zip(&below).for_each(|(texels, below)| {
             texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
-        }
+        });
         texels
     }
 }
@@ -184,73 +214,78 @@ struct Strip<'a, const D: usize> {
 }
 
 impl<const D: usize> Strip<'_, D> {
-    /// Adds some lanes of a block. The sums of a cell stay in registers while its samples pass.
+    /// Adds some lanes of a block.
     fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
-        let Taps { size, cell, fraction, .. } = self.taps;
-        let start = self.first * size;
-        let cells = &cell[block * BLOCK..][lanes.clone()];
-        let fractions = &fraction[block * BLOCK..][lanes.clone()];
-        let mut samples = cells.iter().zip(fractions).zip(lanes).peekable();
-        while let Some(((cell, _), _)) = samples.peek().copied() {
-            let mut corners = Corners::default();
-            while let Some(((_, fraction), lane)) = samples.next_if(|next| next.0.0 == cell) {
-                corners.add(*fraction, std::array::from_fn(|channel| rows[channel].0[lane]));
+        let Taps { cell, fraction, .. } = self.taps;
+        let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
+        let (cell, fraction) = (&cell[samples.clone()], &fraction[samples]);
+        add_lanes(self, cell, fraction, lanes.start, rows);
+    }
+}
+
+widened! {
+    /// Adds the gradients of samples that begin at a lane. The sums of a cell stay in registers while its
+    /// samples pass.
+    fn add_lanes<const D: usize>(
+        strip: &mut Strip<D>,
+        cell: &[u32],
+        fraction: &[[f32; 2]],
+        lane: usize,
+        rows: &[Row; D],
+    ) {
+        let Strip { taps: Taps { size, .. }, first, texels, below, .. } = strip;
+        assert!(lane + cell.len() <= BLOCK && fraction.len() == cell.len());
+        let mut sample = 0;
+        while sample < cell.len() {
+            let here = cell[sample];
+            let (mut upper, mut lower) = ([[0.0; D]; 2], [[0.0; D]; 2]);
+            while sample < cell.len() && cell[sample] == here {
+                let [fx, fy] = fraction[sample];
+                for (side, share) in [1.0 - fx, fx].into_iter().enumerate() {
+                    for channel in 0..D {
+                        let g = share * rows[channel].0[lane + sample];
+                        upper[side][channel] += (1.0 - fy) * g;
+                        lower[side][channel] += fy * g;
+                    }
+                }
+                sample += 1;
             }
-            let Corners([a, b, c, d]) = corners;
-            let at = *cell as usize - start;
-            add(&mut self.texels[at], a);
-            add(&mut self.texels[at + 1], b);
-            let next = match (at + size).checked_sub(self.texels.len()) {
-                None => &mut self.texels[at + size..at + size + 2],
-                Some(at) => &mut self.below[at..at + 2],
-            };
-            add(&mut next[0], c);
-            add(&mut next[1], d);
-        }
-    }
-}
-
-/// Sums at the four texels of a cell: upper left, upper right, lower left, lower right.
-struct Corners<const D: usize>([[f32; D]; 4]);
-
-impl<const D: usize> Default for Corners<D> {
-    fn default() -> Self {
-        Self([[0.0; D]; 4])
-    }
-}
-
-impl<const D: usize> Corners<D> {
-    #[inline(always)]
-    fn add(&mut self, [fx, fy]: [f32; 2], gradient: [f32; D]) {
-        let [a, b, c, d] = &mut self.0;
-        for (channel, g) in gradient.into_iter().enumerate() {
-            let (upper, lower) = ((1.0 - fy) * g, fy * g);
-            a[channel] += (1.0 - fx) * upper;
-            b[channel] += fx * upper;
-            c[channel] += (1.0 - fx) * lower;
-            d[channel] += fx * lower;
+            let at = here as usize - *first * size;
+            add(&mut texels[at..at + 2], &upper);
+            match (at + size).checked_sub(texels.len()) {
+                None => add(&mut texels[at + size..at + size + 2], &lower),
+                Some(at) => add(&mut below[at..at + 2], &lower),
+            }
         }
     }
 }
 
 #[inline(always)]
-fn add<const D: usize>(sum: &mut [f32; D], value: [f32; D]) {
-    sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+fn add<const D: usize>(sum: &mut [[f32; D]], values: &[[f32; D]; 2]) {
+    let values = values.as_flattened();
+    sum.as_flattened_mut().iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
 
-/// The texels of a cell, in the order of [`Corners`].
+/// The upper two texels of a cell, and the lower two.
 #[inline(always)]
-fn surrounding<const C: usize>(texels: &[[f32; C]], size: usize, cell: usize) -> [&[f32; C]; 4] {
-    let (upper, lower) = (&texels[cell..cell + 2], &texels[cell + size..cell + size + 2]);
-    [&upper[0], &upper[1], &lower[0], &lower[1]]
+fn surrounding<const C: usize>(
+    texels: &[[f32; C]],
+    size: usize,
+    cell: usize,
+) -> [&[[f32; C]; 2]; 2] {
+    let pair = |at: usize| texels[at..].first_chunk().unwrap_or_else(|| unreachable!());
+    [pair(cell), pair(cell + size)]
 }
 
 #[inline(always)]
-fn blend<const C: usize>([a, b, c, d]: [&[f32; C]; 4], [fx, fy]: [f32; 2]) -> [f32; C] {
-    std::array::from_fn(|k| {
-        let (upper, lower) = (a[k] + fx * (b[k] - a[k]), c[k] + fx * (d[k] - c[k]));
-        upper + fy * (lower - upper)
-    })
+fn blend<const C: usize>([upper, lower]: [&[[f32; C]; 2]; 2], [fx, fy]: [f32; 2]) -> [f32; C] {
+    // Downwards first: left and right are one vector.
+    let mut both = *upper;
+    for (upper, lower) in both.as_flattened_mut().iter_mut().zip(lower.as_flattened()) {
+        *upper += fy * (lower - *upper);
+    }
+    let [left, right] = both;
+    std::array::from_fn(|k| left[k] + fx * (right[k] - left[k]))
 }
 
 widened! {
@@ -261,7 +296,7 @@ widened! {
         texels: &[[f32; C]],
         size: usize,
         first: usize,
-        rows: &mut [Row; C],
+        rows: &mut [&mut Row; C],
     ) {
         assert!(first + cell.len() <= BLOCK);
         for (lane, (cell, fraction)) in cell.iter().zip(fraction).enumerate() {

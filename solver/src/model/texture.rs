@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::parallel::from_parts;
+
 /// The texture at another size, interpolated bilinearly between texel centres.
 pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec<f32> {
     let ratio = size as f32 / to as f32;
@@ -25,34 +27,35 @@ pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec
     out
 }
 
+/// Texels that one task works through.
+const CHUNK: usize = 1 << 12;
+
 /// Puts the channels of several textures side by side: `(texture, its channels)`, `C` in all.
 pub fn interleave<const C: usize>(parts: &[(&[f32], usize)]) -> Vec<f32> {
     let texels = parts.first().map_or(0, |(texture, channels)| texture.len() / channels);
-    let mut out = vec![0.0; texels * C];
-    out.par_chunks_mut(C << 12).enumerate().for_each(|(task, out)| {
+    let fill = |task: usize, out: &mut [f32]| {
         let (out, _) = out.as_chunks_mut::<C>();
         let mut first = 0;
         for (texture, channels) in parts {
-            let source = &texture[(task << 12) * channels..];
+            let source = &texture[task * CHUNK * channels..];
             for (texel, source) in out.iter_mut().zip(source.chunks_exact(*channels)) {
                 texel[first..first + channels].copy_from_slice(source);
             }
             first += channels;
         }
-    });
-    out
+    };
+    from_parts(texels * C, C * CHUNK, fill).0
 }
 
 /// The reverse of [`interleave`]: `D` channels from `first` on, of `C`.
 pub fn part<const C: usize, const D: usize>(texture: &[f32], first: usize) -> Vec<f32> {
     let (texels, _) = texture.as_chunks::<C>();
-    let mut out = vec![0.0; texels.len() * D];
-    out.par_chunks_mut(D << 12).zip(texels.par_chunks(1 << 12)).for_each(|(out, texels)| {
-        for (out, texel) in out.as_chunks_mut::<D>().0.iter_mut().zip(texels) {
+    let fill = |task: usize, out: &mut [f32]| {
+        for (out, texel) in out.as_chunks_mut::<D>().0.iter_mut().zip(&texels[task * CHUNK..]) {
             out.copy_from_slice(&texel[first..first + D]);
         }
-    });
-    out
+    };
+    from_parts(texels.len() * D, D * CHUNK, fill).0
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use crate::backend::resident::{Job, ReliefJob, Variable};
-use crate::backend::{ALBEDOS, Backend};
+use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
@@ -14,6 +14,7 @@ use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
+use crate::region::Region;
 use crate::simd::widened;
 
 /// Everything that is being solved for.
@@ -182,6 +183,9 @@ pub struct Relief<'a> {
     networks: Networks,
     light: Planes,
     albedo: Planes,
+    /// Texels that samples see, and those on which these depend.
+    sampled: Region,
+    reached: Region,
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -197,10 +201,13 @@ impl<'a> Relief<'a> {
         round: usize,
     ) -> Self {
         let (f, adam) = (&config.fine_tuning, &config.adam);
+        let sampled = samples.taps.region();
         Self {
             config,
             samples,
             deviation,
+            reached: deviation.reaches(&sampled),
+            sampled,
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -212,22 +219,24 @@ impl<'a> Relief<'a> {
 
     /// Loss and its gradients by deviation and specular albedo.
     pub(super) fn gradient(
-        &mut self,
+        &self,
         state: &State,
         backend: &dyn Backend,
     ) -> (f64, Vec<f32>, Vec<f32>) {
-        let (samples, taps, scale) = (self.samples, &self.samples.taps, self.deviation.scale);
-        let bend = self.deviation.textures(&state.deviation);
-        let bent = bend.sample(&state.specular, samples);
-        self.albedo.copy_row(3, &bent, 6);
-        let directions = scale.directions(samples, Some(&bent));
-        let (loss, gradient) =
-            backend.bend(&state.networks, samples, &self.light, &directions, &self.albedo);
-        let by_specular = taps.gather::<1>(&gradient, 6);
-        let gradient = scale.adjoint(samples, &bent, &gradient);
-        let gathered = taps.gather::<6>(&gradient, 0);
-        let (by_sharp, by_blurred) = (part::<6, 3>(&gathered, 0), part::<6, 3>(&gathered, 3));
-        (loss, self.deviation.adjoint(&bend, &by_sharp, &by_blurred), by_specular)
+        let (taps, deviation) = (&self.samples.taps, self.deviation);
+        let bend = deviation.textures_in(&self.sampled, &state.deviation);
+        let (loss, gradient) = backend.bend_textures(&TexturedRelief {
+            networks: &state.networks,
+            samples: self.samples,
+            light: &self.light,
+            albedo: &self.albedo,
+            bend: &bend,
+            specular: &state.specular,
+            scale: &deviation.scale,
+        });
+        let [by_sharp, by_blurred] = [0, 3].map(|row| taps.gather::<3>(&gradient, row));
+        let by_deviation = deviation.adjoint_in(&self.reached, &bend, &by_sharp, &by_blurred);
+        (loss, by_deviation, taps.gather::<1>(&gradient, 6))
     }
 }
 

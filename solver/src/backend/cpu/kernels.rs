@@ -5,10 +5,10 @@ use super::Level;
 use super::lanes::{LaneSum, Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
-use crate::backend::{ALBEDOS, BENT};
+use crate::backend::{ALBEDOS, BENT, TexturedRelief};
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
-use crate::model::planes::{Planes, Row};
+use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 
 /// Chains of [`peak`]: more than the latency of a multiply-add times those begun per cycle.
@@ -56,6 +56,7 @@ impl<'a> Inputs<'a> {
         let Samples { fresnel, target, weight, .. } = self.samples;
         Pixels {
             albedo: self.albedo.block(block),
+            specular: &self.albedo.block(block)[3],
             fresnel: &fresnel.block(block)[0],
             target: target.block(block),
             weight: &weight.block(block)[0],
@@ -120,28 +121,67 @@ fn bend_body<S: Lanes, const C: usize>(
     let mut loss = 0.0;
     for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
         let block = first + block;
-        let (light, directions) = (light.block(block), inputs.directions.block(block));
-        kernels::<S, C>(inputs.packed, directions, s);
-        let (diffuse, specular) = (s.diffuse.outputs(), s.specular.outputs());
-        shade::dot::<S>(light, diffuse, &mut s.shading[0]);
-        shade::dot::<S>(light, specular, &mut s.shading[1]);
-        loss += shade::compose::<S>(&inputs.pixels(block), &s.shading, &mut s.gradient);
-        let [by_diffuse, by_specular] = &s.gradient.shading;
-        shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
-        shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
-        let by_input = &mut s.by_direction;
-        backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input));
-        out[..3].copy_from_slice(&by_input[..3]);
-        backward::<S, C>(
-            &inputs.packed[2],
-            &directions[3..],
-            &mut s.specular,
-            None,
-            Some(by_input),
-        );
-        out[3..6].copy_from_slice(&by_input[..3]);
-        out[6] = s.gradient.albedo[3];
+        let (pixels, directions) = (inputs.pixels(block), inputs.directions.block(block));
+        loss += bend_block::<S, C>(inputs.packed, &pixels, light.block(block), directions, s, out);
     }
+    loss
+}
+
+/// The same of a block, from textures, and by them.
+#[inline(always)]
+fn textured_body<S: Lanes, const C: usize>(
+    packed: &[Packed; 3],
+    relief: &TexturedRelief,
+    first: usize,
+    s: &mut Scratch,
+    out: &mut [Row],
+) -> f64 {
+    let TexturedRelief { samples, light, albedo, bend, specular, scale, .. } = *relief;
+    let inputs = Inputs { packed, samples, directions: light, albedo };
+    let mut loss = 0.0;
+    let (mut bent, mut directions) = ([Row::ZERO; BENT], [Row::ZERO; DIRECTIONS]);
+    let mut gradient = [Row::ZERO; BENT];
+    for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
+        let block = first + block;
+        bend.sample_block(specular, samples, block, &mut bent);
+        scale.directions_of(samples, block, &bent, &mut directions);
+        let filled = samples.len() - block * BLOCK;
+        if filled < BLOCK {
+            // A normal of zero has no direction.
+            directions.iter_mut().for_each(|row| row.0[filled..].fill(0.0));
+        }
+        let pixels = Pixels { specular: &bent[DIRECTIONS], ..inputs.pixels(block) };
+        let light = light.block(block);
+        loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient);
+        scale.adjoint_of(samples, block, &bent, &gradient, out);
+        out[DIRECTIONS] = gradient[DIRECTIONS];
+    }
+    loss
+}
+
+#[inline(always)]
+fn bend_block<S: Lanes, const C: usize>(
+    packed: &[Packed; 3],
+    pixels: &Pixels,
+    light: &[Row],
+    directions: &[Row],
+    s: &mut Scratch,
+    out: &mut [Row],
+) -> f64 {
+    kernels::<S, C>(packed, directions, s);
+    let (diffuse, specular) = (s.diffuse.outputs(), s.specular.outputs());
+    shade::dot::<S>(light, diffuse, &mut s.shading[0]);
+    shade::dot::<S>(light, specular, &mut s.shading[1]);
+    let loss = shade::compose::<S>(pixels, &s.shading, &mut s.gradient);
+    let [by_diffuse, by_specular] = &s.gradient.shading;
+    shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
+    shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
+    let by_input = &mut s.by_direction;
+    backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input));
+    out[..3].copy_from_slice(&by_input[..3]);
+    backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, Some(by_input));
+    out[3..6].copy_from_slice(&by_input[..3]);
+    out[6] = s.gradient.albedo[3];
     loss
 }
 
@@ -224,6 +264,7 @@ macro_rules! entry {
 
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(peak, peak_body(rounds: usize) -> f32);

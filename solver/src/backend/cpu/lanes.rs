@@ -59,17 +59,36 @@ pub fn exp<S: Lanes>(x: S) -> S {
     exp_below(S::splat(88.0).min(x))
 }
 
+/// [`exp`] in plain operations, which a compiler makes vectors of.
+#[inline(always)]
+pub fn exp_plain(x: f32) -> f32 {
+    /// Adding it leaves no bits for a fraction, and an integer in the lowest bits.
+    const SHIFT: f32 = 12_582_912.0;
+    let x = x.clamp(-87.0, 88.0);
+    let shifted = x * std::f32::consts::LOG2_E + SHIFT;
+    let n = shifted - SHIFT;
+    let r = n * REST_OF_LN_2 + (n * -LN_2 + x);
+    let sum = EXP.into_iter().fold(EXP_FIRST, |sum, factor| sum * r + factor);
+    f32::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 23))
+}
+
+/// ln 2 in two parts, the first with so few bits that its product with an exponent is exact.
+const LN_2: f32 = 0.693_359_4;
+const REST_OF_LN_2: f32 = 2.121_944_4e-4;
+/// 1 + r + r^2 p(r) with the p that has the least largest error on |r| <= ln 2 / 2: 1.1e-8; the highest
+/// power first.
+const EXP_FIRST: f32 = 0.001_394_111_3;
+const EXP: [f32; 6] = [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0];
+
 /// [`exp`] of what is not above 88.
 #[inline(always)]
 fn exp_below<S: Lanes>(x: S) -> S {
     let x = S::splat(-87.0).max(x);
     let n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
-    // ln 2 in two parts, the first with so few bits that its product with n is exact.
-    let r = n.mul_add(S::splat(-0.693_359_4), x);
-    let r = n.mul_add(S::splat(2.121_944_4e-4), r);
-    // 1 + r + r^2 p(r) with the p that has the least largest error on |r| <= ln 2 / 2: 1.1e-8.
-    let mut sum = S::splat(0.001_394_111_3);
-    for factor in [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0] {
+    let r = n.mul_add(S::splat(-LN_2), x);
+    let r = n.mul_add(S::splat(REST_OF_LN_2), r);
+    let mut sum = S::splat(EXP_FIRST);
+    for factor in EXP {
         sum = sum.mul_add(r, S::splat(factor));
     }
     sum.scale(n)
@@ -299,6 +318,7 @@ mod tests {
             let exact = f64::from(x).exp();
             let relative = |got: f32, exact: f64| (f64::from(got) / exact - 1.0).abs();
             worst_exp = worst_exp.max(relative(exp(Portable::splat(x)).0[3], exact));
+            assert_eq!(exp_plain(x), exp(Portable::splat(x)).0[0], "{x}");
             let (value, slope) = softplus(Portable::splat(x));
             worst_softplus = worst_softplus.max(relative(value.0[0], exact.ln_1p()));
             worst_slope = worst_slope.max(relative(slope.0[7], exact / (1.0 + exact)));

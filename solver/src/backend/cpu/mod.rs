@@ -11,6 +11,7 @@
 //! |---|---|---|
 //! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
 //! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
+//! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 28: gradients by both deviations and specular albedo |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
 //! | a diffuse step ([`Taps::exchange`](crate::model::taps::Taps::exchange)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
@@ -29,8 +30,9 @@ mod shade;
 use std::fmt;
 
 use self::kernels::{Inputs, Scratch};
+pub(crate) use self::lanes::exp_plain as exp;
 use self::perceptron::Packed;
-use super::{ALBEDOS, BENT, Backend, JointGradient};
+use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedRelief};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
@@ -146,12 +148,6 @@ fn chunks<T: Send>(
     })
 }
 
-/// e^x, relative error about 1e-7, in plain operations that a compiler makes vectors of.
-#[inline(always)]
-pub(crate) fn exp(x: [f32; 8]) -> [f32; 8] {
-    lanes::exp(lanes::Portable(x)).0
-}
-
 impl Backend for Cpu {
     fn name(&self) -> String {
         format!("cpu, {}", self.level)
@@ -201,6 +197,15 @@ impl Backend for Cpu {
         let inputs = Inputs { packed, samples, directions, albedo };
         let (gradient, losses) = chunks(networks, BENT, samples.len(), |first, scratch, out| {
             kernels::bend(self.level, &inputs, light, first, scratch, out)
+        });
+        (losses.iter().sum(), gradient)
+    }
+
+    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Planes) {
+        let (networks, len) = (relief.networks, relief.samples.len());
+        let packed = &pack(networks);
+        let (gradient, losses) = chunks(networks, BENT, len, |first, scratch, out| {
+            kernels::textured(self.level, packed, relief, first, scratch, out)
         });
         (losses.iter().sum(), gradient)
     }

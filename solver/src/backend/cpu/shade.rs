@@ -88,8 +88,9 @@ pub fn vector_gradients<S: Lanes>(
 
 /// What a block's pixels look like and how they count.
 pub struct Pixels<'a> {
-    /// Diffuse R, G, B and specular albedo.
+    /// Diffuse R, G, B.
     pub albedo: &'a [Row],
+    pub specular: &'a Row,
     pub fresnel: &'a Row,
     pub target: &'a [Row],
     pub weight: &'a Row,
@@ -113,7 +114,7 @@ pub fn compose<S: Lanes>(pixels: &Pixels, shading: &[Row; 2], gradient: &mut Pix
     while at < BLOCK {
         let (diffuse, specular) = (S::load(&shading[0], at), S::load(&shading[1], at));
         let (fresnel, weight) = (S::load(pixels.fresnel, at), S::load(pixels.weight, at));
-        let strength = fresnel.mul(S::load(&pixels.albedo[3], at));
+        let strength = fresnel.mul(S::load(pixels.specular, at));
         let highlight = strength.mul(specular);
         let push = weight.mul(S::splat(pixels.scale));
         let (mut by_highlight, mut by_diffuse) = (zero, zero);
