@@ -51,9 +51,10 @@ const RESIDENT: [(&str, Body); 8] = [
 ];
 
 /// Of devices that are opened for the test.
-const OWN: [(&str, OnAdapter); 5] = [
+const OWN: [(&str, OnAdapter); 6] = [
     ("no choice but a name leads to a software adapter", choice),
     ("every pass is timed, and has the same result", stages::timed),
+    ("multiply-adds and bandwidth are measured", stages::ceilings),
     ("a device lost within a stage leaves it to the processor", lost::within_a_stage),
     ("a device lost within the height solve leaves it to the processor", lost::within_the_heights),
     ("a device lost before everything leaves everything to the processor", lost::before),
@@ -69,11 +70,14 @@ static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var
 });
 
 /// Opened once, since its kernels take seconds to compile.
-static GPU: LazyLock<Option<Gpu>> =
-    LazyLock::new(|| ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap().in_pieces(PIECE)));
+static GPU: LazyLock<Option<Gpu>> = LazyLock::new(|| {
+    ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap().in_pieces(PIECE, AXIS))
+});
 
 /// Samples of a piece: the tests have a few thousand, in several pieces.
 const PIECE: usize = 1024;
+/// Workgroups along one axis: nearly every grid has two, most of them with workgroups too many.
+const AXIS: usize = 3;
 
 fn main() {
     let mut arguments = Arguments::from_args();

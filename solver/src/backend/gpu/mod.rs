@@ -18,6 +18,7 @@
 
 mod adapter;
 mod bending;
+mod ceilings;
 mod device;
 mod heights;
 mod joint;
@@ -27,15 +28,18 @@ mod layout;
 mod pieces;
 mod program;
 mod relief;
+mod stamps;
 mod transported;
 mod unroll;
 
 use std::sync::OnceLock;
+use std::time::Duration;
 
 pub use adapter::{Adapter, VARIABLE, adapters};
-pub use device::Timings;
+pub use ceilings::Ceilings;
+pub use stamps::{PassTime, Timings};
 
-use self::device::Device;
+use self::device::{Device, locked};
 use self::layout::Layout;
 use super::cpu::Cpu;
 use super::resident::{Descent, DeviceError, Job, NormalEquations, Resident};
@@ -57,36 +61,43 @@ pub struct Gpu {
 impl Gpu {
     /// On this adapter.
     pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
-        Self::with(adapter, false)
-    }
-
-    /// Measures the time of every pass on the device, which costs time; see [`Gpu::timings`].
-    pub fn timed(adapter: &Adapter) -> Result<Self, BackendError> {
-        Self::with(adapter, true)
-    }
-
-    /// With samples in pieces of this many, as if bindings were that small.
-    #[must_use]
-    pub fn in_pieces(mut self, samples: usize) -> Self {
-        self.device.piece = samples;
-        self
-    }
-
-    fn with(adapter: &Adapter, timed: bool) -> Result<Self, BackendError> {
         let refused = |error: DeviceError| BackendError::Refused {
             name: adapter.name.clone(),
             reason: error.to_string(),
         };
-        let device = Device::open(&adapter.adapter, timed).map_err(refused)?;
+        let device = Device::open(&adapter.adapter).map_err(refused)?;
         let Adapter { name, api, driver, .. } = adapter;
         let name = format!("gpu, {name}, {api}, {driver}");
         Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
     }
 
-    /// Milliseconds and dispatches of every pass so far; nothing if they are not timed, or the adapter
-    /// has no clock.
-    pub fn timings(&self) -> Option<Timings> {
-        self.device.timings()
+    /// With samples in pieces of this many and grids of no more workgroups than this along one axis, as
+    /// if bindings and grids were that small.
+    #[must_use]
+    pub fn in_pieces(mut self, samples: usize, axis: usize) -> Self {
+        (self.device.piece, self.device.axis) = (samples, axis);
+        self
+    }
+
+    /// What every pass takes that `work` submits, each of them apart, which costs time; nothing if the
+    /// adapter has no clock.
+    pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
+        if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            *locked(&self.device.timings) = Some(Timings::new());
+        }
+        let result = work();
+        (result, locked(&self.device.timings).take())
+    }
+
+    /// Multiply-adds and bandwidth that compute kernels reach, the latter on three arrays of `bytes` each;
+    /// `budget` for either.
+    pub fn ceilings(&self, bytes: usize, budget: Duration) -> Result<Ceilings, DeviceError> {
+        ceilings::ceilings(&self.device, bytes, budget)
+    }
+
+    /// Bytes that the device has given to this program, where its driver counts them.
+    pub fn memory(&self) -> Option<u64> {
+        self.device.device.generate_allocator_report().map(|report| report.total_allocated_bytes)
     }
 
     /// Gives the device back. What still wants it goes on on the processor.

@@ -27,7 +27,6 @@ const TILE: u32 = 64u;
 // Threads that share the samples of one block, samples of each; blocks of one thread.
 const PARTS: u32 = max(1u, TILE / BLOCKS);
 const PART: u32 = TILE / PARTS;
-const SHARES: u32 = (BLOCKS + TILE - 1u) / TILE;
 // One more than the samples, so that the blocks' reads fall into different banks.
 const STRIDE: u32 = TILE + 1u;
 
@@ -76,11 +75,11 @@ fn main(
     for (var tile = number; tile < parameters.tiles; tile += parameters.groups) {
         let i = tile * TILE + t;
         var outputs: array<Outputs, 3>;
-        for (var network = 0u; network < 3u; network++) {
+        #for network in 0..3
             var h: Hidden;
             hidden_layers(network, network_input(network, i), &h);
             outputs[network] = output_layer(network, &h);
-        }
+        #end
         let light = exponentials(outputs[0]);
         let diffuse = softpluses(outputs[1]);
         let specular = softpluses(outputs[2]);
@@ -89,9 +88,9 @@ fn main(
         let shading = select(product(light, diffuse), 1.0, parameters.layered == 1u);
         let pixel = shaded(i, albedos, shading, product(light, specular), parameters.scale);
         loss += pixel.loss;
-        for (var row = 0u; row < 4u; row++) {
+        #for row in 0..4
             by_albedo[place(i, row, 4u)] = pixel.by_albedo[row];
-        }
+        #end
         let by_diffuse = select(pixel.by_diffuse, 0.0, parameters.layered == 1u);
         #for j in 0..O
             let by_light = by_diffuse * diffuse[j] + pixel.by_specular * specular[j];
@@ -99,7 +98,7 @@ fn main(
             outputs[2][j] = pixel.by_specular * light[j] * logistic(outputs[2][j]);
             outputs[0][j] = by_light * light[j];
         #end
-        for (var network = 0u; network < 3u; network++) {
+        #for network in 0..3
             let x = network_input(network, i);
             var h: Hidden;
             var by_hidden: Hidden;
@@ -114,7 +113,7 @@ fn main(
                 deltas[(HIDDEN + j) * STRIDE + t] = outputs[network][j];
             #end
             workgroupBarrier();
-            for (var share = 0u; share < SHARES; share++) {
+            #for share in 0..SHARES
                 let block = select(t % BLOCKS, t + share * TILE, SHARES > 1u);
                 let part = select(t / BLOCKS, 0u, SHARES > 1u);
                 if part < PARTS && block < BLOCKS {
@@ -133,18 +132,21 @@ fn main(
                     products[network * SHARES + share] = sum;
                     biases[network * SHARES + share] = bias;
                 }
-            }
+            #end
             workgroupBarrier();
-        }
+        #end
     }
     let all = parameters.first_group + number;
-    for (var share = 0u; share < 3u * SHARES; share++) {
-        let first = ((all * 3u * SHARES + share) * TILE + t) * 5u;
-        for (var column = 0u; column < 4u; column++) {
-            partial_sums[first + column] = products[share][column];
-        }
-        partial_sums[first + 4u] = biases[share];
-    }
+    #for network in 0..3
+        #for share in 0..SHARES
+            let sum = network * SHARES + share;
+            let first = ((all * 3u * SHARES + sum) * TILE + t) * 5u;
+            #for column in 0..4
+                partial_sums[first + column] = products[sum][column];
+            #end
+            partial_sums[first + 4u] = biases[sum];
+        #end
+    #end
     sums[t] = loss;
     workgroupBarrier();
     if t == 0u {
