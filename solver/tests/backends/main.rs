@@ -10,6 +10,7 @@ mod kernels;
 mod lost;
 mod model;
 mod scene;
+mod sizes;
 mod solves;
 mod stages;
 #[allow(dead_code, reason = "shared with the unit tests, which need more of it")]
@@ -32,10 +33,11 @@ type Body = fn(&dyn Backend);
 type OnAdapter = fn(&Adapter);
 
 /// Of every backend.
-const SHARED: [(&str, Body); 3] = [
+const SHARED: [(&str, Body); 4] = [
     ("joint gradients match central differences", kernels::joint_gradients),
     ("bend gradients match central differences", kernels::bend_gradients),
     ("shading matches the reference and the other backends", kernels::shading),
+    ("so many samples are what each of them is", sizes::samples),
 ];
 
 /// Of backends that take in whole stages.
@@ -62,6 +64,8 @@ const OWN: [(&str, OnAdapter); 6] = [
 
 /// Where the GPU's tests run.
 static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var(VARIABLE) {
+    // An interpreter has no drivers.
+    _ if cfg!(miri) => None,
     Ok(_) => Some(Adapter::chosen().unwrap()),
     Err(_) => {
         let all = adapters();
@@ -90,6 +94,10 @@ fn main() {
             trials.push(Trial::test(format!("{}: {name}", Cpu::at(level).name()), run));
         }
     }
+    trials.push(Trial::test("textures of a few texels are those written out", || {
+        sizes::textures();
+        Ok(())
+    }));
     let gpu = match &*ADAPTER {
         Some(adapter) => format!("gpu ({}, {}, {})", adapter.name, adapter.api, adapter.driver),
         None => "gpu (no adapter)".to_owned(),

@@ -231,7 +231,10 @@ impl Device {
 
     /// All that was found.
     pub fn report(self, steps: Vec<GpuStep>, solves: Vec<GpuSolve>, paper: GpuPaper) -> GpuReport {
-        let (name, software, reach) = (self.name(), self.software, self.reach);
+        let (mut name, software, reach) = (self.name(), self.software, self.reach);
+        if software {
+            name += ", a software adapter";
+        }
         GpuReport { name, software, reach, steps, solves, paper }
     }
 }

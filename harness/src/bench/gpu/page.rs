@@ -7,12 +7,11 @@ use crate::bench::markdown::{count, size};
 
 /// The row of what a GPU reaches, or that nobody knows.
 pub fn write_reach(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Result {
-    let Some(GpuReport { name, software, reach, .. }) = report else {
+    let Some(GpuReport { name, reach, .. }) = report else {
         return writeln!(page, "| gpu | not yet measured | |");
     };
-    let software = if *software { " (software)" } else { "" };
     let (flops, bytes) = (reach.flops / 1e9, reach.bytes / 1e9);
-    writeln!(page, "| {name}{software} | {flops:.0} | {bytes:.1} |")
+    writeln!(page, "| {name} | {flops:.0} | {bytes:.1} |")
 }
 
 /// The section.

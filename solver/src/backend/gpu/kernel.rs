@@ -67,7 +67,8 @@ impl Kernel {
             ..wgpu::ShaderRuntimeChecks::checked()
         };
         // SAFETY: every loop of the kernels counts up to a constant or to a number of samples, texels
-        // or workgroups that it was given, so that all of them end; indices stay checked. The guard
+        // or workgroups that it was given, or halves a number until it is zero, so that all of them
+        // end; indices stay checked. The guard
         // against endless loops would keep drivers from unrolling the networks' short ones.
         let module = unsafe { device.create_shader_module_trusted(descriptor, checks) };
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
