@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test software-gpu bench lint clean
+.PHONY: build demo emily results test software-gpu bench lint miri clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -58,6 +58,14 @@ bench: build
 lint: build
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
+
+# The portable kernels, planes and taps under Miri, minutes; needs `rustup component add miri rust-src
+# --toolchain nightly` (written against nightly 2026-05-19).
+MIRI = MIRIFLAGS=-Zmiri-disable-isolation cargo +nightly miri test --target-dir target/miri -p solver
+miri:
+	$(MIRI) --lib -- model::planes model::taps
+	$(MIRI) --test backends -- "samples are"
+	$(MIRI) --test backends -- "few texels"
 
 clean:
 	rm -rf target .venv .tools runs

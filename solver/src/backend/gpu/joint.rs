@@ -85,8 +85,8 @@ impl Joint {
         let mut passes = vec![];
         for (at, (piece, groups)) in self.pieces.0.iter().zip(&self.groups).enumerate() {
             let tiles = (padded(piece) / TILE) as u32;
-            let words =
-                [tiles, *groups as u32, first as u32, u32::from(self.layered), scale.to_bits()];
+            let layered = u32::from(self.layered);
+            let words = [tiles, *groups as u32, first as u32, layered, scale.to_bits(), 0];
             let parameters = device.uniform(&words);
             let buffers = [
                 &parameters,
