@@ -135,6 +135,11 @@ impl Device {
             }
         }
         buffer.unmap();
+        if size > STAGED {
+            // A failure is a fault of the device, which says so when it is asked for results.
+            self.queue.submit([]);
+            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        }
         buffer
     }
 
@@ -195,6 +200,9 @@ const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE
     .union(wgpu::BufferUsages::UNIFORM)
     .union(wgpu::BufferUsages::COPY_SRC)
     .union(wgpu::BufferUsages::COPY_DST);
+
+/// Uploads larger than this leave the host's memory before the next one enters it, bytes.
+const STAGED: usize = 32 << 20;
 
 /// Nothing that these locks protect is ever left half done.
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
