@@ -1,6 +1,9 @@
 //! Semantic initialisation of the diffuse albedo (paper, section 5.3): the mean colour of every
 //! face region, painted over the region.
 
+mod clusters;
+pub mod colours;
+
 use glam::{DVec3, Vec3};
 
 use crate::capture::{Mesh, View};

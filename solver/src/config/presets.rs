@@ -19,6 +19,7 @@ impl Config {
             view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
             initialisation: InitialisationConfig {
                 semantic: true,
+                colour_regions: 0,
                 specular_maximum: 0.05,
                 starts: 1,
                 start_iterations: 500,
@@ -103,6 +104,7 @@ impl Config {
         config.rendering.positive_albedo = true;
         // Some weights never learn the highlights, and the loss shows it early.
         config.initialisation.starts = 4;
+        config.initialisation.colour_regions = 4;
         config.initialisation.start_iterations = 400;
         config.warm_up.network_rate = 5e-3;
         config.warm_up.diffuse_rate = 3e-4;

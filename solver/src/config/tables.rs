@@ -48,6 +48,8 @@ pub struct ViewWeightConfig {
 pub struct InitialisationConfig {
     /// One colour per label region; otherwise one colour for the whole face.
     pub semantic: bool,
+    /// Regions of like colour that take the place of labels in a capture without any; 0: none do.
+    pub colour_regions: usize,
     /// The brightest initial specular albedo; 0.05.
     pub specular_maximum: f32,
     /// Seeds of the networks that are tried, from `seed` on; the warm-up goes on with the one that has

@@ -52,8 +52,8 @@ pub(super) fn finish(
     let specular = covered.map(|(value, _)| *value).collect();
     let mut scales = Scales::new(&config.normalisation, shading, specular);
     if config.normalisation.specular_skin > 0.0 {
-        let atlas = Atlas::new(mesh, size);
-        let skin = gloss::of_largest_region(&atlas, &projections, &seen, &state.specular);
+        let regions = site.regions(&Atlas::new(mesh, size), &projections);
+        let skin = gloss::of_largest_region(regions.as_deref(), &seen, &state.specular);
         scales.specular = config.normalisation.specular_skin / skin.max(f32::MIN_POSITIVE);
     }
     let physical_scale = physical.as_ref().map(|physical| physical.scale);
@@ -80,7 +80,9 @@ pub(super) fn finish(
     let seen = per_texel(&atlas, &projections, |_| true);
     if config.normalisation.specular_pooling > 0.0 {
         let config = &config.normalisation;
-        state.specular = gloss::pooled(config, &atlas, &projections, &seen, &state.specular);
+        let regions = site.regions(&atlas, &projections);
+        let regions = regions.as_deref();
+        state.specular = gloss::pooled(config, &atlas, regions, &seen, &state.specular);
     }
     let mut maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
     maps.confidence = confidence.map(|confidence| Picture {

@@ -4,21 +4,18 @@
 use crate::config::NormalisationConfig;
 use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
-use crate::projection::Projection;
-use crate::semantic::region_map;
 
-/// `specular` on the chart of `atlas`, pooled over the labelled regions or, without labels, over the
-/// configured distance; texels that are not `seen` have no say.
+/// `specular` on the chart of `atlas`, pooled over the regions or, without any, over the configured
+/// distance; texels that are not `seen` have no say.
 pub(super) fn pooled(
     config: &NormalisationConfig,
     atlas: &Atlas,
-    projections: &[Projection],
+    regions: Option<&[u8]>,
     seen: &[bool],
     specular: &[f32],
 ) -> Vec<f32> {
-    let regions = region_map(atlas, projections);
-    if regions.iter().any(|region| *region != 0) {
-        let means = region_means(&regions, seen, specular);
+    if let Some(regions) = regions {
+        let means = region_means(regions, seen, specular);
         return regions.iter().map(|region| means[*region as usize].0).collect();
     }
     let blur = Blur::new(atlas.size, 1, config.specular_pooling / texel_length(atlas));
@@ -32,19 +29,10 @@ pub(super) fn pooled(
     (0..seen.len()).map(near).collect()
 }
 
-/// Whether any texel has a label.
-pub(super) fn labelled(atlas: &Atlas, projections: &[Projection]) -> bool {
-    region_map(atlas, projections).iter().any(|region| *region != 0)
-}
-
 /// The mean of the region that most seen texels belong to.
-pub(super) fn of_largest_region(
-    atlas: &Atlas,
-    projections: &[Projection],
-    seen: &[bool],
-    specular: &[f32],
-) -> f32 {
-    let means = region_means(&region_map(atlas, projections), seen, specular);
+pub(super) fn of_largest_region(regions: Option<&[u8]>, seen: &[bool], specular: &[f32]) -> f32 {
+    let one = vec![0; if regions.is_none() { seen.len() } else { 0 }];
+    let means = region_means(regions.unwrap_or(&one), seen, specular);
     means.iter().fold((0.0, 0), |best, next| if next.1 > best.1 { *next } else { best }).0
 }
 
@@ -74,6 +62,8 @@ mod tests {
     use crate::capture::View;
     use crate::gbuffer::GBuffer;
     use crate::picture::GrayImage;
+    use crate::projection::Projection;
+    use crate::semantic::region_map;
     use crate::testing;
 
     const SIZE: usize = 32;
@@ -98,8 +88,10 @@ mod tests {
         let specular: Vec<f32> = (0..SIZE * SIZE).map(specular).collect();
         let config = crate::Config::default().normalisation;
         let config = NormalisationConfig { specular_pooling: 0.2, ..config };
-        let pooled = pooled(&config, &atlas, &projections, &seen, &specular);
-        let largest = of_largest_region(&atlas, &projections, &seen, &specular);
+        let regions = region_map(&atlas, &projections);
+        let regions = labelled.then_some(regions.as_slice());
+        let pooled = pooled(&config, &atlas, regions, &seen, &specular);
+        let largest = of_largest_region(regions, &seen, &specular);
         (pooled, seen, largest)
     }
 

@@ -9,11 +9,12 @@ use super::stage::State;
 use crate::backend::Backend;
 use crate::capture::{Capture, View};
 use crate::config::{Config, TextureRule, TextureSize, ViewWeightConfig};
-use crate::gbuffer::GBuffer;
+use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::semantic;
+use crate::projection::Projection;
+use crate::semantic::{self, colours::ColourRegions};
 
 /// The place where a solve happens.
 pub(super) struct Site<'a> {
@@ -30,6 +31,7 @@ pub(super) struct Site<'a> {
     pictures: OnceCell<WarmUpPictures>,
     coarse: OnceCell<Samples>,
     fine: OnceCell<Fine>,
+    colour_regions: OnceCell<Option<ColourRegions>>,
 }
 
 /// The full pictures with the final textures.
@@ -53,6 +55,7 @@ impl<'a> Site<'a> {
             pictures: OnceCell::new(),
             coarse: OnceCell::new(),
             fine: OnceCell::new(),
+            colour_regions: OnceCell::new(),
         }
     }
 
@@ -91,6 +94,36 @@ impl<'a> Site<'a> {
         self.pictures.take();
     }
 
+    /// What takes the place of labels in a capture that has none, if the configuration says so.
+    fn colour_regions(&self) -> Option<&ColourRegions> {
+        let views = &self.capture.train;
+        let find = || {
+            let count = self.config.initialisation.colour_regions;
+            let labelled = views.iter().any(|view| view.labels.is_some());
+            let projections = || Projection::of_views(views, &self.gbuffers);
+            (count > 0 && !labelled)
+                .then(|| {
+                    ColourRegions::new(
+                        &self.capture.mesh,
+                        &projections(),
+                        &self.config.transport,
+                        count,
+                    )
+                })
+                .flatten()
+        };
+        self.colour_regions.get_or_init(find).as_ref()
+    }
+
+    /// The region of every texel, by labels or else by colour; `None` if the face is one region.
+    pub fn regions(&self, atlas: &Atlas, projections: &[Projection]) -> Option<Vec<u8>> {
+        if let Some(regions) = self.colour_regions() {
+            return Some(regions.map(atlas.size));
+        }
+        let labels = semantic::region_map(atlas, projections);
+        labels.iter().any(|region| *region != 0).then_some(labels)
+    }
+
     /// What the textures start from.
     pub fn initial_state(&self) -> State {
         let config = self.config;
@@ -104,7 +137,11 @@ impl<'a> Site<'a> {
             &unlabelled
         };
         let mesh = &self.capture.mesh;
-        let diffuse = semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size).data;
+        let diffuse = match self.colour_regions().filter(|_| config.initialisation.semantic) {
+            Some(regions) => regions.albedo(size),
+            None => semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size),
+        };
+        let diffuse = diffuse.data;
         let grey: Vec<f32> =
             diffuse.chunks_exact(3).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
         let brightest = grey.iter().fold(f32::MIN_POSITIVE, |m, g| m.max(*g));

@@ -28,13 +28,11 @@ pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
     let config = &site.config.normalisation;
     let atlas = Atlas::new(&site.capture.mesh, *size);
     let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
-    if !gloss::labelled(&atlas, &projections) {
-        return None;
-    }
+    let regions = site.regions(&atlas, &projections)?;
     let seen = per_texel(&atlas, &projections, |_| true);
-    let skin = gloss::of_largest_region(&atlas, &projections, &seen, specular);
+    let skin = gloss::of_largest_region(Some(&regions), &seen, specular);
     let scale = config.specular_skin / skin.max(f32::MIN_POSITIVE);
-    let pooled = gloss::pooled(config, &atlas, &projections, &seen, specular);
+    let pooled = gloss::pooled(config, &atlas, Some(&regions), &seen, specular);
     Some(pooled.into_iter().map(|value| value * scale).collect())
 }
 
