@@ -59,7 +59,7 @@ lint: build
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
 
-# The portable kernels, planes and taps under Miri, minutes; needs `rustup component add miri rust-src
+# Planes and taps under Miri, minutes; needs `rustup component add miri rust-src
 # --toolchain nightly` (written against nightly 2026-05-19).
 # Tree borrows, because rayon's queues are not made for stacked ones.
 MIRI = MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-tree-borrows -Zmiri-permissive-provenance \
@@ -67,7 +67,6 @@ MIRI = MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-tree-borrows -Zmiri-permissive
 miri:
 	$(MIRI) --lib -- model::planes
 	$(MIRI) --test backends -- "few texels"
-	$(MIRI) --test backends -- "samples are"
 
 clean:
 	rm -rf target .venv .tools runs

@@ -6,7 +6,7 @@
 //! run time. Elsewhere there are the portable ones alone, arrays of eight floats whose loops compilers make
 //! vectors of: on aarch64 two NEON registers each, with products and sums rounded apart. They index
 //! slices, without `unsafe`; every other level is compared with them, on numbers of samples around all
-//! widths too (`solver/tests/backends`), and `make miri` interprets them.
+//! widths too (`solver/tests/backends`). `make miri` interprets planes and taps.
 
 mod choice;
 pub mod cpu;
