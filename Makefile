@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test software-gpu bench lint clean
+.PHONY: build demo emily results test software-gpu bench lint miri clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -58,6 +58,15 @@ bench: build
 lint: build
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
+
+# Planes and taps under Miri, minutes; needs `rustup component add miri rust-src
+# --toolchain nightly` (written against nightly 2026-05-19).
+# Tree borrows, because rayon's queues are not made for stacked ones.
+MIRI = MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-tree-borrows -Zmiri-permissive-provenance \
+  -Zmiri-ignore-leaks" cargo +nightly miri test --target-dir target/miri -p solver
+miri:
+	$(MIRI) --lib -- model::planes
+	$(MIRI) --test backends -- "few texels"
 
 clean:
 	rm -rf target .venv .tools runs

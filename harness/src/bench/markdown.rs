@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{Report, Step, Torch};
+use super::gpu::{write_gpu, write_reach};
+use super::{PaperSize, Report, Step, Torch};
 
 /// The page that `docs/performance.md` is; `command` wrote it.
 pub fn markdown(report: &Report, command: &str) -> String {
@@ -41,7 +42,8 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
     for (name, reach) in &report.reach {
         writeln!(page, "| {name} | {:.0} | {:.1} |", reach.flops / 1e9, reach.bytes / 1e9)?;
     }
-    writeln!(page, "| gpu | not yet measured | |\n")?;
+    write_reach(page, report.gpu.as_ref())?;
+    writeln!(page)?;
 
     writeln!(page, "## Steps\n")?;
     writeln!(
@@ -51,9 +53,6 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
          written once) over the memory's.\n"
     )?;
     write_steps(page, report.steps.iter())?;
-    if report.steps.iter().all(|step| step.backend.starts_with("cpu")) {
-        writeln!(page, "| all | gpu | | | not yet measured | | | | |")?;
-    }
 
     writeln!(page, "\n## PyTorch\n")?;
     match &report.torch {
@@ -141,19 +140,15 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
         "Ten views, 12 million pixels in half resolution for 2000 steps, 48 million in full for 1000, \
          2048² textures; the paper reports under 30 minutes on an RTX 3080.\n"
     )?;
-    for paper in &report.paper {
-        let backend = paper.steps.first().map_or("", |step| &step.backend);
-        let share = match paper.share {
-            1 => "in full".to_owned(),
-            share => format!("on one pixel of {share}, multiplied by {share}"),
-        };
-        writeln!(page, "- {backend}: {:.0} s, {share}.", paper.seconds)?;
+    let PaperSize { share, steps, seconds } = &report.paper;
+    let backend = steps.first().map_or("", |step| &step.backend);
+    writeln!(page, "- {backend}: {seconds:.0} s, on one pixel of {share}, multiplied by {share}.")?;
+    match &report.gpu {
+        Some(gpu) => writeln!(page, "- {}: below.\n", gpu.name)?,
+        None => writeln!(page, "- gpu: not yet measured.\n")?,
     }
-    if report.paper.len() == 1 {
-        writeln!(page, "- gpu: not yet measured.")?;
-    }
-    writeln!(page)?;
-    write_steps(page, report.paper.iter().flat_map(|paper| &paper.steps))
+    write_steps(page, steps.iter())?;
+    write_gpu(page, report.gpu.as_ref())
 }
 
 fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> std::fmt::Result {
@@ -186,14 +181,14 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
     Ok(())
 }
 
-fn count(number: usize) -> String {
+pub fn count(number: usize) -> String {
     match number {
         0..1_000_000 => format!("{} thousand", number as f64 / 1e3),
         _ => format!("{} million", number as f64 / 1e6),
     }
 }
 
-fn size(bytes: u64) -> String {
+pub fn size(bytes: u64) -> String {
     match bytes {
         0..1_000_000_000 => format!("{} MB", bytes.div_ceil(1_000_000)),
         _ => format!("{:.1} GB", bytes as f64 / 1e9),

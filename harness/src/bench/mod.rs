@@ -1,11 +1,11 @@
 //! `unshade bench`: what the solver's arithmetic takes, against what the machine reaches in the same
 //! run.
 //!
-//! Everything runs through [`solver::backend::Backend`] and the stages of a solve, so that a backend is
-//! measured by being in [`Options::backends`].
+//! Everything runs through [`solver::backend::Backend`] and the stages of a solve.
 
 mod clock;
 mod cost;
+mod gpu;
 mod kernels;
 mod machine;
 mod markdown;
@@ -21,8 +21,12 @@ use rayon::ThreadPoolBuilder;
 use serde::Serialize;
 use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
+use solver::backend::gpu::Adapter;
+use solver::config::{Config, TextureRule, TextureSize};
+use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
+pub use gpu::GpuReport;
 pub use kernels::Kernel;
 pub use machine::Machine;
 pub use markdown::markdown;
@@ -55,8 +59,8 @@ const TORCH_STEPS: usize = 8;
 pub struct Options {
     /// One of every kind of row, as small as it goes: does the command work?
     pub quick: bool,
-    /// Devices beside the processor, which is measured at each of its levels.
-    pub backends: Vec<Box<dyn Backend>>,
+    /// A GPU beside the processor, which is measured at each of its levels.
+    pub adapter: Option<Adapter>,
     /// A Python that has PyTorch.
     pub torch: Option<PathBuf>,
     /// Captures to be solved as a whole.
@@ -76,15 +80,17 @@ pub struct Report {
     pub kernels: Vec<Kernel>,
     /// Warm-up steps over pixels, fine-tuning over textures, warm-up over threads; at the best level.
     pub scaling: Vec<Step>,
-    /// The paper's capture.
-    pub paper: Vec<PaperSize>,
+    /// The paper's capture on the processor.
+    pub paper: PaperSize,
+    /// The same on a GPU.
+    pub gpu: Option<GpuReport>,
     /// The same steps in PyTorch.
     pub torch: Torch,
     /// Whole solves.
     pub solves: Vec<Solved>,
 }
 
-/// The paper's capture on one backend.
+/// The paper's capture on the processor.
 #[derive(Debug, Serialize)]
 pub struct PaperSize {
     /// One over the share of the pixels that was really there.
@@ -156,16 +162,12 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     progress("kernels");
     let kernels = kernels::measure(&**device, &bench.kernel_size());
     let scaling = bench.scaling(&**device, *reach_of_best, progress);
-    let mut paper = vec![bench.paper_size(&**device, *reach_of_best, PAPER_SHARE, progress)];
-    for device in &options.backends {
-        // What a device with memory of its own reaches is not known here: no floors.
-        let unknown = Reach { flops: f64::INFINITY, bytes: f64::INFINITY };
-        for (kind, size) in bench.sizes() {
-            progress(&format!("{}, {} pixels, {}", kind.name(), size.0, device.name()));
-            steps.push(steps::measure(kind, &**device, unknown, size, bench.budget()));
-        }
-        paper.push(bench.paper_size(&**device, unknown, 1, progress));
-    }
+    let paper = bench.paper_size(&**device, *reach_of_best, progress);
+    let gpu = options
+        .adapter
+        .as_ref()
+        .map(|adapter| bench.gpu(adapter, &**device, &options.captures, progress))
+        .transpose()?;
     let torch = match &options.torch {
         None => Torch::Absent { mend: MEND.to_owned() },
         Some(python) => {
@@ -180,7 +182,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
             Torch::Measured(rows)
         }
     };
-    Ok(Report { machine, reach, steps, kernels, scaling, paper, torch, solves })
+    Ok(Report { machine, reach, steps, kernels, scaling, paper, gpu, torch, solves })
 }
 
 struct Bench {
@@ -245,20 +247,22 @@ impl Bench {
         rows
     }
 
+    fn paper(&self) -> Paper {
+        Paper { quick: self.quick, share: if self.quick { 10_000 } else { PAPER_SHARE } }
+    }
+
     fn paper_size(
         &self,
         device: &dyn Backend,
         reach: Reach,
-        share: usize,
         progress: &mut dyn FnMut(&str),
     ) -> PaperSize {
-        let share = if self.quick { 10_000 } else { share };
-        let texture = if self.quick { 32 } else { PAPER_TEXTURE };
-        let [half, full] = PAPER_PIXELS.map(|pixels| pixels / share);
-        let sizes = [(half, COARSE), (full, texture), (full, texture)];
+        let paper = self.paper();
+        let share = paper.share;
         let mut steps = vec![];
-        for (kind, size) in Kind::ALL.into_iter().zip(sizes) {
+        for kind in Kind::ALL {
             progress(&format!("the paper's capture, {}, {}", kind.name(), device.name()));
+            let size = paper.size(kind, share);
             steps.push(steps::measure(kind, device, reach, size, self.budget()));
         }
         let seconds = steps
@@ -266,6 +270,54 @@ impl Bench {
             .zip(PAPER_STEPS)
             .map(|(step, steps)| 1e-3 * step.milliseconds * steps as f64 * share as f64);
         PaperSize { share, seconds: seconds.sum(), steps }
+    }
+
+    /// Steps, whole solves and the paper's capture on a GPU; `cpu` says what the losses should be.
+    fn gpu(
+        &self,
+        adapter: &Adapter,
+        cpu: &dyn Backend,
+        captures: &[PathBuf],
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<GpuReport, RunError> {
+        progress(&format!("what {} reaches", adapter.name));
+        let bytes = if self.quick { 1 << 20 } else { ARRAY };
+        let device = gpu::Device::open(adapter, bytes, self.budget())?;
+        let mut steps = vec![];
+        for (kind, (pixels, texture)) in self.sizes() {
+            progress(&format!("{}, {pixels} pixels, {}", kind.name(), device.name()));
+            let problem = Problem::new(pixels, texture);
+            steps.push(device.step(kind, &problem, &losses(kind, &problem, cpu))?);
+        }
+        let mut paper = Config::preset("paper")?;
+        paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
+        let mut solves = vec![];
+        for capture in captures {
+            progress(&format!("solving {}, {}", capture.display(), device.name()));
+            for named in [("unshade", &Config::default()), ("paper", &paper)] {
+                solves.push(device.solve(capture, named)?);
+            }
+        }
+        let paper = device.paper(&self.paper(), progress);
+        Ok(device.report(steps, solves, paper))
+    }
+}
+
+/// The size of the paper's capture.
+struct Paper {
+    quick: bool,
+    /// One over the share that a processor does.
+    share: usize,
+}
+
+impl Paper {
+    /// Pixels and side of the textures in a kind of step, on one pixel of `share`.
+    fn size(&self, kind: Kind, share: usize) -> (usize, usize) {
+        let [half, full] = PAPER_PIXELS.map(|pixels| pixels / share);
+        match kind {
+            Kind::WarmUp => (half, COARSE),
+            _ => (full, if self.quick { 32 } else { PAPER_TEXTURE }),
+        }
     }
 }
 
@@ -278,7 +330,7 @@ fn torch_row(
 ) -> Result<TorchRow, TorchError> {
     let problem = Problem::new(pixels, texture);
     let torch = torch::measure(python, kind, &problem, TORCH_STEPS)?;
-    let ours = losses(kind, problem, device);
+    let ours = losses(kind, &problem, device);
     let difference = ours.iter().zip(&torch.losses).map(|(a, b)| (a / b - 1.0).abs());
     let same = |step: &&Step| (step.kind, step.pixels, step.texture) == (kind, pixels, texture);
     Ok(TorchRow {
@@ -292,13 +344,14 @@ fn torch_row(
 }
 
 /// The losses before the first steps.
-fn losses(kind: Kind, problem: Problem, device: &dyn Backend) -> Vec<f64> {
-    let Problem { config, samples, mut state } = problem;
-    let deviation = solver::model::deviation::Deviation::new(&config, state.size);
+fn losses(kind: Kind, problem: &Problem, device: &dyn Backend) -> Vec<f64> {
+    let Problem { config, samples, state } = problem;
+    let mut state = state.clone();
+    let deviation = Deviation::new(config, state.size);
     let mut stage: Box<dyn Stage> = match kind {
-        Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
-        Kind::Normals => Box::new(Relief::new(&config, &samples, &deviation, &state, device, 1)),
-        Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, device, 1)),
+        Kind::WarmUp => Box::new(WarmUp::new(config, samples, &state)),
+        Kind::Normals => Box::new(Relief::new(config, samples, &deviation, &state, device, 1)),
+        Kind::Diffuse => Box::new(Diffuse::new(config, samples, &deviation, &state, device, 1)),
     };
     (0..TORCH_STEPS).map(|_| stage.step(&mut state, device, 1.0)).collect()
 }
@@ -310,24 +363,44 @@ mod tests {
     /// Every row is there and finite; nothing is said about its time.
     #[test]
     fn the_smallest_run_has_every_row_and_a_table() {
-        let options = Options {
-            quick: true,
-            backends: vec![Box::new(Cpu::new())],
-            torch: None,
-            captures: vec![],
-        };
+        let options = Options { quick: true, adapter: None, torch: None, captures: vec![] };
         let mut heard = 0;
         let report = run(&options, &mut |_| heard += 1).unwrap();
         let levels = Level::available().len();
         assert_eq!(report.reach.len(), levels);
-        assert_eq!(report.steps.len(), 3 * levels + 3);
+        assert_eq!(report.steps.len(), 3 * levels);
         assert!(report.steps.iter().all(|step| step.milliseconds > 0.0));
         assert!(report.kernels.len() > 10 && heard > report.steps.len());
-        assert_eq!(report.paper.len(), 2);
         let text = markdown(&report, "unshade bench");
         assert!(text.contains("pip install torch"), "{text}");
+        assert_eq!(text.matches("ot yet measured").count(), 3, "{text}");
         let value = serde_json::to_value(&report).unwrap();
         assert_eq!(value["steps"][0]["kind"], "warm-up");
+    }
+
+    /// Where there is no adapter, the run above has said that nothing was measured.
+    #[test]
+    fn an_adapter_has_its_steps_its_passes_and_the_processors_losses() {
+        let mut adapters = solver::backend::gpu::adapters();
+        let software = adapters.iter().position(|adapter| adapter.software).unwrap_or(0);
+        if adapters.is_empty() {
+            eprintln!("skipped: no adapter");
+            return;
+        }
+        let adapter = adapters.swap_remove(software);
+        let bench = Bench { quick: true };
+        let report = bench.gpu(&adapter, &Cpu::new(), &[], &mut |_| {}).unwrap();
+        assert_eq!(report.software, adapter.software);
+        assert_eq!(report.steps.len(), 3);
+        for step in &report.steps {
+            assert!(step.milliseconds > 0.0 && step.floors.iter().all(|floor| *floor > 0.0));
+            assert!(step.loss_difference.unwrap() < 1e-4, "{:?}", step.loss_difference);
+            assert_eq!(step.passes.is_empty(), !adapter.has_clock());
+        }
+        let gpu::GpuPaper::Done { steps, seconds, .. } = &report.paper else {
+            panic!("{:?}", report.paper)
+        };
+        assert!(steps.len() == 3 && *seconds > 0.0);
     }
 
     #[test]

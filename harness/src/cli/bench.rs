@@ -4,12 +4,15 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
+use solver::BackendError;
 use solver::atomic;
+use solver::backend::gpu::Adapter;
 
 use crate::bench::{Options, markdown, run};
 use crate::suite::RunError;
 
-/// What to measure, and where to put it.
+/// What to measure, and where to put it. The GPU is the best real one; a software adapter only if
+/// UNSHADE_ADAPTER names it.
 #[derive(Args)]
 pub(super) struct BenchArgs {
     /// Print JSON instead of the tables.
@@ -34,8 +37,12 @@ pub(super) struct BenchArgs {
 
 pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
     let BenchArgs { json, out, markdown: page, torch, solve, quick } = arguments;
-    let options =
-        Options { quick: *quick, backends: vec![], torch: torch.clone(), captures: solve.clone() };
+    let adapter = match Adapter::chosen() {
+        Ok(adapter) => Some(adapter),
+        Err(BackendError::NoGpu { .. }) => None,
+        Err(error) => return Err(error.into()),
+    };
+    let options = Options { quick: *quick, adapter, torch: torch.clone(), captures: solve.clone() };
     let report = run(&options, &mut |what| eprintln!("bench: {what}"))?;
     let mut command = "unshade bench".to_owned();
     if torch.is_some() {

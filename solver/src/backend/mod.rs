@@ -1,6 +1,12 @@
 //! What the arithmetic runs on. The boundary is narrow: samples, directions and albedos already
 //! sampled from their textures go in; losses, gradients and shading come out. A device with memory of
 //! its own may besides take in whole stages, see [`resident`].
+//!
+//! On x86-64 the processor's kernels are compiled for AVX-512, AVX2 with FMA, and plain SSE2, and chosen at
+//! run time. Elsewhere there are the portable ones alone, arrays of eight floats whose loops compilers make
+//! vectors of: on aarch64 two NEON registers each, with products and sums rounded apart. They index
+//! slices, without `unsafe`; every other level is compared with them, on numbers of samples around all
+//! widths too (`solver/tests/backends`). `make miri` interprets planes and taps.
 
 mod choice;
 pub mod cpu;

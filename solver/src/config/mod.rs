@@ -124,6 +124,8 @@ impl Config {
         range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
         range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
         range("adam.beta2", self.adam.beta2, fraction, "at least 0 and below 1")?;
+        let regions = self.initialisation.colour_regions;
+        range("initialisation.colour_regions", regions, |x| x <= 64, "0 to 64")?;
         let side = |x: usize| (16..=8192).contains(&x);
         range("warm_up.texture_size", w.texture_size, side, "16 to 8192")?;
         if let TextureSize::Side(texels) = f.texture_size {

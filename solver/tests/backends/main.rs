@@ -10,6 +10,7 @@ mod kernels;
 mod lost;
 mod model;
 mod scene;
+mod sizes;
 mod solves;
 mod stages;
 #[allow(dead_code, reason = "shared with the unit tests, which need more of it")]
@@ -32,10 +33,11 @@ type Body = fn(&dyn Backend);
 type OnAdapter = fn(&Adapter);
 
 /// Of every backend.
-const SHARED: [(&str, Body); 3] = [
+const SHARED: [(&str, Body); 4] = [
     ("joint gradients match central differences", kernels::joint_gradients),
     ("bend gradients match central differences", kernels::bend_gradients),
     ("shading matches the reference and the other backends", kernels::shading),
+    ("so many samples are what each of them is", sizes::samples),
 ];
 
 /// Of backends that take in whole stages.
@@ -51,9 +53,10 @@ const RESIDENT: [(&str, Body); 8] = [
 ];
 
 /// Of devices that are opened for the test.
-const OWN: [(&str, OnAdapter); 5] = [
+const OWN: [(&str, OnAdapter); 6] = [
     ("no choice but a name leads to a software adapter", choice),
     ("every pass is timed, and has the same result", stages::timed),
+    ("multiply-adds and bandwidth are measured", stages::ceilings),
     ("a device lost within a stage leaves it to the processor", lost::within_a_stage),
     ("a device lost within the height solve leaves it to the processor", lost::within_the_heights),
     ("a device lost before everything leaves everything to the processor", lost::before),
@@ -61,6 +64,8 @@ const OWN: [(&str, OnAdapter); 5] = [
 
 /// Where the GPU's tests run.
 static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var(VARIABLE) {
+    // An interpreter has no drivers.
+    _ if cfg!(miri) => None,
     Ok(_) => Some(Adapter::chosen().unwrap()),
     Err(_) => {
         let all = adapters();
@@ -69,11 +74,14 @@ static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var
 });
 
 /// Opened once, since its kernels take seconds to compile.
-static GPU: LazyLock<Option<Gpu>> =
-    LazyLock::new(|| ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap().in_pieces(PIECE)));
+static GPU: LazyLock<Option<Gpu>> = LazyLock::new(|| {
+    ADAPTER.as_ref().map(|adapter| Gpu::open(adapter).unwrap().in_pieces(PIECE, AXIS))
+});
 
 /// Samples of a piece: the tests have a few thousand, in several pieces.
 const PIECE: usize = 1024;
+/// Workgroups along one axis: nearly every grid has two, most of them with workgroups too many.
+const AXIS: usize = 3;
 
 fn main() {
     let mut arguments = Arguments::from_args();
@@ -86,6 +94,10 @@ fn main() {
             trials.push(Trial::test(format!("{}: {name}", Cpu::at(level).name()), run));
         }
     }
+    trials.push(Trial::test("textures of a few texels are those written out", || {
+        sizes::textures();
+        Ok(())
+    }));
     let gpu = match &*ADAPTER {
         Some(adapter) => format!("gpu ({}, {}, {})", adapter.name, adapter.api, adapter.driver),
         None => "gpu (no adapter)".to_owned(),

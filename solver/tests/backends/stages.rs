@@ -1,5 +1,7 @@
 //! Stages that a device takes in whole, against the same stages on the processor.
 
+use std::time::Duration;
+
 use solver::Config;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
@@ -153,20 +155,31 @@ pub fn transported(backend: &dyn Backend) {
 pub fn timed(adapter: &Adapter) {
     let config = Config::default();
     let (samples, state) = problem(&config);
-    let run = |gpu: &Gpu| {
+    let gpu = Gpu::open(adapter).unwrap();
+    let run = || {
         let (mut stage, mut state) = (WarmUp::new(&config, &samples, &state), state.clone());
         let mut program = gpu.resident(&stage.job().unwrap()).unwrap();
         program.upload(&stage.variables(&mut state)).unwrap();
         program.steps(&[1.0; 3]).unwrap()
     };
-    let plain = Gpu::open(adapter).unwrap();
-    assert_eq!(plain.timings(), None);
-    let gpu = Gpu::timed(adapter).unwrap();
-    assert_eq!(run(&gpu), run(&plain));
-    let timings = gpu.timings();
+    let (losses, timings) = gpu.timed(run);
+    assert_eq!(losses, run());
     assert_eq!(timings.is_some(), adapter.has_clock());
-    for name in timings.iter().flat_map(|_| ["networks", "weight gradients", "gather", "adam"]) {
-        let (milliseconds, count) = timings.as_ref().unwrap()[name];
-        assert!(count >= 3 && milliseconds > 0.0, "{name}: {milliseconds} ms, {count} times");
+    let Some(timings) = timings else { return };
+    for name in ["sampling", "networks", "weight gradients", "prior", "gather", "adam", "sum"] {
+        let pass = timings[name];
+        assert!(pass.dispatches >= 3 && pass.milliseconds > 0.0, "{name}: {pass:?}");
+        assert!(pass.flops > 0.0 && pass.bytes > 0.0, "{name}: {pass:?}");
     }
+    // The published networks' operations.
+    let flops = timings["networks"].flops / (3 * samples.len()) as f64;
+    assert!((flops - 7488.0).abs() < 1.0, "{flops}");
+}
+
+/// A kernel that did nothing would be faster than any device.
+pub fn ceilings(adapter: &Adapter) {
+    let gpu = Gpu::open(adapter).unwrap();
+    let found = gpu.ceilings(1 << 20, Duration::from_millis(20)).unwrap();
+    assert!(found.flops > 1e8 && found.flops < 1e15, "{found:?}");
+    assert!(found.bytes > 1e7 && found.bytes < 1e14, "{found:?}");
 }

@@ -111,7 +111,11 @@ impl Bending {
                 &self.losses,
             ];
             let groups = piece.len().div_ceil(TILE);
-            passes.push(Pass::new(device, &kernel, &buffers, groups));
+            let [forward, _] = layout.flops();
+            // Two directions, Fresnel factor, colour, weight, albedos, light.
+            let values = 15 + layout.outputs() + BENT;
+            let pass = Pass::new(device, &kernel, &buffers, groups);
+            passes.push(pass.doing(piece.len(), 2 * 2 * forward, values));
             first += groups;
         }
         passes

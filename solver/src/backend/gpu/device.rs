@@ -1,18 +1,13 @@
 //! A device with its queue: kernels, buffers, submissions, and what went wrong with it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::kernel::{Kernel, Pass, Slots};
-use super::pieces::PIECE;
+use super::kernel::{AXIS, Kernel, Pass, Slots};
+use super::pieces::largest_piece;
+use super::stamps::Timings;
 use super::unroll::unrolled;
 use crate::backend::resident::DeviceError;
-
-/// Time on the device by pass: its name, milliseconds, dispatches.
-pub type Timings = BTreeMap<&'static str, (f64, usize)>;
-
-/// Queries of one submission; a limit of WebGPU.
-const QUERIES: u32 = 4096;
 
 /// An open device.
 pub(super) struct Device {
@@ -23,20 +18,18 @@ pub(super) struct Device {
     kernels: Mutex<HashMap<String, Arc<Kernel>>>,
     /// Samples of a piece; see [`super::pieces`].
     pub piece: usize,
-    /// Present if passes are timed.
-    timings: Option<Mutex<Timings>>,
+    /// Workgroups along one axis of a grid.
+    pub axis: usize,
+    /// Present while passes are timed.
+    pub timings: Mutex<Option<Timings>>,
 }
 
 impl Device {
-    pub fn open(adapter: &wgpu::Adapter, timed: bool) -> Result<Self, DeviceError> {
+    pub fn open(adapter: &wgpu::Adapter) -> Result<Self, DeviceError> {
         let most = adapter.limits();
-        let timed = timed && adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("unshade"),
-            required_features: match timed {
-                true => wgpu::Features::TIMESTAMP_QUERY,
-                false => wgpu::Features::empty(),
-            },
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
             required_limits: wgpu::Limits {
                 max_buffer_size: most.max_buffer_size,
                 max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
@@ -60,8 +53,9 @@ impl Device {
         device.set_device_lost_callback(move |reason, message| {
             let _ = heard.set(one_line(&format!("device lost ({reason:?}) {message}")));
         });
-        let timings = timed.then(Mutex::default);
-        Ok(Self { device, queue, fault, kernels: Mutex::default(), piece: PIECE, timings })
+        let piece = largest_piece(most.max_storage_buffer_binding_size);
+        let (kernels, timings) = (Mutex::default(), Mutex::default());
+        Ok(Self { device, queue, fault, kernels, piece, axis: AXIS, timings })
     }
 
     /// An error if anything has gone wrong since the device was opened.
@@ -70,11 +64,6 @@ impl Device {
             Some(fault) => Err(DeviceError(fault.clone())),
             None => Ok(()),
         }
-    }
-
-    /// Time on the device so far; nothing if it is not measured.
-    pub fn timings(&self) -> Option<Timings> {
-        self.timings.as_ref().map(|timings| locked(timings).clone())
     }
 
     /// A kernel, compiled when it is first asked for. See [`Kernel::new`].
@@ -146,65 +135,26 @@ impl Device {
             }
         }
         buffer.unmap();
+        if size > STAGED {
+            // A failure is a fault of the device, which says so when it is asked for results.
+            self.queue.submit([]);
+            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        }
         buffer
     }
 
     /// Submits `steps` rounds of passes, with the slots of each round.
     pub fn submit(&self, passes: &[Pass], slots: Option<&Slots>, steps: usize) {
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        let Some(timings) = &self.timings else {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            for step in 0..steps {
-                passes.iter().for_each(|one| one.encode(&mut pass, slots, step));
-            }
-            drop(pass);
-            self.queue.submit([encoder.finish()]);
-            return;
-        };
-        let rounds = (QUERIES as usize / (2 * passes.len().max(1))).clamp(1, steps.max(1));
-        let count = 2 * (rounds * passes.len()) as u32;
-        for first in (0..steps).step_by(rounds) {
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            let queries = self.device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: None,
-                ty: wgpu::QueryType::Timestamp,
-                count,
-            });
-            let rounds = rounds.min(steps - first);
-            for (number, (step, one)) in (first..first + rounds)
-                .flat_map(|step| passes.iter().map(move |one| (step, one)))
-                .enumerate()
-            {
-                let stamps = wgpu::ComputePassTimestampWrites {
-                    query_set: &queries,
-                    beginning_of_pass_write_index: Some(2 * number as u32),
-                    end_of_pass_write_index: Some(2 * number as u32 + 1),
-                };
-                let descriptor = wgpu::ComputePassDescriptor {
-                    label: Some(one.name()),
-                    timestamp_writes: Some(stamps),
-                };
-                one.encode(&mut encoder.begin_compute_pass(&descriptor), slots, step);
-            }
-            let stamps = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("timestamps"),
-                size: 8 * u64::from(count),
-                usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: false,
-            });
-            let used = 2 * (rounds * passes.len()) as u32;
-            encoder.resolve_query_set(&queries, 0..used, &stamps, 0);
-            self.queue.submit([encoder.finish()]);
-            let Ok(stamps) = self.read::<u64>(&[&stamps]) else { return };
-            let period = f64::from(self.queue.get_timestamp_period()) * 1e-6;
-            let mut timings = locked(timings);
-            let stamps = stamps[0][..used as usize].chunks_exact(2);
-            for (one, stamps) in passes.iter().cycle().zip(stamps) {
-                let sum = timings.entry(one.name()).or_default();
-                sum.0 += stamps[1].saturating_sub(stamps[0]) as f64 * period;
-                sum.1 += 1;
-            }
+        if locked(&self.timings).is_some() {
+            return self.submit_timed(passes, slots, steps);
         }
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        for step in 0..steps {
+            passes.iter().for_each(|one| one.encode(&mut pass, slots, step));
+        }
+        drop(pass);
+        self.queue.submit([encoder.finish()]);
     }
 
     /// Until everything that was submitted is done.
@@ -251,8 +201,11 @@ const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE
     .union(wgpu::BufferUsages::COPY_SRC)
     .union(wgpu::BufferUsages::COPY_DST);
 
+/// Uploads larger than this leave the host's memory before the next one enters it, bytes.
+const STAGED: usize = 32 << 20;
+
 /// Nothing that these locks protect is ever left half done.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -12,12 +12,16 @@ use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
-/// Workgroups that walk the samples: a few for each processor of a large GPU.
-const GROUPS: usize = 1024;
+/// Workgroups that walk the samples: several times what a large GPU holds at once (an H200 about 660), so
+/// that the last ones to run leave it idle for a small part of the time alone.
+const GROUPS: usize = 4096;
 /// Fewest workgroups of a piece, if it has that many tiles.
 const LEAST_GROUPS: usize = 256;
 /// Fewest tiles of a workgroup: its sums are as large as four tiles' inputs.
 const TILES: usize = 4;
+
+/// Of a sample: position, two directions, Fresnel factor, colour, weight, albedos.
+const INPUTS: usize = 18;
 
 /// What the joint kernel reads and writes besides weights.
 pub(super) struct Joint {
@@ -81,8 +85,8 @@ impl Joint {
         let mut passes = vec![];
         for (at, (piece, groups)) in self.pieces.0.iter().zip(&self.groups).enumerate() {
             let tiles = (padded(piece) / TILE) as u32;
-            let words =
-                [tiles, *groups as u32, first as u32, u32::from(self.layered), scale.to_bits()];
+            let layered = u32::from(self.layered);
+            let words = [tiles, *groups as u32, first as u32, layered, scale.to_bits(), 0];
             let parameters = device.uniform(&words);
             let buffers = [
                 &parameters,
@@ -95,7 +99,11 @@ impl Joint {
                 &self.partial,
                 &self.losses,
             ];
-            passes.push(Pass::new(device, &kernel, &buffers, *groups));
+            let [forward, back] = layout.flops();
+            let pass = Pass::new(device, &kernel, &buffers, *groups)
+                .doing(piece.len(), 3 * (2 * forward + back), INPUTS + ALBEDOS)
+                .doing(*groups, 0, layout.partial_floats());
+            passes.push(pass);
             first += groups;
         }
         passes.push(layout.summing(device, first, &self.partial, gradient));

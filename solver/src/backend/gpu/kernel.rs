@@ -8,7 +8,7 @@ use crate::backend::resident::Variable;
 /// Threads of a workgroup of the kernels that have one thread per value.
 pub(super) const THREADS: usize = 256;
 /// Workgroups along one axis; a limit of WebGPU.
-const AXIS: usize = 65535;
+pub(super) const AXIS: usize = 65535;
 /// Distance of uniforms with dynamic offsets; the default limit of WebGPU.
 const SLOT: usize = 256;
 /// In every kernel: where samples lie in planes, and workgroups in a grid of two axes.
@@ -67,7 +67,8 @@ impl Kernel {
             ..wgpu::ShaderRuntimeChecks::checked()
         };
         // SAFETY: every loop of the kernels counts up to a constant or to a number of samples, texels
-        // or workgroups that it was given, so that all of them end; indices stay checked. The guard
+        // or workgroups that it was given, or halves a number until it is zero, so that all of them
+        // end; indices stay checked. The guard
         // against endless loops would keep drivers from unrolling the networks' short ones.
         let module = unsafe { device.create_shader_module_trusted(descriptor, checks) };
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -86,12 +87,22 @@ impl Kernel {
     }
 }
 
+/// What a dispatch has to do at least.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Work {
+    /// Floating-point operations, a multiply-add being two.
+    pub flops: f64,
+    /// From and to memory, every value read once and written once.
+    pub bytes: f64,
+}
+
 /// A dispatch with its buffers.
 pub(super) struct Pass {
     kernel: Arc<Kernel>,
     buffers: wgpu::BindGroup,
     slot: Option<usize>,
     grid: [u32; 2],
+    pub work: Work,
 }
 
 impl Pass {
@@ -115,9 +126,9 @@ impl Pass {
             layout: &kernel.layout,
             entries: &entries,
         });
-        let rows = workgroups.div_ceil(AXIS).max(1);
+        let rows = workgroups.div_ceil(device.axis).max(1);
         let grid = [workgroups.div_ceil(rows) as u32, rows as u32];
-        Self { kernel: Arc::clone(kernel), buffers, slot: None, grid }
+        Self { kernel: Arc::clone(kernel), buffers, slot: None, grid, work: Work::default() }
     }
 
     /// One thread for each of `count` values.
@@ -134,6 +145,14 @@ impl Pass {
     #[must_use]
     pub fn with_slot(self, slot: usize) -> Self {
         Self { slot: Some(slot), ..self }
+    }
+
+    /// Also does for each of `count` things: operations, and values read or written.
+    #[must_use]
+    pub fn doing(self, count: usize, flops: usize, values: usize) -> Self {
+        let (flops, bytes) = ((count * flops) as f64, (4 * count * values) as f64);
+        let work = Work { flops: self.work.flops + flops, bytes: self.work.bytes + bytes };
+        Self { work, ..self }
     }
 
     pub fn name(&self) -> &'static str {

@@ -40,7 +40,10 @@ pub(super) fn program<'a>(gpu: &'a Gpu, taps: &Taps, known: &Planes, weight: f32
             &by_albedo[at],
             &losses,
         ];
-        passes.push(Pass::new(device, &kernel, &buffers, *groups));
+        let pass = Pass::new(device, &kernel, &buffers, *groups)
+            .doing(piece.len(), 20 * channels, 3 + known.rows() + channels)
+            .doing(taps.texels(piece), 0, channels);
+        passes.push(pass);
         first += groups;
     }
     let (prior_pass, prior_sums) = prior(device, &albedo, size, weight).unzip();

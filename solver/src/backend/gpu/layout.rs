@@ -73,6 +73,18 @@ impl Layout {
         3 * self.network()
     }
 
+    /// Operations of a sample on its way through one network: forward, and back to the hidden layers.
+    pub fn flops(&self) -> [usize; 2] {
+        let (blocks, first) = (self.blocks(), self.width);
+        // The first blocks have three columns and the biases.
+        [32 * blocks - 8 * first, 32 * (blocks - first)]
+    }
+
+    /// Of a network.
+    pub fn outputs(&self) -> usize {
+        4 * self.outputs
+    }
+
     /// Floats of the partial sums of one workgroup of `joint.wgsl`.
     pub fn partial_floats(&self) -> usize {
         3 * self.blocks().div_ceil(TILE) * TILE * PARTIAL * 4
@@ -133,15 +145,17 @@ impl Layout {
         let source = include_str!("wgsl/weights.wgsl");
         let kernel = device.kernel("weight gradients", source, &self.constants(), "urw");
         let parameters = device.uniform(&[groups as u32]);
-        Pass::new(device, &kernel, &[&parameters, partial, gradient], self.vectors())
+        let pass = Pass::new(device, &kernel, &[&parameters, partial, gradient], self.vectors());
+        pass.doing(groups * self.partial_floats(), 1, 1)
     }
 
-    fn constants(&self) -> [(&'static str, u32); 4] {
+    fn constants(&self) -> [(&'static str, u32); 5] {
         [
             ("W", self.width as u32),
             ("H", self.hidden as u32),
             ("O", self.outputs as u32),
             ("HIDDEN", (self.hidden * self.width) as u32),
+            ("SHARES", self.blocks().div_ceil(TILE) as u32),
         ]
     }
 }
@@ -165,6 +179,7 @@ mod tests {
     fn the_published_networks_fit_a_uniform_buffer_and_a_small_workgroup() {
         let layout = Layout::new(&[3, 16, 16, 8]);
         assert_eq!((layout.blocks(), layout.vectors()), (28, 354));
+        assert_eq!(layout.flops(), [864, 768]);
         assert!(16 * layout.vectors() <= UNIFORM);
         assert!(layout.workgroup_bytes() <= 32 << 10);
     }

@@ -8,16 +8,29 @@
 //! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
 //! bytes every time; the processor's differ by rounding.
 //!
-//! Samples come in pieces that fit the bindings of 128 MiB which every adapter has. A sample and step of
-//! the warm-up moves 36 bytes of inputs, 20 of targets, 12 of taps, and albedos with their gradients
-//! twice, 64: 132 bytes for about 9300 operations, so that it is bound by arithmetic wherever a byte
-//! costs less than 70 of them. The diffuse stage moves 28 + 12 bytes and its gradient, 12, twice, for
-//! about 60 operations, and is bound by memory.
+//! Samples come in pieces that fit the bindings: of 128 MiB, which every adapter has, or up to 512 MiB.
+//!
+//! What a sample and step costs, with the published networks. Everything but the networks is bound by
+//! memory wherever a byte costs more than a dozen operations.
+//!
+//! | stage | operations | bytes: sampling / directions / networks or albedo / gather | texel and step |
+//! |---|---|---|---|
+//! | warm-up | 7488, and 1824 for hidden layers evaluated twice | 40 / 0 / 88 / 32 | 196 |
+//! | normals and specular | 3456, and 1216 | 64 / 168 / 120 / 52 | 440 |
+//! | diffuse | 60 | 0 / 0 / 52 / 20 | 140 |
+//!
+//! The paper's capture (12 million pixels x 2000, then 48 million x 500 twice, 2048² textures) on an H200
+//! with the 67 TFLOP/s and 4.8 TB/s of its data sheet: warm-up 3.3 s of arithmetic (2.7 without the second
+//! evaluation), 0.8 s of memory, and 2.9 s of workgroup memory, through which 3.6 kB of layers a sample go
+//! to the weights' gradients; normals 1.7 s, 2.2 s; diffuse 0.4 s of memory. What overlaps is not
+//! known: 6 s if everything does, 11 s if nothing, 20 s at half the data sheet's speed. Not yet measured;
+//! `unshade bench` puts every pass beside its floor.
 //!
 //! A device that fails says so in one line, and the processor goes on.
 
 mod adapter;
 mod bending;
+mod ceilings;
 mod device;
 mod heights;
 mod joint;
@@ -27,15 +40,18 @@ mod layout;
 mod pieces;
 mod program;
 mod relief;
+mod stamps;
 mod transported;
 mod unroll;
 
 use std::sync::OnceLock;
+use std::time::Duration;
 
 pub use adapter::{Adapter, VARIABLE, adapters};
-pub use device::Timings;
+pub use ceilings::Ceilings;
+pub use stamps::{PassTime, Timings};
 
-use self::device::Device;
+use self::device::{Device, locked};
 use self::layout::Layout;
 use super::cpu::Cpu;
 use super::resident::{Descent, DeviceError, Job, NormalEquations, Resident};
@@ -57,36 +73,43 @@ pub struct Gpu {
 impl Gpu {
     /// On this adapter.
     pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
-        Self::with(adapter, false)
-    }
-
-    /// Measures the time of every pass on the device, which costs time; see [`Gpu::timings`].
-    pub fn timed(adapter: &Adapter) -> Result<Self, BackendError> {
-        Self::with(adapter, true)
-    }
-
-    /// With samples in pieces of this many, as if bindings were that small.
-    #[must_use]
-    pub fn in_pieces(mut self, samples: usize) -> Self {
-        self.device.piece = samples;
-        self
-    }
-
-    fn with(adapter: &Adapter, timed: bool) -> Result<Self, BackendError> {
         let refused = |error: DeviceError| BackendError::Refused {
             name: adapter.name.clone(),
             reason: error.to_string(),
         };
-        let device = Device::open(&adapter.adapter, timed).map_err(refused)?;
+        let device = Device::open(&adapter.adapter).map_err(refused)?;
         let Adapter { name, api, driver, .. } = adapter;
         let name = format!("gpu, {name}, {api}, {driver}");
         Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
     }
 
-    /// Milliseconds and dispatches of every pass so far; nothing if they are not timed, or the adapter
-    /// has no clock.
-    pub fn timings(&self) -> Option<Timings> {
-        self.device.timings()
+    /// With samples in pieces of this many and grids of no more workgroups than this along one axis, as
+    /// if bindings and grids were that small.
+    #[must_use]
+    pub fn in_pieces(mut self, samples: usize, axis: usize) -> Self {
+        (self.device.piece, self.device.axis) = (samples, axis);
+        self
+    }
+
+    /// What every pass takes that `work` submits, each of them apart, which costs time; nothing if the
+    /// adapter has no clock.
+    pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
+        if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            *locked(&self.device.timings) = Some(Timings::new());
+        }
+        let result = work();
+        (result, locked(&self.device.timings).take())
+    }
+
+    /// Multiply-adds and bandwidth that compute kernels reach, the latter on three arrays of `bytes` each;
+    /// `budget` for either.
+    pub fn ceilings(&self, bytes: usize, budget: Duration) -> Result<Ceilings, DeviceError> {
+        ceilings::ceilings(&self.device, bytes, budget)
+    }
+
+    /// Bytes that the device has given to this program, where its driver counts them.
+    pub fn memory(&self) -> Option<u64> {
+        self.device.device.generate_allocator_report().map(|report| report.total_allocated_bytes)
     }
 
     /// Gives the device back. What still wants it goes on on the processor.

@@ -9,10 +9,17 @@ use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
 
-/// Samples of a piece: 16 rows of them are the 128 MiB that a binding may have by default.
-pub(super) const PIECE: usize = 1 << 21;
-/// Rows that a piece of [`PIECE`] samples may have.
+/// Rows that a piece may have.
 const ROWS: usize = 16;
+/// Most samples of a piece: bindings of 512 MiB. More would save no time.
+const LARGEST: usize = 1 << 23;
+
+/// Samples of a piece on a device that has bindings of this size: 2 million where there are 128 MiB, as
+/// every adapter has them.
+pub(super) fn largest_piece(binding: u64) -> usize {
+    usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * ROWS)).min(LARGEST)) / BLOCK
+        * BLOCK
+}
 
 /// Ranges of samples, whole blocks each.
 #[derive(Clone)]
@@ -138,13 +145,19 @@ impl DeviceTaps {
         planes: &[wgpu::Buffer],
         [row, rows]: [usize; 2],
     ) -> Vec<Pass> {
-        let kernel = device.kernel("sampling", include_str!("wgsl/sample.wgsl"), &[], "urrrw");
+        let constants = [("CHANNELS", channels as u32)];
+        let source = include_str!("wgsl/sample.wgsl");
+        let kernel = device.kernel("sampling", source, &constants, "urrrw");
         let one = |(at, piece): (usize, &Range<usize>)| {
-            let words =
-                [piece.len(), self.size, channels, row, rows, first].map(|word| word as u32);
+            let words = [piece.len(), self.size, row, rows, first].map(|word| word as u32);
             let parameters = device.uniform(&words);
             let buffers = [&parameters, &self.cell[at], &self.fraction[at], texture, &planes[at]];
-            Pass::over(device, &kernel, &buffers, piece.len())
+            let pass = Pass::over(device, &kernel, &buffers, piece.len());
+            pass.doing(piece.len(), 6 * channels, 3 + channels).doing(
+                self.texels(piece),
+                0,
+                channels,
+            )
         };
         self.pieces.0.iter().enumerate().map(one).collect()
     }
@@ -192,9 +205,19 @@ impl DeviceTaps {
                 [self.size, first, texels, piece.start, piece.len(), row, rows, add, offset];
             let parameters = device.uniform(&words.map(|word| word as u32));
             let buffers = [&parameters, &self.start, &self.fraction[at], &planes[at], gradient];
-            Pass::new(device, &kernel, &buffers, texels.div_ceil(64 / lanes))
+            let pass = Pass::new(device, &kernel, &buffers, texels.div_ceil(64 / lanes));
+            pass.doing(piece.len(), 12 + 8 * channels, 2 + channels).doing(
+                self.texels(piece),
+                0,
+                1 + channels,
+            )
         };
         self.pieces.0.iter().enumerate().map(one).collect()
+    }
+
+    /// Texels around a piece's samples, about.
+    pub fn texels(&self, piece: &Range<usize>) -> usize {
+        (self.size * self.size * piece.len() / self.len.max(1)).min(4 * piece.len())
     }
 }
 

@@ -73,11 +73,12 @@ impl<'a> Program<'a> {
             let parameters = device.uniform(&[moved.count as u32]);
             let [first, second] = &moved.moments;
             let buffers = [&parameters, &moved.values, &moved.gradient, first, second];
-            passes.push(Pass::over(device, &adam, &buffers, moved.count).with_slot(slot));
+            let pass = Pass::over(device, &adam, &buffers, moved.count).with_slot(slot);
+            passes.push(pass.doing(moved.count, 14, 7));
         }
         let losses = device.floats("losses", BATCH);
         for (at, (parts, count)) in loss.iter().enumerate() {
-            passes.push(total(device, parts, [0, *count], &losses, true, at > 0));
+            passes.extend(total(device, parts, [0, *count], &losses, true, at > 0));
         }
         let slots = Slots::new(device, moved.len(), BATCH);
         Self { gpu, passes, slots, losses, moved, done: 0 }
@@ -88,6 +89,9 @@ impl<'a> Program<'a> {
     }
 }
 
+/// Parts that one workgroup adds up: the threads of a device wait for memory, many at a time or one by one.
+const SHARE: usize = 4096;
+
 /// The sum of `count` parts from `first` on: into the place of the step, or the first; `add` to it.
 pub(super) fn total(
     device: &Device,
@@ -96,11 +100,31 @@ pub(super) fn total(
     to: &wgpu::Buffer,
     by_step: bool,
     add: bool,
+) -> Vec<Pass> {
+    let groups = count.div_ceil(SHARE).max(1);
+    if groups > 1 {
+        let between = device.floats("sums", groups);
+        let mut passes = vec![sums(device, parts, [first, count], &between, [false; 2])];
+        passes.extend(total(device, &between, [0, groups], to, by_step, add));
+        return passes;
+    }
+    vec![sums(device, parts, [first, count], to, [by_step, add])]
+}
+
+/// Of every share.
+fn sums(
+    device: &Device,
+    parts: &wgpu::Buffer,
+    [first, count]: [usize; 2],
+    to: &wgpu::Buffer,
+    [by_step, add]: [bool; 2],
 ) -> Pass {
     let kernel = device.kernel("sum", include_str!("wgsl/total.wgsl"), &[], "urw+");
-    let words = [first, count, usize::from(by_step), usize::from(add)].map(|word| word as u32);
-    let parameters = device.uniform(&words);
-    Pass::new(device, &kernel, &[&parameters, parts, to], 1).with_slot(0)
+    let words = [first, count, SHARE, usize::from(by_step), usize::from(add)];
+    let parameters = device.uniform(&words.map(|word| word as u32));
+    let groups = count.div_ceil(SHARE).max(1);
+    let pass = Pass::new(device, &kernel, &[&parameters, parts, to], groups);
+    pass.with_slot(0).doing(count, 1, 1)
 }
 
 /// The pass of the albedo prior, which writes the gradient anew; nothing without a weight.
@@ -119,7 +143,8 @@ pub(super) fn prior(
     let groups = albedo.count.div_ceil(THREADS);
     let sums = device.floats("prior", groups);
     let buffers = [&parameters, &albedo.values, &albedo.gradient, &sums];
-    Some((Pass::new(device, &kernel, &buffers, groups), (sums, groups)))
+    let pass = Pass::new(device, &kernel, &buffers, groups).doing(albedo.count, 40, 2);
+    Some((pass, (sums, groups)))
 }
 
 impl Resident for Program<'_> {

@@ -50,7 +50,8 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
             let scales = [scale.normal.to_bits(), scale.reflection.to_bits()];
             let parameters = device.uniform(&[piece.len() as u32, scales[0], scales[1]]);
             let buffers = [&parameters, &bent[at], &surface[at], &vectors[at]];
-            Pass::over(device, &kernel, &buffers, piece.len())
+            let values = 3 * DIRECTIONS + what as usize * DIRECTIONS;
+            Pass::over(device, &kernel, &buffers, piece.len()).doing(piece.len(), 60, values)
         };
         bending.pieces.0.iter().enumerate().map(one).collect()
     };
@@ -124,7 +125,8 @@ impl Chart<'_> {
         let range = parts.range.unwrap_or(1.0).to_bits();
         let parameters = self.device.uniform(&[self.count as u32, range]);
         let [a, b, d] = inputs;
-        Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count)
+        let pass = Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count);
+        pass.doing(self.count, 10, 3)
     }
 }
 
@@ -145,7 +147,8 @@ pub(super) fn blurring(
         let constants = [("VERTICAL", u32::from(vertical)), ("SCALED", scaled)];
         let kernel = device.kernel("blur", include_str!("wgsl/blur.wgsl"), &constants, "urrrw");
         let parameters = device.uniform(&[size as u32, blur.kernel().len() as u32 - 1]);
-        Pass::over(device, &kernel, &[&parameters, &weights, &norms, from, to], count)
+        let pass = Pass::over(device, &kernel, &[&parameters, &weights, &norms, from, to], count);
+        pass.doing(count, 2 * (2 * blur.kernel().len() - 1), 2)
     };
     match adjoint {
         false => [axis(false, 0, from, &between), axis(true, 2, &between, to)],

@@ -54,7 +54,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, layout: Layout, job: &TransportedJob) ->
     passes.extend(matrix.by_light(device, &nearness.values, &log_light.gradient));
     let groups = matrix.groups();
     let (penalties, by_nearness) = ([0, groups], [groups, groups]);
-    passes.push(total(device, &matrix.partial, by_nearness, &nearness.gradient, false, false));
+    passes.extend(total(device, &matrix.partial, by_nearness, &nearness.gradient, false, false));
 
     let samples_loss = (joint.losses, joint.groups.iter().sum());
     let mut losses = vec![samples_loss, (matrix.partial, penalties[1])];

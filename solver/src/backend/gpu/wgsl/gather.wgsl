@@ -60,9 +60,9 @@ fn main(
                 let f = fraction[i];
                 let across = select(1.0 - f.x, f.x, i < middle);
                 let factor = across * select(1.0 - f.y, f.y, half == 0u);
-                for (var c = 0u; c < CHANNELS; c++) {
+                #for c in 0..CHANNELS
                     sum[c] += factor * by_sample[place(i, parameters.row + c, parameters.rows)];
-                }
+                #end
             }
         }
     }

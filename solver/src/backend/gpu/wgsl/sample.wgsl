@@ -1,9 +1,8 @@
-// A texture at every sample, bilinearly.
+// A texture of CHANNELS channels at every sample, bilinearly.
 
 struct Parameters {
     samples: u32,
     size: u32,
-    channels: u32,
     // First of the rows written, and all rows of the planes.
     row: u32,
     rows: u32,
@@ -27,15 +26,14 @@ fn main(
     if i >= parameters.samples {
         return;
     }
-    let channels = parameters.channels;
-    let above = parameters.first + cell[i] * channels;
-    let below = above + parameters.size * channels;
+    let above = parameters.first + cell[i] * CHANNELS;
+    let below = above + parameters.size * CHANNELS;
     let f = fraction[i];
-    for (var c = 0u; c < channels; c++) {
+    #for c in 0..CHANNELS
         let a = texels[above + c];
         let b = texels[below + c];
-        let upper = a + f.x * (texels[above + channels + c] - a);
-        let lower = b + f.x * (texels[below + channels + c] - b);
+        let upper = a + f.x * (texels[above + CHANNELS + c] - a);
+        let lower = b + f.x * (texels[below + CHANNELS + c] - b);
         sampled[place(i, parameters.row + c, parameters.rows)] = upper + f.y * (lower - upper);
-    }
+    #end
 }

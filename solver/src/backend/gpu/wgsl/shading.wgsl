@@ -37,7 +37,7 @@ fn main(
         #end
         return;
     }
-    for (var term = 0u; term < 2u; term++) {
+    #for term in 0..2
         let kernel = softpluses(evaluated(1u + term, i, 3u * term, 6u));
         var sum = 0.0;
         #for j in 0..O
@@ -46,5 +46,5 @@ fn main(
             #end
         #end
         result[place(i, term, 2u)] = sum;
-    }
+    #end
 }

@@ -1,4 +1,4 @@
-// A sum in a fixed order, by one workgroup: into the place of the step's loss, or into the first place.
+// Sums in a fixed order, each by one workgroup: into the place of the step's loss, or into its own.
 
 struct Factors {
     unused: array<vec4<u32>, 1>,
@@ -9,6 +9,8 @@ struct Factors {
 struct Parameters {
     first: u32,
     count: u32,
+    // Parts of a workgroup.
+    share: u32,
     // 1: into the step's place.
     by_step: u32,
     // 1: add to what is there.
@@ -23,9 +25,16 @@ struct Parameters {
 var<workgroup> sums: array<f32, 256>;
 
 @compute @workgroup_size(256)
-fn main(@builtin(local_invocation_index) t: u32) {
+fn main(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) t: u32,
+) {
+    let number = linear(group, groups);
+    let begin = number * parameters.share;
+    let end = min(begin + parameters.share, parameters.count);
     var sum = 0.0;
-    for (var at = t; at < parameters.count; at += 256u) {
+    for (var at = begin + t; at < end; at += 256u) {
         sum += parts[parameters.first + at];
     }
     sums[t] = sum;
@@ -36,8 +45,9 @@ fn main(@builtin(local_invocation_index) t: u32) {
         }
         workgroupBarrier();
     }
-    if t == 0u {
-        let place = select(0u, factors.step, parameters.by_step == 1u);
+    // A grid of two axes may have a few workgroups too many.
+    if t == 0u && (number == 0u || begin < parameters.count) {
+        let place = select(number, factors.step, parameters.by_step == 1u);
         let before = select(0.0, result[place], parameters.add == 1u);
         result[place] = before + sums[0];
     }

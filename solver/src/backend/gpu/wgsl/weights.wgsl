@@ -14,7 +14,6 @@ const BLOCKS: u32 = W + (H - 1u) * W * W + O * W;
 const BIASES: u32 = 4u * BLOCKS;
 const NETWORK: u32 = BIASES + (H - 1u) * W + O;
 const PARTS: u32 = max(1u, TILE / BLOCKS);
-const SHARES: u32 = (BLOCKS + TILE - 1u) / TILE;
 
 var<workgroup> sums: array<vec4<f32>, TILE>;
 

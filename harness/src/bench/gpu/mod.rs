@@ -1,0 +1,240 @@
+//! The same steps on a GPU: whole steps, their passes by the device's own clock, and the losses beside the
+//! processor's; then whole solves, and the paper's capture in full.
+
+mod page;
+mod running;
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+use solver::backend::Backend;
+use solver::backend::gpu::{Adapter, Gpu};
+use solver::memory::available;
+use solver::{BackendError, Capture, Config};
+
+use self::running::{Running, failed};
+use super::steps::{Kind, Reach};
+use super::synthetic::Problem;
+use super::{PAPER_STEPS, Paper, TORCH_STEPS};
+use crate::suite::RunError;
+pub use page::{write_gpu, write_reach};
+
+/// Memory of the host that the whole of the paper's capture takes, about; with less, a quarter is done.
+const PAPER_MEMORY: u64 = 20 << 30;
+/// One over the share of the paper's pixels on a software adapter.
+const SOFTWARE_SHARE: usize = 256;
+
+/// A GPU's rows.
+#[derive(Debug, Serialize)]
+pub struct GpuReport {
+    /// Device, interface and driver.
+    pub name: String,
+    /// A processor that plays a GPU: its times say nothing about GPUs.
+    pub software: bool,
+    /// What compute kernels reach.
+    pub reach: Reach,
+    /// The paper's steps.
+    pub steps: Vec<GpuStep>,
+    /// Whole solves.
+    pub solves: Vec<GpuSolve>,
+    /// The paper's capture.
+    pub paper: GpuPaper,
+}
+
+/// A step.
+#[derive(Debug, Serialize)]
+pub struct GpuStep {
+    /// What was done.
+    pub kind: Kind,
+    /// Pixels of all views.
+    pub pixels: usize,
+    /// Side of the textures.
+    pub texture: usize,
+    /// Milliseconds of a step: the least of several submissions, or the mean of all steps of the paper.
+    pub milliseconds: f64,
+    /// Milliseconds that the step's operations alone would take, and its bytes.
+    pub floors: [f64; 2],
+    /// Bytes on the device, where the driver counts them.
+    pub memory: Option<u64>,
+    /// Its passes, the longest first; none without a clock.
+    pub passes: Vec<PassRow>,
+    /// The losses before the first steps.
+    pub losses: Vec<f64>,
+    /// Their largest relative difference to the processor's, where those were taken too.
+    pub loss_difference: Option<f64>,
+}
+
+/// All dispatches of one name within a step.
+#[derive(Debug, Serialize)]
+pub struct PassRow {
+    /// What it does.
+    pub name: &'static str,
+    /// In a step.
+    pub dispatches: f64,
+    /// In a step, by the device's clock.
+    pub milliseconds: f64,
+    /// Milliseconds that the operations alone would take, and the bytes.
+    pub floors: [f64; 2],
+}
+
+/// The paper's capture on a GPU.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum GpuPaper {
+    /// It went through.
+    Done {
+        /// One over the share of the pixels that was really there; with all of them, all steps were taken.
+        share: usize,
+        /// One of each kind.
+        steps: Vec<GpuStep>,
+        /// Of all 3000 steps on all pixels.
+        seconds: f64,
+        /// Before them: what stays fixed is evaluated and uploaded, kernels are compiled.
+        preparation_seconds: f64,
+    },
+    /// It did not.
+    Failed {
+        /// What the device said.
+        reason: String,
+    },
+}
+
+/// A whole solve.
+#[derive(Debug, Serialize)]
+pub struct GpuSolve {
+    /// The capture's name.
+    pub capture: String,
+    /// The configuration's name.
+    pub config: &'static str,
+    /// Foreground pixels.
+    pub pixels: usize,
+    /// Side of the fine-tuned textures.
+    pub texture: usize,
+    /// From the files of the capture to the files of the maps.
+    pub seconds: f64,
+    /// Stage by stage.
+    pub stages: Vec<(String, f64)>,
+}
+
+/// A GPU that is measured.
+pub struct Device {
+    gpu: Gpu,
+    software: bool,
+    reach: Reach,
+    budget: Duration,
+}
+
+impl Device {
+    /// Opens the adapter and measures what it reaches, on arrays of `bytes`.
+    pub fn open(adapter: &Adapter, bytes: usize, budget: Duration) -> Result<Self, BackendError> {
+        let gpu = Gpu::open(adapter)?;
+        let found = gpu.ceilings(bytes, budget).map_err(|error| failed(&gpu, &error))?;
+        let reach = Reach { flops: found.flops, bytes: found.bytes };
+        Ok(Self { gpu, software: adapter.software, reach, budget })
+    }
+
+    /// In words.
+    pub fn name(&self) -> String {
+        self.gpu.name()
+    }
+
+    fn running(&self, kind: Kind, problem: &Problem) -> Result<Running<'_>, BackendError> {
+        Running::new(&self.gpu, self.reach, kind, problem)
+    }
+
+    /// A step of a kind; `reference` are the processor's losses.
+    pub fn step(
+        &self,
+        kind: Kind,
+        problem: &Problem,
+        reference: &[f64],
+    ) -> Result<GpuStep, BackendError> {
+        let mut running = self.running(kind, problem)?;
+        let losses = running.steps(reference.len())?;
+        let differences = losses.iter().zip(reference).map(|(a, b)| (a / b - 1.0).abs());
+        let loss_difference = Some(differences.fold(0.0, f64::max));
+        let seconds = running.best(self.budget)?;
+        Ok(GpuStep { loss_difference, ..running.row(seconds, losses)? })
+    }
+
+    /// The paper's capture: on a GPU all steps on all pixels, if the host can hold them.
+    pub fn paper(&self, paper: &Paper, progress: &mut dyn FnMut(&str)) -> GpuPaper {
+        let share = match (paper.quick, self.software) {
+            (true, _) => paper.share,
+            (_, true) => SOFTWARE_SHARE,
+            _ if available().is_some_and(|bytes| bytes < PAPER_MEMORY) => 4,
+            _ => 1,
+        };
+        match self.paper_at(share, paper, progress) {
+            Ok(done) => done,
+            Err(error) => GpuPaper::Failed { reason: error.to_string() },
+        }
+    }
+
+    fn paper_at(
+        &self,
+        share: usize,
+        paper: &Paper,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<GpuPaper, BackendError> {
+        let (mut rows, mut seconds, mut preparation_seconds) = (vec![], 0.0, 0.0);
+        let mut problem: Option<Problem> = None;
+        for (kind, steps) in Kind::ALL.into_iter().zip(PAPER_STEPS) {
+            progress(&format!("the paper's capture, {}, {}", kind.name(), self.name()));
+            let (pixels, texture) = paper.size(kind, share);
+            // Full resolution is made once for both kinds.
+            let same = |problem: &Problem| problem.samples.len() == pixels;
+            let made = problem.take().filter(same).unwrap_or_else(|| Problem::new(pixels, texture));
+            let start = Instant::now();
+            let mut running = self.running(kind, &made)?;
+            problem = Some(made);
+            let losses = running.steps(TORCH_STEPS)?;
+            preparation_seconds += start.elapsed().as_secs_f64();
+            let each = if share == 1 { running.mean(steps)? } else { running.best(self.budget)? };
+            seconds += each * (steps * share) as f64;
+            rows.push(running.row(each, losses)?);
+        }
+        Ok(GpuPaper::Done { share, steps: rows, seconds, preparation_seconds })
+    }
+
+    /// From the files of a capture to the files of the maps.
+    pub fn solve(
+        &self,
+        folder: &Path,
+        (config_name, config): (&'static str, &Config),
+    ) -> Result<GpuSolve, RunError> {
+        let (out, name) = (tempfile::tempdir()?, self.name());
+        let start = Instant::now();
+        let capture = Capture::open(folder)?;
+        let maps = out.path().join("maps");
+        let go_on = &mut |_: &solver::Progress| ControlFlow::Continue(());
+        let solution = solver::solve_into(&self.gpu, &maps, "bench", &capture, config, go_on)?;
+        let seconds = start.elapsed().as_secs_f64();
+        // A solve goes on on the processor; its time would not be the device's.
+        if self.name() != name {
+            return Err(BackendError::Refused { name, reason: self.name() }.into());
+        }
+        let seconds_of = |(stage, seconds): (&String, &serde_json::Value)| {
+            (stage.clone(), seconds.as_f64().unwrap_or(0.0))
+        };
+        Ok(GpuSolve {
+            capture: folder.file_name().unwrap_or_default().display().to_string(),
+            config: config_name,
+            pixels: solution.record.samples,
+            texture: solution.record.texture_size,
+            seconds,
+            stages: solution.timing.seconds.iter().map(seconds_of).collect(),
+        })
+    }
+
+    /// All that was found.
+    pub fn report(self, steps: Vec<GpuStep>, solves: Vec<GpuSolve>, paper: GpuPaper) -> GpuReport {
+        let (mut name, software, reach) = (self.name(), self.software, self.reach);
+        if software {
+            name += ", a software adapter";
+        }
+        GpuReport { name, software, reach, steps, solves, paper }
+    }
+}
