@@ -39,9 +39,9 @@ pub fn gaussian(sigma: f32) -> Vec<f32> {
     (0..=(3.0 * sigma).ceil() as usize).map(weight).collect()
 }
 
-/// Convolves with `kernel`, the weights from the centre outwards (1 at the centre). What is read, and what comes out, is
-/// passed to `before` and `after`: the row, the first column, values. What is not in the region may be
-/// zero.
+/// Convolves with `kernel`, the weights from the centre outwards (1 at the centre). What is read, and
+/// what comes out, is passed to `before` and `after`: the row, the first column, values. What is not in
+/// the region may be zero.
 pub fn convolve(
     picture: &[f32],
     kernel: &[f32],

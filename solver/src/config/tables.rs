@@ -159,7 +159,7 @@ pub struct NormalisationConfig {
     /// Mean specular albedo of the largest region, which is skin; it then replaces `specular_percentile`
     /// and `specular_maximum`. 0.028 is that of an index of refraction of 1.4. 0 in the paper.
     pub specular_skin: f32,
-    /// Pool the specular albedo: over each labelled region, or without labels over this distance,
+    /// Pool the specular albedo: over each region, or where the face is one over this distance,
     /// metres (standard deviation), since within a region pictures tell next to nothing of it. 0 leaves
     /// it as solved, as in the paper.
     pub specular_pooling: f32,
@@ -207,7 +207,7 @@ pub struct TransportConfig {
     /// Learning rate of the networks, which here stand for the specular layer alone.
     pub network_rate: f32,
     /// Predict from the found light what all views share of the highlights, and take it out of the
-    /// diffuse albedo; needs labels and [`NormalisationConfig::specular_skin`].
+    /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
     pub veil: bool,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,

@@ -21,8 +21,8 @@ use crate::transport::Transport;
 /// Standard deviation of the blur over the texture, texels.
 const BLUR: f32 = 1.5;
 
-/// The specular albedo of the maps on the texture of `state`: pooled over the labelled regions, with skin
-/// at its reflectance. `None` without labels: what is solved texel by texel is no measure of hair.
+/// The specular albedo of the maps on the texture of `state`: pooled over the regions, with skin at
+/// its reflectance. `None` if the face is one region: what is solved texel by texel is no measure of hair.
 pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
     let State { size, specular, .. } = state;
     let config = &site.config.normalisation;

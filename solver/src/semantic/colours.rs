@@ -15,7 +15,7 @@ use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
 use crate::picture::Picture;
 use crate::projection::{Observation, Projection, per_texel};
-use crate::transport::{Beside, Sky, Transport};
+use crate::transport::{self, Beside, Sky, Transport};
 
 /// Side of the chart on which regions are found, texels.
 const SIDE: usize = 128;
@@ -25,7 +25,7 @@ const ROWS: usize = 8;
 const BLUR: f32 = 0.7;
 /// What a difference in log luminance counts against one in the log ratios of the colours, which white
 /// light leaves alone: before the light is known, and after.
-const LUMINANCE: [f32; 2] = [0.1, 0.5];
+const LUMINANCE_SHARES: [f32; 2] = [0.1, 0.5];
 /// Radiance below which ratios are noise, relative to the median luminance.
 const DARK: f32 = 0.01;
 /// Times that the light is found, and the regions under it.
@@ -49,7 +49,7 @@ pub struct ColourRegions {
 }
 
 impl ColourRegions {
-    /// At most `count` regions; `None` if no view sees anything but black.
+    /// At most `count` regions; `None` if the pictures are mostly black.
     pub fn new(
         mesh: &Mesh,
         projections: &[Projection],
@@ -73,13 +73,13 @@ impl ColourRegions {
         let transport = Transport::new(mesh, &Sky::even(ROWS), &config, 0, Beside::Nothing);
 
         let mut albedo = colours.clone();
-        let mut regions = clusters(&features(&albedo, LUMINANCE[0])?, count);
+        let mut regions = clusters(&features(&albedo, LUMINANCE_SHARES[0])?, count);
         for _ in 0..LIGHTS {
             let shading =
                 shading(&transport, &seen, &colours, &means(&albedo, &regions, count), &regions);
             albedo =
                 colours.iter().zip(shading).map(|(colour, shading)| *colour / shading).collect();
-            regions = lloyd(&features(&albedo, LUMINANCE[1])?, regions, count);
+            regions = lloyd(&features(&albedo, LUMINANCE_SHARES[1])?, regions, count);
         }
         let regions = merged(&seen, &albedo, regions, count);
         let mut map = vec![0; known.len()];
@@ -106,7 +106,7 @@ impl ColourRegions {
 }
 
 fn luminance(colour: &Vec3) -> f32 {
-    colour.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(0.0)
+    colour.dot(Vec3::from_array(transport::LUMINANCE)).max(0.0)
 }
 
 fn log(colour: Vec3, dark: f32) -> Vec3 {

@@ -30,7 +30,7 @@ pub use sky::{Sky, SkyRay, contrast};
 /// Colour channels of the light.
 pub const CHANNELS: usize = 3;
 /// Rec.709.
-const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
+pub(crate) const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
 /// A ray starts this far from the surface, as a share of the mesh's longest side: clear of the
 /// facets next to its own.
 const LIFT: f32 = 1.6e-3;
