@@ -359,7 +359,7 @@ impl Caster<'_> {
                     match self.beside {
                         Beside::Nothing => {}
                         Beside::Nearness => beside[cell] += nearer - weight,
-                        Beside::Bending => beside[cell] += weight / normal.dot(direction),
+                        Beside::Bending => beside[cell] += open(ray, place, self.nearness),
                     }
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
@@ -393,6 +393,12 @@ fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
     let cosine = normal.dot(towards).max(0.0);
     let squared = towards.length_squared();
     ray.solid_angle * facing * cosine / (squared * squared) * std::f32::consts::FRAC_1_PI
+}
+
+/// [`received`] by a normal that faces the part of the sky. Not found by dividing by the cosine: of a
+/// direction made a unit vector, the cosine may round to zero where the other one did not.
+fn open(ray: &SkyRay, place: Vec3, nearness: f32) -> f32 {
+    received(ray, place, (ray.direction - nearness * place).normalize(), nearness)
 }
 
 /// B x `rows`.

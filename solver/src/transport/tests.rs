@@ -188,6 +188,36 @@ fn bending_is_the_change_of_shading_with_the_normal() {
     }
 }
 
+/// Light that grazes: of the two cosines, with a direction and with the same made a unit vector, one may
+/// round to zero and the other not.
+#[test]
+fn what_is_open_to_grazing_light_is_finite() {
+    let mesh = testing::dome(4);
+    let sky = Sky::even(16).at(0.01);
+    let rays = sky.rays(4, 0);
+    let caster = Caster {
+        occluder: Occluder::new(&mesh),
+        mesh: &mesh,
+        rays: &rays,
+        cells: sky.len(),
+        centre: Vec3::ZERO,
+        nearness: sky.nearness,
+        beside: Beside::Bending,
+        near: 0.0,
+        row: &[0; 4],
+        size: 2,
+    };
+    let origin = Vec3::new(0.3, -0.2, 2.0);
+    for ray in &rays {
+        let towards = ray.direction - sky.nearness * origin;
+        let (across, up) = towards.normalize().any_orthonormal_pair();
+        for normal in [across, up, (across + up).normalize(), (across - up).normalize()] {
+            let open = caster.texel(origin, normal).beside;
+            assert!(open.iter().all(|open| (0.0..0.1).contains(open)), "{normal}");
+        }
+    }
+}
+
 #[test]
 fn the_peak_is_the_largest_unoccluded_shading() {
     let transport = plain(&testing::dome(16), &config(32), 0);
