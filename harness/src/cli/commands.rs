@@ -23,7 +23,9 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => solve(&arguments)?,
         Verb::Relight { capture, maps, out } => {
-            alone("relight", |tools, step| suite::relight(&capture, &maps, &out, tools, step))?;
+            alone("relight", |tools, step| {
+                suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
+            })?;
         }
         Verb::Score { capture, maps, relit, out } => {
             score::score(&capture, &maps, relit.as_deref())?.write(&out)?;

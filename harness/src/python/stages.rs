@@ -25,7 +25,9 @@ pub(super) fn relight(
     maps: PathBuf,
     out: PathBuf,
 ) -> PyResult<PathBuf> {
-    watched(py, |tools| suite::relight(&capture, &maps, &out, tools, &mut |_, _, _| {}))?;
+    watched(py, |tools| {
+        suite::relight(&capture, &maps, &out, &suite::SCALES, tools, &mut |_, _, _| {})
+    })?;
     Ok(out)
 }
 

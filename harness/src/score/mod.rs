@@ -41,18 +41,24 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
     let frames = Frame::withheld(capture, &light)?;
     let geometry = Geometry::of(capture, &truth)?;
-    let mut rows = pictures::view_rows(&frames, capture, maps, &light)?;
-    if rows.is_empty() && is_empty(&found) {
+    let (of_maps, of_pictures) = rayon::join(
+        || maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref()),
+        || -> Result<_, ScoreError> {
+            let relit = relit.map(|relit| pictures::relit_rows(&frames, capture, relit));
+            let views = pictures::view_rows(&frames, capture, maps, &light)?;
+            Ok((views, relit.transpose()?.unwrap_or_default()))
+        },
+    );
+    let (views, relit_rows) = of_pictures?;
+    if views.is_empty() && is_empty(&found) {
         return Err(ScoreError::Nothing(maps.to_path_buf()));
     }
-    let mut of_maps = maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref())?;
+    let mut rows = of_maps?;
     if let Some((albedo, scale)) = found.diffuse_albedo.as_ref().zip(scale.as_ref()) {
-        of_maps.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
+        rows.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
     }
-    rows.splice(0..0, of_maps);
-    if let Some(relit) = relit {
-        rows.extend(pictures::relit_rows(&frames, capture, relit)?);
-    }
+    rows.extend(views);
+    rows.extend(relit_rows);
     let hash = |path: &Path| hash_path(path).map_err(|error| ScoreError::io(path, error));
     let inputs =
         Inputs { capture: hash(capture)?, maps: hash(maps)?, relit: relit.map(hash).transpose()? };

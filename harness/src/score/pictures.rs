@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use solver::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
@@ -73,21 +74,22 @@ pub(super) fn relit_rows(
     capture: &Path,
     relit: &Path,
 ) -> Result<Vec<Row>, ScoreError> {
-    let mut all = Vec::new();
-    for light in truth::lights(capture)? {
-        let truth = true_folder(capture, &light)?;
-        for scale in ["none", "global"] {
-            let folder = relit.join(scale).join(&light);
-            if folder.is_dir() {
-                let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
-                let light = Some(light.as_str());
-                let heading =
-                    Heading { subject: "relit", light, scale, label: None, block: PICTURE_BLOCK };
-                all.extend(compare(frames, &folder, &truth, heading, subjects)?);
-            }
+    let lights = truth::lights(capture)?;
+    let rows = |(light, scale): (&String, &str)| {
+        let folder = relit.join(scale).join(light);
+        if !folder.is_dir() {
+            return Ok(Vec::new());
         }
-    }
-    Ok(all)
+        let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
+        let truth = true_folder(capture, light)?;
+        let light = Some(light.as_str());
+        let heading = Heading { subject: "relit", light, scale, label: None, block: PICTURE_BLOCK };
+        compare(frames, &folder, &truth, heading, subjects)
+    };
+    let jobs: Vec<_> =
+        lights.iter().flat_map(|light| ["none", "global"].map(|scale| (light, scale))).collect();
+    let rows: Result<Vec<_>, ScoreError> = jobs.into_par_iter().map(rows).collect();
+    Ok(rows?.concat())
 }
 
 fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {

@@ -1,7 +1,8 @@
 //! From pairs of pictures to rows of the scores.
 
-use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
+
+use rayon::prelude::*;
 
 use super::ScoreError;
 use super::scores::Row;
@@ -35,21 +36,23 @@ pub(super) fn rows(
     floors: &Floors,
 ) -> Result<Vec<Row>, ScoreError> {
     let wrong = ScoreError::of(heading.subject);
+    let metrics: Vec<&Metric> =
+        metrics.iter().map(|id| Metric::find(id)).collect::<Result<_, _>>().map_err(&wrong)?;
     // Metrics of one quantity (FLIP's mean and percentile, all of the angle) share its samples.
-    let mut measured: HashMap<Quantity, Vec<Sample>> = HashMap::new();
-    let mut rows = Vec::with_capacity(metrics.len());
-    for id in metrics {
-        let metric = Metric::find(id).map_err(&wrong)?;
-        let samples = match measured.entry(metric.quantity) {
-            Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(place) => {
-                place.insert(sample(metric, compared, heading.block).map_err(&wrong)?)
-            }
-        };
+    let first = |(at, metric): &(usize, &&Metric)| {
+        metrics.iter().position(|other| other.quantity == metric.quantity) == Some(*at)
+    };
+    let quantities: Vec<&Metric> =
+        metrics.iter().enumerate().filter(first).map(|(_, metric)| *metric).collect();
+    let measured = quantities.par_iter().map(|metric| {
+        Ok((metric.quantity, sample(metric, compared, heading.block).map_err(&wrong)?))
+    });
+    let measured: HashMap<Quantity, Vec<Sample>> = measured.collect::<Result<_, ScoreError>>()?;
+    let row = |metric: &&Metric| {
         let floor = floors.get(&metric.quantity);
-        rows.push(row(heading, metric, compared, samples, floor.map(Vec::as_slice)));
-    }
-    Ok(rows)
+        row(heading, metric, compared, &measured[&metric.quantity], floor.map(Vec::as_slice))
+    };
+    Ok(metrics.par_iter().map(row).collect())
 }
 
 fn sample(

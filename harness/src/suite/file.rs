@@ -8,8 +8,14 @@ use super::cases::{self, Case};
 use super::method::{self, Entrant};
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 10] =
-    ["format", "name", "title", "scene", "faces", "lights", "face", "render", "variant", "solver"];
+const KEYS: [&str; 11] = [
+    "format", "name", "title", "scene", "faces", "lights", "face", "render", "variant", "scales",
+    "solver",
+];
+
+/// What the diffuse albedo can be multiplied by before maps are relit: nothing, and the one factor that
+/// aligns it with the truth.
+pub const SCALES: [&str; 2] = ["none", "global"];
 
 /// A suite with its cases spelt out.
 #[derive(Clone, Debug)]
@@ -22,6 +28,8 @@ pub struct Suite {
     pub cases: Vec<Case>,
     /// Solvers and baselines in the order of the table.
     pub entrants: Vec<Entrant>,
+    /// Those of [`SCALES`] under which maps are relit.
+    pub scales: Vec<&'static str>,
     /// The file's text, kept with the results.
     pub text: String,
 }
@@ -44,13 +52,26 @@ impl Suite {
         }
         let cases = cases::cases_of(path, &base, &table)?;
         let entrants = method::entrants_of(path, &table)?;
+        let scales = scales_of(path, &table)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
         let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Ok(Self { name, title, cases, entrants, text })
+        Ok(Self { name, title, cases, entrants, scales, text })
     }
+}
+
+fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError> {
+    let Some(scales) = table.get("scales") else { return Ok(SCALES.to_vec()) };
+    let wanted: Vec<&str> =
+        scales.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    let known: Vec<_> = SCALES.into_iter().filter(|scale| wanted.contains(scale)).collect();
+    if known.is_empty() || scales.as_array().is_none_or(|all| all.len() != known.len()) {
+        let reason = format!("must be a list of some of {}, each once", SCALES.join(", "));
+        return Err(SceneError::value(path, "scales", reason));
+    }
+    Ok(known)
 }
 
 fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> {
@@ -124,6 +145,24 @@ mod tests {
         // The resolved text stands alone: it parses back to the same scene.
         let text = suite.cases[0].scene.to_toml().unwrap();
         assert_eq!(text.parse::<Table>().unwrap(), suite.cases[0].scene.table);
+    }
+
+    #[test]
+    fn maps_are_relit_under_every_scale_unless_the_suite_names_some() {
+        let root = tempfile::tempdir().unwrap();
+        scenes(root.path());
+        let open = |line: &str| {
+            let text = format!(
+                "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n{line}\n[[solver]]\nname = \"oracle\"\n"
+            );
+            Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.scales)
+        };
+        assert_eq!(open("").unwrap(), SCALES);
+        assert_eq!(open("scales = [\"global\"]").unwrap(), ["global"]);
+        for wrong in ["[]", "[\"channel\"]", "[\"none\", \"none\"]", "\"none\"", "[1]"] {
+            let message = open(&format!("scales = {wrong}")).unwrap_err().to_string();
+            assert!(message.contains("scales") && message.contains("none, global"), "{message}");
+        }
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub use baseline::BaselineMethod;
 pub use cases::Case;
 pub use content::hash_path;
 pub use entrant::{TIME_LEFT, solve};
-pub use file::Suite;
+pub use file::{SCALES, Suite};
 pub use method::{Entrant, Method};
 #[cfg(feature = "python")]
 pub(crate) use run::SOLVER_SOURCES;

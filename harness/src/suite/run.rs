@@ -142,7 +142,7 @@ pub fn run(
     for case in &suite.cases {
         let capture = stages.capture(case, &renderer)?;
         for entrant in &suite.entrants {
-            stages.entrant(case, entrant, &capture, &renderer)?;
+            stages.entrant(case, entrant, &capture, &suite.scales, &renderer)?;
         }
     }
     let (ran, skipped) = (stages.ran, stages.skipped);
@@ -253,6 +253,7 @@ impl Stages<'_> {
         case: &Case,
         entrant: &Entrant,
         capture: &Output,
+        scales: &[&str],
         renderer: &str,
     ) -> Result<(), RunError> {
         let name = format!("{}/{}", case.id, entrant.id);
@@ -279,9 +280,9 @@ impl Stages<'_> {
         )?;
         let relit = self.stage(
             &format!("relit/{name}"),
-            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES],
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")],
             self.out.join("relit").join(&name),
-            |path, tools, step| relight(&capture.path, &maps.path, path, tools, step),
+            |path, tools, step| relight(&capture.path, &maps.path, path, scales, tools, step),
         )?;
         self.stage(
             &format!("scores/{name}"),
@@ -341,11 +342,12 @@ fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
     Ok(file)
 }
 
-/// Renders `maps` in the capture's lights, as they are and after the one global factor.
+/// Renders `maps` in the capture's lights, under each of `scales` (of [`super::SCALES`]).
 pub fn relight(
     capture: &Path,
     maps: &Path,
     out: &Path,
+    scales: &[&str],
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
@@ -355,8 +357,9 @@ pub fn relight(
         ("--maps", maps.as_os_str()),
         ("--out", out.as_os_str()),
     ]);
-    for scale in ["none=1.0".to_owned(), format!("global={}", scale.global)] {
-        arguments.extend([OsString::from("--scale"), OsString::from(scale)]);
+    for name in scales {
+        let factor = if *name == "global" { scale.global } else { 1.0 };
+        arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
     }
     run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
     Ok(())
