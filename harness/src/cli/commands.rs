@@ -112,8 +112,15 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
             };
             let backend = backend.open()?;
             eprintln!("solve: {}", backend.name());
-            alone("solve", |tools, step| {
-                suite::solve(&*backend, &capture, &config, out, tools, step)
+            let live = arguments.rerun.as_deref().map(|place| report::Live::open(place, &capture));
+            let mut live = live.transpose()?;
+            alone("solve", |tools, bar| {
+                let solution =
+                    suite::solve(&*backend, &capture, &config, out, tools, &mut |step| {
+                        bar(step.iteration as u64, step.total as u64, &suite::in_words(step));
+                        live.iter_mut().for_each(|live| live.step(step));
+                    })?;
+                Ok(live.map_or(Ok(()), |live| live.solution(&solution))?)
             })
         }
         SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),

@@ -128,6 +128,11 @@ struct SolveArgs {
     /// What computes.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     backend: BackendName,
+    /// Show the solve as it goes, in the rerun viewer at this address or later from a file that ends in
+    /// .rrd. Only in a program built with `--features rerun`.
+    #[arg(long, value_name = "PLACE", num_args = 0..=1,
+          default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
+    rerun: Option<String>,
 }
 
 #[derive(Args)]

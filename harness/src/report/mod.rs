@@ -9,6 +9,11 @@ mod case;
 mod curve;
 mod difference;
 mod light;
+#[cfg(feature = "rerun")]
+mod live;
+#[cfg(not(feature = "rerun"))]
+#[path = "live_absent.rs"]
+mod live;
 mod maps;
 mod matrix;
 mod metric;
@@ -35,6 +40,7 @@ use std::path::{Path, PathBuf};
 use solver::atomic::Folder;
 use solver::picture::PictureError;
 
+pub use live::Live;
 use page::Page;
 pub use results::write_results;
 use run::RunFile;
@@ -92,6 +98,9 @@ pub enum ReportError {
     /// There is nothing to make a table of.
     #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
     NoScores(PathBuf),
+    /// A solve cannot be shown as it goes.
+    #[error("--rerun: {0}")]
+    Live(String),
     /// A page could not be laid out.
     #[error("the report's page cannot be laid out: {0}")]
     Template(#[from] minijinja::Error),

@@ -33,7 +33,11 @@ pub(super) fn make_maps(
         Method::Fields { config, backend } => {
             let config = solver::Config::from_toml(config)?;
             let backend = backend.open()?;
-            solve(&*backend, &solver::Capture::open(capture)?, &config, maps, tools, progress)
+            let capture = solver::Capture::open(capture)?;
+            solve(&*backend, &capture, &config, maps, tools, &mut |step| {
+                progress(step.iteration as u64, step.total as u64, &in_words(step));
+            })?;
+            Ok(())
         }
         Method::Command(words) => {
             let (program, arguments) = words.split_first().ok_or_else(|| RunError::Program {
@@ -62,28 +66,32 @@ pub fn solve(
     config: &solver::Config,
     maps: &Path,
     tools: &Tools,
-    progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
+    hear: &mut dyn FnMut(&solver::Progress),
+) -> Result<solver::Solution, RunError> {
     let solution =
         solver::solve_into(backend, maps, SOLVER_SOURCES, capture, config, &mut |step| {
             if tools.interrupt.load(Ordering::Relaxed) {
                 return ControlFlow::Break(());
             }
-            let what = format!(
-                "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
-                step.stage,
-                step.step,
-                step.steps,
-                step.loss,
-                HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
-            );
-            progress(step.iteration as u64, step.total as u64, &what);
+            hear(step);
             ControlFlow::Continue(())
         })?;
     match solution.record.interrupted {
         Some(place) => Err(RunError::Stopped { place, maps: maps.to_path_buf() }),
-        None => Ok(()),
+        None => Ok(solution),
     }
+}
+
+/// What a bar says beside it.
+pub fn in_words(step: &solver::Progress) -> String {
+    format!(
+        "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",
+        step.stage,
+        step.step,
+        step.steps,
+        step.loss,
+        HumanDuration(Duration::from_secs_f64(step.seconds_left.max(0.0)))
+    )
 }
 
 /// A program that is not ours: it sees the capture without its truth, and leaves a maps folder.

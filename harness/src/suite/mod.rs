@@ -13,7 +13,7 @@ mod scene;
 pub use baseline::BaselineMethod;
 pub use cases::Case;
 pub use content::hash_path;
-pub use entrant::{TIME_LEFT, solve};
+pub use entrant::{TIME_LEFT, in_words, solve};
 pub use file::{SCALES, Suite};
 pub use method::{Entrant, Method};
 #[cfg(feature = "python")]
