@@ -182,3 +182,13 @@ def test_bad_input_is_one_line_and_exit_code_2(arguments: list[str], expected: s
     assert done.returncode == 2
     assert expected in done.stderr
     assert "panicked" not in done.stderr
+
+
+def test_without_a_viewer_the_message_says_how_to_get_one(tiny_run: Path, tmp_path: Path) -> None:
+    capture = tiny_run / "captures" / CASE
+    nobody = "rerun+http://127.0.0.1:1/proxy"
+    done = unshade("solve", capture, "-o", tmp_path / "maps", "--rerun", nobody, check=False)
+    assert done.returncode == 2
+    # By a program without the viewer's feature, and by one with it.
+    assert "--features rerun" in done.stderr or "start one with `rerun`" in done.stderr
+    assert not (tmp_path / "maps").exists()
