@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::gpu::{write_gpu, write_reach};
-use super::{PaperSize, Report, Step, Torch};
+use super::{PaperSize, Report, Solved, Step, Torch};
 
 /// The page that `docs/performance.md` is; `command` wrote it.
 pub fn markdown(report: &Report, command: &str) -> String {
@@ -95,29 +95,7 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
             "From the files of the capture to the files of the maps, ten training views, one run each; \
              `paper` with textures of the same side.\n"
         )?;
-        let head =
-            "| capture | configuration | pixels | textures | s | memory: measured / said before |";
-        writeln!(page, "{head}\n|---|---|---|---|---|---|")?;
-        for solve in &report.solves {
-            writeln!(
-                page,
-                "| {} | {} | {:.0} thousand | {}² | {:.1} | {} / {} |",
-                solve.capture,
-                solve.config,
-                solve.pixels as f64 / 1e3,
-                solve.texture,
-                solve.seconds,
-                solve.peak_memory.map_or(String::new(), size),
-                size(solve.estimated_memory),
-            )?;
-        }
-        writeln!(page)?;
-        for solve in &report.solves {
-            let stages =
-                solve.stages.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1}"));
-            let stages = stages.collect::<Vec<_>>().join(", ");
-            writeln!(page, "- {}, {}: {stages} s.", solve.capture, solve.config)?;
-        }
+        write_solves(page, &report.solves)?;
     }
 
     writeln!(page, "\n## Kernels\n")?;
@@ -149,6 +127,32 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
     }
     write_steps(page, steps.iter())?;
     write_gpu(page, report.gpu.as_ref())
+}
+
+pub fn write_solves(page: &mut String, solves: &[Solved]) -> std::fmt::Result {
+    let head =
+        "| capture | configuration | pixels | textures | s | memory: measured / said before |";
+    writeln!(page, "{head}\n|---|---|---|---|---|---|")?;
+    for solve in solves {
+        writeln!(
+            page,
+            "| {} | {} | {:.0} thousand | {}² | {:.1} | {} / {} |",
+            solve.capture,
+            solve.config,
+            solve.pixels as f64 / 1e3,
+            solve.texture,
+            solve.seconds,
+            solve.peak_memory.map_or(String::new(), size),
+            size(solve.estimated_memory),
+        )?;
+    }
+    writeln!(page)?;
+    for solve in solves {
+        let stages = solve.stages.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1}"));
+        let stages = stages.collect::<Vec<_>>().join(", ");
+        writeln!(page, "- {}, {}: {stages} s.", solve.capture, solve.config)?;
+    }
+    Ok(())
 }
 
 fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> std::fmt::Result {

@@ -22,7 +22,6 @@ use serde::Serialize;
 use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
-use solver::config::{Config, TextureRule, TextureSize};
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
@@ -138,7 +137,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     let mut solves = vec![];
     for capture in &options.captures {
         progress(&format!("solving {}", capture.display()));
-        solves.extend(solves::measure(capture)?);
+        solves.extend(solves::measure(capture, &Cpu::new())?);
     }
     let machine = Machine::here();
     progress("bandwidth");
@@ -289,14 +288,10 @@ impl Bench {
             let problem = Problem::new(pixels, texture);
             steps.push(device.step(kind, &problem, &losses(kind, &problem, cpu))?);
         }
-        let mut paper = Config::preset("paper")?;
-        paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
         let mut solves = vec![];
         for capture in captures {
             progress(&format!("solving {}, {}", capture.display(), device.name()));
-            for named in [("unshade", &Config::default()), ("paper", &paper)] {
-                solves.push(device.solve(capture, named)?);
-            }
+            solves.extend(device.solves(capture)?);
         }
         let paper = device.paper(&self.paper(), progress);
         Ok(device.report(steps, solves, paper))

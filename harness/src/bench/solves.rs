@@ -5,10 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use solver::backend::cpu::Cpu;
 use solver::config::{TextureRule, TextureSize};
 use solver::memory::Estimate;
-use solver::{Capture, Config};
+use solver::{Backend, BackendError, Capture, Config};
 
 use super::clock::{forget_peak, peak_memory};
 use crate::suite::RunError;
@@ -30,20 +29,29 @@ pub struct Solved {
     pub seconds: f64,
     /// Stage by stage.
     pub stages: Vec<(String, f64)>,
-    /// Largest resident set, bytes.
+    /// Largest resident set of the host, bytes.
     pub peak_memory: Option<u64>,
     /// What was said beforehand.
     pub estimated_memory: u64,
 }
 
 /// Solves a capture with `unshade` and with `paper`, the latter with textures of the same side.
-pub fn measure(capture: &Path) -> Result<[Solved; 2], RunError> {
+pub fn measure(capture: &Path, backend: &dyn Backend) -> Result<[Solved; 2], RunError> {
     let mut paper = Config::preset("paper")?;
     paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
-    Ok([solve(capture, "unshade", &Config::default())?, solve(capture, "paper", &paper)?])
+    Ok([
+        solve(capture, backend, "unshade", &Config::default())?,
+        solve(capture, backend, "paper", &paper)?,
+    ])
 }
 
-fn solve(folder: &Path, name: &'static str, config: &Config) -> Result<Solved, RunError> {
+fn solve(
+    folder: &Path,
+    backend: &dyn Backend,
+    config_name: &'static str,
+    config: &Config,
+) -> Result<Solved, RunError> {
+    let device = backend.name();
     let out = tempfile::tempdir()?;
     let forgot = forget_peak();
     let start = Instant::now();
@@ -51,13 +59,16 @@ fn solve(folder: &Path, name: &'static str, config: &Config) -> Result<Solved, R
     let estimate = Estimate::new(&capture, config);
     let maps = out.path().join("maps");
     let go_on = &mut |_: &solver::Progress| ControlFlow::Continue(());
-    let solution = solver::solve_into(&Cpu::new(), &maps, "bench", &capture, config, go_on)?;
+    let solution = solver::solve_into(backend, &maps, "bench", &capture, config, go_on)?;
     let seconds = start.elapsed().as_secs_f64();
+    // A solve goes on on the processor; its time would not be the device's.
+    if backend.name() != device {
+        return Err(BackendError::Refused { name: device, reason: backend.name() }.into());
+    }
     let stages = solution.timing.seconds.iter();
-    let name_of = |folder: &Path| folder.file_name().unwrap_or_default().display().to_string();
     Ok(Solved {
-        capture: name_of(folder),
-        config: name,
+        capture: folder.file_name().unwrap_or_default().display().to_string(),
+        config: config_name,
         views: estimate.views,
         pixels: solution.record.samples,
         texture: solution.record.texture_size,

@@ -4,17 +4,17 @@
 mod page;
 mod running;
 
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
+use solver::BackendError;
 use solver::backend::Backend;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::memory::available;
-use solver::{BackendError, Capture, Config};
 
 use self::running::{Running, failed};
+use super::solves::{self, Solved};
 use super::steps::{Kind, Reach};
 use super::synthetic::Problem;
 use super::{PAPER_STEPS, Paper, TORCH_STEPS};
@@ -38,7 +38,7 @@ pub struct GpuReport {
     /// The paper's steps.
     pub steps: Vec<GpuStep>,
     /// Whole solves.
-    pub solves: Vec<GpuSolve>,
+    pub solves: Vec<Solved>,
     /// The paper's capture.
     pub paper: GpuPaper,
 }
@@ -99,23 +99,6 @@ pub enum GpuPaper {
         /// What the device said.
         reason: String,
     },
-}
-
-/// A whole solve.
-#[derive(Debug, Serialize)]
-pub struct GpuSolve {
-    /// The capture's name.
-    pub capture: String,
-    /// The configuration's name.
-    pub config: &'static str,
-    /// Foreground pixels.
-    pub pixels: usize,
-    /// Side of the fine-tuned textures.
-    pub texture: usize,
-    /// From the files of the capture to the files of the maps.
-    pub seconds: f64,
-    /// Stage by stage.
-    pub stages: Vec<(String, f64)>,
 }
 
 /// A GPU that is measured.
@@ -199,38 +182,13 @@ impl Device {
         Ok(GpuPaper::Done { share, steps: rows, seconds, preparation_seconds })
     }
 
-    /// From the files of a capture to the files of the maps.
-    pub fn solve(
-        &self,
-        folder: &Path,
-        (config_name, config): (&'static str, &Config),
-    ) -> Result<GpuSolve, RunError> {
-        let (out, name) = (tempfile::tempdir()?, self.name());
-        let start = Instant::now();
-        let capture = Capture::open(folder)?;
-        let maps = out.path().join("maps");
-        let go_on = &mut |_: &solver::Progress| ControlFlow::Continue(());
-        let solution = solver::solve_into(&self.gpu, &maps, "bench", &capture, config, go_on)?;
-        let seconds = start.elapsed().as_secs_f64();
-        // A solve goes on on the processor; its time would not be the device's.
-        if self.name() != name {
-            return Err(BackendError::Refused { name, reason: self.name() }.into());
-        }
-        let seconds_of = |(stage, seconds): (&String, &serde_json::Value)| {
-            (stage.clone(), seconds.as_f64().unwrap_or(0.0))
-        };
-        Ok(GpuSolve {
-            capture: folder.file_name().unwrap_or_default().display().to_string(),
-            config: config_name,
-            pixels: solution.record.samples,
-            texture: solution.record.texture_size,
-            seconds,
-            stages: solution.timing.seconds.iter().map(seconds_of).collect(),
-        })
+    /// Whole solves of a capture.
+    pub fn solves(&self, capture: &Path) -> Result<[Solved; 2], RunError> {
+        solves::measure(capture, &self.gpu)
     }
 
     /// All that was found.
-    pub fn report(self, steps: Vec<GpuStep>, solves: Vec<GpuSolve>, paper: GpuPaper) -> GpuReport {
+    pub fn report(self, steps: Vec<GpuStep>, solves: Vec<Solved>, paper: GpuPaper) -> GpuReport {
         let (mut name, software, reach) = (self.name(), self.software, self.reach);
         if software {
             name += ", a software adapter";

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{GpuPaper, GpuReport, GpuStep};
-use crate::bench::markdown::{count, size};
+use crate::bench::markdown::{count, size, write_solves};
 
 /// The row of what a GPU reaches, or that nobody knows.
 pub fn write_reach(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Result {
@@ -34,22 +34,8 @@ pub fn write_gpu(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Res
     )?;
     write_steps(page, &report.steps)?;
     if !report.solves.is_empty() {
-        writeln!(
-            page,
-            "\n| capture | configuration | pixels | textures | s |\n|---|---|---|---|---|"
-        )?;
-        for solve in &report.solves {
-            let (capture, config, texture) = (&solve.capture, solve.config, solve.texture);
-            let (pixels, seconds) = (count(solve.pixels), solve.seconds);
-            writeln!(page, "| {capture} | {config} | {pixels} | {texture}² | {seconds:.1} |")?;
-        }
         writeln!(page)?;
-        for solve in &report.solves {
-            let stages =
-                solve.stages.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1}"));
-            let stages = stages.collect::<Vec<_>>().join(", ");
-            writeln!(page, "- {}, {}: {stages} s.", solve.capture, solve.config)?;
-        }
+        write_solves(page, &report.solves)?;
     }
     writeln!(page, "\n### The paper's capture\n")?;
     let all = match &report.paper {
