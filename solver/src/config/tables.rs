@@ -209,6 +209,11 @@ pub struct TransportConfig {
     /// Predict from the found light what all views share of the highlights, and take it out of the
     /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
     pub veil: bool,
+    /// How often light and albedo are solved for again on the pictures without the veil, if the light
+    /// proves even: until then it had the glow of the sides of the face to explain.
+    pub unveiled_rounds: usize,
+    /// Steps of each of these rounds.
+    pub unveiled_iterations: usize,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.

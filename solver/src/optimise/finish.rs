@@ -2,13 +2,13 @@
 
 use super::clock::Work;
 use super::gloss;
+use super::lit::Highlights;
 use super::normalise::Scales;
 use super::run::Run;
 use super::site::{Site, map_size};
 use super::snapshot::stage_maps;
 use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
-use super::transported::Highlights;
 use crate::capture::Camera;
 use crate::error::SolveError;
 use crate::fill;

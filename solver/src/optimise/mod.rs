@@ -6,6 +6,7 @@ mod clock;
 mod confidence;
 mod finish;
 mod gloss;
+mod lit;
 pub mod normalise;
 pub mod relief;
 mod run;

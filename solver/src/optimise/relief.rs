@@ -9,8 +9,8 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::lit::{LIT, Lit, bent_shading};
 use super::stage::State;
-use super::transported::{LIT, Lit, bent_shading};
 use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
 use crate::backend::{ALBEDOS, Backend};

@@ -42,6 +42,8 @@ pub(super) struct Run<'a, 'b> {
 pub(super) struct Log {
     /// Steps done.
     done: usize,
+    /// Steps that turned out not to be needed.
+    spared: usize,
     pub stages: Vec<StageRecord>,
     seconds: Vec<(String, f64)>,
 }
@@ -166,6 +168,11 @@ impl<'a, 'b> Run<'a, 'b> {
         Ok(())
     }
 
+    /// Steps turn out not to be needed.
+    pub fn spare(&mut self, steps: usize) {
+        self.log.spared += steps;
+    }
+
     /// The last stage went on from these steps.
     pub fn began_with(&mut self, losses: Vec<f64>) {
         if let Some(last) = self.log.stages.last_mut() {
@@ -275,7 +282,7 @@ impl<'a, 'b> Run<'a, 'b> {
             step,
             steps: of,
             iteration: self.log.done,
-            total: self.total,
+            total: self.total - self.log.spared,
             loss: losses.last().copied().unwrap_or_default(),
             seconds_left,
         };

@@ -15,6 +15,7 @@ use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
 use crate::projection::Projection;
 use crate::semantic::{self, colours::ColourRegions};
+use crate::transport::{Beside, Sky, Transport};
 
 /// The place where a solve happens.
 pub(super) struct Site<'a> {
@@ -29,6 +30,7 @@ pub(super) struct Site<'a> {
     /// Side of the fine-tuned textures.
     pub size: usize,
     pictures: OnceCell<WarmUpPictures>,
+    transport: OnceCell<Transport>,
     coarse: OnceCell<Samples>,
     fine: OnceCell<Fine>,
     colour_regions: OnceCell<Option<ColourRegions>>,
@@ -53,6 +55,7 @@ impl<'a> Site<'a> {
             pixels,
             size: texture_size(config.fine_tuning.texture_size, pixels),
             pictures: OnceCell::new(),
+            transport: OnceCell::new(),
             coarse: OnceCell::new(),
             fine: OnceCell::new(),
             colour_regions: OnceCell::new(),
@@ -89,9 +92,18 @@ impl<'a> Site<'a> {
         self.coarse.take();
     }
 
-    /// Gives back the memory of [`Site::pictures`].
+    /// From a light of this inverse distance, which is the same at every call.
+    pub fn transport(&self, nearness: f32) -> &Transport {
+        let (t, seed) = (&self.config.transport, self.config.seed);
+        let sky = Sky::even(t.rows).at(nearness);
+        let cast = || Transport::new(&self.capture.mesh, &sky, t, seed, Beside::Bending);
+        self.transport.get_or_init(cast)
+    }
+
+    /// Gives back the memory of [`Site::pictures`] and [`Site::transport`].
     pub fn drop_pictures(&mut self) {
         self.pictures.take();
+        self.transport.take();
     }
 
     /// What takes the place of labels in a capture that has none, if the configuration says so.

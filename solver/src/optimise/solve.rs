@@ -9,13 +9,14 @@ use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
+use super::lit::Lit;
 use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
-use super::transported::{Lit, Physical, Probed, light, light_and_albedo, refined};
+use super::transported::{Physical, Probed, light, light_and_albedo, refined, unveiled_light};
 use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::capture::Capture;
@@ -38,7 +39,7 @@ pub struct Progress<'a> {
     pub steps: usize,
     /// Steps done over all stages.
     pub iteration: usize,
-    /// Steps of all stages.
+    /// Steps of all stages; fewer from where the light proves to need no further rounds.
     pub total: usize,
     /// The loss before the last step.
     pub loss: f64,
@@ -210,6 +211,8 @@ enum Step {
     Light,
     /// Light and albedo under explicit transport.
     Transport,
+    /// The same without the veil.
+    Unveiled(usize),
     /// Normals from heights.
     Heights,
     /// Specular albedo and, without heights, normals.
@@ -230,6 +233,8 @@ impl Step {
         steps.push(Self::WarmUp);
         if config.transport.enabled {
             steps.extend([Self::Light, Self::Transport]);
+            let rounds = if config.transport.veil { config.transport.unveiled_rounds } else { 0 };
+            steps.extend((1..=rounds).map(Self::Unveiled));
         }
         if config.height.enabled {
             steps.push(Self::Heights);
@@ -257,6 +262,7 @@ impl Step {
             },
             Self::Light => config.transport.probe,
             Self::Transport => config.transport.iterations,
+            Self::Unveiled(_) => config.transport.unveiled_iterations,
             Self::Heights => height.linearisations * height.reweightings * height.steps,
             Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
@@ -279,9 +285,12 @@ impl Step {
             Self::Start(_) | Self::WarmUp => {
                 work(73.0, few, 67.0, square(config.warm_up.texture_size))
             }
-            Self::Light | Self::Transport => {
+            Self::Light | Self::Transport | Self::Unveiled(_) => {
                 let entries = square(t.texture_size) * (2 * t.rows * t.rows) as f64;
-                let rays = entries * square(t.rays_per_cell_side);
+                let rays = match self {
+                    Self::Unveiled(_) => 0.0,
+                    _ => entries * square(t.rays_per_cell_side),
+                };
                 Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
             }
             Self::Heights => {
@@ -302,7 +311,8 @@ impl Step {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_coarse();
         }
-        if !matches!(self, Self::Start(_) | Self::WarmUp | Self::Light | Self::Transport) {
+        let coarse = matches!(self, Self::Light | Self::Transport | Self::Unveiled(_));
+        if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_pictures();
         }
         let (config, backend) = (site.config, site.backend);
@@ -339,6 +349,12 @@ impl Step {
                 let moved =
                     run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lit = moved.then_some(lit);
+            }
+            Self::Unveiled(round) => {
+                if let Some(lit) = &mut solve.lit {
+                    let spared = unveiled_light(run, site, lit, *round)?;
+                    run.spare(spared);
+                }
             }
             Self::Heights => {
                 let side = ((site.size as f32 * config.height.texture_share) as usize).max(16);
@@ -388,7 +404,7 @@ impl Step {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let bend = || site.fine().deviation.textures(deviation).sharp;
         match self {
-            Self::Start(_) | Self::Light => None,
+            Self::Start(_) | Self::Light | Self::Unveiled(_) => None,
             Self::WarmUp => {
                 let new = Snapshot::new("warm-up", Unit::Networks);
                 Some(new.diffuse(diffuse, *size).specular(specular, *size))

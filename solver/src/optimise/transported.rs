@@ -1,16 +1,19 @@
 //! Diffuse albedo under explicit transport: the light and the albedo are solved for together, the
 //! networks explain the specular layer alone.
 
+use std::mem;
+
 use glam::Vec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::lit::{Lit, bent_shading};
 use super::run::Run;
 use super::site::{Site, WarmUpPictures};
 use super::stage::{Diffuse, Memory, Stage, State, layers};
-use super::veil::{specular_albedo, unveiled, veil};
+use super::veil::specular_albedo;
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::capture::Mesh;
@@ -22,89 +25,7 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::model::texture::{interleave, resample};
-use crate::solution::RecoveredLight;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
-
-/// What explicit transport found, on its own texture.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Lit {
-    pub state: State,
-    /// S_d, R, G, B per texel.
-    shading: Vec<f32>,
-    /// How it changes with the normal, 9 values per texel; see [`Transport::bending`].
-    bending: Vec<f32>,
-    /// S_d of full light on a surface that faces it.
-    peak: f32,
-    /// See [`veil`], one value per texel; empty if it is switched off.
-    veil: Vec<f32>,
-    /// What is left in the record.
-    pub light: RecoveredLight,
-}
-
-impl Lit {
-    /// The pictures less what all views share of the highlights; of little
-    /// of it where the light has contrast: there the networks see the highlights themselves, and the
-    /// prediction errs more.
-    fn unveiled(&self, samples: &Samples) -> Planes {
-        if self.veil.is_empty() {
-            return samples.target.clone();
-        }
-        let share = 1.0 / (1.0 + (self.light.contrast() / EVEN_CONTRAST).powi(2));
-        let veil: Vec<f32> = self.veil.iter().map(|veil| share * veil).collect();
-        unveiled(samples, &veil, self.state.size)
-    }
-
-    /// The highlights on the textures and under the normals of `state`, if the veil is known.
-    pub fn highlights(&self, state: &State) -> Option<Highlights> {
-        if self.veil.is_empty() {
-            return None;
-        }
-        let veil = resample(&self.veil, self.state.size, 1, state.size);
-        let mut own = self.state.clone();
-        own.resize(state.size);
-        own.deviation.clone_from(&state.deviation);
-        Some(Highlights { own, veil })
-    }
-
-    /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
-    pub fn sampled(&self, samples: &Samples) -> Planes {
-        let size = samples.taps.size();
-        let shading = resample(&self.shading, self.state.size, CHANNELS, size);
-        let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
-        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
-        samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
-    }
-}
-
-/// The specular layer with what all views share of it.
-pub(super) struct Highlights {
-    own: State,
-    veil: Vec<f32>,
-}
-
-impl Highlights {
-    /// One radiance per sample.
-    pub fn at(&self, samples: &Samples, deviation: &Deviation, backend: &dyn Backend) -> Planes {
-        let layers = layers(samples, deviation, &self.own, backend);
-        let veil = samples.taps.sample::<1>(&self.veil);
-        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
-    }
-}
-
-/// Of a light with this contrast the albedo is cleared of half the veil.
-const EVEN_CONTRAST: f32 = 0.3;
-
-/// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
-pub(super) const LIT: usize = 4 * CHANNELS;
-
-/// S_d with the normal bent from `normal` to `bent`, both unit.
-pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; CHANNELS] {
-    std::array::from_fn(|c| {
-        let slope = Vec3::from_slice(&lit[CHANNELS + 3 * c..]);
-        (lit[c] + slope.dot(bent - normal)).max(0.0)
-    })
-}
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
 #[derive(Serialize, Deserialize)]
@@ -153,31 +74,45 @@ pub(super) fn light_and_albedo(
     start: State,
     probed: Probed,
 ) -> Result<Lit, SolveError> {
-    let config = site.config;
-    let t = &config.transport;
-    let sky = Sky::even(t.rows).at(probed.nearness);
-    let transport = Transport::new(&site.capture.mesh, &sky, t, config.seed, Beside::Bending);
+    let t = &site.config.transport;
+    let transport = site.transport(probed.nearness);
     run.lap("rays at the light's distance");
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
     let samples = site.pictures().samples(&site.space, transport.size());
-    let mut stage = Transported::new(config, &transport, &samples, &state, probed.log_light);
+    let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
-    let radiance = stage.light();
-    let wanted = config.transport.veil && config.normalisation.specular_skin > 0.0;
-    let gloss = wanted.then(|| specular_albedo(site, &state)).flatten();
-    let hidden = gloss.map_or(vec![], |gloss| {
-        veil(&config.networks, &transport, &samples, &state, run.backend, &radiance, &gloss)
-    });
-    let distance = (sky.nearness > 0.0).then(|| sky.nearness.recip());
-    Ok(Lit {
-        state,
-        shading: transport.shading(&radiance),
-        bending: transport.bending(&radiance).unwrap_or_default(),
-        peak: transport.peak(&radiance),
-        veil: hidden,
-        light: RecoveredLight { rows: t.rows, distance, radiance },
-    })
+    let light = stage.light();
+    let wanted = t.veil && site.config.normalisation.specular_skin > 0.0;
+    let gloss = wanted.then(|| specular_albedo(site, &state)).flatten().unwrap_or_default();
+    Ok(Lit::new(run, site, &samples, state, gloss, probed.nearness, light))
+}
+
+/// Light and diffuse albedo again, on the pictures without the veil that the light so far predicts: what
+/// glows at the sides of a face was taken for light from behind. Only under an even light, where most of
+/// the veil is known. The number of steps that are not taken.
+pub(super) fn unveiled_light(
+    run: &mut Run,
+    site: &Site,
+    lit: &mut Lit,
+    round: usize,
+) -> Result<usize, SolveError> {
+    let t = &site.config.transport;
+    if lit.veil.is_empty() || lit.share() < 0.5 {
+        return Ok(t.unveiled_iterations);
+    }
+    let transport = site.transport(lit.nearness);
+    let samples = site.pictures().samples(&site.space, transport.size());
+    let samples = Samples { target: lit.unveiled(&samples), ..samples };
+    let log_light = lit.light.radiance.iter().map(|light| light.ln()).collect();
+    let mut state = lit.state.clone();
+    let stage = Transported::new(site.config, transport, &samples, &state, log_light);
+    let (name, iterations) = (format!("unveiled {round}"), t.unveiled_iterations);
+    let mut stage = Transported { name, iterations, hold: 0, ..stage };
+    run.stage(&mut stage, &mut state)?;
+    let light = stage.light();
+    *lit = Lit::new(run, site, &samples, state, mem::take(&mut lit.gloss), lit.nearness, light);
+    Ok(0)
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
@@ -228,7 +163,7 @@ pub struct Transported<'a> {
     log_light: Vec<f32>,
     /// How near the light is, in the transport's unit; one value.
     nearness: Vec<f32>,
-    name: &'static str,
+    name: String,
     iterations: usize,
     hold: usize,
     by_light: Adam,
@@ -249,7 +184,7 @@ impl<'a> Transported<'a> {
         let log_light = vec![0.0; CHANNELS * transport.cells()];
         let iterations = config.transport.probe;
         let stage = Self::new(config, transport, samples, state, log_light);
-        Self { name: "light", iterations, hold: iterations, ..stage }
+        Self { name: "light".to_owned(), iterations, hold: iterations, ..stage }
     }
 
     /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
@@ -270,7 +205,7 @@ impl<'a> Transported<'a> {
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
             nearness: vec![0.0],
-            name: "transport",
+            name: "transport".to_owned(),
             iterations: t.iterations,
             hold: t.hold,
             by_light: Adam::new(adam, t.light_rate, log_light.len()),
@@ -402,7 +337,7 @@ pub(super) struct Gradient {
 
 impl Stage for Transported<'_> {
     fn name(&self) -> String {
-        self.name.to_owned()
+        self.name.clone()
     }
 
     fn iterations(&self) -> usize {

@@ -18,6 +18,8 @@ fn short() -> Config {
     config.transport.probe = 10;
     config.transport.iterations = 16;
     config.transport.hold = 6;
+    config.transport.unveiled_rounds = 2;
+    config.transport.unveiled_iterations = 5;
     config.transport.refinement = 6;
     config.height.steps = 4;
     config
@@ -83,7 +85,9 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
     })
     .unwrap();
     assert_eq!(solution.record.interrupted, None);
-    assert_eq!(heard, (1..=80).map(|step| (step, 80)).collect::<Vec<_>>());
+    // This light is not even: without the rounds for one, from the end of the transport on.
+    let total = |step| if step <= 54 { 90 } else { 80 };
+    assert_eq!(heard, (1..=80).map(|step| (step, total(step))).collect::<Vec<_>>());
     assert!(!folder.path().join("whole.checkpoint").exists());
     layers_show_the_pictures(&whole, &capture);
 
@@ -209,4 +213,29 @@ fn a_checkpoint_of_another_solve_is_not_used() {
     let path = checkpoint.join("stage.postcard");
     fs::write(&path, b"not a checkpoint").unwrap();
     assert_eq!(begun_at("another", &other), 1, "a damaged stage");
+}
+
+/// Light from everywhere: highlights do not move, so light and albedo are solved for again without them.
+#[test]
+fn under_an_even_light_the_veil_is_taken_out_in_rounds_that_can_be_interrupted() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = testing::dome(24);
+    let even = |position: Vec3| (region(position).1 + 0.02, region(position).0);
+    let views: Vec<_> =
+        testing::rig(6, 48).iter().map(|camera| testing::view(&mesh, camera, even)).collect();
+    testing::write_capture(&folder.path().join("capture"), &mesh, &views, 1);
+    let capture = Capture::open(&folder.path().join("capture")).unwrap();
+    let (whole, maps) = (folder.path().join("whole"), folder.path().join("maps"));
+    let config = short();
+    let run = |maps: &Path, step: usize| {
+        solve_into(&Cpu::new(), maps, PROGRAM, &capture, &config, &mut stop_at(step)).unwrap()
+    };
+    let solution = run(&whole, usize::MAX);
+    let names: Vec<_> = solution.record.stages.iter().map(|stage| stage.name.as_str()).collect();
+    assert_eq!(names[..5], ["warm-up", "light", "transport", "unveiled 1", "unveiled 2"]);
+    for (step, place) in [(57, "unveiled 1 at step 3 of 5"), (62, "unveiled 2 at step 3 of 5")] {
+        assert_eq!(run(&maps, step).record.interrupted.as_deref(), Some(place));
+    }
+    assert_eq!(run(&maps, usize::MAX).record.interrupted, None);
+    assert!(files(&maps) == files(&whole));
 }

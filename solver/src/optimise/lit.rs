@@ -1,0 +1,134 @@
+//! What explicit transport found: light, shading, albedo, and what all views share of the highlights.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::run::Run;
+use super::site::Site;
+use super::stage::{State, layers};
+use super::veil::{unveiled, veil};
+use crate::backend::Backend;
+use crate::model::deviation::Deviation;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::model::texture::{interleave, resample};
+use crate::solution::RecoveredLight;
+use crate::transport::CHANNELS;
+
+/// What explicit transport found, on its own texture.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Lit {
+    pub state: State,
+    /// S_d, R, G, B per texel.
+    pub shading: Vec<f32>,
+    /// How it changes with the normal, 9 values per texel; see [`Transport::bending`].
+    pub bending: Vec<f32>,
+    /// S_d of full light on a surface that faces it.
+    pub peak: f32,
+    /// See [`veil`], one value per texel; empty if it is switched off.
+    pub veil: Vec<f32>,
+    /// The specular albedo that the veil goes by; empty if it is switched off.
+    pub gloss: Vec<f32>,
+    /// Inverse distance of the light, per metre.
+    pub nearness: f32,
+    /// What is left in the record.
+    pub light: RecoveredLight,
+}
+
+impl Lit {
+    /// What a light makes of the textures of `state`; `gloss` is [`Lit::gloss`].
+    pub fn new(
+        run: &Run,
+        site: &Site,
+        samples: &Samples,
+        state: State,
+        gloss: Vec<f32>,
+        nearness: f32,
+        radiance: Vec<f32>,
+    ) -> Self {
+        let (config, transport) = (site.config, site.transport(nearness));
+        let veil = match gloss.is_empty() {
+            true => vec![],
+            false => {
+                veil(&config.networks, transport, samples, &state, run.backend, &radiance, &gloss)
+            }
+        };
+        let distance = (nearness > 0.0).then(|| nearness.recip());
+        Self {
+            state,
+            shading: transport.shading(&radiance),
+            bending: transport.bending(&radiance).unwrap_or_default(),
+            peak: transport.peak(&radiance),
+            veil,
+            gloss,
+            nearness,
+            light: RecoveredLight { rows: config.transport.rows, distance, radiance },
+        }
+    }
+
+    /// Share of the veil that is taken out of the pictures: little of it where the light has contrast;
+    /// there the networks see the highlights themselves, and the prediction errs more.
+    pub fn share(&self) -> f32 {
+        1.0 / (1.0 + (self.light.contrast() / EVEN_CONTRAST).powi(2))
+    }
+
+    /// The pictures less their share of what all views share of the highlights.
+    pub fn unveiled(&self, samples: &Samples) -> Planes {
+        if self.veil.is_empty() {
+            return samples.target.clone();
+        }
+        let share = self.share();
+        let veil: Vec<f32> = self.veil.iter().map(|veil| share * veil).collect();
+        unveiled(samples, &veil, self.state.size)
+    }
+
+    /// The highlights on the textures and under the normals of `state`, if the veil is known.
+    pub fn highlights(&self, state: &State) -> Option<Highlights> {
+        if self.veil.is_empty() {
+            return None;
+        }
+        let veil = resample(&self.veil, self.state.size, 1, state.size);
+        let mut own = self.state.clone();
+        own.resize(state.size);
+        own.deviation.clone_from(&state.deviation);
+        Some(Highlights { own, veil })
+    }
+
+    /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
+    pub fn sampled(&self, samples: &Samples) -> Planes {
+        let size = samples.taps.size();
+        let shading = resample(&self.shading, self.state.size, CHANNELS, size);
+        let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
+        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
+        samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
+    }
+}
+
+/// The specular layer with what all views share of it.
+pub(super) struct Highlights {
+    own: State,
+    veil: Vec<f32>,
+}
+
+impl Highlights {
+    /// One radiance per sample.
+    pub fn at(&self, samples: &Samples, deviation: &Deviation, backend: &dyn Backend) -> Planes {
+        let layers = layers(samples, deviation, &self.own, backend);
+        let veil = samples.taps.sample::<1>(&self.veil);
+        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
+    }
+}
+
+/// Of a light with this contrast the albedo is cleared of half the veil.
+const EVEN_CONTRAST: f32 = 0.3;
+
+/// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
+pub(super) const LIT: usize = 4 * CHANNELS;
+
+/// S_d with the normal bent from `normal` to `bent`, both unit.
+pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; CHANNELS] {
+    std::array::from_fn(|c| {
+        let slope = Vec3::from_slice(&lit[CHANNELS + 3 * c..]);
+        (lit[c] + slope.dot(bent - normal)).max(0.0)
+    })
+}
