@@ -20,9 +20,9 @@ use crate::transport::CHANNELS;
 pub(super) struct Lit {
     pub state: State,
     /// S_d, R, G, B per texel.
-    pub shading: Vec<f32>,
-    /// How it changes with the normal, 9 values per texel; see [`Transport::bending`].
-    pub bending: Vec<f32>,
+    shading: Vec<f32>,
+    /// How it changes with the normal, 9 values per texel; see [`crate::transport::Transport::bending`].
+    bending: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     pub peak: f32,
     /// See [`veil`], one value per texel; empty if it is switched off.
