@@ -173,6 +173,7 @@ def _worsen_albedo(capture: Path, maps_folder: Path) -> None:
     [
         (["run", "no-such.toml", "-o", "x"], "no-such.toml: cannot be read"),
         (["solve", "no-such-capture", "-o", "x"], "no-such-capture"),
+        (["solve", "x", "-o", "x", "--solver", "oracle", "--rerun"], "a baseline has no steps to show"),
         (["compare", "no-such-run", "no.json"], "no"),
         (["frobnicate"], "unrecognized subcommand"),
     ],

@@ -13,7 +13,7 @@ use super::{
     doctor,
 };
 use crate::compare::{Baseline, Tolerances, compare};
-use crate::report;
+use crate::report::{self, ReportError};
 use crate::score;
 use crate::suite::{self, BaselineMethod, Observer, RunError, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
@@ -99,6 +99,10 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     };
     if arguments.no_records {
         config.records = solver::config::RecordConfig { stages: false, layers: false };
+    }
+    if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
+        let reason = "a baseline has no steps to show; leave it out".to_owned();
+        return Err(ReportError::Live(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
