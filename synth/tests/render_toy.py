@@ -75,7 +75,7 @@ def toy_face(spec: FaceSpec = SPEC) -> Face:
         Part("eye_left", f32(positions * 0.15 + [0.03, 0.02, 0.085]), f32(normals), triangles.astype(np.uint32),
              f32(rng.uniform(0.1, 0.9, (8, 8, 3))), np.full((8, 8), 0.025, np.float32), f32(uv)),
     ]  # fmt: skip
-    return Face(spec, chart, parts, maps)
+    return Face(spec, chart, parts, lambda: maps)
 
 
 def toy_table(**render) -> dict:

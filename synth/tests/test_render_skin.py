@@ -153,7 +153,7 @@ def test_the_true_roughness_of_a_face_reaches_its_picture():
     def highlights(roughness):
         picture = None if roughness is None else np.broadcast_to(np.float32(roughness), (4, 4, 3))
         maps = dataclasses.replace(face.maps, roughness=picture, specular_normal=np.zeros((2, 2, 3), np.float32))
-        head = HeadScene(face.chart, [], ChartMaps.truth(dataclasses.replace(face, maps=maps)))
+        head = HeadScene(face.chart, [], ChartMaps.truth(dataclasses.replace(face, paint=lambda: maps)))
         return render_layers(head.lit(lights.studio().scaled(8.0)), camera.sensor(64), samples=64, depth=2, seed=1).specular
 
     standard = highlights(None)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 
@@ -35,11 +37,16 @@ class Face:
     spec: FaceSpec
     chart: Chart
     parts: list[Part]
-    maps: Maps
+    paint: Callable[[], Maps]
+
+    @cached_property
+    def maps(self) -> Maps:
+        """Painted when first asked for: relighting needs the shapes alone."""
+        return self.paint()
 
 
 def build_face(spec: FaceSpec) -> Face:
-    """Shape and paint one face. Equal specifications give equal bytes.
+    """Shape one face, to be painted. Equal specifications give equal bytes.
 
     Raises `FaceError` where the head data is missing.
     """
@@ -57,7 +64,7 @@ def build_face(spec: FaceSpec) -> Face:
             *make_eyes(geometry.eyes, geometry.gaze, folds, spec),
             *make_wet_lines(head, geometry),
         ],
-        maps=paint_maps(head, geometry, style, spec),
+        paint=lambda: paint_maps(head, geometry, style, spec),
     )
 
 

@@ -48,7 +48,8 @@ def build_own_head(head: HeadFiles) -> Face:
         triangles=triangles.astype(np.uint32),
     )
     parts = [_occluder(number, piece, head, start) for number, piece in enumerate(outside)]
-    return Face(spec=head, chart=chart, parts=parts, maps=_Painter(head, points, normals, uv, triangles).maps())
+    maps = _Painter(head, points, normals, uv, triangles).maps()  # now, since it checks the files
+    return Face(spec=head, chart=chart, parts=parts, paint=lambda: maps)
 
 
 def _divide(pieces: list[Piece], head: HeadFiles) -> tuple[list[Piece], list[Piece]]:
