@@ -9,12 +9,16 @@ use solver::{BackendError, CaptureError, ConfigError, MapsError, SolveError};
 /// An error that has a Python exception of its own.
 pub(super) trait Named: std::error::Error {
     /// The class in `unshade.errors`.
-    const CLASS: &'static str;
+    fn class(&self) -> &'static str;
 }
 
 macro_rules! named {
     ($($error:ty => $class:literal),* $(,)?) => {
-        $(impl Named for $error { const CLASS: &'static str = $class; })*
+        $(impl Named for $error {
+            fn class(&self) -> &'static str {
+                $class
+            }
+        })*
     };
 }
 
@@ -23,7 +27,6 @@ named! {
     CaptureError => "CaptureError",
     MapsError => "MapsError",
     ConfigError => "ConfigError",
-    SolveError => "SolveError",
     ScoreError => "ScoreError",
     RunError => "UnshadeError",
     crate::compare::CompareError => "CompareError",
@@ -31,9 +34,21 @@ named! {
     crate::report::ReportError => "ReportError",
 }
 
+/// What a solve met with has the name that it has elsewhere.
+impl Named for SolveError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Config(error) => error.class(),
+            Self::Capture(error) => error.class(),
+            Self::Maps(error) => error.class(),
+            Self::NotFinite { .. } | Self::Interrupted | Self::Memory { .. } => "SolveError",
+        }
+    }
+}
+
 /// The exception for `error`.
 pub(super) fn raise<E: Named>(error: E) -> PyErr {
-    named_error(E::CLASS, &error.to_string())
+    named_error(error.class(), &error.to_string())
 }
 
 /// The exception `class` of `unshade.errors`.

@@ -15,6 +15,7 @@ mod snapshot;
 pub mod solve;
 pub mod specular;
 pub mod stage;
+mod starts;
 pub mod transported;
 mod vectors;
 mod veil;

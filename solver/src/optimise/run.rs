@@ -162,7 +162,8 @@ impl<'a, 'b> Run<'a, 'b> {
             return Ok(());
         }
         let name = stage.name();
-        let loss = self.steps(&name, stage, state)?;
+        let (mut loss, steps) = (vec![], stage.iterations());
+        self.steps(&name, stage, state, &mut loss, steps)?;
         self.lap(&name);
         self.log.stages.push(StageRecord { name, loss });
         Ok(())
@@ -180,16 +181,19 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Does the steps of a start, which is no stage of the record, and returns the losses.
+    /// Does the steps of a start, which is no stage of the record, from that behind `losses` to
+    /// `until`.
     pub fn trial(
         &mut self,
         name: &str,
         stage: &mut dyn Stage,
         state: &mut State,
-    ) -> Result<Vec<f64>, SolveError> {
-        let losses = self.steps(name, stage, state)?;
+        losses: &mut Vec<f64>,
+        until: usize,
+    ) -> Result<(), SolveError> {
+        self.steps(name, stage, state, losses, until)?;
         self.lap("starts");
-        Ok(losses)
+        Ok(())
     }
 
     fn steps(
@@ -197,27 +201,29 @@ impl<'a, 'b> Run<'a, 'b> {
         name: &str,
         stage: &mut dyn Stage,
         state: &mut State,
-    ) -> Result<Vec<f64>, SolveError> {
+        losses: &mut Vec<f64>,
+        until: usize,
+    ) -> Result<(), SolveError> {
         let of = stage.iterations();
-        let mut losses = self.recall(name, stage, state);
+        self.recall(name, stage, state, losses);
         let mut device = self.take_in(name, stage, state);
         // Steps that the host's copy of a device's values has seen, and when it was made.
         let (mut known, mut fetched) = (losses.len(), Instant::now());
         let mut pace = Pace::default();
-        while losses.len() < of && self.cut.is_none() {
+        while losses.len() < until && self.cut.is_none() {
             let first = losses.len() + 1;
             let share = |step: usize| share(self.final_share, step, of);
             let batch = match &mut device {
                 None => Ok(vec![stage.step(state, self.backend, share(first))]),
                 Some(program) => {
-                    let last = of.min(losses.len() + pace.steps());
+                    let last = until.min(losses.len() + pace.steps());
                     let shares: Vec<f32> = (first..=last).map(share).collect();
                     pace.time(shares.len(), || program.steps(&shares))
                 }
             };
             let Ok(batch) = batch else {
                 device = None;
-                self.fall_back(name, known, &mut losses);
+                self.fall_back(name, known, losses);
                 continue;
             };
             if let Some(at) = batch.iter().position(|loss| !loss.is_finite()) {
@@ -231,20 +237,20 @@ impl<'a, 'b> Run<'a, 'b> {
             losses.extend_from_slice(&batch);
             self.report(name, losses.len(), of, &batch);
             if let Some(program) = &mut device {
-                let over = losses.len() == of || self.cut.is_some();
+                let over = losses.len() == until || self.cut.is_some();
                 if !over && fetched.elapsed() < FETCH {
                     continue;
                 }
                 if program.download(&mut stage.variables(state)).is_err() {
                     device = None;
-                    self.fall_back(name, known, &mut losses);
+                    self.fall_back(name, known, losses);
                     continue;
                 }
                 (known, fetched) = (losses.len(), Instant::now());
             }
-            self.remember(name, &losses, stage, state);
+            self.remember(name, losses, stage, state);
         }
-        Ok(losses)
+        Ok(())
     }
 
     /// The stage as a program of the device, if it has one for it.
@@ -291,17 +297,22 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Brings a stage to where a checkpoint left it; the losses until there.
-    fn recall(&mut self, name: &str, stage: &mut dyn Stage, state: &mut State) -> Vec<f64> {
-        let Some(memory) = self.pending.take_if(|memory| memory.name == name) else {
-            return vec![];
-        };
+    /// Brings a stage to where a checkpoint left it, with the losses until there.
+    fn recall(
+        &mut self,
+        name: &str,
+        stage: &mut dyn Stage,
+        state: &mut State,
+        losses: &mut Vec<f64>,
+    ) {
+        let Some(memory) = self.pending.take_if(|memory| memory.name == name) else { return };
         let seconds = memory.seconds;
-        let Some(losses) = memory.restore(stage, state) else { return vec![] };
-        self.log.done += losses.len();
-        self.clock.skip_steps(losses.len());
+        let Some(kept) = memory.restore(stage, state) else { return };
+        let skipped = kept.len() - losses.len();
+        self.log.done += skipped;
+        self.clock.skip_steps(skipped);
         self.earlier = seconds;
-        losses
+        *losses = kept;
     }
 
     /// Keeps a checkpoint within a stage, if it is time for one.

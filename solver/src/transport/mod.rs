@@ -424,20 +424,21 @@ widened! {
 widened! {
     /// The products of `row` with the light of each channel.
     fn dots(row: &[f32], light: [&[f32]; CHANNELS]) -> [f32; CHANNELS] {
-        let mut lanes = [[0.0f32; LANES]; CHANNELS];
         let (whole, rest) = row.as_chunks::<LANES>();
-        let parts = light.map(|light| light[..row.len()].as_chunks::<LANES>());
-        for (at, row) in whole.iter().enumerate() {
-            for (lanes, (light, _)) in lanes.iter_mut().zip(parts) {
+        let mut dots = [0.0; CHANNELS];
+        // Channel by channel: given all at once, the compiler makes narrow vectors of the channels.
+        for (dot, light) in dots.iter_mut().zip(light) {
+            let (parts, last) = light[..row.len()].as_chunks::<LANES>();
+            let mut lanes = [0.0f32; LANES];
+            for (row, light) in whole.iter().zip(parts) {
                 for lane in 0..LANES {
-                    lanes[lane] += row[lane] * light[at][lane];
+                    lanes[lane] += row[lane] * light[lane];
                 }
             }
+            let rest: f32 = rest.iter().zip(last).map(|(a, b)| a * b).sum();
+            *dot = lanes.iter().sum::<f32>() + rest;
         }
-        std::array::from_fn(|c| {
-            let rest: f32 = rest.iter().zip(parts[c].1).map(|(a, b)| a * b).sum();
-            lanes[c].iter().sum::<f32>() + rest
-        })
+        dots
     }
 }
 
