@@ -19,9 +19,9 @@ use std::time::Duration;
 
 use rayon::ThreadPoolBuilder;
 use serde::Serialize;
-use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
+use solver::backend::{Backend, BackendError};
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
@@ -58,8 +58,8 @@ const TORCH_STEPS: usize = 8;
 pub struct Options {
     /// One of every kind of row, as small as it goes: does the command work?
     pub quick: bool,
-    /// A GPU beside the processor, which is measured at each of its levels.
-    pub adapter: Option<Adapter>,
+    /// A GPU too, if there is one; the processor is measured at each of its levels.
+    pub gpu: bool,
     /// A Python that has PyTorch.
     pub torch: Option<PathBuf>,
     /// Captures to be solved as a whole.
@@ -162,10 +162,10 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     let kernels = kernels::measure(&**device, &bench.kernel_size());
     let scaling = bench.scaling(&**device, *reach_of_best, progress);
     let paper = bench.paper_size(&**device, *reach_of_best, progress);
-    let gpu = options
-        .adapter
-        .as_ref()
-        .map(|adapter| bench.gpu(adapter, &**device, &options.captures, progress))
+    // Not looked for before: its driver takes memory, which would count as that of the steps.
+    let adapter = if options.gpu { adapter()? } else { None };
+    let gpu = adapter
+        .map(|adapter| bench.gpu(&adapter, &**device, &options.captures, progress))
         .transpose()?;
     let torch = match &options.torch {
         None => Torch::Absent { mend: MEND.to_owned() },
@@ -182,6 +182,15 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
         }
     };
     Ok(Report { machine, reach, steps, kernels, scaling, paper, gpu, torch, solves })
+}
+
+/// The best real GPU, or the adapter that the user names.
+fn adapter() -> Result<Option<Adapter>, BackendError> {
+    match Adapter::chosen() {
+        Ok(adapter) => Ok(Some(adapter)),
+        Err(BackendError::NoGpu { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
 }
 
 struct Bench {
@@ -358,7 +367,7 @@ mod tests {
     /// Every row is there and finite; nothing is said about its time.
     #[test]
     fn the_smallest_run_has_every_row_and_a_table() {
-        let options = Options { quick: true, adapter: None, torch: None, captures: vec![] };
+        let options = Options { quick: true, gpu: false, torch: None, captures: vec![] };
         let mut heard = 0;
         let report = run(&options, &mut |_| heard += 1).unwrap();
         let levels = Level::available().len();
