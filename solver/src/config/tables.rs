@@ -55,8 +55,7 @@ pub struct InitialisationConfig {
     /// Seeds of the networks that are tried, from `seed` on; the warm-up goes on with the one that has
     /// the lowest loss. 1, as in the paper, tries none.
     pub starts: usize,
-    /// Steps of the warm-up that they are given; after half of them the worse half of the starts is
-    /// given up. Those of the best count.
+    /// Steps of the warm-up that each of them is given; those of the best count.
     pub start_iterations: usize,
 }
 

@@ -15,7 +15,6 @@ mod snapshot;
 pub mod solve;
 pub mod specular;
 pub mod stage;
-mod starts;
 pub mod transported;
 mod vectors;
 mod veil;

@@ -162,8 +162,7 @@ impl<'a, 'b> Run<'a, 'b> {
             return Ok(());
         }
         let name = stage.name();
-        let (mut loss, steps) = (vec![], stage.iterations());
-        self.steps(&name, stage, state, &mut loss, steps)?;
+        let loss = self.steps(&name, stage, state)?;
         self.lap(&name);
         self.log.stages.push(StageRecord { name, loss });
         Ok(())
@@ -181,19 +180,16 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Does the steps of a start, which is no stage of the record, from that behind `losses` to
-    /// `until`.
+    /// Does the steps of a start, which is no stage of the record, and returns the losses.
     pub fn trial(
         &mut self,
         name: &str,
         stage: &mut dyn Stage,
         state: &mut State,
-        losses: &mut Vec<f64>,
-        until: usize,
-    ) -> Result<(), SolveError> {
-        self.steps(name, stage, state, losses, until)?;
+    ) -> Result<Vec<f64>, SolveError> {
+        let losses = self.steps(name, stage, state)?;
         self.lap("starts");
-        Ok(())
+        Ok(losses)
     }
 
     fn steps(
@@ -201,29 +197,27 @@ impl<'a, 'b> Run<'a, 'b> {
         name: &str,
         stage: &mut dyn Stage,
         state: &mut State,
-        losses: &mut Vec<f64>,
-        until: usize,
-    ) -> Result<(), SolveError> {
+    ) -> Result<Vec<f64>, SolveError> {
         let of = stage.iterations();
-        self.recall(name, stage, state, losses);
+        let mut losses = self.recall(name, stage, state);
         let mut device = self.take_in(name, stage, state);
         // Steps that the host's copy of a device's values has seen, and when it was made.
         let (mut known, mut fetched) = (losses.len(), Instant::now());
         let mut pace = Pace::default();
-        while losses.len() < until && self.cut.is_none() {
+        while losses.len() < of && self.cut.is_none() {
             let first = losses.len() + 1;
             let share = |step: usize| share(self.final_share, step, of);
             let batch = match &mut device {
                 None => Ok(vec![stage.step(state, self.backend, share(first))]),
                 Some(program) => {
-                    let last = until.min(losses.len() + pace.steps());
+                    let last = of.min(losses.len() + pace.steps());
                     let shares: Vec<f32> = (first..=last).map(share).collect();
                     pace.time(shares.len(), || program.steps(&shares))
                 }
             };
             let Ok(batch) = batch else {
                 device = None;
-                self.fall_back(name, known, losses);
+                self.fall_back(name, known, &mut losses);
                 continue;
             };
             if let Some(at) = batch.iter().position(|loss| !loss.is_finite()) {
@@ -237,20 +231,20 @@ impl<'a, 'b> Run<'a, 'b> {
             losses.extend_from_slice(&batch);
             self.report(name, losses.len(), of, &batch);
             if let Some(program) = &mut device {
-                let over = losses.len() == until || self.cut.is_some();
+                let over = losses.len() == of || self.cut.is_some();
                 if !over && fetched.elapsed() < FETCH {
                     continue;
                 }
                 if program.download(&mut stage.variables(state)).is_err() {
                     device = None;
-                    self.fall_back(name, known, losses);
+                    self.fall_back(name, known, &mut losses);
                     continue;
                 }
                 (known, fetched) = (losses.len(), Instant::now());
             }
-            self.remember(name, losses, stage, state);
+            self.remember(name, &losses, stage, state);
         }
-        Ok(())
+        Ok(losses)
     }
 
     /// The stage as a program of the device, if it has one for it.
@@ -297,22 +291,17 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Brings a stage to where a checkpoint left it, with the losses until there.
-    fn recall(
-        &mut self,
-        name: &str,
-        stage: &mut dyn Stage,
-        state: &mut State,
-        losses: &mut Vec<f64>,
-    ) {
-        let Some(memory) = self.pending.take_if(|memory| memory.name == name) else { return };
+    /// Brings a stage to where a checkpoint left it; the losses until there.
+    fn recall(&mut self, name: &str, stage: &mut dyn Stage, state: &mut State) -> Vec<f64> {
+        let Some(memory) = self.pending.take_if(|memory| memory.name == name) else {
+            return vec![];
+        };
         let seconds = memory.seconds;
-        let Some(kept) = memory.restore(stage, state) else { return };
-        let skipped = kept.len() - losses.len();
-        self.log.done += skipped;
-        self.clock.skip_steps(skipped);
+        let Some(losses) = memory.restore(stage, state) else { return vec![] };
+        self.log.done += losses.len();
+        self.clock.skip_steps(losses.len());
         self.earlier = seconds;
-        *losses = kept;
+        losses
     }
 
     /// Keeps a checkpoint within a stage, if it is time for one.

@@ -1,11 +1,11 @@
 //! The order of the steps, from a capture to a solution.
 
-use std::mem;
 use std::ops::ControlFlow;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
@@ -16,7 +16,6 @@ use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
-use super::starts::{Start, best, finalists, first_half, halfway, put_back, second_half};
 use super::transported::{Physical, Probed, light, light_and_albedo, refined, unveiled_light};
 use crate::atomic::Folder;
 use crate::backend::Backend;
@@ -25,6 +24,7 @@ use crate::config::Config;
 use crate::error::{CaptureError, MapsError, SolveError};
 use crate::gbuffer::Atlas;
 use crate::memory::{self, Estimate};
+use crate::model::networks::Networks;
 use crate::model::texture::resample;
 use crate::solution::{Solution, ViewLayers};
 
@@ -151,8 +151,8 @@ pub(super) struct Solve {
     pub finished: usize,
     /// What the textures start from.
     pub initial: State,
-    /// The starts that are still in the running.
-    pub starts: Vec<Start>,
+    /// The best of the starts so far, with which the warm-up goes on.
+    pub best: Option<Start>,
     /// The networks' own model of the pictures.
     pub state: State,
     /// The light that the semantic colours show, until the albedo moves too.
@@ -165,6 +165,22 @@ pub(super) struct Solve {
     pub snapshots: Vec<Snapshot>,
 }
 
+/// A short warm-up from the networks of one seed.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Start {
+    losses: Vec<f64>,
+    state: State,
+    optimisers: Vec<Adam>,
+}
+
+impl Start {
+    /// How far it has come: the mean of the last tenth of its losses.
+    fn loss(&self) -> f64 {
+        let tail = &self.losses[self.losses.len() - self.losses.len().div_ceil(10)..];
+        tail.iter().sum::<f64>() / tail.len() as f64
+    }
+}
+
 impl Solve {
     fn new(site: &Site) -> Result<Self, SolveError> {
         if site.coarse().is_empty() {
@@ -175,7 +191,7 @@ impl Solve {
         Ok(Self {
             finished: 0,
             initial,
-            starts: vec![],
+            best: None,
             state,
             probed: None,
             lit: None,
@@ -188,11 +204,8 @@ impl Solve {
 /// A step of a solve; a checkpoint is kept after each of them.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    /// The first half of a short warm-up from the networks of one seed.
+    /// A short warm-up from the networks of one seed.
     Start(usize),
-    /// The second half, of one of those that have come furthest.
-    Final(usize),
-    /// From the best of them.
     WarmUp,
     /// The light under the semantic colours.
     Light,
@@ -217,7 +230,6 @@ impl Step {
             starts => starts,
         };
         let mut steps: Vec<Self> = (0..starts).map(Self::Start).collect();
-        steps.extend((0..finalists(starts)).map(Self::Final));
         steps.push(Self::WarmUp);
         if config.transport.enabled {
             steps.extend([Self::Light, Self::Transport]);
@@ -240,8 +252,7 @@ impl Step {
     fn iterations(&self, config: &Config) -> usize {
         let height = &config.height;
         match self {
-            Self::Start(_) => halfway(config),
-            Self::Final(_) => config.initialisation.start_iterations - halfway(config),
+            Self::Start(_) => config.initialisation.start_iterations,
             // The best start's steps are done.
             Self::WarmUp => match config.initialisation.starts {
                 0 | 1 => config.warm_up.iterations,
@@ -271,7 +282,7 @@ impl Step {
         };
         let t = &config.transport;
         match self {
-            Self::Start(_) | Self::Final(_) | Self::WarmUp => {
+            Self::Start(_) | Self::WarmUp => {
                 work(73.0, few, 67.0, square(config.warm_up.texture_size))
             }
             Self::Light | Self::Transport | Self::Unveiled(_) => {
@@ -297,26 +308,30 @@ impl Step {
 
     /// Takes the step. After an interrupt it leaves in `solve` what it has found until then.
     fn take(&self, site: &mut Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
-        if !matches!(self, Self::Start(_) | Self::Final(_) | Self::WarmUp) {
+        if !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_coarse();
-            if !matches!(self, Self::Light | Self::Transport | Self::Unveiled(_)) {
-                site.drop_pictures();
-            }
+        }
+        let coarse = matches!(self, Self::Light | Self::Transport | Self::Unveiled(_));
+        if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
+            site.drop_pictures();
         }
         let (config, backend) = (site.config, site.backend);
         match self {
-            Self::Start(number) => first_half(*number, site, run, solve)?,
-            Self::Final(place) => second_half(*place, site, run, solve)?,
+            Self::Start(number) => start(*number, site, run, solve)?,
             Self::WarmUp => {
                 let mut config = config.clone();
                 config.warm_up.iterations = self.iterations(site.config);
-                let (mut losses, mut optimisers) = (vec![], vec![]);
-                if let Some(best) = best(mem::take(&mut solve.starts)) {
-                    (losses, optimisers) = (best.losses, best.optimisers);
-                    solve.state = best.state;
+                let best = solve.best.take();
+                if let Some(best) = &best {
+                    solve.state = best.state.clone();
                 }
                 let mut stage = WarmUp::new(&config, site.coarse(), &solve.state);
-                put_back(&mut stage, optimisers);
+                let mut losses = vec![];
+                if let Some(best) = best {
+                    let places = stage.memory().optimisers.into_iter();
+                    places.zip(best.optimisers).for_each(|(place, kept)| *place = kept);
+                    losses = best.losses;
+                }
                 run.stage(&mut stage, &mut solve.state)?;
                 run.began_with(losses);
             }
@@ -389,7 +404,7 @@ impl Step {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let bend = || site.fine().deviation.textures(deviation).sharp;
         match self {
-            Self::Start(_) | Self::Final(_) | Self::Light | Self::Unveiled(_) => None,
+            Self::Start(_) | Self::Light | Self::Unveiled(_) => None,
             Self::WarmUp => {
                 let new = Snapshot::new("warm-up", Unit::Networks);
                 Some(new.diffuse(diffuse, *size).specular(specular, *size))
@@ -415,6 +430,26 @@ impl Step {
             }
         }
     }
+}
+
+/// Warms up the networks of one seed; what has come furthest is kept.
+fn start(number: usize, site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
+    let mut config = site.config.clone();
+    config.warm_up.iterations = config.initialisation.start_iterations;
+    let networks = Networks::new(&config.networks, config.seed + number as u64);
+    let mut state = State { networks, ..solve.initial.clone() };
+    let mut stage = WarmUp::new(&config, site.coarse(), &state);
+    let losses = run.trial(&format!("start {}", number + 1), &mut stage, &mut state)?;
+    let optimisers = stage.memory().optimisers.into_iter().map(|adam| adam.clone()).collect();
+    if run.cut().is_some() {
+        solve.state = state;
+        return Ok(());
+    }
+    let start = Start { losses, state, optimisers };
+    if solve.best.as_ref().is_none_or(|best| start.loss() < best.loss()) {
+        solve.best = Some(start);
+    }
+    Ok(())
 }
 
 /// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
