@@ -135,8 +135,6 @@ pub struct NormalEquations<'a> {
     pub basis: [&'a [Vec3]; 2],
     /// From the specular deviation to the diffuse one.
     pub blur: &'a Blur,
-    /// Change of the albedo that is one unit of its unknown.
-    pub albedo_unit: f32,
     /// Weights of the squared deviation, of its squared differences, of squared heights, and of the
     /// albedo's squared unknowns.
     pub flatness: f32,

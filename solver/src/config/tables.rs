@@ -249,7 +249,7 @@ pub struct HeightConfig {
     pub flatness: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,
-    /// Weight of squared changes of the diffuse albedo, in tenths.
+    /// Weight of squared relative changes of the diffuse albedo.
     pub albedo_damping: f32,
 }
 

@@ -7,6 +7,7 @@ mod confidence;
 mod finish;
 mod gloss;
 mod lit;
+mod nearby;
 pub mod normalise;
 pub mod relief;
 mod run;

@@ -3,21 +3,21 @@
 //! With light, specular albedo and the coarse diffuse albedo held fixed, the pictures are linear in
 //! small changes of the normals and of the albedo. How diffuse shading changes with the normal is known
 //! from explicit transport, or else from the networks; how highlights do, from the networks. Unknown are the height h (n_s = n - grad h,
-//! n_d the same blurred) and damped changes of the diffuse albedo; L1 by reweighting, conjugate
+//! n_d the same blurred) and damped relative changes of the diffuse albedo; L1 by reweighting, conjugate
 //! gradients on the normal equations, relinearised a few times.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::lit::{LIT, Lit, bent_shading};
+use super::nearby::{trust_in, without_coarse};
 use super::stage::State;
 use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
-use crate::convolution::Shape;
 use crate::error::SolveError;
-use crate::gbuffer::{Atlas, GBuffer, blurred};
+use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;
@@ -31,8 +31,6 @@ use crate::simd::widened;
 const UNKNOWNS: usize = 9;
 /// Darkest albedo that a logarithm is taken of.
 const DARKEST: f32 = 1e-3;
-/// Change of the albedo that counts as one unit of the unknown.
-const ALBEDO_UNIT: f32 = 0.1;
 /// Least square of a light's contrast.
 const LEAST_CONTRAST: f32 = 1e-3;
 /// Squared norm of the rest, over that of the goal, at which a solve has converged.
@@ -41,7 +39,6 @@ const ENOUGH: f64 = 1e-5;
 const SUBMITTED: usize = 5;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
-
 /// The linearised problem.
 pub struct ReliefSolve<'a> {
     config: &'a HeightConfig,
@@ -64,8 +61,8 @@ pub struct ReliefSolve<'a> {
 }
 
 /// Rows of what a sample's colour gains from changes of its texels: by n_s (3, of every channel), by
-/// n_d (3 of R, then of G and B), by the diffuse albedo (S_d of R, G, B).
-const SLOPES: usize = 15;
+/// n_d (3 of R, then of G and B), by the diffuse albedo (the diffuse layer of R, G, B).
+pub(super) const SLOPES: usize = 15;
 
 impl<'a> ReliefSolve<'a> {
     /// `samples` are those of `views`, with taps of the side `size`. Diffuse shading and albedo are those
@@ -119,14 +116,18 @@ impl<'a> ReliefSolve<'a> {
     ) -> Result<Vec<f32>, SolveError> {
         let texels = self.size * self.size;
         let mut x = vec![0.0f32; 4 * texels];
+        let mut trust = None;
         'solve: for outer in 0..self.config.linearisations {
             let (slopes, target) = self.linearise(&x);
+            let floor = self.config.residual_floor;
+            let trust = trust
+                .get_or_insert_with(|| trust_in(self.samples, self.views, &slopes, &target, floor));
             for reweighting in 0..self.config.reweightings {
                 let fitted = match outer + reweighting {
                     0 => None,
                     _ => Some(self.forward(&slopes, &self.sampled(&x))),
                 };
-                let (weight, residual) = self.weights(&target, fitted.as_ref());
+                let (weight, residual) = self.weights(&target, fitted.as_ref(), trust);
                 match self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step) {
                     // Every step leaves heights that explain more than those before it.
                     Err(SolveError::Interrupted) => break 'solve,
@@ -147,7 +148,7 @@ impl<'a> ReliefSolve<'a> {
         let current = |i: usize| -> [f32; 3] {
             let albedo: [f32; ALBEDOS] = self.albedo.sample(i, 0);
             let change: [f32; 3] = q.sample(i, 6);
-            std::array::from_fn(|c| albedo[c] + change[c])
+            std::array::from_fn(|c| albedo[c] * (1.0 + change[c]))
         };
         // S_d of R, G, B, and how it changes with the deviation.
         let diffuse = |i: usize| -> ([f32; 3], [Vec3; 3]) {
@@ -175,7 +176,7 @@ impl<'a> ReliefSolve<'a> {
             for c in 0..3 {
                 row[c] = gloss * by_specular[c];
                 row[3 + 3 * c..6 + 3 * c].copy_from_slice(&(albedo[c] * slope[c]).to_array());
-                row[12 + c] = shading[c];
+                row[12 + c] = self.albedo.get(c, i) * shading[c];
             }
             row
         });
@@ -183,11 +184,15 @@ impl<'a> ReliefSolve<'a> {
         let residual: Planes = Planes::from_fn(samples.len(), |i| {
             let specular = shading.get(1, i);
             let highlight = samples.fresnel.get(0, i) * self.albedo.get(3, i) * specular;
-            let (target, albedo): ([f32; 3], [f32; 3]) = (samples.target.sample(i, 0), current(i));
+            let (target, change): ([f32; 3], [f32; 3]) =
+                (samples.target.sample(i, 0), q.sample(i, 6));
             let diffuse: [f32; 3] = slopes.sample(i, 12);
-            std::array::from_fn::<f32, 3, _>(|c| target[c] - albedo[c] * diffuse[c] - highlight)
+            std::array::from_fn::<f32, 3, _>(|c| {
+                target[c] - diffuse[c] * (1.0 + change[c]) - highlight
+            })
         });
-        let fine = self.without_coarse(&residual);
+        let sigma = self.config.coarsest_pixels;
+        let fine = without_coarse(samples, self.views, &residual, sigma);
         let explained = self.forward(&slopes, &q);
         let target = Planes::from_fn(samples.len(), |i| {
             let (fine, explained): ([f32; 3], [f32; 3]) =
@@ -226,8 +231,7 @@ impl<'a> ReliefSolve<'a> {
     /// The unknowns of every texel, interleaved; `sharp` is the deviation.
     fn texture(&self, sharp: &[f32], albedo: &[f32]) -> Vec<f32> {
         let soft = self.blur.apply(sharp);
-        let albedo: Vec<f32> = albedo.par_iter().map(|x| ALBEDO_UNIT * x).collect();
-        interleave::<UNKNOWNS>(&[(sharp, 3), (&soft, 3), (&albedo, 3)])
+        interleave::<UNKNOWNS>(&[(sharp, 3), (&soft, 3), (albedo, 3)])
     }
 
     fn forward(&self, slopes: &Planes, q: &Planes) -> Planes {
@@ -243,12 +247,12 @@ impl<'a> ReliefSolve<'a> {
             add(&mut sharp, more);
         }
         let mut gradient = self.field.adjoint(&sharp);
-        gradient.par_extend(part::<UNKNOWNS, 3>(gathered, 6).par_iter().map(|g| ALBEDO_UNIT * g));
+        gradient.append(&mut part::<UNKNOWNS, 3>(gathered, 6));
         gradient
     }
 
     /// Weights of the reweighted least squares, and the weighted mean absolute residual.
-    fn weights(&self, target: &Planes, fitted: Option<&Planes>) -> (Planes, f64) {
+    fn weights(&self, target: &Planes, fitted: Option<&Planes>, trust: &Planes) -> (Planes, f64) {
         let floor = self.config.residual_floor;
         let size = |i: usize| {
             let target: [f32; 3] = target.sample(i, 0);
@@ -257,7 +261,8 @@ impl<'a> ReliefSolve<'a> {
         };
         let weight = Planes::from_fn(self.samples.len(), |i| {
             // In units of the floor, so that the weights of the penalties do not depend on it.
-            let weight = self.samples.weight.get(0, i) / (3.0 * floor * size(i).max(floor));
+            let weight = trust.get(0, i) * self.samples.weight.get(0, i);
+            let weight = weight / (3.0 * floor * size(i).max(floor));
             [weight]
         });
         let sum: f64 = (0..self.samples.len())
@@ -345,7 +350,6 @@ impl<'a> ReliefSolve<'a> {
             x,
             basis: self.field.basis(),
             blur: &self.blur,
-            albedo_unit: ALBEDO_UNIT,
             flatness: self.flatness,
             smoothness: self.config.smoothness,
             rest: REST,
@@ -362,33 +366,6 @@ impl<'a> ReliefSolve<'a> {
         }
         x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
         Ok(told)
-    }
-
-    /// The residual of every view less its own blur over the covered pixels.
-    fn without_coarse(&self, residual: &Planes) -> Planes {
-        let sigma = self.config.coarsest_pixels;
-        if sigma == 0.0 {
-            return residual.clone();
-        }
-        // R, G, B and cover of every view.
-        let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
-        let mut views: Vec<Vec<f32>> =
-            self.views.iter().map(|view| vec![0.0; 4 * view.width * view.height]).collect();
-        let places = self.samples.view_index.iter().zip(&self.samples.pixel);
-        for (i, (view, pixel)) in places.clone().enumerate() {
-            let [r, g, b] = residual.sample(i, 0);
-            views[*view as usize][4 * *pixel as usize..][..4].copy_from_slice(&[r, g, b, 1.0]);
-        }
-        for (picture, view) in views.iter_mut().zip(self.views) {
-            *picture = blurred(picture, shape(view), sigma);
-        }
-        Planes::from_fn(self.samples.len(), |i| {
-            let (view, pixel) = (self.samples.view_index[i], self.samples.pixel[i]);
-            let coarse = &views[view as usize][4 * pixel as usize..][..4];
-            let cover = coarse[3].max(f32::MIN_POSITIVE);
-            let residual: [f32; 3] = residual.sample(i, 0);
-            std::array::from_fn::<f32, 3, _>(|c| residual[c] - coarse[c] / cover)
-        })
     }
 }
 

@@ -15,8 +15,7 @@ use super::testing;
 const SIDE: usize = 32;
 const TEXELS: usize = SIDE * SIDE;
 const STEPS: usize = 12;
-/// Change of the albedo, weights of flatness, smoothness, heights, albedo.
-const UNIT: f32 = 0.1;
+/// Weights of flatness, smoothness, heights, albedo.
 const WEIGHTS: [f32; 4] = [30.0, 60.0, 1e-3, 30.0];
 
 fn channels(values: &[f32], first: usize) -> Vec<f32> {
@@ -44,7 +43,7 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
             let row = |k: usize| match k / 3 {
                 0 => s[k],
                 1 => s[3 + 3 * c + k % 3],
-                _ if k % 3 == c => UNIT * s[12 + c],
+                _ if k % 3 == c => s[12 + c],
                 _ => 0.0,
             };
             let colour: f32 = (0..9).map(|k| row(k) * q[k]).sum();
@@ -97,7 +96,6 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
         x: &start,
         basis: field.basis(),
         blur: &blur,
-        albedo_unit: UNIT,
         flatness,
         smoothness,
         rest,

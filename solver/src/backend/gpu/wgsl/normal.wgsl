@@ -3,8 +3,6 @@
 
 struct Parameters {
     samples: u32,
-    // Change of the albedo that is one unit of its unknown.
-    unit: f32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -36,7 +34,7 @@ fn main(
     let specular = slope(i, 0u);
     // Columns: of R, G, B.
     let diffuse = mat3x3(slope(i, 3u), slope(i, 6u), slope(i, 9u));
-    let shading = slope(i, 12u) * parameters.unit;
+    let shading = slope(i, 12u);
     let explained = unknown(i, 3u) * diffuse + dot(specular, unknown(i, 0u)) + shading * unknown(i, 6u);
     let z = slopes[place(i, 15u, 16u)] * explained;
     let by_specular = specular * (z.x + z.y + z.z);
