@@ -12,7 +12,7 @@ const F0: f32 = 0.04;
 /// GGX roughness and share of skin's two lobes.
 const LOBES: [(f32, f32); 2] = [(0.15, 0.5), (0.35, 0.5)];
 /// Exponent of the cosine lobe that the light is seen through.
-const LOBE: i32 = 4;
+const LOBE: i32 = 16;
 /// Least cosine of a direction to the surface.
 const GRAZING: f32 = 1e-3;
 
@@ -42,7 +42,7 @@ impl Transport {
         }))
     }
 
-    /// The luminance of a light through a lobe of 40 degrees: finer than that, diffuse shading does
+    /// The luminance of a light through a lobe of 20 degrees: finer than that, diffuse shading does
     /// not tell of it.
     fn smoothed(&self, light: &[f32]) -> Vec<f32> {
         let rays = self.sky.rays(1, 0);
