@@ -36,7 +36,8 @@ pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError
 /// [`mean_texture`].
 pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
     let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
-    let albedo = semantic::initial_diffuse_albedo(&capture.mesh, &capture.train, &gbuffers, size);
+    let albedo =
+        semantic::initial_diffuse_albedo(&capture.mesh, &capture.train, &gbuffers, size, &[]);
     let atlas = Atlas::new(&capture.mesh, size);
     let projections = Projection::of_views(&capture.train, &gbuffers);
     let seen = per_texel(&atlas, &projections, |_: &[(usize, Observation)]| true);

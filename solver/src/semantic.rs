@@ -19,16 +19,18 @@ const LEAST_WEIGHT: f32 = 1e-4;
 /// the pictures (radiance, not reflectance). The G-buffers are those of the views.
 ///
 /// A texel belongs to the region that most views see there (weighted by the cosine); a texel that
-/// none sees or labels takes the nearest texel's region. Without labels the face is one region.
+/// none sees or labels takes the nearest texel's region. Without labels the face is one region. The
+/// labels `alike` have the colour of that one of them that the views see most of.
 pub fn initial_diffuse_albedo(
     mesh: &Mesh,
     views: &[View],
     gbuffers: &[GBuffer],
     size: usize,
+    alike: &[u8],
 ) -> Picture {
     let atlas = Atlas::new(mesh, size);
     let regions = region_map(&atlas, &Projection::of_views(views, gbuffers));
-    let colours = region_colours(views, gbuffers);
+    let colours = region_colours(views, gbuffers, alike);
     let data = regions.iter().flat_map(|region| colours[*region as usize].to_array()).collect();
     Picture { width: size, height: size, channels: 3, data }
 }
@@ -40,7 +42,7 @@ pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
         for (view, observation) in seen {
             let view = projections[*view].view;
             let [x, y] = observation.at.map(|value| value as usize);
-            votes[label(view, y * view.camera.width + x) as usize] += observation.cosine;
+            votes[view.label(y * view.camera.width + x) as usize] += observation.cosine;
         }
         // Ascending ids, and a later one must have more: the smaller id wins a tie.
         (1..=255_u8).fold(0, |best, id| {
@@ -54,13 +56,9 @@ pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
     nearest.into_iter().map(|texel| regions[texel as usize]).collect()
 }
 
-fn label(view: &View, pixel: usize) -> u8 {
-    view.labels.as_ref().map_or(0, |labels| labels.data[pixel])
-}
-
 /// Mean colour of the pixels of every region, weighted by the form factor; region 0 is the mean
-/// over all pixels.
-fn region_colours(views: &[View], gbuffers: &[GBuffer]) -> [Vec3; 256] {
+/// over all pixels. The regions `alike` have the colour of the most seen of them.
+fn region_colours(views: &[View], gbuffers: &[GBuffer], alike: &[u8]) -> [Vec3; 256] {
     let mut sums = [DVec3::ZERO; 256];
     let mut totals = [0.0_f64; 256];
     for (view, gbuffer) in views.iter().zip(gbuffers) {
@@ -69,7 +67,7 @@ fn region_colours(views: &[View], gbuffers: &[GBuffer]) -> [Vec3; 256] {
             let pixel = *pixel as usize;
             let colour = Vec3::from_slice(&view.image.data[3 * pixel..]).as_dvec3();
             let weight = f64::from(weight + LEAST_WEIGHT);
-            let region = label(view, pixel);
+            let region = view.label(pixel);
             let all = (region != 0).then_some(0);
             for region in all.into_iter().chain([region as usize]) {
                 sums[region] += weight * colour;
@@ -77,7 +75,13 @@ fn region_colours(views: &[View], gbuffers: &[GBuffer]) -> [Vec3; 256] {
             }
         }
     }
+    let most = alike.iter().copied().max_by(|a, b| {
+        let [a, b] = [a, b].map(|region| totals[*region as usize]);
+        a.total_cmp(&b)
+    });
     std::array::from_fn(|region| {
+        let own = !alike.contains(&(region as u8));
+        let region = most.filter(|_| !own).map_or(region, usize::from);
         if totals[region] > 0.0 { (sums[region] / totals[region]).as_vec3() } else { Vec3::ZERO }
     })
 }

@@ -131,6 +131,7 @@ pub fn write_capture(folder: &Path, mesh: &Mesh, views: &[View], withheld: usize
     let transforms = serde_json::json!({
         "camera_model": "PINHOLE", "mesh": "mesh.obj", "frames": frames,
         "train_filenames": train, "test_filenames": test,
+        "label_names": { "1": "skin", "2": "lips", "3": "scalp" },
     });
     std::fs::write(folder.join("transforms.json"), transforms.to_string()).unwrap();
 }

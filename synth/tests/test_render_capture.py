@@ -200,7 +200,9 @@ def test_faulty_labels_change_labels_alone_and_render_nothing_anew(captured, tmp
     made = files(tmp_path / "none")
     assert set(perfect) - set(made) == {f"labels/{name}.png" for name in ("000", "001", "002", "003")}
     assert {name for name in made if made[name] != perfect[name]} == {"transforms.json", "truth/scene.toml"}
-    assert all("label_path" not in frame for frame in json.loads(made["transforms.json"])["frames"])
+    stated, unlabelled = (json.loads(found["transforms.json"]) for found in (perfect, made))
+    assert stated["label_names"]["1"] == "skin" and stated["label_names"]["5"] == "ear"
+    assert "label_names" not in unlabelled and all("label_path" not in frame for frame in unlabelled["frames"])
 
 
 def test_denoising_is_named_and_removes_noise(captured, tmp_path):

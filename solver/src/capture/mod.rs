@@ -7,6 +7,7 @@ mod orientation;
 mod transforms;
 mod view;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
@@ -33,6 +34,8 @@ pub struct Capture {
     /// The withheld cameras, in the order of `test_filenames`; pinholes like all others, since
     /// lenses are taken out of the pictures when they are opened.
     pub withheld: Vec<Camera>,
+    /// What the ids of the label pictures stand for, as far as the file says.
+    pub label_names: BTreeMap<u8, String>,
     hash: String,
 }
 
@@ -81,6 +84,7 @@ impl Capture {
             mesh,
             train,
             withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
+            label_names: transforms.label_names,
             hash: hasher.finalize().to_hex().to_string(),
         })
     }
@@ -89,6 +93,12 @@ impl Capture {
     /// training views' pictures, masks and labels, as they were when the folder was opened.
     pub fn hash(&self) -> &str {
         &self.hash
+    }
+
+    /// The ids of the labels with one of these names.
+    pub fn labels_named(&self, names: &[String]) -> Vec<u8> {
+        let named = self.label_names.iter().filter(|(_, name)| names.contains(name));
+        named.map(|(id, _)| *id).collect()
     }
 
     /// The camera of a training or withheld frame.

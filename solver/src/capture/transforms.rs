@@ -1,6 +1,6 @@
 //! `transforms.json`: cameras and file names, nerfstudio style.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
 use glam::{Mat3, Mat4};
@@ -29,6 +29,7 @@ pub(super) struct Transforms {
     pub mesh_path: PathBuf,
     pub train: Vec<Frame>,
     pub withheld: Vec<Frame>,
+    pub label_names: BTreeMap<u8, String>,
 }
 
 #[derive(Deserialize)]
@@ -39,6 +40,8 @@ struct File {
     train_filenames: Vec<PathBuf>,
     #[serde(default)]
     test_filenames: Vec<PathBuf>,
+    #[serde(default)]
+    label_names: BTreeMap<u8, String>,
     #[serde(flatten)]
     lens: LensTerms,
 }
@@ -117,7 +120,7 @@ impl Transforms {
         let train = pick("train_filenames", &file.train_filenames)?;
         let withheld = pick("test_filenames", &file.test_filenames)?;
         let mesh_path = inside(root, &file.mesh).map_err(|reason| format!("mesh: {reason}"))?;
-        Ok(Self { mesh_path, train, withheld })
+        Ok(Self { mesh_path, train, withheld, label_names: file.label_names })
     }
 }
 

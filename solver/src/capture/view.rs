@@ -51,6 +51,11 @@ impl View {
         })
     }
 
+    /// The label of a pixel; 0 for none.
+    pub fn label(&self, pixel: usize) -> u8 {
+        self.labels.as_ref().map_or(0, |labels| labels.data[pixel])
+    }
+
     /// Whether any pixel shows the mesh.
     pub(super) fn has_foreground(&self) -> bool {
         self.mask.data.contains(&255)

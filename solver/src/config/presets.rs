@@ -2,6 +2,9 @@
 
 use super::*;
 
+/// Skin as face parsers name it.
+const SKIN: [&str; 7] = ["skin", "nose", "ear", "l_ear", "r_ear", "eyelid", "neck"];
+
 impl Config {
     /// Every value the paper's; what it does not publish is said above, value by value.
     pub(super) fn paper() -> Self {
@@ -19,6 +22,7 @@ impl Config {
             view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
             initialisation: InitialisationConfig {
                 semantic: true,
+                skin_labels: vec![],
                 colour_regions: 0,
                 specular_maximum: 0.05,
                 starts: 1,
@@ -64,6 +68,7 @@ impl Config {
                 probe: 200,
                 nearness_rate: 0.02,
                 iterations: 400,
+                recolour: true,
                 hold: 100,
                 prior: 1.0,
                 grey_mean: 1.0,
@@ -106,6 +111,7 @@ impl Config {
         config.rendering.positive_albedo = true;
         // Some weights never learn the highlights, and the loss shows it early.
         config.initialisation.starts = 4;
+        config.initialisation.skin_labels = SKIN.map(str::to_owned).to_vec();
         config.initialisation.colour_regions = 4;
         config.initialisation.start_iterations = 400;
         config.warm_up.network_rate = 5e-3;

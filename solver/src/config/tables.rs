@@ -48,6 +48,10 @@ pub struct ViewWeightConfig {
 pub struct InitialisationConfig {
     /// One colour per label region; otherwise one colour for the whole face.
     pub semantic: bool,
+    /// Names of labels that all begin with the colour of the largest of them: the shadow of an ear is
+    /// no colour of skin. Without names in the capture, every label has its own colour. Empty in the
+    /// paper.
+    pub skin_labels: Vec<String>,
     /// Regions of like colour that take the place of labels in a capture without any; 0: none do.
     pub colour_regions: usize,
     /// The brightest initial specular albedo; 0.05.
@@ -190,6 +194,9 @@ pub struct TransportConfig {
     pub nearness_rate: f32,
     /// Full-batch steps of light and albedo together.
     pub iterations: usize,
+    /// Give regions that are no skin a colour anew under the light of the probe; needs
+    /// [`InitialisationConfig::skin_labels`].
+    pub recolour: bool,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
     pub hold: usize,
     /// Weight of the albedo prior.
@@ -245,7 +252,7 @@ pub struct HeightConfig {
     /// Residuals coarser than this (pixels of the full picture) are no relief; 0 keeps them.
     pub coarsest_pixels: f32,
     /// Weight of the squared deviation; under explicit transport over the squared contrast of the
-    /// light, because an even light shows no relief.
+    /// light, and more where that is even, because an even light shows no relief.
     pub flatness: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,

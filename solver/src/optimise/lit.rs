@@ -66,6 +66,12 @@ impl Lit {
         }
     }
 
+    /// How much the pictures say of relief: the squared contrast of the light, and next to nothing where
+    /// it is even.
+    pub fn relief(&self) -> f32 {
+        self.light.contrast().powi(2) * (1.0 - self.share())
+    }
+
     /// Share of the veil that is taken out of the pictures: little of it where the light has contrast;
     /// there the networks see the highlights themselves, and the prediction errs more.
     pub fn share(&self) -> f32 {

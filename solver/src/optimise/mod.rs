@@ -9,6 +9,7 @@ mod gloss;
 mod lit;
 mod nearby;
 pub mod normalise;
+mod recolour;
 pub mod relief;
 mod run;
 pub(crate) mod site;

@@ -32,7 +32,7 @@ const UNKNOWNS: usize = 9;
 /// Darkest albedo that a logarithm is taken of.
 const DARKEST: f32 = 1e-3;
 /// Least square of a light's contrast.
-const LEAST_CONTRAST: f32 = 1e-3;
+const LEAST_CONTRAST: f32 = 1e-4;
 /// Squared norm of the rest, over that of the goal, at which a solve has converged.
 const ENOUGH: f64 = 1e-5;
 /// Steps that a device takes between two words with the caller.
@@ -101,8 +101,7 @@ impl<'a> ReliefSolve<'a> {
             lit: lit.map(|lit| lit.sampled(samples)),
             // What highlights and shading tell of relief grows with the light's contrast; what the
             // model gets wrong does not.
-            flatness: config.height.flatness
-                / lit.map_or(1.0, |lit| lit.light.contrast().powi(2).max(LEAST_CONTRAST)),
+            flatness: config.height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
             views,
         }
     }

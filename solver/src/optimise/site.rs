@@ -87,6 +87,14 @@ impl<'a> Site<'a> {
         self.space.training(&self.capture.train, &self.gbuffers, weights, size)
     }
 
+    /// The labels that are skin, as far as the capture names them.
+    pub fn skin(&self) -> Vec<u8> {
+        if self.capture.train.iter().all(|view| view.labels.is_none()) {
+            return vec![];
+        }
+        self.capture.labels_named(&self.config.initialisation.skin_labels)
+    }
+
     /// Gives back the memory of [`Site::coarse`].
     pub fn drop_coarse(&mut self) {
         self.coarse.take();
@@ -151,7 +159,9 @@ impl<'a> Site<'a> {
         let mesh = &self.capture.mesh;
         let diffuse = match self.colour_regions().filter(|_| config.initialisation.semantic) {
             Some(regions) => regions.albedo(size),
-            None => semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size),
+            None => {
+                semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size, &self.skin())
+            }
         };
         let diffuse = diffuse.data;
         let grey: Vec<f32> =

@@ -338,8 +338,7 @@ impl Step {
             Self::Light => {
                 let start =
                     State { networks: solve.state.networks.clone(), ..solve.initial.clone() };
-                let (mesh, pictures) = (&site.capture.mesh, site.pictures());
-                solve.probed = Some(light(run, config, mesh, &site.space, pictures, start)?);
+                solve.probed = Some(light(run, site, start)?);
             }
             Self::Transport => {
                 let Some(probed) = solve.probed.take() else { return Ok(()) };

@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::adam::Adam;
 use super::confidence::confidence;
 use super::lit::{Lit, bent_shading};
+use super::recolour::recolour;
 use super::run::Run;
-use super::site::{Site, WarmUpPictures};
+use super::site::Site;
 use super::stage::{Diffuse, Memory, Stage, State, layers};
 use super::veil::specular_albedo;
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
-use crate::capture::Mesh;
 use crate::config::{Config, TransportConfig};
 use crate::error::SolveError;
 use crate::model::deviation::Deviation;
@@ -24,7 +24,7 @@ use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
-use crate::model::samples::{SampleSpace, Samples};
+use crate::model::samples::Samples;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
@@ -46,20 +46,14 @@ pub(super) struct Probed {
 }
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
-pub(super) fn light(
-    run: &mut Run,
-    config: &Config,
-    mesh: &Mesh,
-    space: &SampleSpace,
-    pictures: &WarmUpPictures,
-    mut start: State,
-) -> Result<Probed, SolveError> {
+pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Probed, SolveError> {
+    let config = site.config;
     let t = &config.transport;
     let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Nothing };
-    let transport = Transport::new(mesh, &Sky::even(t.rows), t, config.seed, beside);
+    let transport = Transport::new(&site.capture.mesh, &Sky::even(t.rows), t, config.seed, beside);
     run.lap("rays");
     start.resize(transport.size());
-    let samples = pictures.samples(space, transport.size());
+    let samples = site.pictures().samples(&site.space, transport.size());
     let mut stage = Transported::probe(config, &transport, &samples, &start);
     run.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
@@ -80,6 +74,10 @@ pub(super) fn light_and_albedo(
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
     let samples = site.pictures().samples(&site.space, transport.size());
+    if t.recolour {
+        let light: Vec<f32> = probed.log_light.iter().map(|light| light.exp()).collect();
+        recolour(site, transport, &samples, &light, &mut state);
+    }
     let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();

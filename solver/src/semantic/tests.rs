@@ -13,7 +13,7 @@ fn two_regions(p: Vec3) -> (Vec3, u8) {
 
 fn initial(views: &[View], size: usize) -> Picture {
     let mesh = testing::dome(24);
-    initial_diffuse_albedo(&mesh, views, &GBuffer::of_views(&mesh, views), size)
+    initial_diffuse_albedo(&mesh, views, &GBuffer::of_views(&mesh, views), size, &[])
 }
 
 fn views() -> Vec<View> {
@@ -36,6 +36,23 @@ fn every_region_gets_its_colour_even_where_no_view_sees_it() {
     // A region is ten half pixels wide; the mixed column at its border has half of the other colour.
     let most = (LEFT - RIGHT).length() / 2.0 / 10.0;
     assert!(colour.length() < 1.2 * most, "only the border mixes: {colour}");
+}
+
+#[test]
+fn labels_that_are_alike_begin_with_the_colour_of_the_largest() {
+    let mesh = testing::dome(24);
+    let three = |p: Vec3| if p.x < -0.5 { (RIGHT, 7) } else { two_regions(p) };
+    let views: Vec<View> =
+        testing::rig(3, 48).iter().map(|camera| testing::view(&mesh, camera, three)).collect();
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let initial = |alike: &[u8]| initial_diffuse_albedo(&mesh, &views, &gbuffers, 32, alike);
+    let near = |albedo: &Picture, x: usize, expected: Vec3| {
+        (Vec3::from_slice(albedo.pixel(x, 16)) - expected).length() < 1e-5
+    };
+    let alike = initial(&[7, 3]);
+    assert!(near(&alike, 2, LEFT) && near(&alike, 13, LEFT) && near(&alike, 20, RIGHT));
+    let apart = initial(&[3, 200]);
+    assert!(near(&apart, 2, RIGHT) && near(&apart, 13, LEFT), "a label that no view has is none");
 }
 
 #[test]

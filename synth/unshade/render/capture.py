@@ -17,7 +17,7 @@ import numpy as np
 
 from .. import formation
 from ..captured_mesh import degrade, deviation
-from ..face import Chart, Face, FaceSpec
+from ..face import Chart, Face, FaceSpec, Label
 from ..face.ita import face_ita
 from ..fingerprint import fingerprint
 from ..heads import build_head
@@ -108,6 +108,8 @@ class Capture:
             "train_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if c.train],
             "test_filenames": [f["file_path"] for f, c in zip(frames, self.cameras) if not c.train],
         }
+        if not self.scene.labels.omit:
+            document["label_names"] = {int(label): label.name.lower() for label in Label if label}
         _write_json(self.path / "transforms.json", document)
 
     def _write_maps(self, face: Face) -> None:

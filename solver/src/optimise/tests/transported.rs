@@ -1,6 +1,8 @@
 //! Light and albedo under explicit transport.
 
 use super::*;
+use crate::optimise::recolour::recolour;
+use crate::optimise::site::Site;
 use crate::optimise::transported::Transported;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
@@ -48,4 +50,52 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
     let expected = (moved(1e-2) - moved(-1e-2)) / 2e-2;
     let error = (f64::from(found.nearness) - expected).abs();
     assert!(error < 0.01 * expected.abs(), "nearness: {} not {expected}", found.nearness);
+}
+
+/// Light that falls off to one side: on an unoccluded surface its irradiance is pi (1 + 2/3 a n).
+const FALL: Vec3 = Vec3::new(0.9, 0.0, 0.0);
+
+#[test]
+fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = testing::dome(24);
+    let shade = |p: Vec3| {
+        let (label, albedo) = region(p);
+        (albedo * (1.0 + 2.0 / 3.0 * FALL.dot(p.normalize())), label)
+    };
+    let views: Vec<View> =
+        testing::rig(6, 128).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
+    testing::write_capture(folder.path(), &mesh, &views, 1);
+    let capture = Capture::open(folder.path()).unwrap();
+    let mut config = small();
+    config.transport.bounces = 0;
+    config.transport.texture_size = 128;
+    let backend = Cpu::new();
+    let site = Site::new(&backend, &capture, &config);
+    let transport = site.transport(0.0);
+    let centres = Sky::even(config.transport.rows).centres();
+    let light: Vec<f32> = centres.iter().flat_map(|w| [1.0 + FALL.dot(*w); 3]).collect();
+    let mut state = site.initial_state();
+    state.resize(transport.size());
+    state.specular.fill(0.0);
+    let before = state.diffuse.clone();
+    let samples = site.pictures().samples(&site.space, transport.size());
+    recolour(&site, transport, &samples, &light, &mut state);
+    let of = |diffuse: &[f32], label: u8| -> Vec<Vec3> {
+        let atlas = crate::gbuffer::Atlas::new(&mesh, state.size);
+        let inside = (0..atlas.positions.len()).filter(|at| {
+            let p = atlas.positions[*at];
+            let around = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y].map(|d| p + 0.1 * d);
+            atlas.inside[*at] && p.z > 0.3 && around.iter().all(|p| region(*p).0 == label)
+        });
+        inside.map(|at| Vec3::from_slice(&diffuse[3 * at..])).collect()
+    };
+    let [(skin, _), _, (shaded, albedo)] = REGIONS;
+    let off = |texels: &[Vec3]| {
+        texels.iter().map(|a| (*a / albedo - 1.0).abs().max_element()).fold(0.0, f32::max)
+    };
+    let [begun, found] = [&before, &state.diffuse].map(|diffuse| off(&of(diffuse, shaded)));
+    assert!(begun > 0.2 && found < 0.05, "off by {begun}, then by {found}");
+    assert!(of(&before, skin).len() > 50);
+    assert!(of(&before, skin) == of(&state.diffuse, skin), "skin has changed");
 }

@@ -1,0 +1,49 @@
+//! The colours of hair, brows and lips under the light that skin has shown. They begin as mean colours
+//! of the pictures, shadow and all; skin of every label begins in one colour.
+
+use super::site::Site;
+use super::stage::{State, layers};
+use crate::gbuffer::Atlas;
+use crate::model::deviation::Deviation;
+use crate::model::samples::Samples;
+use crate::projection::Projection;
+use crate::transport::{CHANNELS, Transport};
+
+/// Gives every region that is no skin, in the diffuse albedo of `state`, the one colour that explains
+/// what the samples show of it besides highlights, in the mean, under `light` (R, G, B per cell). Without
+/// [`Site::skin`] the albedo stays.
+pub(super) fn recolour(
+    site: &Site,
+    transport: &Transport,
+    samples: &Samples,
+    light: &[f32],
+    state: &mut State,
+) {
+    let skin = site.skin();
+    let atlas = Atlas::new(&site.capture.mesh, state.size);
+    let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
+    let Some(regions) = site.regions(&atlas, &projections).filter(|_| !skin.is_empty()) else {
+        return;
+    };
+    let deviation = Deviation::new(site.config, state.size);
+    let highlights = layers(samples, &deviation, state, site.backend);
+    let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));
+    // Of every region and channel: what is seen, and what white would show.
+    let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
+    for i in 0..samples.len() {
+        let weight = samples.weight.get(0, i);
+        let sums = &mut sums[usize::from(regions[samples.taps.nearest(i)])];
+        for (c, sums) in sums.iter_mut().enumerate() {
+            let seen = samples.target.get(c, i) - highlights.get(1, i);
+            sums[0] += f64::from(weight * seen);
+            sums[1] += f64::from(weight * shading.get(c, i));
+        }
+    }
+    for (texel, region) in state.diffuse.chunks_exact_mut(CHANNELS).zip(regions) {
+        let sums = &sums[usize::from(region)];
+        let known = sums.iter().all(|[seen, white]| *seen > 0.0 && *white > 0.0);
+        if known && !skin.contains(&region) {
+            texel.iter_mut().zip(sums).for_each(|(a, [seen, white])| *a = (seen / white) as f32);
+        }
+    }
+}
