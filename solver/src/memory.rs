@@ -8,8 +8,9 @@
 //!   G-buffer of what is covered (52 bytes a covered pixel).
 //! - Samples: 14 values and 5 words of place, 76 bytes; twice that while they are sorted.
 //! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
-//!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
-//!   matrix (texels inside the chart x cells of the sky) while bounces are added.
+//!   pictures and G-buffers come on top; transport holds its samples twice, and seven copies of its
+//!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
+//!   cells for each of the samples whose highlights are followed.
 //! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
 //!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
 //! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
@@ -36,6 +37,7 @@ use std::fs;
 use crate::capture::Capture;
 use crate::config::Config;
 use crate::error::SolveError;
+use crate::optimise::highlights::MOST_SAMPLES;
 use crate::optimise::site::{map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.
@@ -94,11 +96,14 @@ impl Estimate {
             + share * covered * WARM_UP_SAMPLE.max(SAMPLE + SORTING)
             + square(config.warm_up.texture_size) * WARM_UP_TEXEL;
         let t = &config.transport;
-        let matrix = CHART * square(t.texture_size) * (2 * t.rows * t.rows) as f64 * 4.0;
+        let cells = (2 * t.rows * t.rows) as f64;
+        let matrix = CHART * square(t.texture_size) * cells * 4.0;
         let transport = match t.enabled {
             true => {
-                let samples = share * covered * TRANSPORT_SAMPLE;
-                warm_up_pictures + (6.0 * matrix).max(2.0 * matrix + samples)
+                let samples = share * covered;
+                let followed = samples.min(MOST_SAMPLES as f64) * cells * 4.0;
+                let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
+                warm_up_pictures + (7.0 * matrix).max(stages)
             }
             false => 0.0,
         };

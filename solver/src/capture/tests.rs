@@ -99,7 +99,7 @@ fn broken(break_it: impl FnOnce(&Path, &mut Value)) -> String {
 
 #[test]
 fn every_fault_of_the_transforms_is_named() {
-    let cases: [(&str, Value, &str); 19] = [
+    let cases: [(&str, Value, &str); 20] = [
         ("/camera_model", json!("FISHEYE"), "\"FISHEYE\"; undistort"),
         ("/camera_model", json!(7), "invalid type"),
         ("/train_filenames", json!([]), "train_filenames is empty"),
@@ -118,6 +118,7 @@ fn every_fault_of_the_transforms_is_named() {
         ("/frames/0/label_path", json!("/etc/000.png"), "leads out of the capture folder"),
         ("/frames/0/label_path", json!("truth/labels.png"), "part of the truth"),
         ("/label_names", json!({"256": "skin"}), "256"),
+        ("/label_names", json!({"0": "skin"}), "label_names: 0"),
         ("/mesh", json!("../mesh.obj"), "mesh: ../mesh.obj leads out"),
     ];
     for (place, value, expected) in cases {

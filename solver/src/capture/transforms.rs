@@ -120,6 +120,9 @@ impl Transforms {
         let train = pick("train_filenames", &file.train_filenames)?;
         let withheld = pick("test_filenames", &file.test_filenames)?;
         let mesh_path = inside(root, &file.mesh).map_err(|reason| format!("mesh: {reason}"))?;
+        if let Some(name) = file.label_names.get(&0) {
+            return Err(format!("label_names: 0 is no label, but has the name {name:?}; drop it"));
+        }
         Ok(Self { mesh_path, train, withheld, label_names: file.label_names })
     }
 }

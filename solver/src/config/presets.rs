@@ -78,8 +78,8 @@ impl Config {
                 specular_rate: 2e-5,
                 network_rate: 3e-3,
                 veil: true,
-                unveiled_rounds: 4,
-                unveiled_iterations: 200,
+                distance: 150,
+                highlights: 150,
                 refinement: 250,
                 refinement_prior: 3.0,
             },
@@ -145,7 +145,8 @@ impl Config {
         config.transport.probe = 100;
         config.transport.iterations = 200;
         config.transport.hold = 75;
-        config.transport.unveiled_rounds = 1;
+        config.transport.distance = 75;
+        config.transport.highlights = 75;
         config.transport.refinement = 50;
         config.height.linearisations = 1;
         config.height.steps = 20;

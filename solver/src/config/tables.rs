@@ -216,11 +216,13 @@ pub struct TransportConfig {
     /// Predict from the found light what all views share of the highlights, and take it out of the
     /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
     pub veil: bool,
-    /// How often light and albedo are solved for again on the pictures without the veil, if the light
-    /// proves even: until then it had the glow of the sides of the face to explain.
-    pub unveiled_rounds: usize,
-    /// Steps of each of these rounds.
-    pub unveiled_iterations: usize,
+    /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
+    /// highlights that the light itself makes on skin; need what `veil` needs. 0 leaves both as the probe
+    /// has found them, with the networks' highlights.
+    pub distance: usize,
+    /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
+    /// networks; then little of the veil is taken out where the light has contrast.
+    pub highlights: usize,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.

@@ -95,6 +95,19 @@ impl Planes {
         (Self { rows, len, data }, results)
     }
 
+    /// Every `step`-th sample.
+    pub fn thinned(&self, step: usize) -> Self {
+        let len = self.len.div_ceil(step);
+        Self::from_blocks(self.rows, len, |block, rows| {
+            let first = block * BLOCK;
+            for (number, row) in rows.iter_mut().enumerate() {
+                for (at, value) in row.0.iter_mut().enumerate().take(len - first) {
+                    *value = self.get(number, (first + at) * step);
+                }
+            }
+        })
+    }
+
     /// Number of quantities.
     pub fn rows(&self) -> usize {
         self.rows

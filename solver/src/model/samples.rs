@@ -137,6 +137,23 @@ impl Samples {
         }
     }
 
+    /// As many as fit into `most`, evenly spread over the texels.
+    pub fn thinned(&self, most: usize) -> Self {
+        let step = self.len().div_ceil(most.max(1)).max(1);
+        let every = |of: &[u32]| of.iter().step_by(step).copied().collect();
+        Self {
+            position: self.position.thinned(step),
+            normal: self.normal.thinned(step),
+            view: self.view.thinned(step),
+            fresnel: self.fresnel.thinned(step),
+            target: self.target.thinned(step),
+            weight: self.weight.thinned(step),
+            taps: self.taps.thinned(step),
+            pixel: every(&self.pixel),
+            view_index: every(&self.view_index),
+        }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.pixel.len()

@@ -52,6 +52,16 @@ impl Taps {
         (Self { size, cell, fraction, row_start }, order)
     }
 
+    /// Every `step`-th sample.
+    pub fn thinned(&self, step: usize) -> Self {
+        Self {
+            size: self.size,
+            cell: self.cell.iter().step_by(step).copied().collect(),
+            fraction: self.fraction.iter().step_by(step).copied().collect(),
+            row_start: self.row_start.iter().map(|start| start.div_ceil(step)).collect(),
+        }
+    }
+
     /// Texture side, texels.
     pub fn size(&self) -> usize {
         self.size

@@ -29,6 +29,8 @@ pub(super) struct Lit {
     pub veil: Vec<f32>,
     /// The specular albedo that the veil goes by; empty if it is switched off.
     pub gloss: Vec<f32>,
+    /// Whether the light has been solved for with its highlights.
+    pub explained: bool,
     /// Inverse distance of the light, per metre.
     pub nearness: f32,
     /// What is left in the record.
@@ -61,6 +63,7 @@ impl Lit {
             peak: transport.peak(&radiance),
             veil,
             gloss,
+            explained: false,
             nearness,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
@@ -69,12 +72,18 @@ impl Lit {
     /// How much the pictures say of relief: the squared contrast of the light, and next to nothing where
     /// it is even.
     pub fn relief(&self) -> f32 {
-        self.light.contrast().powi(2) * (1.0 - self.share())
+        self.light.contrast().powi(2) * (1.0 - self.evenness())
     }
 
-    /// Share of the veil that is taken out of the pictures: little of it where the light has contrast;
-    /// there the networks see the highlights themselves, and the prediction errs more.
-    pub fn share(&self) -> f32 {
+    /// Share of the veil that is taken out of the pictures: all of it by a light whose highlights are
+    /// explained; by another, little of it where the light has contrast, because there the networks see the
+    /// highlights themselves, and the prediction errs more.
+    fn share(&self) -> f32 {
+        if self.explained { 1.0 } else { self.evenness() }
+    }
+
+    /// 1 of a light that is the same from everywhere, 0 of lamps in the dark.
+    fn evenness(&self) -> f32 {
         1.0 / (1.0 + (self.light.contrast() / EVEN_CONTRAST).powi(2))
     }
 
@@ -125,7 +134,7 @@ impl Highlights {
     }
 }
 
-/// Of a light with this contrast the albedo is cleared of half the veil.
+/// A light with this contrast is half even.
 const EVEN_CONTRAST: f32 = 0.3;
 
 /// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).

@@ -6,6 +6,7 @@ mod clock;
 mod confidence;
 mod finish;
 mod gloss;
+pub(crate) mod highlights;
 mod lit;
 mod nearby;
 pub mod normalise;

@@ -20,11 +20,12 @@ pub(super) fn recolour(
     state: &mut State,
 ) {
     let skin = site.skin();
+    if skin.is_empty() {
+        return;
+    }
     let atlas = Atlas::new(&site.capture.mesh, state.size);
     let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
-    let Some(regions) = site.regions(&atlas, &projections).filter(|_| !skin.is_empty()) else {
-        return;
-    };
+    let Some(regions) = site.regions(&atlas, &projections) else { return };
     let deviation = Deviation::new(site.config, state.size);
     let highlights = layers(samples, &deviation, state, site.backend);
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));

@@ -30,6 +30,7 @@ pub(super) struct Site<'a> {
     /// Side of the fine-tuned textures.
     pub size: usize,
     pictures: OnceCell<WarmUpPictures>,
+    far_transport: OnceCell<Transport>,
     transport: OnceCell<Transport>,
     coarse: OnceCell<Samples>,
     fine: OnceCell<Fine>,
@@ -55,6 +56,7 @@ impl<'a> Site<'a> {
             pixels,
             size: texture_size(config.fine_tuning.texture_size, pixels),
             pictures: OnceCell::new(),
+            far_transport: OnceCell::new(),
             transport: OnceCell::new(),
             coarse: OnceCell::new(),
             fine: OnceCell::new(),
@@ -89,7 +91,8 @@ impl<'a> Site<'a> {
 
     /// The labels that are skin, as far as the capture names them.
     pub fn skin(&self) -> Vec<u8> {
-        if self.capture.train.iter().all(|view| view.labels.is_none()) {
+        let labelled = self.capture.train.iter().any(|view| view.labels.is_some());
+        if !labelled || !self.config.initialisation.semantic {
             return vec![];
         }
         self.capture.labels_named(&self.config.initialisation.skin_labels)
@@ -100,12 +103,27 @@ impl<'a> Site<'a> {
         self.coarse.take();
     }
 
+    /// From a light at infinity, and what changes as it comes nearer, if that is asked.
+    pub fn far_transport(&self) -> &Transport {
+        let t = &self.config.transport;
+        let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Open };
+        self.far_transport.get_or_init(|| self.cast(0.0, beside))
+    }
+
     /// From a light of this inverse distance, which is the same at every call.
     pub fn transport(&self, nearness: f32) -> &Transport {
+        self.transport.get_or_init(|| self.cast(nearness, Beside::Open))
+    }
+
+    fn cast(&self, nearness: f32, beside: Beside) -> Transport {
         let (t, seed) = (&self.config.transport, self.config.seed);
         let sky = Sky::even(t.rows).at(nearness);
-        let cast = || Transport::new(&self.capture.mesh, &sky, t, seed, Beside::Bending);
-        self.transport.get_or_init(cast)
+        Transport::new(&self.capture.mesh, &sky, t, seed, beside)
+    }
+
+    /// Gives back the memory of [`Site::far_transport`].
+    pub fn drop_far(&mut self) {
+        self.far_transport.take();
     }
 
     /// Gives back the memory of [`Site::pictures`] and [`Site::transport`].

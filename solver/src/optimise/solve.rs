@@ -9,6 +9,7 @@ use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
+use super::highlights::{MOST_SAMPLES, distance, highlights};
 use super::lit::Lit;
 use super::relief::ReliefSolve;
 use super::run::Run;
@@ -16,7 +17,8 @@ use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
-use super::transported::{Physical, Probed, light, light_and_albedo, refined, unveiled_light};
+use super::transported::{Physical, Probed, light, light_and_albedo, refined};
+use super::veil;
 use crate::atomic::Folder;
 use crate::backend::Backend;
 use crate::capture::Capture;
@@ -209,10 +211,12 @@ enum Step {
     WarmUp,
     /// The light under the semantic colours.
     Light,
+    /// The same with the highlights that the light itself makes.
+    Distance,
     /// Light and albedo under explicit transport.
     Transport,
-    /// The same without the veil.
-    Unveiled(usize),
+    /// The same with the highlights that the light itself makes.
+    Highlights,
     /// Normals from heights.
     Heights,
     /// Specular albedo and, without heights, normals.
@@ -232,9 +236,11 @@ impl Step {
         let mut steps: Vec<Self> = (0..starts).map(Self::Start).collect();
         steps.push(Self::WarmUp);
         if config.transport.enabled {
-            steps.extend([Self::Light, Self::Transport]);
-            let rounds = if config.transport.veil { config.transport.unveiled_rounds } else { 0 };
-            steps.extend((1..=rounds).map(Self::Unveiled));
+            let wanted = |steps: usize| steps > 0 && veil::wanted(config);
+            steps.push(Self::Light);
+            steps.extend(wanted(config.transport.distance).then_some(Self::Distance));
+            steps.push(Self::Transport);
+            steps.extend(wanted(config.transport.highlights).then_some(Self::Highlights));
         }
         if config.height.enabled {
             steps.push(Self::Heights);
@@ -262,7 +268,8 @@ impl Step {
             },
             Self::Light => config.transport.probe,
             Self::Transport => config.transport.iterations,
-            Self::Unveiled(_) => config.transport.unveiled_iterations,
+            Self::Distance => config.transport.distance,
+            Self::Highlights => config.transport.highlights,
             Self::Heights => height.linearisations * height.reweightings * height.steps,
             Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
@@ -285,13 +292,16 @@ impl Step {
             Self::Start(_) | Self::WarmUp => {
                 work(73.0, few, 67.0, square(config.warm_up.texture_size))
             }
-            Self::Light | Self::Transport | Self::Unveiled(_) => {
+            Self::Light | Self::Transport => {
                 let entries = square(t.texture_size) * (2 * t.rows * t.rows) as f64;
-                let rays = match self {
-                    Self::Unveiled(_) => 0.0,
-                    _ => entries * square(t.rays_per_cell_side),
-                };
+                let rays = entries * square(t.rays_per_cell_side);
                 Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
+            }
+            Self::Distance | Self::Highlights => {
+                let cells = (2 * t.rows * t.rows) as f64;
+                let entries = cells * few.min(MOST_SAMPLES as f64);
+                let texels = cells * square(t.texture_size);
+                Work { preparation: 25e-9 * entries, ..work(0.4, entries, 0.1, texels) }
             }
             Self::Heights => {
                 let share = f64::from(config.height.texture_share);
@@ -311,7 +321,11 @@ impl Step {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_coarse();
         }
-        let coarse = matches!(self, Self::Light | Self::Transport | Self::Unveiled(_));
+        if !matches!(self, Self::Light | Self::Distance) {
+            site.drop_far();
+        }
+        let coarse =
+            matches!(self, Self::Light | Self::Distance | Self::Transport | Self::Highlights);
         if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_pictures();
         }
@@ -349,9 +363,15 @@ impl Step {
                     run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lit = moved.then_some(lit);
             }
-            Self::Unveiled(round) => {
+            Self::Distance => {
+                if let Some(probed) = &mut solve.probed {
+                    let spared = distance(run, site, solve.initial.clone(), probed)?;
+                    run.spare(spared);
+                }
+            }
+            Self::Highlights => {
                 if let Some(lit) = &mut solve.lit {
-                    let spared = unveiled_light(run, site, lit, *round)?;
+                    let spared = highlights(run, site, lit)?;
                     run.spare(spared);
                 }
             }
@@ -403,14 +423,15 @@ impl Step {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let bend = || site.fine().deviation.textures(deviation).sharp;
         match self {
-            Self::Start(_) | Self::Light | Self::Unveiled(_) => None,
+            Self::Start(_) | Self::Light | Self::Distance => None,
             Self::WarmUp => {
                 let new = Snapshot::new("warm-up", Unit::Networks);
                 Some(new.diffuse(diffuse, *size).specular(specular, *size))
             }
-            Self::Transport => {
+            Self::Transport | Self::Highlights => {
                 let lit = &solve.lit.as_ref()?.state;
-                Some(Snapshot::new("transport", Unit::Transport).diffuse(&lit.diffuse, lit.size))
+                let name = if matches!(self, Self::Transport) { "transport" } else { "highlights" };
+                Some(Snapshot::new(name, Unit::Transport).diffuse(&lit.diffuse, lit.size))
             }
             Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
             Self::Relief(round) => {

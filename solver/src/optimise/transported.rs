@@ -1,8 +1,6 @@
 //! Diffuse albedo under explicit transport: the light and the albedo are solved for together, the
 //! networks explain the specular layer alone.
 
-use std::mem;
-
 use glam::Vec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -14,7 +12,7 @@ use super::recolour::recolour;
 use super::run::Run;
 use super::site::Site;
 use super::stage::{Diffuse, Memory, Stage, State, layers};
-use super::veil::specular_albedo;
+use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
@@ -25,7 +23,7 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{Beside, CHANNELS, Sky, Transport};
+use crate::transport::{CHANNELS, Transport};
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
 #[derive(Serialize, Deserialize)]
@@ -39,25 +37,26 @@ pub(super) struct Physical {
 /// The light as the semantic colours show it.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Probed {
-    log_light: Vec<f32>,
+    pub log_light: Vec<f32>,
     /// Inverse distance, per metre.
-    nearness: f32,
-    networks: Networks,
+    pub nearness: f32,
+    pub networks: Networks,
+    /// The specular albedo by which the light makes highlights; empty if the networks make them.
+    pub gloss: Vec<f32>,
 }
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
 pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Probed, SolveError> {
-    let config = site.config;
-    let t = &config.transport;
-    let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Nothing };
-    let transport = Transport::new(&site.capture.mesh, &Sky::even(t.rows), t, config.seed, beside);
+    let transport = site.far_transport();
     run.lap("rays");
     start.resize(transport.size());
     let samples = site.pictures().samples(&site.space, transport.size());
-    let mut stage = Transported::probe(config, &transport, &samples, &start);
+    let mut stage = Transported::probe(site.config, transport, &samples, &start);
     run.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
-    Ok(Probed { log_light: stage.log_light, nearness, networks: start.networks })
+    let log_light = stage.log_light;
+    let gloss = gloss(site, &start);
+    Ok(Probed { log_light, nearness, networks: start.networks, gloss })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -81,36 +80,14 @@ pub(super) fn light_and_albedo(
     let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let wanted = t.veil && site.config.normalisation.specular_skin > 0.0;
-    let gloss = wanted.then(|| specular_albedo(site, &state)).flatten().unwrap_or_default();
+    let gloss = gloss(site, &state);
     Ok(Lit::new(run, site, &samples, state, gloss, probed.nearness, light))
 }
 
-/// Light and diffuse albedo again, on the pictures without the veil that the light so far predicts: what
-/// glows at the sides of a face was taken for light from behind. Only under an even light, where most of
-/// the veil is known. The number of steps that are not taken.
-pub(super) fn unveiled_light(
-    run: &mut Run,
-    site: &Site,
-    lit: &mut Lit,
-    round: usize,
-) -> Result<usize, SolveError> {
-    let t = &site.config.transport;
-    if lit.veil.is_empty() || lit.share() < 0.5 {
-        return Ok(t.unveiled_iterations);
-    }
-    let transport = site.transport(lit.nearness);
-    let samples = site.pictures().samples(&site.space, transport.size());
-    let samples = Samples { target: lit.unveiled(&samples), ..samples };
-    let log_light = lit.light.radiance.iter().map(|light| light.ln()).collect();
-    let mut state = lit.state.clone();
-    let stage = Transported::new(site.config, transport, &samples, &state, log_light);
-    let (name, iterations) = (format!("unveiled {round}"), t.unveiled_iterations);
-    let mut stage = Transported { name, iterations, hold: 0, ..stage };
-    run.stage(&mut stage, &mut state)?;
-    let light = stage.light();
-    *lit = Lit::new(run, site, &samples, state, mem::take(&mut lit.gloss), lit.nearness, light);
-    Ok(0)
+/// See [`Lit::gloss`].
+fn gloss(site: &Site, state: &State) -> Vec<f32> {
+    let wanted = veil::wanted(site.config);
+    wanted.then(|| specular_albedo(site, state)).flatten().unwrap_or_default()
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
@@ -161,7 +138,7 @@ pub struct Transported<'a> {
     log_light: Vec<f32>,
     /// How near the light is, in the transport's unit; one value.
     nearness: Vec<f32>,
-    name: String,
+    name: &'static str,
     iterations: usize,
     hold: usize,
     by_light: Adam,
@@ -182,7 +159,7 @@ impl<'a> Transported<'a> {
         let log_light = vec![0.0; CHANNELS * transport.cells()];
         let iterations = config.transport.probe;
         let stage = Self::new(config, transport, samples, state, log_light);
-        Self { name: "light".to_owned(), iterations, hold: iterations, ..stage }
+        Self { name: "light", iterations, hold: iterations, ..stage }
     }
 
     /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
@@ -203,7 +180,7 @@ impl<'a> Transported<'a> {
             rest: samples.clone(),
             directions: DirectionScale::from(&config.networks).directions(samples, None),
             nearness: vec![0.0],
-            name: "transport".to_owned(),
+            name: "transport",
             iterations: t.iterations,
             hold: t.hold,
             by_light: Adam::new(adam, t.light_rate, log_light.len()),
@@ -228,11 +205,7 @@ impl<'a> Transported<'a> {
     /// Loss and its gradients.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> Gradient {
         let light = self.light();
-        let mut shading = self.transport.shading(&light);
-        let gain = self.transport.gain(&light);
-        if let Some(gain) = &gain {
-            shading.iter_mut().zip(gain).for_each(|(s, gain)| *s += self.nearness[0] * gain);
-        }
+        let (shading, gain) = self.transport.shading_nearer(&light, self.nearness[0]);
         let layer: Vec<f32> = state.diffuse.iter().zip(&shading).map(|(a, s)| a * s).collect();
         let samples = self.samples;
         let sampled = samples.taps.sample::<CHANNELS>(&layer);
@@ -260,17 +233,13 @@ impl<'a> Transported<'a> {
         let mut by_shading: Vec<f32> = product(&by_layer, &state.diffuse);
         let grey = self.grey(&shading, &mut by_shading);
         let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut by_diffuse);
-        let mut by_light: Vec<f32> = product(&self.transport.adjoint(&by_shading), &light);
-        if let Some(adjoint) = self.transport.gain_adjoint(&by_shading) {
-            let by_light = by_light.iter_mut().zip(adjoint).zip(&light);
-            by_light.for_each(|((g, gain), light)| *g += self.nearness[0] * gain * light);
-        }
+        let by_light = self.transport.adjoint_nearer(&by_shading, self.nearness[0]);
         let along = |gain: Vec<f32>| -> f64 {
             gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
         };
         Gradient {
             loss: joint.loss + grey + smooth,
-            light: by_light,
+            light: product(&by_light, &light),
             nearness: gain.map_or(0.0, along) as f32,
             diffuse: by_diffuse,
             specular: samples.taps.gather::<1>(&joint.albedo, 3),
@@ -335,7 +304,7 @@ pub(super) struct Gradient {
 
 impl Stage for Transported<'_> {
     fn name(&self) -> String {
-        self.name.clone()
+        self.name.to_owned()
     }
 
     fn iterations(&self) -> usize {

@@ -8,7 +8,7 @@ use super::gloss;
 use super::site::Site;
 use super::stage::State;
 use crate::backend::Backend;
-use crate::config::NetworkConfig;
+use crate::config::{Config, NetworkConfig};
 use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
 use crate::model::normals::DirectionScale;
@@ -20,6 +20,11 @@ use crate::transport::Transport;
 
 /// Standard deviation of the blur over the texture, texels.
 const BLUR: f32 = 1.5;
+
+/// Whether highlights are predicted from the light.
+pub(super) fn wanted(config: &Config) -> bool {
+    config.transport.veil && config.normalisation.specular_skin > 0.0
+}
 
 /// The specular albedo of the maps on the texture of `state`: pooled over the regions, with skin at
 /// its reflectance. `None` if the face is one region: what is solved texel by texel is no measure of hair.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::Transport;
+use super::{CHANNELS, Matrix, SkyRay, Transport, add_scaled};
 use crate::model::planes::Planes;
 use crate::model::samples::{Samples, schlick};
 
@@ -11,54 +11,106 @@ use crate::model::samples::{Samples, schlick};
 const F0: f32 = 0.04;
 /// GGX roughness and share of skin's two lobes.
 const LOBES: [(f32, f32); 2] = [(0.15, 0.5), (0.35, 0.5)];
-/// Exponent of the cosine lobe that the light is seen through.
-const LOBE: i32 = 16;
+/// Exponent of the cosine lobe that the light is seen through: 10 degrees, about a cell.
+const LOBE: i32 = 64;
 /// Least cosine of a direction to the surface.
 const GRAZING: f32 = 1e-3;
+
+/// From a light to the highlights of samples, linear.
+#[derive(Debug)]
+pub struct Reflection(Matrix);
+
+impl Reflection {
+    /// Radiance of every sample in a light of R, G, B per cell.
+    pub fn radiance(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
+        self.0.product(light)
+    }
+
+    /// The adjoint of [`Self::radiance`]: the gradient by the light.
+    pub fn adjoint(&self, by_radiance: &[[f32; CHANNELS]]) -> Vec<f32> {
+        self.0.adjoint(by_radiance)
+    }
+}
 
 impl Transport {
     /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every
     /// sample, on the mesh normals, in the luminance of a light of R, G, B per cell, scaled so that its
-    /// [`Self::peak`] is 1. `None` unless the transport holds what is open ([`super::Beside::Bending`]).
+    /// [`Self::peak`] is 1. `None` unless the transport holds what is open ([`super::Beside::Open`]).
     pub fn highlights(&self, light: &[f32], samples: &Samples) -> Option<Planes> {
-        let open = self.open.as_ref()?;
-        let centres = self.sky.centres();
-        let scale = std::f32::consts::PI / (F0 * self.peak(light).max(f32::MIN_POSITIVE));
-        let light = self.smoothed(light);
-        let cells = self.cells();
+        let (open, centres) = (self.open.as_ref()?, self.sky.centres());
+        let scale = scale(self.peak(light));
+        let luminance = super::luminances(light);
+        let lobes = self.lobes();
+        let seen = |lobe: &[f32]| lobe.iter().zip(&luminance).map(|(w, l)| w * l).sum::<f32>();
+        let light: Vec<f32> = lobes.par_chunks(self.cells()).map(seen).collect();
         Some(Planes::from_fn(samples.len(), |i| {
-            let row = self.row[samples.taps.nearest(i)] as usize;
-            let normal = Vec3::from_array(samples.normal.sample(i, 0));
-            let view = Vec3::from_array(samples.view.sample(i, 0));
-            let from = self.sky.nearness * self.places[row];
-            let open = &open.rows[row * cells..(row + 1) * cells];
-            let cells = open.iter().zip(&centres).zip(&light).filter(|((open, _), _)| **open > 0.0);
-            let sum: f32 = cells
-                .map(|((open, centre), light)| {
-                    open * light * reflected(normal, view, (*centre - from).normalize())
-                })
-                .sum();
-            [scale * sum]
+            let cells = self.reflecting(open, &centres, samples, i, self.sky.nearness);
+            [scale * cells.map(|(cell, weight)| weight * light[cell]).sum::<f32>()]
         }))
     }
 
-    /// The luminance of a light through a lobe of 20 degrees: finer than that, diffuse shading does
-    /// not tell of it.
-    fn smoothed(&self, light: &[f32]) -> Vec<f32> {
-        let rays = self.sky.rays(1, 0);
-        let centres = self.sky.centres();
-        let light = super::luminances(light);
-        let smooth = |centre: &Vec3| {
-            let (mut sum, mut total) = (0.0, 0.0);
-            for ((other, ray), light) in centres.iter().zip(&rays).zip(&light) {
-                let weight = ray.solid_angle * centre.dot(*other).max(0.0).powi(LOBE);
-                sum += weight * light;
-                total += weight;
+    /// The highlights of samples whose reflectances at normal incidence are `specular`, in colour, for lights of
+    /// the scale that has this `peak`, at a nearness per metre that may be another than what the rays were
+    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::highlights`].
+    pub fn reflection(
+        &self,
+        samples: &Samples,
+        specular: &Planes,
+        peak: f32,
+        nearness: f32,
+    ) -> Option<Reflection> {
+        let (open, centres) = (self.open.as_ref()?, self.sky.centres());
+        let (cells, lobes) = (self.cells(), self.lobes());
+        let mut rows = vec![0.0; samples.len() * cells];
+        rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
+            let scale = scale(peak) * specular.get(0, i);
+            for (cell, weight) in self.reflecting(open, &centres, samples, i, nearness) {
+                add_scaled(row, &lobes[cell * cells..][..cells], scale * weight);
             }
-            sum / total
-        };
-        centres.par_iter().map(smooth).collect()
+        });
+        Some(Reflection(Matrix { rows, cells }))
     }
+
+    /// Of the cells that a sample sees: which, and what it reflects of their light towards its camera, times
+    /// F0 / pi.
+    fn reflecting<'a>(
+        &'a self,
+        open: &'a Matrix,
+        centres: &'a [Vec3],
+        samples: &Samples,
+        i: usize,
+        nearness: f32,
+    ) -> impl Iterator<Item = (usize, f32)> + 'a {
+        let row = self.row[samples.taps.nearest(i)] as usize;
+        let normal = Vec3::from_array(samples.normal.sample(i, 0));
+        let view = Vec3::from_array(samples.view.sample(i, 0));
+        let from = nearness * self.places[row];
+        let cells = open.rows[row * self.cells()..].iter().zip(centres).enumerate();
+        cells.filter(|(_, (open, _))| **open > 0.0).map(move |(cell, (open, centre))| {
+            (cell, open * reflected(normal, view, (*centre - from).normalize()))
+        })
+    }
+
+    /// Of every cell, what a lobe around it sees of all cells: rows of sum 1. Finer than that, the cells do
+    /// not tell of the light.
+    fn lobes(&self) -> Vec<f32> {
+        let (rays, centres) = (self.sky.rays(1, 0), self.sky.centres());
+        let lobe = |centre: &Vec3| {
+            let weight = |(other, ray): (&Vec3, &SkyRay)| {
+                ray.solid_angle * centre.dot(*other).max(0.0).powi(LOBE)
+            };
+            let row: Vec<f32> = centres.iter().zip(&rays).map(weight).collect();
+            let total: f32 = row.iter().sum();
+            row.into_iter().map(move |weight| weight / total)
+        };
+        centres.par_iter().flat_map_iter(lobe).collect()
+    }
+}
+
+/// From [`Transport::reflecting`] to radiance by the reflectance at normal incidence, in a light of this
+/// peak.
+fn scale(peak: f32) -> f32 {
+    std::f32::consts::PI / (F0 * peak.max(f32::MIN_POSITIVE))
 }
 
 /// Two GGX lobes with Schlick's term, times the cosine of the light.

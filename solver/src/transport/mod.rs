@@ -24,6 +24,7 @@ use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
 use crate::simd::widened;
+pub use gloss::Reflection;
 pub use rays::{Impact, Occluder};
 pub use sky::{Sky, SkyRay, contrast};
 
@@ -45,14 +46,14 @@ const NEAR_RADIUS: f32 = 6.0;
 const LEAST_RADIUS: f32 = 2.5;
 
 /// What is asked of a transport beside the shading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Beside {
     /// Nothing.
     Nothing,
-    /// What the shading gains as the sky comes nearer.
+    /// What is open, for highlights and for how the shading changes as the normals bend.
+    Open,
+    /// That, and what the shading gains as the sky comes nearer.
     Nearness,
-    /// What it gains as the normals bend.
-    Bending,
 }
 
 /// The transport of the texels of a chart.
@@ -119,11 +120,10 @@ impl Transport {
         let cells = sky.len();
         let part = |part: fn(&Seen) -> &[f32]| cast.iter().flat_map(part).copied().collect();
         let matrix = Matrix::with_bounces(part(|seen| &seen.direct), &bounces, cells, config);
-        let more = (beside != Beside::Nothing).then(|| part(|seen| &seen.beside));
-        let (gain, open) = match beside {
-            Beside::Bending => (None, more.map(|rows| Matrix { rows, cells })),
-            _ => (more.map(|rows| Matrix::with_bounces(rows, &bounces, cells, config)), None),
-        };
+        let open = (beside != Beside::Nothing).then(|| part(|seen| &seen.open));
+        let open = open.map(|rows| Matrix { rows, cells });
+        let gain = (beside == Beside::Nearness).then(|| part(|seen| &seen.gain));
+        let gain = gain.map(|rows| Matrix::with_bounces(rows, &bounces, cells, config));
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
         Self { size, matrix, gain, open, near, places, normals, sky: sky.clone(), row }
@@ -173,6 +173,25 @@ impl Transport {
     /// The adjoint of [`Self::shading`]: the gradient by the light.
     pub fn adjoint(&self, by_shading: &[f32]) -> Vec<f32> {
         self.matrix.adjoint(&self.collected(by_shading))
+    }
+
+    /// The shading when the sky has come nearer, to first order: by `nearer` times [`Self::near`]; and
+    /// how it changes with `nearer`, if the transport holds that.
+    pub fn shading_nearer(&self, light: &[f32], nearer: f32) -> (Vec<f32>, Option<Vec<f32>>) {
+        let (mut shading, gain) = (self.shading(light), self.gain(light));
+        if let Some(gain) = &gain {
+            shading.iter_mut().zip(gain).for_each(|(s, gain)| *s += nearer * gain);
+        }
+        (shading, gain)
+    }
+
+    /// The adjoint of [`Self::shading_nearer`]: the gradient by the light.
+    pub fn adjoint_nearer(&self, by_shading: &[f32], nearer: f32) -> Vec<f32> {
+        let mut by_light = self.adjoint(by_shading);
+        if let Some(gain) = self.gain_adjoint(by_shading) {
+            by_light.iter_mut().zip(gain).for_each(|(g, gain)| *g += nearer * gain);
+        }
+        by_light
     }
 
     /// What the shading gains as the sky comes nearer by [`Self::near`]; to first order.
@@ -314,8 +333,9 @@ type Bounces = Vec<(u32, f32)>;
 struct Seen {
     /// Its row of T0.
     direct: Vec<f32>,
-    /// What was asked beside it, of every cell; empty if nothing was.
-    beside: Vec<f32>,
+    /// What it gains as the sky comes nearer, and what is open, of every cell; empty if not asked for.
+    gain: Vec<f32>,
+    open: Vec<f32>,
     /// Its row of B.
     bounces: Bounces,
 }
@@ -338,15 +358,14 @@ struct Caster<'a> {
 impl Caster<'_> {
     fn texel(&self, origin: Vec3, normal: Vec3) -> Seen {
         let mut direct = vec![0.0; self.cells];
-        let mut beside = vec![0.0; if self.beside == Beside::Nothing { 0 } else { self.cells }];
+        let [nearness, some] = [Beside::Nearness, Beside::Open].map(|least| self.beside >= least);
+        let mut gain = vec![0.0; if nearness { self.cells } else { 0 }];
+        let mut visible = vec![0.0; if some { self.cells } else { 0 }];
         let mut bounces = Bounces::new();
         let place = origin - self.centre;
         for ray in self.rays {
             let weight = received(ray, place, normal, self.nearness);
-            let nearer = match self.beside {
-                Beside::Nearness => received(ray, place, normal, self.near),
-                _ => 0.0,
-            };
+            let nearer = if nearness { received(ray, place, normal, self.near) } else { 0.0 };
             if weight.max(nearer) <= 0.0 {
                 continue;
             }
@@ -356,10 +375,11 @@ impl Caster<'_> {
                 None => {
                     let cell = ray.cell as usize;
                     direct[cell] += weight;
-                    match self.beside {
-                        Beside::Nothing => {}
-                        Beside::Nearness => beside[cell] += nearer - weight,
-                        Beside::Bending => beside[cell] += open(ray, place, self.nearness),
+                    if nearness {
+                        gain[cell] += nearer - weight;
+                    }
+                    if some {
+                        visible[cell] += open(ray, place, self.nearness);
                     }
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
@@ -373,7 +393,7 @@ impl Caster<'_> {
             kept.1 += if same { next.1 } else { 0.0 };
             same
         });
-        Seen { direct, beside, bounces }
+        Seen { direct, gain, open: visible, bounces }
     }
 
     fn row_at(&self, hit: &Impact) -> u32 {

@@ -160,7 +160,7 @@ fn bending_is_the_change_of_shading_with_the_normal() {
     let mesh = testing::dome(16);
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
     let sky = Sky::even(8);
-    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Bending);
+    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Open);
     // A lamp overhead in front, far above the horizon of the texels that are looked at.
     let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
     let light: Vec<f32> = sky.centres().iter().flat_map(|d| [lit(*d); CHANNELS]).collect();
@@ -202,7 +202,7 @@ fn what_is_open_to_grazing_light_is_finite() {
         cells: sky.len(),
         centre: Vec3::ZERO,
         nearness: sky.nearness,
-        beside: Beside::Bending,
+        beside: Beside::Open,
         near: 0.0,
         row: &[0; 4],
         size: 2,
@@ -212,7 +212,7 @@ fn what_is_open_to_grazing_light_is_finite() {
         let towards = ray.direction - sky.nearness * origin;
         let (across, up) = towards.normalize().any_orthonormal_pair();
         for normal in [across, up, (across + up).normalize(), (across - up).normalize()] {
-            let open = caster.texel(origin, normal).beside;
+            let open = caster.texel(origin, normal).open;
             assert!(open.iter().all(|open| (0.0..0.1).contains(open)), "{normal}");
         }
     }

@@ -2,6 +2,7 @@
 //! scene whose answer is known.
 
 mod confidence;
+mod highlights;
 mod interrupts;
 mod recorded;
 mod relief;
@@ -338,20 +339,21 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
     let expected = [
         "01-warm-up",
         "02-transport",
-        "03-relief",
-        "04-normals-and-specular-1",
-        "05-diffuse-1",
-        "06-albedo",
+        "03-highlights",
+        "04-relief",
+        "05-normals-and-specular-1",
+        "06-diffuse-1",
+        "07-albedo",
     ];
     assert_eq!(stages, expected);
     // The last stage of a map leaves what the map is, up to what was resampled.
-    let last = Maps::read(&target.join("stages/06-albedo")).unwrap();
+    let last = Maps::read(&target.join("stages/07-albedo")).unwrap();
     assert_eq!(last.diffuse_albedo, first.maps.diffuse_albedo);
     assert!(last.specular_normal.is_none());
-    let last = Maps::read(&target.join("stages/03-relief")).unwrap();
+    let last = Maps::read(&target.join("stages/04-relief")).unwrap();
     assert_eq!(last.specular_normal, first.maps.specular_normal);
     // Pooled at the end only.
-    let last = Maps::read(&target.join("stages/04-normals-and-specular-1")).unwrap();
+    let last = Maps::read(&target.join("stages/05-normals-and-specular-1")).unwrap();
     assert_ne!(last.specular_albedo.unwrap(), *first.maps.specular_albedo.as_ref().unwrap());
     let channels = picture::exr_channel_names(&target.join("views/005.exr")).unwrap();
     assert_eq!(channels.len(), 9);

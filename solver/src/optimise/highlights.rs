@@ -1,0 +1,212 @@
+//! Light, distance and diffuse albedo with the highlights that the light itself makes on skin.
+//!
+//! The networks explain highlights by whatever fits, from any light. Skin's reflectance is known, and so the
+//! model here is A_d S_d + A_s H l: H is two GGX lobes over the cells that a sample sees, and the same light l
+//! makes shading and highlights. Where a highlight stands says where its lamp is, what colour it has says
+//! what colour the lamp has, and what glows at the sides of a face is no light from behind.
+
+use rayon::prelude::*;
+
+use super::adam::Adam;
+use super::lit::Lit;
+use super::run::Run;
+use super::site::Site;
+use super::stage::{Memory, Stage, State};
+use super::transported::Probed;
+use crate::backend::Backend;
+use crate::config::{Config, TransportConfig};
+use crate::error::SolveError;
+use crate::model::planes::Planes;
+use crate::model::prior::prior;
+use crate::model::samples::Samples;
+use crate::transport::{CHANNELS, Reflection, Transport};
+
+/// Of more samples than this, the highlights are followed on a part: a cell of the sky and a texel of the
+/// transport are far coarser than pixels.
+pub(crate) const MOST_SAMPLES: usize = 40_000;
+
+/// Light and distance again, the albedo held, from those that the networks' highlights led to. The number
+/// of steps that are not taken: without regions there is no gloss.
+pub(super) fn distance(
+    run: &mut Run,
+    site: &Site,
+    mut state: State,
+    probed: &mut Probed,
+) -> Result<usize, SolveError> {
+    let t = &site.config.transport;
+    if probed.gloss.is_empty() {
+        return Ok(t.distance);
+    }
+    let transport = site.far_transport();
+    state.resize(transport.size());
+    let samples = site.pictures().samples(&site.space, transport.size());
+    let stage = Highlights::new(site.config, transport, &samples, &state, probed);
+    let Some(stage) = stage else { return Ok(t.distance) };
+    let (name, iterations) = ("distance", t.distance);
+    let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
+    run.stage(&mut stage, &mut state)?;
+    probed.nearness = stage.nearness[0] * transport.near();
+    probed.log_light = stage.log_light;
+    Ok(0)
+}
+
+/// Light and diffuse albedo again, as [`distance`].
+pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<usize, SolveError> {
+    let t = &site.config.transport;
+    if lit.gloss.is_empty() {
+        return Ok(t.highlights);
+    }
+    let transport = site.transport(lit.nearness);
+    let samples = site.pictures().samples(&site.space, transport.size());
+    let mut state = lit.state.clone();
+    let begun = Probed {
+        log_light: lit.light.radiance.iter().map(|light| light.ln()).collect(),
+        nearness: lit.nearness,
+        networks: state.networks.clone(),
+        gloss: std::mem::take(&mut lit.gloss),
+    };
+    let stage = Highlights::new(site.config, transport, &samples, &state, &begun);
+    let Some(mut stage) = stage else { return Ok(t.highlights) };
+    run.stage(&mut stage, &mut state)?;
+    let light = stage.light();
+    *lit = Lit::new(run, site, &samples, state, begun.gloss, lit.nearness, light);
+    lit.explained = true;
+    Ok(0)
+}
+
+/// Light and diffuse albedo on the transport's texture.
+pub(super) struct Highlights<'a> {
+    config: &'a TransportConfig,
+    transport: &'a Transport,
+    samples: Samples,
+    reflection: Reflection,
+    /// Logarithm of the light, R, G, B per cell.
+    pub log_light: Vec<f32>,
+    /// How near the light is, in the transport's unit; one value, which only moves if the transport says
+    /// what that changes.
+    pub nearness: Vec<f32>,
+    name: &'static str,
+    iterations: usize,
+    pub hold: usize,
+    by_light: Adam,
+    by_nearness: Adam,
+    by_diffuse: Adam,
+}
+
+/// Gradients of the loss.
+pub(super) struct Gradient {
+    pub loss: f64,
+    /// By the light's logarithm.
+    pub light: Vec<f32>,
+    pub nearness: Option<f32>,
+    pub diffuse: Vec<f32>,
+}
+
+impl<'a> Highlights<'a> {
+    /// From what is known of the light. The samples' taps and the textures are of the transport's size. `None`
+    /// unless the transport holds what is open.
+    pub fn new(
+        config: &'a Config,
+        transport: &'a Transport,
+        samples: &Samples,
+        state: &State,
+        begun: &Probed,
+    ) -> Option<Self> {
+        let (t, adam) = (&config.transport, &config.adam);
+        let samples = samples.thinned(MOST_SAMPLES);
+        let gloss = samples.taps.sample::<1>(&begun.gloss);
+        let light: Vec<f32> = begun.log_light.iter().map(|log| log.exp()).collect();
+        let peak = transport.peak(&light);
+        let reflection = transport.reflection(&samples, &gloss, peak, begun.nearness)?;
+        Some(Self {
+            config: t,
+            transport,
+            samples,
+            reflection,
+            log_light: begun.log_light.clone(),
+            nearness: vec![begun.nearness / transport.near()],
+            name: "highlights",
+            iterations: t.highlights,
+            hold: 0,
+            by_light: Adam::new(adam, t.light_rate, light.len()),
+            by_nearness: Adam::new(adam, t.nearness_rate, 1),
+            by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
+        })
+    }
+
+    /// The light, R, G, B per cell.
+    fn light(&self) -> Vec<f32> {
+        self.log_light.iter().map(|log| log.exp()).collect()
+    }
+
+    /// Loss and its gradients.
+    pub fn gradient(&self, state: &State) -> Gradient {
+        let (light, samples) = (self.light(), &self.samples);
+        let (shading, gain) = self.transport.shading_nearer(&light, self.nearness[0]);
+        let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
+        let layer: Vec<f32> = product(&state.diffuse, &shading);
+        let sampled = samples.taps.sample::<CHANNELS>(&layer);
+        let scale = 1.0 / (CHANNELS * samples.len()) as f32;
+        let highlights = self.reflection.radiance(&light);
+        let residual = |(i, highlight): (usize, &[f32; CHANNELS])| {
+            let weight = scale * samples.weight.get(0, i);
+            let mut loss = 0.0;
+            let by = std::array::from_fn(|c| {
+                let residual = sampled.get(c, i) + highlight[c] - samples.target.get(c, i);
+                loss += f64::from(weight * residual.abs());
+                if residual == 0.0 { 0.0 } else { weight.copysign(residual) }
+            });
+            (by, loss)
+        };
+        let (by_sample, losses): (Vec<[f32; CHANNELS]>, Vec<f64>) =
+            highlights.par_iter().enumerate().map(residual).unzip();
+        let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i]);
+        let by_layer = samples.taps.gather::<CHANNELS>(&by_layer, 0);
+        let mut diffuse: Vec<f32> = product(&by_layer, &shading);
+        let by_shading: Vec<f32> = product(&by_layer, &state.diffuse);
+        let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut diffuse);
+        let mut by_light = self.transport.adjoint_nearer(&by_shading, self.nearness[0]);
+        let more = self.reflection.adjoint(&by_sample);
+        by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
+        let along = |gain: Vec<f32>| {
+            let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
+            products.sum::<f64>() as f32
+        };
+        Gradient {
+            loss: losses.iter().sum::<f64>() + smooth,
+            light: by_light,
+            nearness: gain.map(along),
+            diffuse,
+        }
+    }
+}
+
+impl Stage for Highlights<'_> {
+    fn name(&self) -> String {
+        self.name.to_owned()
+    }
+
+    fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    fn step(&mut self, state: &mut State, _: &dyn Backend, share: f32) -> f64 {
+        let gradient = self.gradient(state);
+        self.by_light.step(&mut self.log_light, &gradient.light, share, f32::NEG_INFINITY);
+        if let Some(by_nearness) = gradient.nearness {
+            self.by_nearness.step(&mut self.nearness, &[by_nearness], share, 0.0);
+            self.nearness[0] = self.nearness[0].min(Transport::nearest());
+        }
+        if self.by_light.steps() > self.hold {
+            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
+        }
+        gradient.loss
+    }
+
+    fn memory(&mut self) -> Memory<'_> {
+        Memory {
+            optimisers: vec![&mut self.by_light, &mut self.by_nearness, &mut self.by_diffuse],
+            own: vec![&mut self.log_light, &mut self.nearness],
+        }
+    }
+}

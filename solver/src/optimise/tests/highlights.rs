@@ -1,0 +1,136 @@
+//! Light, distance and albedo with the highlights that the light itself makes.
+
+use std::f32::consts::{FRAC_1_PI, PI};
+
+use super::*;
+use crate::model::samples::schlick;
+use crate::optimise::highlights::Highlights;
+use crate::optimise::transported::Probed;
+use crate::transport::{Beside, CHANNELS, Sky, Transport};
+
+/// Of skin at normal incidence.
+const SPECULAR: f32 = 0.04;
+
+#[test]
+fn gradients_reach_light_distance_and_albedo() {
+    let Problem { mut config, samples, state } = problem();
+    config.transport.texture_size = SIDE;
+    config.transport.rows = 4;
+    config.transport.prior = 20.0;
+    let mesh = testing::dome(12);
+    let transport = Transport::new(&mesh, &Sky::even(4), &config.transport, 0, Beside::Nearness);
+    let cells = CHANNELS * transport.cells();
+    let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
+    let begun = Probed {
+        nearness: 0.4 * transport.near(),
+        networks: state.networks.clone(),
+        gloss: vec![0.2; SIDE * SIDE],
+        log_light: light.clone(),
+    };
+    let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();
+    let found = stage.gradient(&state);
+    let loss = |state: &State| stage.gradient(state).loss;
+    assert_gradient("diffuse", &state, &found.diffuse, |s| &mut s.diffuse, 2e-3, loss);
+    let largest = found.light.iter().fold(0.0f32, |m, g| m.max(g.abs()));
+    for at in (0..cells).filter(|at| found.light[*at].abs() > 0.3 * largest).step_by(3) {
+        let mut moved = |step: f32| {
+            stage.log_light[at] = light[at] + step;
+            stage.gradient(&state).loss
+        };
+        let expected = (moved(3e-3) - moved(-3e-3)) / 6e-3;
+        stage.log_light[at] = light[at];
+        let error = (f64::from(found.light[at]) - expected).abs();
+        assert!(error < 0.01 * f64::from(largest), "{at}: {} not {expected}", found.light[at]);
+    }
+    let mut moved = |step: f32| {
+        stage.nearness[0] = 0.4 + step;
+        stage.gradient(&state).loss
+    };
+    let expected = (moved(1e-2) - moved(-1e-2)) / 2e-2;
+    let nearness = f64::from(found.nearness.unwrap());
+    assert!((nearness - expected).abs() < 0.01 * expected.abs(), "{nearness} not {expected}");
+}
+
+/// Two GGX lobes with Schlick's term, times the cosine of the light, in their textbook form.
+fn reflected(normal: Vec3, view: Vec3, light: Vec3) -> f32 {
+    let half = (view + light).normalize();
+    let [n_h, n_v, n_l] = [half, view, light].map(|w| normal.dot(w).max(1e-4));
+    let lobe = |alpha: f32| {
+        let squared = alpha.powi(2);
+        let d = squared * FRAC_1_PI / (n_h * n_h * (squared - 1.0) + 1.0).powi(2);
+        let g = |c: f32| 2.0 / (1.0 + (1.0 + squared * (1.0 / (c * c) - 1.0)).sqrt());
+        0.5 * d * g(n_v) * g(n_l) / (4.0 * n_v)
+    };
+    schlick(SPECULAR, view.dot(half)) * (lobe(0.15) + lobe(0.35))
+}
+
+/// A small lamp close to a dome of dark skin, whose shading and whose highlights are computed apart from the
+/// solver.
+#[test]
+fn highlights_say_how_far_away_the_lamp_is() {
+    let mut config = small();
+    config.transport.bounces = 0;
+    config.transport.rows = 16;
+    config.transport.texture_size = 64;
+    let mesh = testing::dome(24);
+    let (low, high) = mesh.bounds();
+    let centre = 0.5 * (low + high);
+    let direction = Vec3::new(0.3, 0.4, 0.87).normalize();
+    let radius = 6.0;
+    let lamp = centre + radius * direction;
+    let albedo = Vec3::new(0.12, 0.07, 0.05);
+    let nearest = mesh.positions.iter().map(|p| p.distance(lamp)).fold(f32::MAX, f32::min);
+    let shade = |from: Vec3, p: Vec3| {
+        let (normal, to) = (p.normalize(), lamp - p);
+        let irradiance = PI * (nearest / to.length()).powi(2);
+        let towards = to.normalize();
+        let highlight = match normal.dot(towards) > 0.0 {
+            true => irradiance * reflected(normal, (from - p).normalize(), towards),
+            false => 0.0,
+        };
+        (albedo * FRAC_1_PI * irradiance * normal.dot(towards).max(0.0) + highlight, 1)
+    };
+    let view = |camera: &crate::capture::Camera| {
+        let from = camera.camera_to_world.w_axis.truncate();
+        testing::view(&mesh, camera, |p| shade(from, p))
+    };
+    let views: Vec<View> = testing::rig(6, 96).iter().map(view).collect();
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let samples = SampleSpace::new(&mesh, &config).training(
+        &views,
+        &gbuffers,
+        &config.view_weights,
+        config.transport.texture_size,
+    );
+    let sky = Sky::even(config.transport.rows);
+    let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Nearness);
+    let texels = transport.size() * transport.size();
+    let mut state = State {
+        networks: Networks::new(&config.networks, 0),
+        size: transport.size(),
+        diffuse: (0..texels).flat_map(|_| albedo.to_array()).collect(),
+        specular: vec![0.0; texels],
+        deviation: vec![],
+    };
+    let mut found = |gloss: f32| {
+        let begun = Probed {
+            log_light: vec![0.0; CHANNELS * sky.len()],
+            nearness: 0.1,
+            networks: state.networks.clone(),
+            gloss: vec![gloss; texels],
+        };
+        let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();
+        stage.hold = usize::MAX;
+        for _ in 0..400 {
+            stage.step(&mut state, &Cpu::new(), 1.0);
+        }
+        let luminance = |cell: &usize| (1e6 * stage.log_light[CHANNELS * cell + 1]) as i64;
+        let brightest = (0..sky.len()).max_by_key(luminance).unwrap();
+        let angle = sky.centres()[brightest].angle_between(direction).to_degrees();
+        (1.0 / (stage.nearness[0] * transport.near()), angle)
+    };
+    let (with, without) = (found(SPECULAR), found(0.0));
+    eprintln!("{with:?} {without:?}");
+    assert!((with.0 - radius).abs() < 0.15 * radius && with.1 < 12.0, "{with:?}");
+    assert!((without.0 - radius).abs() > 2.0 * (with.0 - radius).abs(), "{without:?} {with:?}");
+}
