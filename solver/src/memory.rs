@@ -8,7 +8,7 @@
 //!   G-buffer of what is covered (52 bytes a covered pixel).
 //! - Samples: 14 values and 5 words of place, 76 bytes; twice that while they are sorted.
 //! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
-//!   pictures and G-buffers come on top; transport holds its samples twice, and seven copies of its
+//!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
 //!   cells for each of the samples whose highlights are followed.
 //! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
@@ -103,7 +103,7 @@ impl Estimate {
                 let samples = share * covered;
                 let followed = samples.min(MOST_SAMPLES as f64) * cells * 4.0;
                 let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
-                warm_up_pictures + (7.0 * matrix).max(stages)
+                warm_up_pictures + (6.0 * matrix).max(stages)
             }
             false => 0.0,
         };

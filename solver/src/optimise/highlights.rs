@@ -12,7 +12,7 @@ use super::lit::Lit;
 use super::run::Run;
 use super::site::Site;
 use super::stage::{Memory, Stage, State};
-use super::transported::Probed;
+use super::transported::{Probed, reflectance};
 use crate::backend::Backend;
 use crate::config::{Config, TransportConfig};
 use crate::error::SolveError;
@@ -46,6 +46,7 @@ pub(super) fn distance(
     let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
     run.stage(&mut stage, &mut state)?;
     probed.nearness = stage.nearness[0] * transport.near();
+    probed.bounce = reflectance(transport, &stage.light(), &state.diffuse);
     probed.log_light = stage.log_light;
     Ok(0)
 }
@@ -56,20 +57,21 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
     if lit.gloss.is_empty() {
         return Ok(t.highlights);
     }
-    let transport = site.transport(lit.nearness);
+    let transport = site.transport(lit.nearness, lit.bounce);
     let samples = site.pictures().samples(&site.space, transport.size());
     let mut state = lit.state.clone();
     let begun = Probed {
         log_light: lit.light.radiance.iter().map(|light| light.ln()).collect(),
         nearness: lit.nearness,
         networks: state.networks.clone(),
+        bounce: lit.bounce,
         gloss: std::mem::take(&mut lit.gloss),
     };
     let stage = Highlights::new(site.config, transport, &samples, &state, &begun);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run, site, &samples, state, begun.gloss, lit.nearness, light);
+    *lit = Lit::new(run, site, &samples, state, begun.gloss, (lit.nearness, lit.bounce), light);
     lit.explained = true;
     Ok(0)
 }

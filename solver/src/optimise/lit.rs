@@ -33,6 +33,8 @@ pub(super) struct Lit {
     pub explained: bool,
     /// Inverse distance of the light, per metre.
     pub nearness: f32,
+    /// See [`Probed::bounce`](super::transported::Probed::bounce).
+    pub bounce: f32,
     /// What is left in the record.
     pub light: RecoveredLight,
 }
@@ -45,10 +47,10 @@ impl Lit {
         samples: &Samples,
         state: State,
         gloss: Vec<f32>,
-        nearness: f32,
+        (nearness, bounce): (f32, f32),
         radiance: Vec<f32>,
     ) -> Self {
-        let (config, transport) = (site.config, site.transport(nearness));
+        let (config, transport) = (site.config, site.transport(nearness, bounce));
         let veil = match gloss.is_empty() {
             true => vec![],
             false => {
@@ -65,6 +67,7 @@ impl Lit {
             gloss,
             explained: false,
             nearness,
+            bounce,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
     }

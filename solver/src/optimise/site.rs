@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::capture::{Capture, View};
-use crate::config::{Config, TextureRule, TextureSize, ViewWeightConfig};
+use crate::config::{Config, TextureRule, TextureSize, TransportConfig, ViewWeightConfig};
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
@@ -107,18 +107,18 @@ impl<'a> Site<'a> {
     pub fn far_transport(&self) -> &Transport {
         let t = &self.config.transport;
         let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Open };
-        self.far_transport.get_or_init(|| self.cast(0.0, beside))
+        self.far_transport.get_or_init(|| self.cast(0.0, t.bounce_albedo, beside))
     }
 
-    /// From a light of this inverse distance, which is the same at every call.
-    pub fn transport(&self, nearness: f32) -> &Transport {
-        self.transport.get_or_init(|| self.cast(nearness, Beside::Open))
+    /// From a light of this inverse distance, which bounces off this albedo; both the same at every call.
+    pub fn transport(&self, nearness: f32, bounce: f32) -> &Transport {
+        self.transport.get_or_init(|| self.cast(nearness, bounce, Beside::Open))
     }
 
-    fn cast(&self, nearness: f32, beside: Beside) -> Transport {
-        let (t, seed) = (&self.config.transport, self.config.seed);
+    fn cast(&self, nearness: f32, bounce_albedo: f32, beside: Beside) -> Transport {
+        let t = TransportConfig { bounce_albedo, ..self.config.transport.clone() };
         let sky = Sky::even(t.rows).at(nearness);
-        Transport::new(&self.capture.mesh, &sky, t, seed, beside)
+        Transport::new(&self.capture.mesh, &sky, &t, self.config.seed, beside)
     }
 
     /// Gives back the memory of [`Site::far_transport`].

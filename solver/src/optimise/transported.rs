@@ -41,6 +41,8 @@ pub(super) struct Probed {
     /// Inverse distance, per metre.
     pub nearness: f32,
     pub networks: Networks,
+    /// What light bounces off: the reflectance of most of the face.
+    pub bounce: f32,
     /// The specular albedo by which the light makes highlights; empty if the networks make them.
     pub gloss: Vec<f32>,
 }
@@ -54,9 +56,10 @@ pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Prob
     let mut stage = Transported::probe(site.config, transport, &samples, &start);
     run.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
+    let bounce = reflectance(transport, &stage.light(), &start.diffuse);
     let log_light = stage.log_light;
     let gloss = gloss(site, &start);
-    Ok(Probed { log_light, nearness, networks: start.networks, gloss })
+    Ok(Probed { log_light, nearness, networks: start.networks, bounce, gloss })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -68,7 +71,7 @@ pub(super) fn light_and_albedo(
     probed: Probed,
 ) -> Result<Lit, SolveError> {
     let t = &site.config.transport;
-    let transport = site.transport(probed.nearness);
+    let transport = site.transport(probed.nearness, probed.bounce);
     run.lap("rays at the light's distance");
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
@@ -81,7 +84,16 @@ pub(super) fn light_and_albedo(
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
     let gloss = gloss(site, &state);
-    Ok(Lit::new(run, site, &samples, state, gloss, probed.nearness, light))
+    Ok(Lit::new(run, site, &samples, state, gloss, (probed.nearness, probed.bounce), light))
+}
+
+/// The median over texels of the mean reflectance of R, G and B, under a light.
+pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32]) -> f32 {
+    let mut means: Vec<f32> =
+        diffuse.chunks_exact(CHANNELS).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
+    let middle = means.len() / 2;
+    let (_, median, _) = means.select_nth_unstable_by(middle, f32::total_cmp);
+    (*median * transport.peak(light)).min(1.0)
 }
 
 /// See [`Lit::gloss`].

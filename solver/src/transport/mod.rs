@@ -102,28 +102,32 @@ impl Transport {
             occluder: Occluder::new(mesh),
             mesh,
             rays: &rays,
-            cells: sky.len(),
             centre: 0.5 * (low + high),
             nearness: sky.nearness,
-            beside,
             near: sky.nearness + near,
             row: &row,
             size,
         };
         let lift = LIFT * longest;
-        let cast = |texel: &usize| {
-            let normal = atlas.normals[*texel];
-            caster.texel(atlas.positions[*texel] + lift * normal, normal)
-        };
-        let cast: Vec<Seen> = texels.par_iter().map(cast).collect();
-        let bounces: Vec<Bounces> = cast.iter().map(|seen| seen.bounces.clone()).collect();
         let cells = sky.len();
-        let part = |part: fn(&Seen) -> &[f32]| cast.iter().flat_map(part).copied().collect();
-        let matrix = Matrix::with_bounces(part(|seen| &seen.direct), &bounces, cells, config);
-        let open = (beside != Beside::Nothing).then(|| part(|seen| &seen.open));
-        let open = open.map(|rows| Matrix { rows, cells });
-        let gain = (beside == Beside::Nearness).then(|| part(|seen| &seen.gain));
-        let gain = gain.map(|rows| Matrix::with_bounces(rows, &bounces, cells, config));
+        let asked = |least| if beside >= least { texels.len() * cells } else { 0 };
+        let mut direct = vec![0.0; texels.len() * cells];
+        let mut open = vec![0.0; asked(Beside::Open)];
+        let mut gain = vec![0.0; asked(Beside::Nearness)];
+        let mut parts = [&mut direct, &mut open, &mut gain].map(|rows| rows.chunks_mut(cells));
+        let seen: Vec<Seen> = (0..texels.len())
+            .map(|_| parts.each_mut().map(|rows| rows.next().unwrap_or_default()))
+            .map(|[direct, open, gain]| Seen { direct, open, gain })
+            .collect();
+        let cast = |(texel, seen): (&usize, Seen)| {
+            let normal = atlas.normals[*texel];
+            caster.texel(atlas.positions[*texel] + lift * normal, normal, seen)
+        };
+        let bounces: Vec<Bounces> = texels.par_iter().zip(seen).map(cast).collect();
+        let matrix = Matrix::with_bounces(direct, &bounces, cells, config);
+        let open = (!open.is_empty()).then_some(Matrix { rows: open, cells });
+        let with_bounces = |rows| Matrix::with_bounces(rows, &bounces, cells, config);
+        let gain = (!gain.is_empty()).then(|| with_bounces(gain));
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
         Self { size, matrix, gain, open, near, places, normals, sky: sky.clone(), row }
@@ -329,26 +333,22 @@ impl Matrix {
 /// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
 type Bounces = Vec<(u32, f32)>;
 
-/// What a texel sees.
-struct Seen {
+/// What a texel sees of every cell.
+struct Seen<'a> {
     /// Its row of T0.
-    direct: Vec<f32>,
-    /// What it gains as the sky comes nearer, and what is open, of every cell; empty if not asked for.
-    gain: Vec<f32>,
-    open: Vec<f32>,
-    /// Its row of B.
-    bounces: Bounces,
+    direct: &'a mut [f32],
+    /// What is open, and what the row gains as the sky comes nearer; empty if not asked for.
+    open: &'a mut [f32],
+    gain: &'a mut [f32],
 }
 
 struct Caster<'a> {
     occluder: Occluder,
     mesh: &'a Mesh,
     rays: &'a [SkyRay],
-    cells: usize,
     /// Of the sky's sphere.
     centre: Vec3,
     nearness: f32,
-    beside: Beside,
     /// The nearness to compare with.
     near: f32,
     row: &'a [u32],
@@ -356,11 +356,9 @@ struct Caster<'a> {
 }
 
 impl Caster<'_> {
-    fn texel(&self, origin: Vec3, normal: Vec3) -> Seen {
-        let mut direct = vec![0.0; self.cells];
-        let [nearness, some] = [Beside::Nearness, Beside::Open].map(|least| self.beside >= least);
-        let mut gain = vec![0.0; if nearness { self.cells } else { 0 }];
-        let mut visible = vec![0.0; if some { self.cells } else { 0 }];
+    /// Adds up in `seen`, and returns the texel's row of B.
+    fn texel(&self, origin: Vec3, normal: Vec3, seen: Seen) -> Bounces {
+        let [some, nearness] = [&seen.open, &seen.gain].map(|rows| !rows.is_empty());
         let mut bounces = Bounces::new();
         let place = origin - self.centre;
         for ray in self.rays {
@@ -374,12 +372,12 @@ impl Caster<'_> {
             match self.occluder.first_hit(origin, direction) {
                 None => {
                     let cell = ray.cell as usize;
-                    direct[cell] += weight;
+                    seen.direct[cell] += weight;
                     if nearness {
-                        gain[cell] += nearer - weight;
+                        seen.gain[cell] += nearer - weight;
                     }
                     if some {
-                        visible[cell] += open(ray, place, self.nearness);
+                        seen.open[cell] += open(ray, place, self.nearness);
                     }
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
@@ -393,7 +391,7 @@ impl Caster<'_> {
             kept.1 += if same { next.1 } else { 0.0 };
             same
         });
-        Seen { direct, gain, open: visible, bounces }
+        bounces
     }
 
     fn row_at(&self, hit: &Impact) -> u32 {

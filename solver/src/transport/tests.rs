@@ -199,10 +199,8 @@ fn what_is_open_to_grazing_light_is_finite() {
         occluder: Occluder::new(&mesh),
         mesh: &mesh,
         rays: &rays,
-        cells: sky.len(),
         centre: Vec3::ZERO,
         nearness: sky.nearness,
-        beside: Beside::Open,
         near: 0.0,
         row: &[0; 4],
         size: 2,
@@ -212,7 +210,9 @@ fn what_is_open_to_grazing_light_is_finite() {
         let towards = ray.direction - sky.nearness * origin;
         let (across, up) = towards.normalize().any_orthonormal_pair();
         for normal in [across, up, (across + up).normalize(), (across - up).normalize()] {
-            let open = caster.texel(origin, normal).open;
+            let [mut direct, mut open] = [(); 2].map(|()| vec![0.0; sky.len()]);
+            let seen = Seen { direct: &mut direct, open: &mut open, gain: &mut [] };
+            caster.texel(origin, normal, seen);
             assert!(open.iter().all(|open| (0.0..0.1).contains(open)), "{normal}");
         }
     }
