@@ -25,8 +25,9 @@ use crate::transport::{CHANNELS, Reflection, Transport};
 /// transport are far coarser than pixels.
 pub(crate) const MOST_SAMPLES: usize = 40_000;
 
-/// Light and distance again, the albedo held, from those that the networks' highlights led to. The number
-/// of steps that are not taken: without regions there is no gloss.
+/// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
+/// alone if the capture names it, since the rest has but the mean colours of the pictures. The number of
+/// steps that are not taken: without regions there is no gloss.
 pub(super) fn distance(
     run: &mut Run,
     site: &Site,
@@ -39,7 +40,13 @@ pub(super) fn distance(
     }
     let transport = site.far_transport();
     state.resize(transport.size());
-    let samples = site.pictures().samples(&site.space, transport.size());
+    let mut samples = site.pictures().samples(&site.space, transport.size());
+    let skin = site.skin();
+    if let Some(regions) = site.regions_on(transport.size()).filter(|_| !skin.is_empty()) {
+        let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);
+        let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
+        samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
+    }
     let stage = Highlights::new(site.config, transport, &samples, &state, probed);
     let Some(stage) = stage else { return Ok(t.distance) };
     let (name, iterations) = ("distance", t.distance);

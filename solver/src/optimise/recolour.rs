@@ -3,10 +3,8 @@
 
 use super::site::Site;
 use super::stage::{State, layers};
-use crate::gbuffer::Atlas;
 use crate::model::deviation::Deviation;
 use crate::model::samples::Samples;
-use crate::projection::Projection;
 use crate::transport::{CHANNELS, Transport};
 
 /// Gives every region that is no skin, in the diffuse albedo of `state`, the one colour that explains
@@ -23,9 +21,7 @@ pub(super) fn recolour(
     if skin.is_empty() {
         return;
     }
-    let atlas = Atlas::new(&site.capture.mesh, state.size);
-    let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
-    let Some(regions) = site.regions(&atlas, &projections) else { return };
+    let Some(regions) = site.regions_on(state.size) else { return };
     let deviation = Deviation::new(site.config, state.size);
     let highlights = layers(samples, &deviation, state, site.backend);
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));

@@ -162,6 +162,12 @@ impl<'a> Site<'a> {
         labels.iter().any(|region| *region != 0).then_some(labels)
     }
 
+    /// The same of a texture of side `size`.
+    pub fn regions_on(&self, size: usize) -> Option<Vec<u8>> {
+        let projections = Projection::of_views(&self.capture.train, &self.gbuffers);
+        self.regions(&Atlas::new(&self.capture.mesh, size), &projections)
+    }
+
     /// What the textures start from.
     pub fn initial_state(&self) -> State {
         let config = self.config;
