@@ -20,12 +20,12 @@
 //!   while the samples of the fine-tuning are still there.
 //!
 //! Estimated and measured peaks (largest resident set of `unshade solve`, 4 views; the
-//! second with 10, whose peak is the transport's):
+//! second with 10, whose peak is the transport's, and which alone is of this version):
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
 //! | `unshade` | 15 thousand | 2048² | 686 MB | 701 MB |
-//! | `unshade` | 251 thousand | 512² | 219 MB | 215 MB |
+//! | `unshade` | 251 thousand | 512² | 238 MB | 243 MB |
 //! | `unshade` | 435 thousand | 512² | 256 MB | 271 MB |
 //! | `unshade` | 435 thousand | 1024² | 378 MB | 404 MB |
 //! | `unshade` | 435 thousand | 2048² | 865 MB | 877 MB |

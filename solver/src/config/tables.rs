@@ -185,7 +185,7 @@ pub struct TransportConfig {
     pub rays_per_cell_side: usize,
     /// Bounces off the mesh.
     pub bounces: usize,
-    /// The albedo of all that light bounces off.
+    /// The albedo that light bounces off while the light is sought; then it is the face's own.
     pub bounce_albedo: f32,
     /// Steps that seek the light and its distance alone, the albedo held, on an even sky.
     pub probe: usize,

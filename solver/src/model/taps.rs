@@ -328,6 +328,22 @@ mod tests {
     }
 
     #[test]
+    fn of_thinned_samples_every_one_is_sampled_and_gathered_where_it_was() {
+        let (size, step) = (16, 3);
+        let taps = Taps::sorted(size, &points(1000)).0;
+        let texture: Vec<f32> = (0..size * size).map(|i| (i as f32 * 0.7).sin()).collect();
+        let values = taps.sample::<1>(&texture);
+        let thin = taps.thinned(step);
+        assert_eq!(thin.sample::<1>(&texture), values.thinned(step));
+        let kept = |i: usize| if i.is_multiple_of(step) { values.get(0, i) } else { 0.0 };
+        let kept = Planes::from_fn(1000, |i| [kept(i)]);
+        let sums = thin.gather::<1>(&values.thinned(step), 0).into_iter();
+        for (sum, expected) in sums.zip(taps.gather::<1>(&kept, 0)) {
+            assert!((sum - expected).abs() < 1e-5, "{sum} not {expected}");
+        }
+    }
+
+    #[test]
     fn a_linear_texture_is_reproduced_and_clamped() {
         let size = 8;
         let ramp: Vec<f32> = (0..64).flat_map(|t| [(t % 8) as f32, (t / 8) as f32]).collect();

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::adam::Adam;
 use super::lit::Lit;
 use super::run::Run;
-use super::site::Site;
+use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State};
 use super::transported::{Probed, reflectance};
 use crate::backend::Backend;
@@ -52,8 +52,10 @@ pub(super) fn distance(
     let (name, iterations) = ("distance", t.distance);
     let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
     run.stage(&mut stage, &mut state)?;
-    probed.nearness = stage.nearness[0] * transport.near();
-    probed.bounce = reflectance(transport, &stage.light(), &state.diffuse);
+    probed.standing = Standing {
+        nearness: stage.nearness[0] * transport.near(),
+        bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
+    };
     probed.log_light = stage.log_light;
     Ok(0)
 }
@@ -64,21 +66,20 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
     if lit.gloss.is_empty() {
         return Ok(t.highlights);
     }
-    let transport = site.transport(lit.nearness, lit.bounce);
+    let transport = site.transport(lit.standing);
     let samples = site.pictures().samples(&site.space, transport.size());
     let mut state = lit.state.clone();
     let begun = Probed {
         log_light: lit.light.radiance.iter().map(|light| light.ln()).collect(),
-        nearness: lit.nearness,
+        standing: lit.standing,
         networks: state.networks.clone(),
-        bounce: lit.bounce,
         gloss: std::mem::take(&mut lit.gloss),
     };
     let stage = Highlights::new(site.config, transport, &samples, &state, &begun);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run, site, &samples, state, begun.gloss, (lit.nearness, lit.bounce), light);
+    *lit = Lit::new(run, site, &samples, state, begun.gloss, lit.standing, light);
     lit.explained = true;
     Ok(0)
 }
@@ -126,14 +127,14 @@ impl<'a> Highlights<'a> {
         let gloss = samples.taps.sample::<1>(&begun.gloss);
         let light: Vec<f32> = begun.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
-        let reflection = transport.reflection(&samples, &gloss, peak, begun.nearness)?;
+        let reflection = transport.reflection(&samples, &gloss, peak, begun.standing.nearness)?;
         Some(Self {
             config: t,
             transport,
             samples,
             reflection,
             log_light: begun.log_light.clone(),
-            nearness: vec![begun.nearness / transport.near()],
+            nearness: vec![begun.standing.nearness / transport.near()],
             name: "highlights",
             iterations: t.highlights,
             hold: 0,

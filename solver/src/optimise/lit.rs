@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::run::Run;
-use super::site::Site;
+use super::site::{Site, Standing};
 use super::stage::{State, layers};
 use super::veil::{unveiled, veil};
 use crate::backend::Backend;
@@ -31,10 +31,7 @@ pub(super) struct Lit {
     pub gloss: Vec<f32>,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
-    /// Inverse distance of the light, per metre.
-    pub nearness: f32,
-    /// See [`Probed::bounce`](super::transported::Probed::bounce).
-    pub bounce: f32,
+    pub standing: Standing,
     /// What is left in the record.
     pub light: RecoveredLight,
 }
@@ -47,17 +44,17 @@ impl Lit {
         samples: &Samples,
         state: State,
         gloss: Vec<f32>,
-        (nearness, bounce): (f32, f32),
+        standing: Standing,
         radiance: Vec<f32>,
     ) -> Self {
-        let (config, transport) = (site.config, site.transport(nearness, bounce));
+        let (config, transport) = (site.config, site.transport(standing));
         let veil = match gloss.is_empty() {
             true => vec![],
             false => {
                 veil(&config.networks, transport, samples, &state, run.backend, &radiance, &gloss)
             }
         };
-        let distance = (nearness > 0.0).then(|| nearness.recip());
+        let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
         Self {
             state,
             shading: transport.shading(&radiance),
@@ -66,8 +63,7 @@ impl Lit {
             veil,
             gloss,
             explained: false,
-            nearness,
-            bounce,
+            standing,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
     }

@@ -4,6 +4,7 @@
 use std::cell::OnceCell;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::stage::State;
 use crate::backend::Backend;
@@ -35,6 +36,15 @@ pub(super) struct Site<'a> {
     coarse: OnceCell<Samples>,
     fine: OnceCell<Fine>,
     colour_regions: OnceCell<Option<ColourRegions>>,
+}
+
+/// What rays are cast for.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Standing {
+    /// Inverse distance of the light, per metre.
+    pub nearness: f32,
+    /// What light bounces off: the reflectance of most of the face.
+    pub bounce_albedo: f32,
 }
 
 /// The full pictures with the final textures.
@@ -106,16 +116,18 @@ impl<'a> Site<'a> {
     /// From a light at infinity, and what changes as it comes nearer, if that is asked.
     pub fn far_transport(&self) -> &Transport {
         let t = &self.config.transport;
+        let far = Standing { nearness: 0.0, bounce_albedo: t.bounce_albedo };
         let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Open };
-        self.far_transport.get_or_init(|| self.cast(0.0, t.bounce_albedo, beside))
+        self.far_transport.get_or_init(|| self.cast(far, beside))
     }
 
-    /// From a light of this inverse distance, which bounces off this albedo; both the same at every call.
-    pub fn transport(&self, nearness: f32, bounce: f32) -> &Transport {
-        self.transport.get_or_init(|| self.cast(nearness, bounce, Beside::Open))
+    /// From a light that stands so; the same at every call.
+    pub fn transport(&self, standing: Standing) -> &Transport {
+        self.transport.get_or_init(|| self.cast(standing, Beside::Open))
     }
 
-    fn cast(&self, nearness: f32, bounce_albedo: f32, beside: Beside) -> Transport {
+    fn cast(&self, standing: Standing, beside: Beside) -> Transport {
+        let Standing { nearness, bounce_albedo } = standing;
         let t = TransportConfig { bounce_albedo, ..self.config.transport.clone() };
         let sky = Sky::even(t.rows).at(nearness);
         Transport::new(&self.capture.mesh, &sky, &t, self.config.seed, beside)

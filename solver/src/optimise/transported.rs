@@ -10,7 +10,7 @@ use super::confidence::confidence;
 use super::lit::{Lit, bent_shading};
 use super::recolour::recolour;
 use super::run::Run;
-use super::site::Site;
+use super::site::{Site, Standing};
 use super::stage::{Diffuse, Memory, Stage, State, layers};
 use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
@@ -38,11 +38,8 @@ pub(super) struct Physical {
 #[derive(Serialize, Deserialize)]
 pub(super) struct Probed {
     pub log_light: Vec<f32>,
-    /// Inverse distance, per metre.
-    pub nearness: f32,
+    pub standing: Standing,
     pub networks: Networks,
-    /// What light bounces off: the reflectance of most of the face.
-    pub bounce: f32,
     /// The specular albedo by which the light makes highlights; empty if the networks make them.
     pub gloss: Vec<f32>,
 }
@@ -56,10 +53,11 @@ pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Prob
     let mut stage = Transported::probe(site.config, transport, &samples, &start);
     run.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
-    let bounce = reflectance(transport, &stage.light(), &start.diffuse);
+    let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
+    let standing = Standing { nearness, bounce_albedo };
     let log_light = stage.log_light;
     let gloss = gloss(site, &start);
-    Ok(Probed { log_light, nearness, networks: start.networks, bounce, gloss })
+    Ok(Probed { log_light, standing, networks: start.networks, gloss })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -71,7 +69,7 @@ pub(super) fn light_and_albedo(
     probed: Probed,
 ) -> Result<Lit, SolveError> {
     let t = &site.config.transport;
-    let transport = site.transport(probed.nearness, probed.bounce);
+    let transport = site.transport(probed.standing);
     run.lap("rays at the light's distance");
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
@@ -84,7 +82,7 @@ pub(super) fn light_and_albedo(
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
     let gloss = gloss(site, &state);
-    Ok(Lit::new(run, site, &samples, state, gloss, (probed.nearness, probed.bounce), light))
+    Ok(Lit::new(run, site, &samples, state, gloss, probed.standing, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.

@@ -78,7 +78,7 @@ pub struct Transport {
 
 impl Transport {
     /// Casts all rays; memory is texels inside the chart x cells x 4 bytes, three times that while
-    /// bounces are added, and the same again if more is asked.
+    /// bounces are added, and the same again for each thing that is asked beside.
     pub fn new(
         mesh: &Mesh,
         sky: &Sky,

@@ -5,6 +5,7 @@ use std::f32::consts::{FRAC_1_PI, PI};
 use super::*;
 use crate::model::samples::schlick;
 use crate::optimise::highlights::Highlights;
+use crate::optimise::site::Standing;
 use crate::optimise::transported::Probed;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
@@ -22,9 +23,8 @@ fn gradients_reach_light_distance_and_albedo() {
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
     let begun = Probed {
-        nearness: 0.4 * transport.near(),
+        standing: Standing { nearness: 0.4 * transport.near(), bounce_albedo: 0.0 },
         networks: state.networks.clone(),
-        bounce: 0.0,
         gloss: vec![0.2; SIDE * SIDE],
         log_light: light.clone(),
     };
@@ -116,9 +116,8 @@ fn highlights_say_where_the_lamp_is() {
     let mut found = |gloss: f32| {
         let begun = Probed {
             log_light: vec![0.0; CHANNELS * sky.len()],
-            nearness: 0.1,
+            standing: Standing { nearness: 0.1, bounce_albedo: 0.0 },
             networks: state.networks.clone(),
-            bounce: 0.0,
             gloss: vec![gloss; texels],
         };
         let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::optimise::recolour::recolour;
-use crate::optimise::site::Site;
+use crate::optimise::site::{Site, Standing};
 use crate::optimise::transported::Transported;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
@@ -72,7 +72,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     config.transport.texture_size = 128;
     let backend = Cpu::new();
     let site = Site::new(&backend, &capture, &config);
-    let transport = site.transport(0.0, 0.4);
+    let transport = site.transport(Standing { nearness: 0.0, bounce_albedo: 0.4 });
     let centres = Sky::even(config.transport.rows).centres();
     let light: Vec<f32> = centres.iter().flat_map(|w| [1.0 + FALL.dot(*w); 3]).collect();
     let mut state = site.initial_state();
