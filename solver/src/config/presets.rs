@@ -69,6 +69,7 @@ impl Config {
                 nearness_rate: 0.02,
                 iterations: 400,
                 recolour: true,
+                tint: true,
                 hold: 100,
                 prior: 1.0,
                 grey_mean: 1.0,

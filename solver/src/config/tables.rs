@@ -197,6 +197,8 @@ pub struct TransportConfig {
     /// Give regions that are no skin a colour anew under the light of the probe; needs
     /// [`InitialisationConfig::skin_labels`].
     pub recolour: bool,
+    /// After [`Self::distance`], give the light the colour of its highlights, and skin what is left.
+    pub tint: bool,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
     pub hold: usize,
     /// Weight of the albedo prior.

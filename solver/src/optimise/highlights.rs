@@ -12,6 +12,7 @@ use super::lit::Lit;
 use super::run::Run;
 use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State};
+use super::tint::tint;
 use super::transported::{Probed, reflectance};
 use crate::backend::Backend;
 use crate::config::{Config, TransportConfig};
@@ -52,6 +53,11 @@ pub(super) fn distance(
     let (name, iterations) = ("distance", t.distance);
     let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
     run.stage(&mut stage, &mut state)?;
+    if t.tint {
+        probed.tint = stage.take_tint(&state);
+        let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
+        texels.for_each(|(albedo, tint)| *albedo /= tint);
+    }
     probed.standing = Standing {
         nearness: stage.nearness[0] * transport.near(),
         bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
@@ -73,6 +79,7 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
         log_light: lit.light.radiance.iter().map(|light| light.ln()).collect(),
         standing: lit.standing,
         networks: state.networks.clone(),
+        tint: [1.0; CHANNELS],
         gloss: std::mem::take(&mut lit.gloss),
     };
     let stage = Highlights::new(site.config, transport, &samples, &state, &begun);
@@ -149,13 +156,37 @@ impl<'a> Highlights<'a> {
         self.log_light.iter().map(|log| log.exp()).collect()
     }
 
+    /// Gives the light the colour of its highlights, at the same [peak](Transport::peak), and says by what
+    /// it was multiplied; by that the albedo of `state`, which led to the light, is to be divided.
+    pub fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
+        let light = self.light();
+        let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);
+        let layer = self.layer(state, &shading);
+        let shown =
+            |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
+        let tint = tint(&self.samples, &self.reflection.radiance(&light), shown);
+        let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
+        let [before, after] = [&light, &tinted].map(|light| self.transport.peak(light));
+        if before == 0.0 {
+            return [1.0; CHANNELS];
+        }
+        let tint = tint.map(|t| t * before / after);
+        self.log_light.iter_mut().zip(tint.iter().cycle()).for_each(|(l, t)| *l += t.ln());
+        tint
+    }
+
+    /// The diffuse layer of every sample.
+    fn layer(&self, state: &State, shading: &[f32]) -> Planes {
+        let layer: Vec<f32> = state.diffuse.iter().zip(shading).map(|(a, s)| a * s).collect();
+        self.samples.taps.sample::<CHANNELS>(&layer)
+    }
+
     /// Loss and its gradients.
     pub fn gradient(&self, state: &State) -> Gradient {
         let (light, samples) = (self.light(), &self.samples);
         let (shading, gain) = self.transport.shading_nearer(&light, self.nearness[0]);
         let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
-        let layer: Vec<f32> = product(&state.diffuse, &shading);
-        let sampled = samples.taps.sample::<CHANNELS>(&layer);
+        let sampled = self.layer(state, &shading);
         let scale = 1.0 / (CHANNELS * samples.len()) as f32;
         let highlights = self.reflection.radiance(&light);
         let residual = |(i, highlight): (usize, &[f32; CHANNELS])| {

@@ -13,7 +13,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
 use crate::solution::RecoveredLight;
-use crate::transport::CHANNELS;
+use crate::transport::{CHANNELS, luminances};
 
 /// What explicit transport found, on its own texture.
 #[derive(Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub(super) struct Lit {
     bending: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     pub peak: f32,
-    /// See [`veil`], one value per texel; empty if it is switched off.
+    /// See [`veil`], R, G, B per texel; empty if it is switched off.
     pub veil: Vec<f32>,
     /// The specular albedo that the veil goes by; empty if it is switched off.
     pub gloss: Vec<f32>,
@@ -101,7 +101,7 @@ impl Lit {
         if self.veil.is_empty() {
             return None;
         }
-        let veil = resample(&self.veil, self.state.size, 1, state.size);
+        let veil = resample(&luminances(&self.veil), self.state.size, 1, state.size);
         let mut own = self.state.clone();
         own.resize(state.size);
         own.deviation.clone_from(&state.deviation);

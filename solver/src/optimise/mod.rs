@@ -18,6 +18,7 @@ mod snapshot;
 pub mod solve;
 pub mod specular;
 pub mod stage;
+mod tint;
 pub mod transported;
 mod vectors;
 mod veil;

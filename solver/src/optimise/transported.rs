@@ -42,6 +42,9 @@ pub(super) struct Probed {
     pub networks: Networks,
     /// The specular albedo by which the light makes highlights; empty if the networks make them.
     pub gloss: Vec<f32>,
+    /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
+    /// with is to be divided by it.
+    pub tint: [f32; CHANNELS],
 }
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
@@ -57,7 +60,7 @@ pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Prob
     let standing = Standing { nearness, bounce_albedo };
     let log_light = stage.log_light;
     let gloss = gloss(site, &start);
-    Ok(Probed { log_light, standing, networks: start.networks, gloss })
+    Ok(Probed { log_light, standing, networks: start.networks, gloss, tint: [1.0; CHANNELS] })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -73,6 +76,10 @@ pub(super) fn light_and_albedo(
     run.lap("rays at the light's distance");
     let mut state = State { networks: probed.networks, ..start };
     state.resize(transport.size());
+    let (texels, _) = state.diffuse.as_chunks_mut();
+    texels.iter_mut().for_each(|texel: &mut [f32; CHANNELS]| {
+        texel.iter_mut().zip(probed.tint).for_each(|(albedo, tint)| *albedo /= tint);
+    });
     let samples = site.pictures().samples(&site.space, transport.size());
     if t.recolour {
         let light: Vec<f32> = probed.log_light.iter().map(|light| light.exp()).collect();

@@ -1,7 +1,6 @@
 //! What all views share of the highlights. No picture tells it from diffuse colour, so that the
 //! networks leave it there, but the found light does, with the reflectance that skin is known to have.
 
-use glam::Vec3;
 use rayon::prelude::*;
 
 use super::gloss;
@@ -16,7 +15,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
 use crate::projection::{Projection, per_texel};
-use crate::transport::Transport;
+use crate::transport::{CHANNELS, Transport};
 
 /// Standard deviation of the blur over the texture, texels.
 const BLUR: f32 = 1.5;
@@ -41,7 +40,7 @@ pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
     Some(pooled.into_iter().map(|value| value * scale).collect())
 }
 
-/// The veil, one radiance per texel: the median over the views of what skin of the albedo `specular`
+/// The veil, R, G, B per texel: the median over the views of what skin of the albedo `specular`
 /// shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
 /// diffuse albedo takes up. Empty if the transport does not hold what is open.
 pub(super) fn veil(
@@ -62,25 +61,31 @@ pub(super) fn veil(
     let mut of: Vec<Vec<u32>> = vec![vec![]; specular.len()];
     (0..samples.len()).for_each(|i| of[taps.nearest(i)].push(i as u32));
     let texel = |(of, specular): (&Vec<u32>, &f32)| {
-        let missing = |i: &u32| {
-            let i = *i as usize;
+        let missing = |i: usize, channel: usize| {
             let found = samples.fresnel.get(0, i) * networks.get(0, i) * shading.get(1, i);
-            (specular * highlights.get(0, i) - found, samples.weight.get(0, i))
+            (specular * highlights.get(channel, i) - found, samples.weight.get(0, i))
         };
-        let (median, weight) = weighted_median(of.iter().map(missing).collect());
-        [weight * median, weight]
+        let median =
+            |channel| weighted_median(of.iter().map(|i| missing(*i as usize, channel)).collect());
+        let [(r, weight), (g, _), (b, _)] = [0, 1, 2].map(median);
+        [weight * r, weight * g, weight * b, weight]
     };
-    let texels: Vec<[f32; 2]> = of.par_iter().zip(specular).map(texel).collect();
-    let sums = Blur::new(taps.size(), 2, BLUR).apply(texels.as_flattened());
-    let mean = |[sum, weight]: &[f32; 2]| if *weight > 1e-6 { sum / weight } else { 0.0 };
-    sums.as_chunks::<2>().0.iter().map(mean).collect()
+    let texels: Vec<[f32; 4]> = of.par_iter().zip(specular).map(texel).collect();
+    let sums = Blur::new(taps.size(), 4, BLUR).apply(texels.as_flattened());
+    let mean = |[r, g, b, weight]: &[f32; 4]| match *weight > 1e-6 {
+        true => [r, g, b].map(|sum| sum / weight),
+        false => [0.0; CHANNELS],
+    };
+    sums.as_chunks().0.iter().flat_map(mean).collect()
 }
 
 /// The pictures without a veil on a texture of side `size`.
 pub(super) fn unveiled(samples: &Samples, veil: &[f32], size: usize) -> Planes {
-    let veil = samples.taps.sample::<1>(&resample(veil, size, 1, samples.taps.size()));
-    Planes::from_fn(samples.len(), |i| {
-        Vec3::to_array(&(Vec3::from_array(samples.target.sample(i, 0)) - veil.get(0, i)))
+    let veil = resample(veil, size, CHANNELS, samples.taps.size());
+    let veil = samples.taps.sample::<CHANNELS>(&veil);
+    Planes::from_fn::<CHANNELS>(samples.len(), |i| {
+        let (target, veil): ([f32; 3], [f32; 3]) = (samples.target.sample(i, 0), veil.sample(i, 0));
+        std::array::from_fn(|c| target[c] - veil[c])
     })
 }
 

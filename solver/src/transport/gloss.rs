@@ -34,18 +34,19 @@ impl Reflection {
 
 impl Transport {
     /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every
-    /// sample, on the mesh normals, in the luminance of a light of R, G, B per cell, scaled so that its
-    /// [`Self::peak`] is 1. `None` unless the transport holds what is open ([`super::Beside::Open`]).
+    /// sample, on the mesh normals, in a light of R, G, B per cell, scaled so that its [`Self::peak`]
+    /// is 1; R, G, B. `None` unless the transport holds what is open ([`super::Beside::Open`]).
     pub fn highlights(&self, light: &[f32], samples: &Samples) -> Option<Planes> {
         let (open, centres) = (self.open.as_ref()?, self.sky.centres());
         let scale = scale(self.peak(light));
-        let luminance = super::luminances(light);
-        let lobes = self.lobes();
-        let seen = |lobe: &[f32]| lobe.iter().zip(&luminance).map(|(w, l)| w * l).sum::<f32>();
-        let light: Vec<f32> = lobes.par_chunks(self.cells()).map(seen).collect();
+        let lobes = Matrix { rows: self.lobes(), cells: self.cells() };
+        let light = lobes.product(light);
         Some(Planes::from_fn(samples.len(), |i| {
-            let cells = self.reflecting(open, &centres, samples, i, self.sky.nearness);
-            [scale * cells.map(|(cell, weight)| weight * light[cell]).sum::<f32>()]
+            let mut sum = [0.0; CHANNELS];
+            for (cell, weight) in self.reflecting(open, &centres, samples, i, self.sky.nearness) {
+                (0..CHANNELS).for_each(|c| sum[c] += scale * weight * light[cell][c]);
+            }
+            sum
         }))
     }
 

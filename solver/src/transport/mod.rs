@@ -259,7 +259,7 @@ impl Transport {
 }
 
 /// Of R, G, B per cell.
-fn luminances(light: &[f32]) -> Vec<f32> {
+pub(crate) fn luminances(light: &[f32]) -> Vec<f32> {
     let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
     light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
 }

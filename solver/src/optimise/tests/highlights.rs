@@ -27,6 +27,7 @@ fn gradients_reach_light_distance_and_albedo() {
         networks: state.networks.clone(),
         gloss: vec![0.2; SIDE * SIDE],
         log_light: light.clone(),
+        tint: [1.0; CHANNELS],
     };
     let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();
     let found = stage.gradient(&state);
@@ -65,10 +66,23 @@ fn reflected(normal: Vec3, view: Vec3, light: Vec3) -> f32 {
     schlick(SPECULAR, view.dot(half)) * (lobe(0.15) + lobe(0.35))
 }
 
-/// A small lamp close to a dome of dark skin, whose shading and whose highlights are computed apart from the
-/// solver.
-#[test]
-fn highlights_say_where_the_lamp_is() {
+/// A small white lamp close to a dome of dark skin, whose shading and whose highlights are computed apart
+/// from the solver.
+struct Lamp {
+    config: Config,
+    sky: Sky,
+    transport: Transport,
+    samples: Samples,
+    state: State,
+    /// From the middle of the dome.
+    direction: Vec3,
+}
+
+/// Radii of the dome from its middle to the lamp.
+const RADIUS: f32 = 6.0;
+const ALBEDO: Vec3 = Vec3::new(0.12, 0.07, 0.05);
+
+fn lamp() -> Lamp {
     let mut config = small();
     config.transport.bounces = 0;
     config.transport.rows = 16;
@@ -77,9 +91,7 @@ fn highlights_say_where_the_lamp_is() {
     let (low, high) = mesh.bounds();
     let centre = 0.5 * (low + high);
     let direction = Vec3::new(0.3, 0.4, 0.87).normalize();
-    let radius = 6.0;
-    let lamp = centre + radius * direction;
-    let albedo = Vec3::new(0.12, 0.07, 0.05);
+    let lamp = centre + RADIUS * direction;
     let nearest = mesh.positions.iter().map(|p| p.distance(lamp)).fold(f32::MAX, f32::min);
     let shade = |from: Vec3, p: Vec3| {
         let (normal, to) = (p.normalize(), lamp - p);
@@ -89,7 +101,7 @@ fn highlights_say_where_the_lamp_is() {
             true => irradiance * reflected(normal, (from - p).normalize(), towards),
             false => 0.0,
         };
-        (albedo * FRAC_1_PI * irradiance * normal.dot(towards).max(0.0) + highlight, 1)
+        (ALBEDO * FRAC_1_PI * irradiance * normal.dot(towards).max(0.0) + highlight, 1)
     };
     let view = |camera: &crate::capture::Camera| {
         let from = camera.camera_to_world.w_axis.truncate();
@@ -106,32 +118,74 @@ fn highlights_say_where_the_lamp_is() {
     let sky = Sky::even(config.transport.rows);
     let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Nearness);
     let texels = transport.size() * transport.size();
-    let mut state = State {
+    let state = State {
         networks: Networks::new(&config.networks, 0),
         size: transport.size(),
-        diffuse: (0..texels).flat_map(|_| albedo.to_array()).collect(),
+        diffuse: (0..texels).flat_map(|_| ALBEDO.to_array()).collect(),
         specular: vec![0.0; texels],
         deviation: vec![],
     };
-    let mut found = |gloss: f32| {
+    Lamp { config, sky, transport, samples, state, direction }
+}
+
+impl Lamp {
+    /// The light that explains the pictures with the albedo that is given.
+    fn found(&self, state: &State, gloss: f32, samples: &Samples) -> Highlights<'_> {
         let begun = Probed {
-            log_light: vec![0.0; CHANNELS * sky.len()],
+            log_light: vec![0.0; CHANNELS * self.sky.len()],
             standing: Standing { nearness: 0.1, bounce_albedo: 0.0 },
             networks: state.networks.clone(),
-            gloss: vec![gloss; texels],
+            gloss: vec![gloss; self.transport.size() * self.transport.size()],
+            tint: [1.0; CHANNELS],
         };
-        let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();
+        let new = Highlights::new(&self.config, &self.transport, samples, state, &begun);
+        let mut stage = new.unwrap();
         stage.hold = usize::MAX;
         for _ in 0..400 {
-            stage.step(&mut state, &Cpu::new(), 1.0);
+            stage.step(&mut state.clone(), &Cpu::new(), 1.0);
         }
+        stage
+    }
+}
+
+#[test]
+fn highlights_say_where_the_lamp_is() {
+    let lamp = lamp();
+    let found = |gloss: f32| {
+        let stage = lamp.found(&lamp.state, gloss, &lamp.samples);
         let luminance = |cell: &usize| (1e6 * stage.log_light[CHANNELS * cell + 1]) as i64;
-        let brightest = (0..sky.len()).max_by_key(luminance).unwrap();
-        let angle = sky.centres()[brightest].angle_between(direction).to_degrees();
-        (1.0 / (stage.nearness[0] * transport.near()), angle)
+        let brightest = (0..lamp.sky.len()).max_by_key(luminance).unwrap();
+        let angle = lamp.sky.centres()[brightest].angle_between(lamp.direction).to_degrees();
+        (1.0 / (stage.nearness[0] * lamp.transport.near()), angle)
     };
     let (with, without) = (found(SPECULAR), found(0.0));
     // A cell is 11 degrees wide, and shading is taken as linear in the inverse distance.
-    assert!(with.1 < 12.0 && (with.0 - radius).abs() < 0.35 * radius, "{with:?}");
-    assert!(without.1 > 45.0 && without.0 < 0.5 * radius, "shading alone would do: {without:?}");
+    assert!(with.1 < 12.0 && (with.0 - RADIUS).abs() < 0.35 * RADIUS, "{with:?}");
+    assert!(without.1 > 45.0 && without.0 < 0.5 * RADIUS, "shading alone would do: {without:?}");
+}
+
+/// Skin is said to be less red and more blue than it is, and so the light comes out as red; but a single
+/// view shows nothing that is not diffuse.
+#[test]
+fn highlights_say_what_colour_the_lamp_has() {
+    let mut lamp = lamp();
+    let wrong = [0.9f32, 1.0, 1.15];
+    let texels = lamp.state.diffuse.iter_mut().zip(wrong.iter().cycle());
+    texels.for_each(|(albedo, wrong)| *albedo *= wrong);
+    let colour = |stage: &Highlights| -> [f32; CHANNELS] {
+        let of = |c: usize| stage.log_light.iter().skip(c).step_by(CHANNELS).map(|log| log.exp());
+        std::array::from_fn(|c| of(c).sum::<f32>() / of(1).sum::<f32>())
+    };
+    let mut stage = lamp.found(&lamp.state, SPECULAR, &lamp.samples);
+    let before = colour(&stage);
+    stage.take_tint(&lamp.state);
+    let after = colour(&stage);
+    assert!(before[0] > 1.1 && before[2] < 0.9, "{before:?}");
+    for c in [0, 2] {
+        // Not all of it: what the highlights do not show has taken more of the tint than what they show.
+        assert!((after[c] - 1.0).abs() < 0.6 * (before[c] - 1.0).abs(), "{before:?} {after:?}");
+    }
+    let mut alone = lamp.samples.clone();
+    alone.view_index.fill(0);
+    assert_eq!(lamp.found(&lamp.state, SPECULAR, &alone).take_tint(&lamp.state), [1.0; CHANNELS]);
 }
