@@ -26,7 +26,7 @@ macro_rules! widened {
                     // SAFETY: all of AVX-512 that is enabled was just found.
                     return unsafe { avx512$(::<$n>)?($($arg),*) };
                 }
-                if is_x86_feature_detected!("avx2") {
+                if $crate::simd::has_avx2() {
                     // SAFETY: AVX2 was just found.
                     return unsafe { avx2$(::<$n>)?($($arg),*) };
                 }
@@ -36,14 +36,78 @@ macro_rules! widened {
     };
 }
 
-/// Whether the machine has what every processor with AVX-512 has had but the first.
+/// Whether the machine has AVX-512 F, BW, DQ and VL: all that have any, but for Xeon Phi.
 #[cfg(target_arch = "x86_64")]
 #[inline]
 pub(crate) fn has_avx512() -> bool {
+    #[cfg(test)]
+    if tests::widest() < 2 {
+        return false;
+    }
     is_x86_feature_detected!("avx512f")
         && is_x86_feature_detected!("avx512bw")
         && is_x86_feature_detected!("avx512dq")
         && is_x86_feature_detected!("avx512vl")
 }
 
+/// Whether the machine has AVX2.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+pub(crate) fn has_avx2() -> bool {
+    #[cfg(test)]
+    if tests::widest() < 1 {
+        return false;
+    }
+    is_x86_feature_detected!("avx2")
+}
+
 pub(crate) use widened;
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use crate::model::blur::Blur;
+    use crate::model::prior::prior;
+    use crate::model::taps::Taps;
+    use crate::optimise::adam::Adam;
+
+    thread_local! {
+        static WIDEST: Cell<u8> = const { Cell::new(2) };
+    }
+
+    /// 0: no wide vectors; 1: AVX2; 2: AVX-512.
+    pub fn widest() -> u8 {
+        WIDEST.get()
+    }
+
+    /// What some of the loops make of noise, on this thread alone.
+    fn results(widest: u8) -> Vec<f32> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
+        let pool = pool.start_handler(move |_| WIDEST.set(widest)).build().unwrap();
+        let noise =
+            |count: usize| -> Vec<f32> { (0..count).map(|i| (i as f32 * 12.9898).sin()).collect() };
+        pool.install(|| {
+            let (side, texture) = (37, noise(3 * 37 * 37));
+            let mut all = Blur::new(side, 3, 2.0).apply(&texture);
+            let mut gradient = all.clone();
+            all.push(prior(&texture, side, 0.3, &mut gradient) as f32);
+            let mut adam = Adam::new(&crate::config::Config::default().adam, 0.1, texture.len());
+            let mut moved = texture.clone();
+            adam.step(&mut moved, &gradient, 1.0, 0.0);
+            let uvs: Vec<_> = (0..999).map(|i| glam::Vec2::splat(i as f32 / 999.0)).collect();
+            let taps = Taps::sorted(side, &uvs).0;
+            all.extend(taps.gather::<3>(&taps.sample::<3>(&moved), 0));
+            all.extend(gradient);
+            all
+        })
+    }
+
+    #[test]
+    fn the_width_of_vectors_changes_no_bit() {
+        let bits = |widest| results(widest).iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        let plain = bits(0);
+        assert_eq!(bits(1), plain);
+        assert_eq!(bits(2), plain);
+    }
+}

@@ -197,7 +197,8 @@ pub struct TransportConfig {
     /// Give regions that are no skin a colour anew under the light of the probe; needs
     /// [`InitialisationConfig::skin_labels`].
     pub recolour: bool,
-    /// After [`Self::distance`], give the light the colour of its highlights, and skin what is left.
+    /// After [`Self::distance`], which it needs, give the light the colour of its highlights, and the
+    /// diffuse albedo what is left.
     pub tint: bool,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
     pub hold: usize,

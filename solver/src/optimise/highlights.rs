@@ -27,8 +27,8 @@ use crate::transport::{CHANNELS, Reflection, Transport};
 pub(crate) const MOST_SAMPLES: usize = 40_000;
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
-/// alone if the capture names it, since the rest has but the mean colours of the pictures. The number of
-/// steps that are not taken: without regions there is no gloss.
+/// alone if the capture names it, since the rest has but the mean colours of the pictures; then the colour
+/// of the light, by its highlights. The number of steps that are not taken: without regions there is no gloss.
 pub(super) fn distance(
     run: &mut Run,
     site: &Site,
@@ -157,7 +157,7 @@ impl<'a> Highlights<'a> {
     }
 
     /// Gives the light the colour of its highlights, at the same [peak](Transport::peak), and says by what
-    /// it was multiplied; by that the albedo of `state`, which led to the light, is to be divided.
+    /// it was multiplied; the albedo of `state`, with which the light was found, is to be divided by it.
     pub fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
         let light = self.light();
         let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);

@@ -1,56 +1,163 @@
 //! The colour of a light from the colour of its highlights.
 //!
 //! A tint of the light and one of the skin look alike in diffuse shading, and skin's first colour has
-//! the highlights in it. But what varies from view to view in one place is no diffuse shading: it has
-//! the colour of the light alone (the dichromatic model).
+//! the highlights in it. But what varies in one place from view to view is hardly diffuse: it has the
+//! colour of the light (the dichromatic model of reflection).
 
 use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
-/// What differs more between two channels is no tint of a light.
+/// Channels that differ by a larger factor are not believed.
 const MOST: f64 = 2.0;
+/// Nor is a factor with a larger standard error, relative to itself.
+const LARGEST_ERROR: f64 = 0.05;
 
 /// Sums over the samples of a texel.
 #[derive(Clone, Copy, Default)]
 struct Sums {
+    count: f64,
     weight: f64,
-    /// Of every channel: predicted, shown, their product, and predicted squared.
-    moments: [[f64; 4]; CHANNELS],
+    /// Of every channel: what is predicted, what is shown, and their products.
+    moments: [Moments; CHANNELS],
     view: u32,
     /// Whether more than one view sees it.
     shared: bool,
 }
 
-/// By what factor R, G and B of the highlights that samples show differ from the predicted ones, as
-/// far as they vary within a texel that several views see; 1 if nothing does, or if they differ beyond
-/// [`MOST`]. Both in linear radiance; what is shown may hold what views agree on.
+#[derive(Clone, Copy, Default)]
+struct Moments {
+    predicted: f64,
+    shown: f64,
+    both: f64,
+    predicted_squared: f64,
+    shown_squared: f64,
+}
+
+/// By what factor R, G and B of the highlights that samples show differ from the predicted ones: the
+/// slopes of a regression within the texels that several views see, without the samples where the
+/// sensor was full. 1 if there is too little to tell. Both in linear radiance; what is shown may hold
+/// what is the same all over a texel.
 pub(super) fn tint(
     samples: &Samples,
     predicted: &[[f32; CHANNELS]],
     shown: impl Fn(usize) -> [f32; CHANNELS],
 ) -> [f32; CHANNELS] {
     let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
+    let full = full(samples);
     for (i, predicted) in predicted.iter().enumerate() {
         let (weight, view) = (f64::from(samples.weight.get(0, i)), samples.view_index[i]);
+        if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
+            continue;
+        }
         let sums = &mut texels[samples.taps.nearest(i)];
-        sums.shared |= sums.weight > 0.0 && sums.view != view;
-        (sums.weight, sums.view) = (sums.weight + weight, view);
+        sums.shared |= sums.count > 0.0 && sums.view != view;
+        sums.view = view;
+        sums.count += 1.0;
+        sums.weight += weight;
         for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
             let (p, s) = (f64::from(*p), f64::from(s));
-            let terms = [p, s, p * s, p * p];
-            moments.iter_mut().zip(terms).for_each(|(sum, term)| *sum += weight * term);
+            moments.predicted += weight * p;
+            moments.shown += weight * s;
+            moments.both += weight * (p * s);
+            moments.predicted_squared += weight * (p * p);
+            moments.shown_squared += weight * (s * s);
         }
     }
-    let mut covariances = [[0.0; 2]; CHANNELS];
-    for Sums { weight, moments, .. } in texels.iter().filter(|sums| sums.shared) {
-        for (covariance, [p, s, both, squared]) in covariances.iter_mut().zip(moments) {
-            covariance[0] += both - p * s / weight;
-            covariance[1] += squared - p * p / weight;
+    let shared: Vec<&Sums> = texels.iter().filter(|sums| sums.shared).collect();
+    let freedom = shared.iter().map(|sums| sums.count - 1.0).sum::<f64>() - 1.0;
+    let slope = |channel: usize| {
+        let [mut both, mut predicted, mut shown] = [0.0; 3];
+        for Sums { weight, moments, .. } in &shared {
+            let m = &moments[channel];
+            both += m.both - m.predicted * m.shown / weight;
+            predicted += m.predicted_squared - m.predicted * m.predicted / weight;
+            shown += m.shown_squared - m.shown * m.shown / weight;
         }
+        let slope = both / predicted;
+        let error = ((shown - slope * both).max(0.0) / (freedom * predicted)).sqrt();
+        // Also if they are not numbers.
+        if error < LARGEST_ERROR * slope { slope } else { 0.0 }
+    };
+    let slopes = [0, 1, 2].map(slope);
+    let least = slopes.into_iter().fold(f64::MAX, f64::min);
+    let largest = slopes.into_iter().fold(0.0, f64::max);
+    let sound = least > 0.0 && largest < MOST * least;
+    if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
+}
+
+/// What a full sensor has left in the pictures: their largest value, if it occurs more than once.
+fn full(samples: &Samples) -> f32 {
+    let values = || (0..samples.len()).flat_map(|i| samples.target.sample::<CHANNELS>(i, 0));
+    let largest = values().fold(f32::MIN, f32::max);
+    let more = values().filter(|value| *value == largest).nth(1);
+    more.unwrap_or(f32::INFINITY)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+    use crate::gbuffer::GBuffer;
+    use crate::model::samples::SampleSpace;
+    use crate::testing;
+
+    /// Two views of a dome, and highlights that vary within its texels.
+    fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
+        let config = Config::default();
+        let mesh = testing::dome(12);
+        let shade = |p: glam::Vec3| (glam::Vec3::splat(0.5 + 0.1 * p.x), 1);
+        let cameras = testing::rig(2, 48);
+        let views: Vec<_> = cameras.iter().map(|c| testing::view(&mesh, c, shade)).collect();
+        let gbuffers = GBuffer::of_views(&mesh, &views);
+        let space = SampleSpace::new(&mesh, &config);
+        let samples = space.training(&views, &gbuffers, &config.view_weights, 16);
+        let predicted = (0..samples.len())
+            .map(|i| [1.0, 1.1, 1.3].map(|c: f32| c * (1.0 + (i as f32 * 12.9898).sin())))
+            .collect();
+        (samples, predicted)
     }
-    let tint = covariances.map(|[both, squared]| both / squared);
-    let (least, largest) = tint.iter().fold((f64::MAX, 0.0f64), |(a, b), t| (a.min(*t), b.max(*t)));
-    // Without highlights they are not numbers.
-    let sound = tint.iter().all(|tint| *tint > 0.0) && largest < MOST * least;
-    if sound { tint.map(|tint| tint as f32) } else { [1.0; CHANNELS] }
+
+    /// `tint` of the prediction over a paint that differs from texel to texel.
+    fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
+        let paint = |i: usize| samples.taps.nearest(i) as f32;
+        super::tint(samples, predicted, |i| {
+            std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
+        })
+    }
+
+    #[test]
+    fn what_is_the_same_all_over_a_texel_is_no_highlight() {
+        let (samples, predicted) = scene();
+        let found = shown(&samples, &predicted, [0.8, 1.0, 1.4]);
+        let error = |(a, b): (f32, f32)| (a - b).abs();
+        assert!(found.into_iter().zip([0.8, 1.0, 1.4]).map(error).all(|e| e < 1e-3), "{found:?}");
+    }
+
+    #[test]
+    fn nothing_is_said_without_evidence() {
+        let (samples, predicted) = scene();
+        let ones = [1.0; CHANNELS];
+        assert_eq!(shown(&samples, &predicted, [0.5, 1.0, 1.2]), ones, "beyond belief");
+        assert_eq!(shown(&samples, &predicted, [-0.5, 1.0, 1.2]), ones, "negative");
+        let none = vec![[0.0; CHANNELS]; samples.len()];
+        assert_eq!(shown(&samples, &none, [0.8, 1.0, 1.4]), ones, "no highlights");
+        let noise = |i: usize| [(i as f32 * 78.233).sin() * 30.0 + predicted[i][0]; CHANNELS];
+        assert_eq!(tint(&samples, &predicted, noise), ones, "noise");
+        let mut alone = samples.clone();
+        alone.view_index.fill(0);
+        assert_eq!(shown(&alone, &predicted, [0.8, 1.0, 1.4]), ones, "one view");
+    }
+
+    #[test]
+    fn a_full_sensor_has_no_colour() {
+        let (mut samples, predicted) = scene();
+        let hit = |i: usize| i.is_multiple_of(3);
+        samples.target = crate::model::planes::Planes::from_fn(samples.len(), |i| {
+            let target: [f32; CHANNELS] = samples.target.sample(i, 0);
+            if hit(i) { [2.0, target[1], target[2]] } else { target }
+        });
+        let red = |i: usize| if hit(i) { 0.0 } else { 0.8 * predicted[i][0] };
+        let found = tint(&samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
+        assert!((found[0] - 0.8).abs() < 1e-3, "{found:?}");
+    }
 }
