@@ -5,8 +5,6 @@
 //! makes shading and highlights. Where a highlight stands says where its lamp is, what colour it has says
 //! what colour the lamp has, and what glows at the sides of a face is no light from behind.
 
-use rayon::prelude::*;
-
 use super::adam::Adam;
 use super::lit::Lit;
 use super::run::Run;
@@ -188,8 +186,7 @@ impl<'a> Highlights<'a> {
         let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
         let sampled = self.layer(state, &shading);
         let scale = 1.0 / (CHANNELS * samples.len()) as f32;
-        let highlights = self.reflection.radiance(&light);
-        let residual = |(i, highlight): (usize, &[f32; CHANNELS])| {
+        let residual = |i: usize, highlight: [f32; CHANNELS]| {
             let weight = scale * samples.weight.get(0, i);
             let mut loss = 0.0;
             let by = std::array::from_fn(|c| {
@@ -197,24 +194,22 @@ impl<'a> Highlights<'a> {
                 loss += f64::from(weight * residual.abs());
                 if residual == 0.0 { 0.0 } else { weight.copysign(residual) }
             });
-            (by, loss)
+            (by, (by, loss))
         };
-        let (by_sample, losses): (Vec<[f32; CHANNELS]>, Vec<f64>) =
-            highlights.par_iter().enumerate().map(residual).unzip();
-        let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i]);
+        let (more, by_sample) = self.reflection.exchange(&light, residual);
+        let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i].0);
         let by_layer = samples.taps.gather::<CHANNELS>(&by_layer, 0);
         let mut diffuse: Vec<f32> = product(&by_layer, &shading);
         let by_shading: Vec<f32> = product(&by_layer, &state.diffuse);
         let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut diffuse);
         let mut by_light = self.transport.adjoint_nearer(&by_shading, self.nearness[0]);
-        let more = self.reflection.adjoint(&by_sample);
         by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
         let along = |gain: Vec<f32>| {
             let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
             products.sum::<f64>() as f32
         };
         Gradient {
-            loss: losses.iter().sum::<f64>() + smooth,
+            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smooth,
             light: by_light,
             nearness: gain.map(along),
             diffuse,

@@ -3,7 +3,8 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{CHANNELS, Matrix, SkyRay, Transport, add_scaled};
+use super::matrix::{Matrix, add_scaled};
+use super::{CHANNELS, SkyRay, Transport};
 use crate::model::planes::Planes;
 use crate::model::samples::{Samples, schlick};
 
@@ -26,9 +27,14 @@ impl Reflection {
         self.0.product(light)
     }
 
-    /// The adjoint of [`Self::radiance`]: the gradient by the light.
-    pub fn adjoint(&self, by_radiance: &[[f32; CHANNELS]]) -> Vec<f32> {
-        self.0.adjoint(by_radiance)
+    /// The gradient by the light, if `value` makes of a sample and its [radiance](Self::radiance) the gradient
+    /// by that; and what else it makes. In one pass over the rows, which are most of the bytes of a step.
+    pub fn exchange<T: Send>(
+        &self,
+        light: &[f32],
+        value: impl Fn(usize, [f32; CHANNELS]) -> ([f32; CHANNELS], T) + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        self.0.exchange(light, value)
     }
 }
 

@@ -13,6 +13,7 @@
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
 mod gloss;
+mod matrix;
 mod rays;
 mod sky;
 
@@ -23,8 +24,8 @@ use crate::capture::Mesh;
 use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
-use crate::simd::widened;
 pub use gloss::Reflection;
+use matrix::Matrix;
 pub use rays::{Impact, Occluder};
 pub use sky::{Sky, SkyRay, contrast};
 
@@ -35,10 +36,6 @@ pub(crate) const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
 /// A ray starts this far from the surface, as a share of the mesh's longest side: clear of the
 /// facets next to its own.
 const LIFT: f32 = 1.6e-3;
-/// Texels whose contributions to the gradient are summed by one task, in their order.
-const CHUNK: usize = 256;
-/// Independent sums of a product, which a compiler turns into vectors.
-const LANES: usize = 16;
 /// Nearness is told from its difference between a sphere of this radius and one at infinity, in
 /// halves of the mesh's longest side: about a metre around a head.
 const NEAR_RADIUS: f32 = 6.0;
@@ -274,62 +271,6 @@ pub(crate) struct Parts<'a> {
     pub row: &'a [u32],
 }
 
-/// Rows of `cells` weights.
-#[derive(Clone, Debug, PartialEq)]
-struct Matrix {
-    rows: Vec<f32>,
-    cells: usize,
-}
-
-impl Matrix {
-    fn with_bounces(
-        direct: Vec<f32>,
-        bounces: &[Bounces],
-        cells: usize,
-        config: &TransportConfig,
-    ) -> Self {
-        let mut rows = direct.clone();
-        let mut last = direct;
-        let mut albedo = 1.0;
-        for _ in 0..config.bounces {
-            albedo *= config.bounce_albedo;
-            last = bounced(bounces, &last, cells);
-            rows.par_iter_mut().zip(&last).for_each(|(sum, once)| *sum += albedo * once);
-        }
-        Self { rows, cells }
-    }
-
-    fn product(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
-        let planes: [Vec<f32>; CHANNELS] =
-            std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect());
-        self.rows
-            .par_chunks(self.cells)
-            .map(|row| dots(row, [&planes[0], &planes[1], &planes[2]]))
-            .collect()
-    }
-
-    fn adjoint(&self, by_row: &[[f32; CHANNELS]]) -> Vec<f32> {
-        let part = |(rows, by_row): (&[f32], &[[f32; CHANNELS]])| {
-            let mut sums = vec![0.0f32; CHANNELS * self.cells];
-            for (row, gradient) in rows.chunks_exact(self.cells).zip(by_row) {
-                for (sums, gradient) in sums.chunks_exact_mut(self.cells).zip(gradient) {
-                    add_scaled(sums, row, *gradient);
-                }
-            }
-            sums
-        };
-        let parts: Vec<Vec<f32>> = self
-            .rows
-            .par_chunks(CHUNK * self.cells)
-            .zip(by_row.par_chunks(CHUNK))
-            .map(part)
-            .collect();
-        let total = |at: usize| parts.iter().map(|part| f64::from(part[at])).sum::<f64>() as f32;
-        let at = |i: usize| i % CHANNELS * self.cells + i / CHANNELS;
-        (0..CHANNELS * self.cells).map(|i| total(at(i))).collect()
-    }
-}
-
 /// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
 type Bounces = Vec<(u32, f32)>;
 
@@ -417,47 +358,6 @@ fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
 /// direction made a unit vector, the cosine may round to zero where the other one did not.
 fn open(ray: &SkyRay, place: Vec3, nearness: f32) -> f32 {
     received(ray, place, (ray.direction - nearness * place).normalize(), nearness)
-}
-
-/// B x `rows`.
-fn bounced(bounces: &[Bounces], rows: &[f32], cells: usize) -> Vec<f32> {
-    let mut out = vec![0.0; rows.len()];
-    out.par_chunks_mut(cells.max(1)).zip(bounces).for_each(|(out, bounces)| {
-        for (row, weight) in bounces {
-            let from = &rows[*row as usize * cells..][..cells];
-            add_scaled(out, from, *weight);
-        }
-    });
-    out
-}
-
-widened! {
-    fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
-        for (sum, value) in sum.iter_mut().zip(values) {
-            *sum += factor * value;
-        }
-    }
-}
-
-widened! {
-    /// The products of `row` with the light of each channel.
-    fn dots(row: &[f32], light: [&[f32]; CHANNELS]) -> [f32; CHANNELS] {
-        let (whole, rest) = row.as_chunks::<LANES>();
-        let mut dots = [0.0; CHANNELS];
-        // Channel by channel: given all at once, the compiler makes narrow vectors of the channels.
-        for (dot, light) in dots.iter_mut().zip(light) {
-            let (parts, last) = light[..row.len()].as_chunks::<LANES>();
-            let mut lanes = [0.0f32; LANES];
-            for (row, light) in whole.iter().zip(parts) {
-                for lane in 0..LANES {
-                    lanes[lane] += row[lane] * light[lane];
-                }
-            }
-            let rest: f32 = rest.iter().zip(last).map(|(a, b)| a * b).sum();
-            *dot = lanes.iter().sum::<f32>() + rest;
-        }
-        dots
-    }
 }
 
 #[cfg(test)]
