@@ -11,8 +11,8 @@
 //!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
 //!   cells for each of the samples whose highlights are followed.
-//! - Heights: 380 bytes a sample while the slopes are found (samples, a copy of them, light vector,
-//!   directions, gradients and unknowns), 200 bytes a texel of the height texture.
+//! - Heights: 380 bytes a sample while the slopes are found (samples, light vector, directions,
+//!   highlights, slopes, residuals and unknowns), 200 bytes a texel of the height texture.
 //! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
 //!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both deviations,
 //!   what is gathered, and the gradient).
@@ -20,16 +20,17 @@
 //!   while the samples of the fine-tuning are still there.
 //!
 //! Estimated and measured peaks (largest resident set of `unshade solve`, 4 views; the
-//! second with 10, whose peak is the transport's, and which alone is of this version):
+//! second and the last with 10, which alone are of this version):
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
 //! | `unshade` | 15 thousand | 2048² | 686 MB | 701 MB |
-//! | `unshade` | 251 thousand | 512² | 238 MB | 243 MB |
+//! | `unshade` | 251 thousand | 512² | 238 MB | 239 MB |
 //! | `unshade` | 435 thousand | 512² | 256 MB | 271 MB |
 //! | `unshade` | 435 thousand | 1024² | 378 MB | 404 MB |
 //! | `unshade` | 435 thousand | 2048² | 865 MB | 877 MB |
 //! | `paper` | 435 thousand | 1024² | 378 MB | 393 MB |
+//! | `unshade` | 1.0 million | 1024² | 623 MB | 664 MB |
 
 use std::fmt;
 use std::fs;

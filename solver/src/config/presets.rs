@@ -88,14 +88,15 @@ impl Config {
                 enabled: false,
                 texture_share: 0.5,
                 linearisations: 2,
+                highlights: false,
                 reweightings: 2,
-                steps: 40,
+                steps: 60,
                 residual_floor: 0.002,
                 albedo_smoothing: 0.003,
                 blur: 0.003,
                 coarsest_pixels: 12.0,
                 flatness: 100.0,
-                smoothness: 150.0,
+                smoothness: 300.0,
                 albedo_damping: 300.0,
             },
             records: RecordConfig { stages: true, layers: true },
@@ -126,6 +127,7 @@ impl Config {
         config.fine_tuning.deviation_rate = 0.0;
         config.transport.enabled = true;
         config.height.enabled = true;
+        config.height.highlights = true;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
         config.normalisation.specular_skin = 0.028;

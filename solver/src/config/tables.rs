@@ -240,8 +240,11 @@ pub struct HeightConfig {
     pub enabled: bool,
     /// Side of the height texture over that of the fine-tuned textures.
     pub texture_share: f32,
-    /// How often the pictures are linearised.
+    /// How often the pictures are linearised, each time on a texture of twice the side.
     pub linearisations: usize,
+    /// Take highlights, and how they change with the normals, from the light that was found with its
+    /// highlights ([`TransportConfig::highlights`]); else, or without such a light, from the networks.
+    pub highlights: bool,
     /// Reweightings towards an L1 norm per linearisation.
     pub reweightings: usize,
     /// Conjugate-gradient steps per reweighting.
@@ -256,8 +259,8 @@ pub struct HeightConfig {
     pub blur: f32,
     /// Residuals coarser than this (pixels of the full picture) are no relief; 0 keeps them.
     pub coarsest_pixels: f32,
-    /// Weight of the squared deviation; under explicit transport over the squared contrast of the
-    /// light, and more where that is even, because an even light shows no relief.
+    /// Weight of the squared deviation. Without [`Self::highlights`], under explicit transport, over the
+    /// squared contrast of the light, and more where that is even.
     pub flatness: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,

@@ -6,6 +6,7 @@ mod clock;
 mod confidence;
 mod finish;
 mod gloss;
+mod heights;
 pub(crate) mod highlights;
 mod lit;
 mod nearby;

@@ -60,6 +60,19 @@ pub(super) fn without_coarse(
     })
 }
 
+/// Of two residuals (3 rows) mostly the smaller one, sample by sample: each weighted by the other's mean
+/// square around the sample.
+pub(super) fn smaller(samples: &Samples, views: &[GBuffer], a: Planes, b: &Planes) -> Planes {
+    let square = |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();
+    let squares = Planes::from_fn(samples.len(), |i| [square(&a, i), square(b, i), 0.0]);
+    let around = around(samples, views, &squares, NEIGHBOURHOOD);
+    Planes::from_fn(samples.len(), |i| {
+        let [by_a, by_b]: [f32; 2] = around.sample(i, 0);
+        let share = by_b / (by_a + by_b).max(f32::MIN_POSITIVE);
+        std::array::from_fn::<f32, 3, _>(|c| share * a.get(c, i) + (1.0 - share) * b.get(c, i))
+    })
+}
+
 /// Three rows of values, blurred over the covered pixels of every view.
 fn around(samples: &Samples, views: &[GBuffer], values: &Planes, sigma: f32) -> Planes {
     // The values and the cover of every view.

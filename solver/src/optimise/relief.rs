@@ -1,16 +1,17 @@
 //! Relief by Gauss-Newton: one height per texel, so that what bends the normals is integrable.
 //!
 //! With light, specular albedo and the coarse diffuse albedo held fixed, the pictures are linear in
-//! small changes of the normals and of the albedo. How diffuse shading changes with the normal is known
-//! from explicit transport, or else from the networks; how highlights do, from the networks. Unknown are the height h (n_s = n - grad h,
+//! small changes of the normals and of the albedo. How shading and highlights change with the normal is
+//! known from explicit transport, or else from the networks. Unknown are the height h (n_s = n - grad h,
 //! n_d the same blurred) and damped relative changes of the diffuse albedo; L1 by reweighting, conjugate
-//! gradients on the normal equations, relinearised a few times.
+//! gradients on the normal equations; linearised anew on every texture, coarse to fine.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::heights::Shine;
 use super::lit::{LIT, Lit, bent_shading};
-use super::nearby::{trust_in, without_coarse};
+use super::nearby::{smaller, trust_in, without_coarse};
 use super::stage::State;
 use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
@@ -26,6 +27,7 @@ use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::simd::widened;
+use crate::transport::CHANNELS;
 
 /// Rows of the sampled unknowns: specular and diffuse deviation, albedo.
 const UNKNOWNS: usize = 9;
@@ -55,6 +57,8 @@ pub struct ReliefSolve<'a> {
     light: Planes,
     /// S_d under explicit transport, and how it changes with the normal.
     lit: Option<Planes>,
+    /// What makes the highlights; else the networks do.
+    shine: Option<Shine<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
     views: &'a [GBuffer],
@@ -65,7 +69,7 @@ pub struct ReliefSolve<'a> {
 pub(super) const SLOPES: usize = 15;
 
 impl<'a> ReliefSolve<'a> {
-    /// `samples` are those of `views`, with taps of the side `size`. Diffuse shading and albedo are those
+    /// `samples` are those of `views`, with taps of the side of `atlas`. Diffuse shading and albedo are those
     /// of `lit` if there are any, else those of `state`.
     pub(super) fn new(
         config: &'a Config,
@@ -99,51 +103,62 @@ impl<'a> ReliefSolve<'a> {
             networks: &state.networks,
             light: backend.light(&state.networks, &samples.position),
             lit: lit.map(|lit| lit.sampled(samples)),
-            // What highlights and shading tell of relief grows with the light's contrast; what the
-            // model gets wrong does not.
-            flatness: config.height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
+            // What shading and the networks' highlights tell of relief grows with the light's contrast;
+            // what the model gets wrong does not.
+            flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
+            shine: None,
             views,
         }
     }
 
-    /// The deviation of the normals, 3 channels per texel of the side of the taps; `step` hears of
-    /// every conjugate-gradient step with the mean absolute residual at the last linearisation, and
-    /// may stop the solve with [`SolveError::Interrupted`]: then it ends with what it has.
+    /// With highlights by the light: what they tell of relief does not end with the light's contrast.
+    pub(super) fn with(self, shine: Shine<'a>) -> Self {
+        Self { shine: Some(shine), flatness: self.config.flatness, ..self }
+    }
+
+    /// Linearises at the unknowns `x`, [`Self::unknowns`] of them, and moves them; `step` hears of every
+    /// conjugate-gradient step with the mean absolute residual at the last linearisation, and may stop the
+    /// solve: every step leaves heights that explain more than those before it.
     pub fn solve(
         &self,
+        x: &mut [f32],
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
-    ) -> Result<Vec<f32>, SolveError> {
-        let texels = self.size * self.size;
-        let mut x = vec![0.0f32; 4 * texels];
-        let mut trust = None;
-        'solve: for outer in 0..self.config.linearisations {
-            let (slopes, target) = self.linearise(&x);
-            let floor = self.config.residual_floor;
-            let trust = trust
-                .get_or_insert_with(|| trust_in(self.samples, self.views, &slopes, &target, floor));
-            for reweighting in 0..self.config.reweightings {
-                let fitted = match outer + reweighting {
-                    0 => None,
-                    _ => Some(self.forward(&slopes, &self.sampled(&x))),
-                };
-                let (weight, residual) = self.weights(&target, fitted.as_ref(), trust);
-                match self.conjugate_gradients(&slopes, &weight, &target, &mut x, residual, step) {
-                    // Every step leaves heights that explain more than those before it.
-                    Err(SolveError::Interrupted) => break 'solve,
-                    done => done?,
-                }
-            }
-        }
-        Ok(self.field.bend(&x[..texels]))
+    ) -> Result<(), SolveError> {
+        let (slopes, target) = self.linearise(x);
+        let floor = self.config.residual_floor;
+        let trust = trust_in(self.samples, self.views, &slopes, &target, floor);
+        (0..self.config.reweightings).try_for_each(|_| {
+            let fitted = self.forward(&slopes, &self.sampled(x));
+            let (weight, residual) = self.weights(&target, &fitted, &trust);
+            self.conjugate_gradients(&slopes, &weight, &target, x, residual, step)
+        })
+    }
+
+    /// Heights, then changes of the albedo.
+    pub fn unknowns(&self) -> usize {
+        4 * self.field.len()
+    }
+
+    /// The deviation of the normals by the unknowns `x`, 3 channels per texel.
+    pub fn bend(&self, x: &[f32]) -> Vec<f32> {
+        self.field.bend(&x[..self.field.len()])
     }
 
     /// Slopes at the current normals, and the colours that the linear model is to reach.
     fn linearise(&self, x: &[f32]) -> (Planes, Planes) {
         let samples = self.samples;
         let q = self.sampled(x);
+        let shine = self.shine.as_ref().and_then(|shine| shine.at(samples, &q));
+        // Shading by the networks.
         let directions = self.scale.directions(samples, Some(&q));
         let shading = self.backend.shade(self.networks, &self.light, &directions);
-        let jacobian = self.jacobian(&directions, &q);
+        let jacobian = match (&shine, &self.lit) {
+            (Some(_), Some(_)) => None,
+            _ => Some(self.jacobian(&directions, &q)),
+        };
+        let by_networks = |i: usize, row: usize| -> [f32; 3] {
+            jacobian.as_ref().map_or([0.0; 3], |jacobian| jacobian.sample(i, row))
+        };
         let current = |i: usize| -> [f32; 3] {
             let albedo: [f32; ALBEDOS] = self.albedo.sample(i, 0);
             let change: [f32; 3] = q.sample(i, 6);
@@ -152,7 +167,7 @@ impl<'a> ReliefSolve<'a> {
         // S_d of R, G, B, and how it changes with the deviation.
         let diffuse = |i: usize| -> ([f32; 3], [Vec3; 3]) {
             let Some(lit) = &self.lit else {
-                let slope = Vec3::from_array(jacobian.sample(i, 3));
+                let slope = Vec3::from_array(by_networks(i, 3));
                 return ([shading.get(0, i); 3], [slope; 3]);
             };
             let lit: [f32; LIT] = lit.sample(i, 0);
@@ -167,31 +182,40 @@ impl<'a> ReliefSolve<'a> {
             (bent_shading(&lit, normal, bent), std::array::from_fn(slope))
         };
         let slopes = Planes::from_fn(samples.len(), |i| {
-            let by_specular: [f32; 3] = jacobian.sample(i, 0);
-            let gloss = self.albedo.get(3, i);
             let albedo = current(i);
             let (shading, slope) = diffuse(i);
             let mut row = [0.0; SLOPES];
+            row[..3].copy_from_slice(&match &shine {
+                Some(shine) => shine.sample::<3>(i, CHANNELS),
+                None => by_networks(i, 0).map(|slope| self.albedo.get(3, i) * slope),
+            });
             for c in 0..3 {
-                row[c] = gloss * by_specular[c];
                 row[3 + 3 * c..6 + 3 * c].copy_from_slice(&(albedo[c] * slope[c]).to_array());
                 row[12 + c] = self.albedo.get(c, i) * shading[c];
             }
             row
         });
-        // What the current unknowns leave, without what is too coarse to be relief.
-        let residual: Planes = Planes::from_fn(samples.len(), |i| {
-            let specular = shading.get(1, i);
-            let highlight = samples.fresnel.get(0, i) * self.albedo.get(3, i) * specular;
-            let (target, change): ([f32; 3], [f32; 3]) =
-                (samples.target.sample(i, 0), q.sample(i, 6));
-            let diffuse: [f32; 3] = slopes.sample(i, 12);
-            std::array::from_fn::<f32, 3, _>(|c| {
-                target[c] - diffuse[c] * (1.0 + change[c]) - highlight
-            })
+        // What the current unknowns leave with these highlights, without what is too coarse to be relief.
+        let fine = |highlights: &(dyn Fn(usize) -> [f32; 3] + Sync)| {
+            let residual = Planes::from_fn(samples.len(), |i| {
+                let (target, change): ([f32; 3], [f32; 3]) =
+                    (samples.target.sample(i, 0), q.sample(i, 6));
+                let (diffuse, highlight): ([f32; 3], _) = (slopes.sample(i, 12), highlights(i));
+                std::array::from_fn::<f32, 3, _>(|c| {
+                    target[c] - diffuse[c] * (1.0 + change[c]) - highlight[c]
+                })
+            });
+            without_coarse(samples, self.views, &residual, self.config.coarsest_pixels)
+        };
+        let left = fine(&|i| {
+            let gloss = samples.fresnel.get(0, i) * self.albedo.get(3, i);
+            [gloss * shading.get(1, i); 3]
         });
-        let sigma = self.config.coarsest_pixels;
-        let fine = without_coarse(samples, self.views, &residual, sigma);
+        // The networks know sharp lamps better than the cells of the light do, and all else worse.
+        let fine = match &shine {
+            Some(shine) => smaller(samples, self.views, fine(&|i| shine.sample(i, 0)), &left),
+            None => left,
+        };
         let explained = self.forward(&slopes, &q);
         let target = Planes::from_fn(samples.len(), |i| {
             let (fine, explained): ([f32; 3], [f32; 3]) =
@@ -251,11 +275,10 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// Weights of the reweighted least squares, and the weighted mean absolute residual.
-    fn weights(&self, target: &Planes, fitted: Option<&Planes>, trust: &Planes) -> (Planes, f64) {
+    fn weights(&self, target: &Planes, fitted: &Planes, trust: &Planes) -> (Planes, f64) {
         let floor = self.config.residual_floor;
         let size = |i: usize| {
-            let target: [f32; 3] = target.sample(i, 0);
-            let fitted: [f32; 3] = fitted.map_or([0.0; 3], |fitted| fitted.sample(i, 0));
+            let (target, fitted): ([f32; 3], [f32; 3]) = (target.sample(i, 0), fitted.sample(i, 0));
             (0..3).map(|c| (target[c] - fitted[c]).abs()).sum::<f32>() / 3.0
         };
         let weight = Planes::from_fn(self.samples.len(), |i| {

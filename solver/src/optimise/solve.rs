@@ -9,9 +9,9 @@ use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
+use super::heights::heights;
 use super::highlights::{MOST_SAMPLES, distance, highlights};
 use super::lit::Lit;
-use super::relief::ReliefSolve;
 use super::run::Run;
 use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
@@ -24,10 +24,8 @@ use crate::backend::Backend;
 use crate::capture::Capture;
 use crate::config::Config;
 use crate::error::{CaptureError, MapsError, SolveError};
-use crate::gbuffer::Atlas;
 use crate::memory::{self, Estimate};
 use crate::model::networks::Networks;
-use crate::model::texture::resample;
 use crate::solution::{Solution, ViewLayers};
 
 /// Where a solve stands.
@@ -376,22 +374,10 @@ impl Step {
                 }
             }
             Self::Heights => {
-                let side = ((site.size as f32 * config.height.texture_share) as usize).max(16);
-                let atlas = Atlas::new(&site.capture.mesh, side);
-                let samples = site.samples(side);
-                let heights = ReliefSolve::new(
-                    config,
-                    backend,
-                    &samples,
-                    &site.gbuffers,
-                    &atlas,
-                    &solve.state,
-                    solve.lit.as_ref(),
-                );
-                let steps = self.iterations(config);
-                let bend = run.relief(steps, |step| heights.solve(step))?;
+                let (steps, lit) = (self.iterations(config), solve.lit.as_ref());
+                let bend = run.relief(steps, |step| heights(site, &solve.state, lit, step))?;
                 solve.state.resize(site.size);
-                solve.state.deviation = resample(&bend, side, 3, site.size);
+                solve.state.deviation = bend;
             }
             Self::Relief(round) => {
                 solve.state.resize(site.size);

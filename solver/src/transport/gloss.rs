@@ -9,13 +9,13 @@ use crate::model::planes::Planes;
 use crate::model::samples::{Samples, schlick};
 
 /// Reflectance of skin at normal incidence in Schlick's approximation.
-const F0: f32 = 0.04;
+pub(super) const F0: f32 = 0.04;
 /// GGX roughness and share of skin's two lobes.
-const LOBES: [(f32, f32); 2] = [(0.15, 0.5), (0.35, 0.5)];
+pub(super) const LOBES: [(f32, f32); 2] = [(0.15, 0.5), (0.35, 0.5)];
 /// Exponent of the cosine lobe that the light is seen through: 10 degrees, about a cell.
 const LOBE: i32 = 64;
 /// Least cosine of a direction to the surface.
-const GRAZING: f32 = 1e-3;
+pub(super) const GRAZING: f32 = 1e-3;
 
 /// From a light to the highlights of samples, linear.
 #[derive(Debug)]
@@ -45,8 +45,7 @@ impl Transport {
     pub fn highlights(&self, light: &[f32], samples: &Samples) -> Option<Planes> {
         let (open, centres) = (self.open.as_ref()?, self.sky.centres());
         let scale = scale(self.peak(light));
-        let lobes = Matrix { rows: self.lobes(), cells: self.cells() };
-        let light = lobes.product(light);
+        let light = self.through_lobes(light);
         Some(Planes::from_fn(samples.len(), |i| {
             let mut sum = [0.0; CHANNELS];
             for (cell, weight) in self.reflecting(open, &centres, samples, i, self.sky.nearness) {
@@ -88,7 +87,7 @@ impl Transport {
         i: usize,
         nearness: f32,
     ) -> impl Iterator<Item = (usize, f32)> + 'a {
-        let row = self.row[samples.taps.nearest(i)] as usize;
+        let row = self.row_of(samples, i);
         let normal = Vec3::from_array(samples.normal.sample(i, 0));
         let view = Vec3::from_array(samples.view.sample(i, 0));
         let from = nearness * self.places[row];
@@ -96,6 +95,18 @@ impl Transport {
         cells.filter(|(_, (open, _))| **open > 0.0).map(move |(cell, (open, centre))| {
             (cell, open * reflected(normal, view, (*centre - from).normalize()))
         })
+    }
+
+    /// The row of the texel that a sample lies in, whatever the side of its taps.
+    pub(super) fn row_of(&self, samples: &Samples, i: usize) -> usize {
+        let (at, side) = (samples.taps.nearest(i), samples.taps.size());
+        let texel = |x: usize| x * self.size / side;
+        self.row[texel(at / side) * self.size + texel(at % side)] as usize
+    }
+
+    /// A light of R, G, B per cell, every cell seen through a lobe.
+    pub(super) fn through_lobes(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
+        Matrix { rows: self.lobes(), cells: self.cells() }.product(light)
     }
 
     /// Of every cell, what a lobe around it sees of all cells: rows of sum 1. Finer than that, the cells do
@@ -116,7 +127,7 @@ impl Transport {
 
 /// From [`Transport::reflecting`] to radiance by the reflectance at normal incidence, in a light of this
 /// peak.
-fn scale(peak: f32) -> f32 {
+pub(super) fn scale(peak: f32) -> f32 {
     std::f32::consts::PI / (F0 * peak.max(f32::MIN_POSITIVE))
 }
 

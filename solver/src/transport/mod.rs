@@ -15,6 +15,7 @@
 mod gloss;
 mod matrix;
 mod rays;
+mod shine;
 mod sky;
 
 use glam::Vec3;
@@ -27,6 +28,7 @@ use crate::gbuffer::Atlas;
 pub use gloss::Reflection;
 use matrix::Matrix;
 pub use rays::{Impact, Occluder};
+pub use shine::SHINE;
 pub use sky::{Sky, SkyRay, contrast};
 
 /// Colour channels of the light.

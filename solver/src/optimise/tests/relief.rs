@@ -10,6 +10,7 @@ use crate::optimise::stage::layers;
 
 const SIDE: usize = 64;
 const TEXELS: usize = SIDE * SIDE;
+const LINEARISATIONS: usize = 3;
 
 /// A solve of pictures that the model itself made from a known height, with a stripe across all of
 /// them brighter by the factor `stripe`.
@@ -54,13 +55,15 @@ fn solve(change: impl Fn(&mut HeightConfig), stripe: f32) -> Found {
         [factor * (0.5 * diffuse + specular); 3]
     });
     let solve = ReliefSolve::new(&config, &backend, &samples, &gbuffers, &atlas, &state, None);
-    let mut residuals = vec![];
-    let found = solve
-        .solve(&mut |residual| {
+    let (mut unknowns, mut residuals) = (vec![0.0; solve.unknowns()], vec![]);
+    for _ in 0..LINEARISATIONS {
+        let mut step = |residual| {
             residuals.push(residual);
             Ok(())
-        })
-        .unwrap();
+        };
+        solve.solve(&mut unknowns, &mut step).unwrap();
+    }
+    let found = solve.bend(&unknowns);
     let ones = Planes::from_fn(samples.len(), |_| [1.0]);
     let seen = samples.taps.gather::<1>(&ones, 0);
     let (mut missed, mut energy) = ([0.0; 2], [0.0; 2]);
@@ -80,7 +83,6 @@ fn exact(height: &mut HeightConfig) {
     height.flatness = 0.0;
     height.albedo_damping = 1e6;
     height.steps = 150;
-    height.linearisations = 3;
 }
 
 #[test]

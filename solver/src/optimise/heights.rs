@@ -1,0 +1,135 @@
+//! Heights, coarse to fine: every linearisation on a texture of twice the side of the one before, which
+//! conjugate gradients would not fill with what is coarse in as many steps.
+
+use glam::Vec3;
+
+use super::lit::Lit;
+use super::relief::ReliefSolve;
+use super::site::Site;
+use super::stage::State;
+use crate::error::SolveError;
+use crate::gbuffer::Atlas;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::model::texture::resample;
+use crate::transport::{SHINE, Transport};
+
+/// Least side of a texture of heights.
+const LEAST_SIDE: usize = 16;
+
+/// The deviation of the normals, 3 channels per texel of a texture of side `site.size`. `step` hears of
+/// every conjugate-gradient step; if it stops the solve with [`SolveError::Interrupted`], the deviation is
+/// as fine as it is then.
+pub(super) fn heights(
+    site: &Site,
+    state: &State,
+    lit: Option<&Lit>,
+    step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
+) -> Result<Vec<f32>, SolveError> {
+    let config = &site.config.height;
+    let finest = (site.size as f32 * config.texture_share) as usize;
+    let side = |round: usize| (finest >> (config.linearisations - 1 - round)).max(LEAST_SIDE);
+    let (mut unknowns, mut of) = (vec![], side(0));
+    let mut bend = vec![0.0; 3 * of * of];
+    for round in 0..config.linearisations {
+        let side = side(round);
+        let atlas = Atlas::new(&site.capture.mesh, side);
+        let samples = site.samples(side);
+        let (config, backend, views) = (site.config, site.backend, &site.gbuffers);
+        let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lit);
+        let relief = match lit.and_then(|lit| Shine::new(site, lit, &samples)) {
+            Some(shine) => relief.with(shine),
+            None => relief,
+        };
+        unknowns = match round {
+            0 => vec![0.0; relief.unknowns()],
+            _ => enlarged(&unknowns, of, side),
+        };
+        of = side;
+        let done = relief.solve(&mut unknowns, step);
+        bend = relief.bend(&unknowns);
+        match done {
+            Err(SolveError::Interrupted) => break,
+            done => done?,
+        }
+    }
+    Ok(resample(&bend, of, 3, site.size))
+}
+
+/// Heights, which count texels, and changes of the albedo on a texture of another side.
+fn enlarged(unknowns: &[f32], of: usize, side: usize) -> Vec<f32> {
+    let (height, albedo) = unknowns.split_at(of * of);
+    let mut enlarged = resample(height, of, 1, side);
+    let more = side as f32 / of as f32;
+    enlarged.iter_mut().for_each(|height| *height *= more);
+    enlarged.append(&mut resample(albedo, of, 3, side));
+    enlarged
+}
+
+/// Highlights as the light makes them that was found.
+pub(super) struct Shine<'a> {
+    transport: &'a Transport,
+    light: &'a [f32],
+    /// Specular albedo of every sample.
+    albedo: Planes,
+}
+
+impl<'a> Shine<'a> {
+    /// `None` if it is switched off, or if the light was not solved for with its highlights.
+    fn new(site: &'a Site, lit: &'a Lit, samples: &Samples) -> Option<Self> {
+        let wanted = site.config.height.highlights && lit.explained;
+        wanted.then(|| {
+            let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
+            let albedo = samples.taps.sample::<1>(&gloss);
+            let light = &lit.light.radiance;
+            Self { transport: site.transport(lit.standing), light, albedo }
+        })
+    }
+
+    /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.
+    pub fn at(&self, samples: &Samples, bends: &Planes) -> Option<Planes> {
+        let bent = |i: usize| {
+            Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bends.sample(i, 0))
+        };
+        let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
+        let shine = self.transport.shine(self.light, samples, &normals)?;
+        Some(Planes::from_fn(samples.len(), |i| {
+            let normal = Vec3::from_array(normals.sample(i, 0));
+            let [r, g, b, x, y, z]: [f32; SHINE] = shine.sample(i, 0);
+            let by = Vec3::new(x, y, z) / bent(i).length();
+            let [x, y, z] = (by - normal * normal.dot(by)).to_array();
+            [r, g, b, x, y, z].map(|value| self.albedo.get(0, i) * value)
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::height::HeightField;
+    use crate::testing;
+
+    #[test]
+    fn a_relief_bends_normals_alike_on_a_texture_of_another_side() {
+        let mesh = testing::dome(24);
+        let bend = |side: usize, unknowns: &[f32]| {
+            HeightField::new(&Atlas::new(&mesh, side)).bend(&unknowns[..side * side])
+        };
+        let wave = |at: usize| {
+            let (x, y) = ((at % 32) as f32, (at / 32) as f32);
+            (0.3 * x).sin() * (0.2 * y).cos()
+        };
+        let coarse: Vec<f32> = (0..4 * 32 * 32).map(wave).collect();
+        let fine = enlarged(&coarse, 32, 64);
+        assert_eq!(fine.len(), 4 * 64 * 64);
+        let (coarse, fine) = (resample(&bend(32, &coarse), 32, 3, 64), bend(64, &fine));
+        let inside = Atlas::new(&mesh, 64).inside;
+        let (mut error, mut energy) = (0.0, 0.0);
+        for at in (0..64 * 64).filter(|at| inside[*at]) {
+            let [a, b] = [&coarse, &fine].map(|bend| Vec3::from_slice(&bend[3 * at..]));
+            error += a.distance_squared(b);
+            energy += a.length_squared();
+        }
+        assert!(energy > 1.0 && error < 0.05 * energy, "{error} of {energy}");
+    }
+}

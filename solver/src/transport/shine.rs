@@ -1,0 +1,177 @@
+//! Highlights, and how they change with the normal.
+
+use glam::Vec3;
+
+use super::gloss::{F0, GRAZING, LOBES, scale};
+use super::{CHANNELS, LUMINANCE, Transport};
+use crate::model::planes::Planes;
+use crate::model::samples::{Samples, schlick};
+use crate::simd::widened;
+
+/// Rows of [`Transport::shine`]: R, G, B, and how the luminance changes with the normal's x, y, z.
+pub const SHINE: usize = CHANNELS + 3;
+/// Cells that are summed beside each other.
+const LANES: usize = 16;
+/// Least squared length of the sum of two directions.
+const OPPOSITE: f32 = 1e-12;
+
+impl Transport {
+    /// [`Self::highlights`] on normals of one's own (unit), with their slopes; [`SHINE`] rows. Exact
+    /// derivatives of the model, along the surface and across it.
+    pub fn shine(&self, light: &[f32], samples: &Samples, normals: &Planes) -> Option<Planes> {
+        let open = self.open.as_ref()?;
+        let scale = scale(self.peak(light));
+        let light = self.through_lobes(light);
+        let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
+        for (cell, (centre, light)) in self.sky.centres().iter().zip(&light).enumerate() {
+            let luminance = light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
+            let [r, g, b] = *light;
+            let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
+            (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
+        }
+        Some(Planes::from_fn(samples.len(), |i| {
+            let row = self.row_of(samples, i);
+            let seen = Seen {
+                normal: Vec3::from_array(normals.sample(i, 0)),
+                view: Vec3::from_array(samples.view.sample(i, 0)),
+                from: self.sky.nearness * self.places[row],
+            };
+            let mut sums = [0.0; SHINE];
+            shine(&cells, &open.rows[row * self.cells()..][..self.cells()], &seen, &mut sums);
+            sums.map(|sum| scale * sum)
+        }))
+    }
+}
+
+/// Values of a cell: its direction from the sky's centre, R, G, B, luminance.
+const CELL: usize = 2 * CHANNELS + 1;
+type Cells = [[f32; LANES]; CELL];
+
+struct Seen {
+    normal: Vec3,
+    view: Vec3,
+    /// The place in units of the sky's radius.
+    from: Vec3,
+}
+
+widened! {
+    /// Sums [`SHINE`] rows over the cells that are open: with c = n.h, and r(x) for the root in Smith's term
+    /// 2 x / (x + r(x)), a lobe is D(c) / (2 (n.v + r(n.v))) x 2 n.l / (n.l + r(n.l)) x F(v.h).
+    fn shine(cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; SHINE]) {
+        let Seen { normal: n, view: v, from } = *seen;
+        let nv = n.dot(v).max(GRAZING);
+        let mut lanes = [[0.0f32; LANES]; SHINE];
+        for (block, cells) in cells.iter().enumerate() {
+            let first = block * LANES;
+            let mut here = [0.0; LANES];
+            let some = (open.len() - first).min(LANES);
+            here[..some].copy_from_slice(&open[first..first + some]);
+            for lane in 0..LANES {
+                let l = Vec3::new(cells[0][lane], cells[1][lane], cells[2][lane]) - from;
+                let l = l * (1.0 / l.length_squared().max(OPPOSITE).sqrt());
+                let h = v + l;
+                let h = h * (1.0 / h.length_squared().max(OPPOSITE).sqrt());
+                let (nl, c, vh) = (n.dot(l), n.dot(h), v.dot(h));
+                let towards = if nl > 0.0 { here[lane] } else { 0.0 };
+                let nl = nl.max(0.0);
+                // The sum of the lobes, and its derivatives by n.h, n.v and n.l.
+                let [mut value, mut by_c, mut by_nv, mut by_nl] = [0.0f32; 4];
+                for (alpha, share) in LOBES {
+                    let a = alpha * alpha;
+                    let spread = 1.0 / (c * c * (a - 1.0) + 1.0);
+                    let d = share * a * std::f32::consts::FRAC_1_PI * spread * spread;
+                    let [rv, rl] = [nv, nl].map(|x| (a + (1.0 - a) * x * x).sqrt());
+                    let [iv, il] = [1.0 / (nv + rv), 1.0 / (nl + rl)];
+                    let lobe = d * iv * il;
+                    value += lobe * nl;
+                    by_c += lobe * nl * 4.0 * c * (1.0 - a) * spread;
+                    by_nv -= lobe * nl * iv * (1.0 + (1.0 - a) * nv / rv);
+                    by_nl += lobe * il * a / rl;
+                }
+                let weight = towards * schlick(F0, vh);
+                let by = (h * by_c + v * by_nv + l * by_nl) * (weight * cells[6][lane]);
+                let value = weight * value;
+                lanes[0][lane] += value * cells[3][lane];
+                lanes[1][lane] += value * cells[4][lane];
+                lanes[2][lane] += value * cells[5][lane];
+                lanes[3][lane] += by.x;
+                lanes[4][lane] += by.y;
+                lanes[5][lane] += by.z;
+            }
+        }
+        for (sum, lanes) in sums.iter_mut().zip(&lanes) {
+            for lane in lanes {
+                *sum += lane;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Config, TransportConfig};
+    use crate::gbuffer::GBuffer;
+    use crate::model::samples::SampleSpace;
+    use crate::testing;
+    use crate::transport::{Beside, Sky};
+
+    /// A dome under a coloured light 1.4 metres away, seen by two cameras.
+    fn scene() -> (Transport, Vec<f32>, Samples) {
+        let (mesh, config) = (testing::dome(16), Config::default());
+        let t = TransportConfig { texture_size: 32, rows: 6, ..config.transport.clone() };
+        let sky = Sky::even(t.rows).at(0.7);
+        let transport = Transport::new(&mesh, &sky, &t, 3, Beside::Open);
+        let light = (0..CHANNELS * transport.cells()).map(|i| 1.0 + (i as f32 * 1.7).sin());
+        let shade = |_| (Vec3::ONE, 1);
+        let views: Vec<_> =
+            testing::rig(2, 40).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
+        let gbuffers = GBuffer::of_views(&mesh, &views);
+        let space = SampleSpace::new(&mesh, &config);
+        let samples = space.training(&views, &gbuffers, &config.view_weights, 64);
+        (transport, light.collect(), samples)
+    }
+
+    #[test]
+    fn highlights_are_the_same_on_the_normals_of_the_mesh() {
+        let (transport, light, samples) = scene();
+        let expected = transport.highlights(&light, &samples).unwrap();
+        let found = transport.shine(&light, &samples, &samples.normal).unwrap();
+        assert!(samples.len() > 500);
+        for i in 0..samples.len() {
+            for c in 0..CHANNELS {
+                let (expected, found) = (expected.get(c, i), found.get(c, i));
+                assert!((expected - found).abs() < 1e-4 * expected.max(1e-3), "{expected} {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_finite_differences() {
+        let (transport, light, samples) = scene();
+        const STEP: f32 = 2e-3;
+        let along = |axis: Vec3, step: f32| {
+            let normal = |i: usize| {
+                let normal = Vec3::from_array(samples.normal.sample(i, 0));
+                (normal + step * (axis - normal * normal.dot(axis))).to_array()
+            };
+            let normals = Planes::from_fn(samples.len(), normal);
+            let shine = transport.shine(&light, &samples, &normals).unwrap();
+            move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * shine.get(c, i)).sum::<f32>()
+        };
+        let shine = transport.shine(&light, &samples, &samples.normal).unwrap();
+        for axis in [Vec3::X, Vec3::Y] {
+            let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
+            let (mut error, mut energy) = (0.0, 0.0);
+            for i in 0..samples.len() {
+                let normal = Vec3::from_array(samples.normal.sample(i, 0));
+                let expected = (ahead(i) - behind(i)) / (2.0 * STEP);
+                let found = Vec3::from_array(shine.sample(i, CHANNELS));
+                let found = found.dot(axis - normal * normal.dot(axis));
+                error += (expected - found).abs();
+                energy += expected.abs();
+            }
+            assert!(energy > 1.0 && error < 0.01 * energy, "{axis}: {error} of {energy}");
+        }
+    }
+}
