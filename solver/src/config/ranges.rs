@@ -45,6 +45,8 @@ impl HeightConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         let share = |x: f32| x > 0.0 && x <= 1.0;
         range("height.texture_share", self.texture_share, share, "above 0, to 1")?;
+        let rounds = |x: usize| (1..=8).contains(&x);
+        range("height.linearisations", self.linearisations, rounds, "1 to 8")?;
         let floor = |x: f32| x > 0.0 && x.is_finite();
         range("height.residual_floor", self.residual_floor, floor, "positive")?;
         let narrow = |x: f32| (0.0..=0.1).contains(&x);
