@@ -1,18 +1,14 @@
 //! Heights, coarse to fine: every linearisation on a texture of twice the side of the one before, which
 //! conjugate gradients would not fill with what is coarse in as many steps.
 
-use glam::Vec3;
-
+use super::bent_highlights::BentHighlights;
 use super::lit::Lit;
 use super::relief::ReliefSolve;
 use super::site::Site;
 use super::stage::State;
 use crate::error::SolveError;
 use crate::gbuffer::Atlas;
-use crate::model::planes::Planes;
-use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::transport::{SHINE, Transport};
 
 /// Least side of a texture of heights.
 const LEAST_SIDE: usize = 16;
@@ -37,8 +33,8 @@ pub(super) fn heights(
         let samples = site.samples(side);
         let (config, backend, views) = (site.config, site.backend, &site.gbuffers);
         let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lit);
-        let relief = match lit.and_then(|lit| Shine::new(site, lit, &samples)) {
-            Some(shine) => relief.with(shine),
+        let relief = match lit.and_then(|lit| BentHighlights::new(site, lit, &samples)) {
+            Some(highlights) => relief.with(highlights),
             None => relief,
         };
         unknowns = match round {
@@ -66,45 +62,10 @@ fn enlarged(unknowns: &[f32], of: usize, side: usize) -> Vec<f32> {
     enlarged
 }
 
-/// Highlights as the light makes them that was found.
-pub(super) struct Shine<'a> {
-    transport: &'a Transport,
-    light: &'a [f32],
-    /// Specular albedo of every sample.
-    albedo: Planes,
-}
-
-impl<'a> Shine<'a> {
-    /// `None` if it is switched off, or if the light was not solved for with its highlights.
-    fn new(site: &'a Site, lit: &'a Lit, samples: &Samples) -> Option<Self> {
-        let wanted = site.config.height.highlights && lit.explained;
-        wanted.then(|| {
-            let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
-            let albedo = samples.taps.sample::<1>(&gloss);
-            let light = &lit.light.radiance;
-            Self { transport: site.transport(lit.standing), light, albedo }
-        })
-    }
-
-    /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.
-    pub fn at(&self, samples: &Samples, bends: &Planes) -> Option<Planes> {
-        let bent = |i: usize| {
-            Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bends.sample(i, 0))
-        };
-        let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
-        let shine = self.transport.shine(self.light, samples, &normals)?;
-        Some(Planes::from_fn(samples.len(), |i| {
-            let normal = Vec3::from_array(normals.sample(i, 0));
-            let [r, g, b, x, y, z]: [f32; SHINE] = shine.sample(i, 0);
-            let by = Vec3::new(x, y, z) / bent(i).length();
-            let [x, y, z] = (by - normal * normal.dot(by)).to_array();
-            [r, g, b, x, y, z].map(|value| self.albedo.get(0, i) * value)
-        }))
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::model::height::HeightField;
     use crate::testing;

@@ -68,8 +68,8 @@ impl Lit {
         }
     }
 
-    /// How much the pictures say of relief: the squared contrast of the light, and next to nothing where
-    /// it is even.
+    /// How much shading and the networks' highlights say of relief: the squared contrast of the light, and
+    /// next to nothing where it is even.
     pub fn relief(&self) -> f32 {
         self.light.contrast().powi(2) * (1.0 - self.evenness())
     }

@@ -9,7 +9,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::heights::Shine;
+use super::bent_highlights::BentHighlights;
 use super::lit::{LIT, Lit, bent_shading};
 use super::nearby::{smaller, trust_in, without_coarse};
 use super::stage::State;
@@ -58,7 +58,7 @@ pub struct ReliefSolve<'a> {
     /// S_d under explicit transport, and how it changes with the normal.
     lit: Option<Planes>,
     /// What makes the highlights; else the networks do.
-    shine: Option<Shine<'a>>,
+    highlights: Option<BentHighlights<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
     views: &'a [GBuffer],
@@ -106,14 +106,14 @@ impl<'a> ReliefSolve<'a> {
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
             flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
-            shine: None,
+            highlights: None,
             views,
         }
     }
 
     /// With highlights by the light: what they tell of relief does not end with the light's contrast.
-    pub(super) fn with(self, shine: Shine<'a>) -> Self {
-        Self { shine: Some(shine), flatness: self.config.flatness, ..self }
+    pub(super) fn with(self, highlights: BentHighlights<'a>) -> Self {
+        Self { highlights: Some(highlights), flatness: self.config.flatness, ..self }
     }
 
     /// Linearises at the unknowns `x`, [`Self::unknowns`] of them, and moves them; `step` hears of every
@@ -148,11 +148,11 @@ impl<'a> ReliefSolve<'a> {
     fn linearise(&self, x: &[f32]) -> (Planes, Planes) {
         let samples = self.samples;
         let q = self.sampled(x);
-        let shine = self.shine.as_ref().and_then(|shine| shine.at(samples, &q));
+        let highlights = self.highlights.as_ref().and_then(|light| light.at(samples, &q));
         // Shading by the networks.
         let directions = self.scale.directions(samples, Some(&q));
         let shading = self.backend.shade(self.networks, &self.light, &directions);
-        let jacobian = match (&shine, &self.lit) {
+        let jacobian = match (&highlights, &self.lit) {
             (Some(_), Some(_)) => None,
             _ => Some(self.jacobian(&directions, &q)),
         };
@@ -185,8 +185,8 @@ impl<'a> ReliefSolve<'a> {
             let albedo = current(i);
             let (shading, slope) = diffuse(i);
             let mut row = [0.0; SLOPES];
-            row[..3].copy_from_slice(&match &shine {
-                Some(shine) => shine.sample::<3>(i, CHANNELS),
+            row[..3].copy_from_slice(&match &highlights {
+                Some(highlights) => highlights.sample::<3>(i, CHANNELS),
                 None => by_networks(i, 0).map(|slope| self.albedo.get(3, i) * slope),
             });
             for c in 0..3 {
@@ -196,11 +196,11 @@ impl<'a> ReliefSolve<'a> {
             row
         });
         // What the current unknowns leave with these highlights, without what is too coarse to be relief.
-        let fine = |highlights: &(dyn Fn(usize) -> [f32; 3] + Sync)| {
+        let fine = |highlight: &(dyn Fn(usize) -> [f32; 3] + Sync)| {
             let residual = Planes::from_fn(samples.len(), |i| {
                 let (target, change): ([f32; 3], [f32; 3]) =
                     (samples.target.sample(i, 0), q.sample(i, 6));
-                let (diffuse, highlight): ([f32; 3], _) = (slopes.sample(i, 12), highlights(i));
+                let (diffuse, highlight): ([f32; 3], _) = (slopes.sample(i, 12), highlight(i));
                 std::array::from_fn::<f32, 3, _>(|c| {
                     target[c] - diffuse[c] * (1.0 + change[c]) - highlight[c]
                 })
@@ -212,8 +212,8 @@ impl<'a> ReliefSolve<'a> {
             [gloss * shading.get(1, i); 3]
         });
         // The networks know sharp lamps better than the cells of the light do, and all else worse.
-        let fine = match &shine {
-            Some(shine) => smaller(samples, self.views, fine(&|i| shine.sample(i, 0)), &left),
+        let fine = match &highlights {
+            Some(by_light) => smaller(samples, self.views, fine(&|i| by_light.sample(i, 0)), &left),
             None => left,
         };
         let explained = self.forward(&slopes, &q);

@@ -12,10 +12,10 @@
 //! point x, and brings it the cosine-weighted solid angle
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
+mod bent_highlights;
 mod gloss;
 mod matrix;
 mod rays;
-mod shine;
 mod sky;
 
 use glam::Vec3;
@@ -25,10 +25,10 @@ use crate::capture::Mesh;
 use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
+pub use bent_highlights::HIGHLIGHT_ROWS;
 pub use gloss::Reflection;
 use matrix::Matrix;
 pub use rays::{Impact, Occluder};
-pub use shine::SHINE;
 pub use sky::{Sky, SkyRay, contrast};
 
 /// Colour channels of the light.

@@ -8,17 +8,22 @@ use crate::model::planes::Planes;
 use crate::model::samples::{Samples, schlick};
 use crate::simd::widened;
 
-/// Rows of [`Transport::shine`]: R, G, B, and how the luminance changes with the normal's x, y, z.
-pub const SHINE: usize = CHANNELS + 3;
+/// Rows of [`Transport::bent_highlights`]: R, G, B, and how the luminance changes with the normal's x, y, z.
+pub const HIGHLIGHT_ROWS: usize = CHANNELS + 3;
 /// Cells that are summed beside each other.
 const LANES: usize = 16;
 /// Least squared length of the sum of two directions.
 const OPPOSITE: f32 = 1e-12;
 
 impl Transport {
-    /// [`Self::highlights`] on normals of one's own (unit), with their slopes; [`SHINE`] rows. Exact
+    /// [`Self::highlights`] on normals of one's own (unit), with their slopes; [`HIGHLIGHT_ROWS`] rows. Exact
     /// derivatives of the model, along the surface and across it.
-    pub fn shine(&self, light: &[f32], samples: &Samples, normals: &Planes) -> Option<Planes> {
+    pub fn bent_highlights(
+        &self,
+        light: &[f32],
+        samples: &Samples,
+        normals: &Planes,
+    ) -> Option<Planes> {
         let open = self.open.as_ref()?;
         let scale = scale(self.peak(light));
         let light = self.through_lobes(light);
@@ -36,8 +41,8 @@ impl Transport {
                 view: Vec3::from_array(samples.view.sample(i, 0)),
                 from: self.sky.nearness * self.places[row],
             };
-            let mut sums = [0.0; SHINE];
-            shine(&cells, &open.rows[row * self.cells()..][..self.cells()], &seen, &mut sums);
+            let mut sums = [0.0; HIGHLIGHT_ROWS];
+            sum_lobes(&cells, &open.rows[row * self.cells()..][..self.cells()], &seen, &mut sums);
             sums.map(|sum| scale * sum)
         }))
     }
@@ -55,12 +60,12 @@ struct Seen {
 }
 
 widened! {
-    /// Sums [`SHINE`] rows over the cells that are open: with c = n.h, and r(x) for the root in Smith's term
+    /// Sums [`HIGHLIGHT_ROWS`] rows over the cells that are open: with c = n.h, and r(x) for the root in Smith's term
     /// 2 x / (x + r(x)), a lobe is D(c) / (2 (n.v + r(n.v))) x 2 n.l / (n.l + r(n.l)) x F(v.h).
-    fn shine(cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; SHINE]) {
+    fn sum_lobes(cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; HIGHLIGHT_ROWS]) {
         let Seen { normal: n, view: v, from } = *seen;
         let nv = n.dot(v).max(GRAZING);
-        let mut lanes = [[0.0f32; LANES]; SHINE];
+        let mut lanes = [[0.0f32; LANES]; HIGHLIGHT_ROWS];
         for (block, cells) in cells.iter().enumerate() {
             let first = block * LANES;
             let mut here = [0.0; LANES];
@@ -136,7 +141,7 @@ mod tests {
     fn highlights_are_the_same_on_the_normals_of_the_mesh() {
         let (transport, light, samples) = scene();
         let expected = transport.highlights(&light, &samples).unwrap();
-        let found = transport.shine(&light, &samples, &samples.normal).unwrap();
+        let found = transport.bent_highlights(&light, &samples, &samples.normal).unwrap();
         assert!(samples.len() > 500);
         for i in 0..samples.len() {
             for c in 0..CHANNELS {
@@ -156,17 +161,17 @@ mod tests {
                 (normal + step * (axis - normal * normal.dot(axis))).to_array()
             };
             let normals = Planes::from_fn(samples.len(), normal);
-            let shine = transport.shine(&light, &samples, &normals).unwrap();
-            move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * shine.get(c, i)).sum::<f32>()
+            let bent = transport.bent_highlights(&light, &samples, &normals).unwrap();
+            move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
         };
-        let shine = transport.shine(&light, &samples, &samples.normal).unwrap();
+        let bent = transport.bent_highlights(&light, &samples, &samples.normal).unwrap();
         for axis in [Vec3::X, Vec3::Y] {
             let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
             let (mut error, mut energy) = (0.0, 0.0);
             for i in 0..samples.len() {
                 let normal = Vec3::from_array(samples.normal.sample(i, 0));
                 let expected = (ahead(i) - behind(i)) / (2.0 * STEP);
-                let found = Vec3::from_array(shine.sample(i, CHANNELS));
+                let found = Vec3::from_array(bent.sample(i, CHANNELS));
                 let found = found.dot(axis - normal * normal.dot(axis));
                 error += (expected - found).abs();
                 energy += expected.abs();
