@@ -94,7 +94,7 @@ impl Config {
                 residual_floor: 0.002,
                 albedo_smoothing: 0.003,
                 blur: 0.003,
-                coarsest_pixels: 12.0,
+                coarsest: 0.075,
                 flatness: 100.0,
                 smoothness: 300.0,
                 albedo_damping: 300.0,
@@ -152,7 +152,7 @@ impl Config {
         config.transport.highlights = 75;
         config.transport.refinement = 50;
         config.height.linearisations = 1;
-        config.height.steps = 20;
+        config.height.steps = 40;
         config.records = RecordConfig { stages: false, layers: false };
         config
     }

@@ -52,8 +52,9 @@ impl HeightConfig {
         let narrow = |x: f32| (0.0..=0.1).contains(&x);
         range("height.albedo_smoothing", self.albedo_smoothing, narrow, "0 to 0.1")?;
         range("height.blur", self.blur, narrow, "0 to 0.1")?;
+        let within = |x: f32| (0.0..=1.0).contains(&x);
+        range("height.coarsest", self.coarsest, within, "0 to 1")?;
         not_negative(&[
-            ("height.coarsest_pixels", self.coarsest_pixels),
             ("height.flatness", self.flatness),
             ("height.smoothness", self.smoothness),
             ("height.albedo_damping", self.albedo_damping),

@@ -247,7 +247,8 @@ pub struct HeightConfig {
     pub highlights: bool,
     /// Reweightings towards an L1 norm per linearisation.
     pub reweightings: usize,
-    /// Conjugate-gradient steps per reweighting.
+    /// Conjugate-gradient steps per reweighting on a texture of side 256, and in proportion to the side on
+    /// others: a step carries what it finds by a texel.
     pub steps: usize,
     /// Residuals below this radiance count squared.
     pub residual_floor: f32,
@@ -257,8 +258,9 @@ pub struct HeightConfig {
     /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
     /// texture's side.
     pub blur: f32,
-    /// Residuals coarser than this (pixels of the full picture) are no relief; 0 keeps them.
-    pub coarsest_pixels: f32,
+    /// Residuals coarser than this are no relief: a standard deviation, as a fraction of the side of a square
+    /// as large as the mesh in the view. 0 keeps them.
+    pub coarsest: f32,
     /// Weight of the squared deviation. Without [`Self::highlights`], under explicit transport, over the
     /// squared contrast of the light, and more where that is even.
     pub flatness: f32,

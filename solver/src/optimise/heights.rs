@@ -3,9 +3,10 @@
 
 use super::bent_highlights::BentHighlights;
 use super::lit::Lit;
-use super::relief::ReliefSolve;
+use super::relief::{self, ReliefSolve};
 use super::site::Site;
 use super::stage::State;
+use crate::config::HeightConfig;
 use crate::error::SolveError;
 use crate::gbuffer::Atlas;
 use crate::model::texture::resample;
@@ -23,12 +24,10 @@ pub(super) fn heights(
     step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
 ) -> Result<Vec<f32>, SolveError> {
     let config = &site.config.height;
-    let finest = (site.size as f32 * config.texture_share) as usize;
-    let side = |round: usize| (finest >> (config.linearisations - 1 - round)).max(LEAST_SIDE);
-    let (mut unknowns, mut of) = (vec![], side(0));
+    let sides = sides(config, site.size);
+    let (mut unknowns, mut of) = (vec![], sides[0]);
     let mut bend = vec![0.0; 3 * of * of];
-    for round in 0..config.linearisations {
-        let side = side(round);
+    for (round, side) in sides.into_iter().enumerate() {
         let atlas = Atlas::new(&site.capture.mesh, side);
         let samples = site.samples(side);
         let (config, backend, views) = (site.config, site.backend, &site.gbuffers);
@@ -50,6 +49,18 @@ pub(super) fn heights(
         }
     }
     Ok(resample(&bend, of, 3, site.size))
+}
+
+/// Conjugate-gradient steps for textures of side `size`.
+pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
+    let of_side = |side: &usize| config.reweightings * relief::steps(config, *side);
+    sides(config, size).iter().map(of_side).sum()
+}
+
+/// The sides of the textures of heights, one for every linearisation.
+fn sides(config: &HeightConfig, size: usize) -> Vec<usize> {
+    let finest = (size as f32 * config.texture_share) as usize;
+    (0..config.linearisations).rev().map(|halved| (finest >> halved).max(LEAST_SIDE)).collect()
 }
 
 /// Heights, which count texels, and changes of the albedo on a texture of another side.

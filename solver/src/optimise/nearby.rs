@@ -36,23 +36,25 @@ pub(super) fn trust_in(
         };
         [left.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
     });
-    let around = around(samples, views, &squares, NEIGHBOURHOOD);
+    let around = around(samples, views, &squares, |_| NEIGHBOURHOOD);
     Planes::from_fn(samples.len(), |i| {
         let [left, usual]: [f32; 2] = around.sample(i, 0);
         [(usual / left.max(f32::MIN_POSITIVE)).min(1.0)]
     })
 }
 
-/// `residual` (3 rows) less its own blur by `sigma` pixels over the covered pixels; 0 keeps all.
+/// `residual` (3 rows) less its own blur over the covered pixels, by a share of the side of a square as large
+/// as these; 0 keeps all.
 pub(super) fn without_coarse(
     samples: &Samples,
     views: &[GBuffer],
     residual: &Planes,
-    sigma: f32,
+    share: f32,
 ) -> Planes {
-    if sigma == 0.0 {
+    if share == 0.0 {
         return residual.clone();
     }
+    let sigma = |view: &GBuffer| share * (view.len() as f32).sqrt();
     let coarse = around(samples, views, residual, sigma);
     Planes::from_fn(samples.len(), |i| {
         let (fine, coarse): ([f32; 3], [f32; 3]) = (residual.sample(i, 0), coarse.sample(i, 0));
@@ -65,7 +67,7 @@ pub(super) fn without_coarse(
 pub(super) fn smaller(samples: &Samples, views: &[GBuffer], a: Planes, b: &Planes) -> Planes {
     let square = |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();
     let squares = Planes::from_fn(samples.len(), |i| [square(&a, i), square(b, i), 0.0]);
-    let around = around(samples, views, &squares, NEIGHBOURHOOD);
+    let around = around(samples, views, &squares, |_| NEIGHBOURHOOD);
     Planes::from_fn(samples.len(), |i| {
         let [by_a, by_b]: [f32; 2] = around.sample(i, 0);
         let share = by_b / (by_a + by_b).max(f32::MIN_POSITIVE);
@@ -73,8 +75,13 @@ pub(super) fn smaller(samples: &Samples, views: &[GBuffer], a: Planes, b: &Plane
     })
 }
 
-/// Three rows of values, blurred over the covered pixels of every view.
-fn around(samples: &Samples, views: &[GBuffer], values: &Planes, sigma: f32) -> Planes {
+/// Three rows of values, blurred over the covered pixels of every view by `sigma` pixels of its.
+fn around(
+    samples: &Samples,
+    views: &[GBuffer],
+    values: &Planes,
+    sigma: impl Fn(&GBuffer) -> f32,
+) -> Planes {
     // The values and the cover of every view.
     let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
     let mut pictures: Vec<Vec<f32>> =
@@ -84,7 +91,7 @@ fn around(samples: &Samples, views: &[GBuffer], values: &Planes, sigma: f32) -> 
         pictures[*view as usize][4 * *pixel as usize..][..4].copy_from_slice(&[a, b, c, 1.0]);
     }
     for (picture, view) in pictures.iter_mut().zip(views) {
-        *picture = blurred(picture, shape(view), sigma);
+        *picture = blurred(picture, shape(view), sigma(view));
     }
     Planes::from_fn(samples.len(), |i| {
         let (view, pixel) = (samples.view_index[i], samples.pixel[i]);

@@ -41,6 +41,14 @@ const ENOUGH: f64 = 1e-5;
 const SUBMITTED: usize = 5;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
+/// The side of the texture on which [`HeightConfig::steps`] are taken.
+const SIDE_OF_STEPS: usize = 256;
+
+/// Conjugate-gradient steps per reweighting on a texture of this side.
+pub(super) fn steps(config: &HeightConfig, side: usize) -> usize {
+    (config.steps * side).div_ceil(SIDE_OF_STEPS)
+}
+
 /// The linearised problem.
 pub struct ReliefSolve<'a> {
     config: &'a HeightConfig,
@@ -61,6 +69,8 @@ pub struct ReliefSolve<'a> {
     highlights: Option<BentHighlights<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
+    /// Conjugate-gradient steps per reweighting.
+    steps: usize,
     views: &'a [GBuffer],
 }
 
@@ -107,6 +117,7 @@ impl<'a> ReliefSolve<'a> {
             // what the model gets wrong does not.
             flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
             highlights: None,
+            steps: steps(height, size),
             views,
         }
     }
@@ -205,7 +216,7 @@ impl<'a> ReliefSolve<'a> {
                     target[c] - diffuse[c] * (1.0 + change[c]) - highlight[c]
                 })
             });
-            without_coarse(samples, self.views, &residual, self.config.coarsest_pixels)
+            without_coarse(samples, self.views, &residual, self.config.coarsest)
         };
         let left = fine(&|i| {
             let gloss = samples.fresnel.get(0, i) * self.albedo.get(3, i);
@@ -334,7 +345,7 @@ impl<'a> ReliefSolve<'a> {
         let mut direction = rest.clone();
         let enough = ENOUGH * dot(&goal, &goal);
         let mut energy = dot(&rest, &rest);
-        for number in 0..self.config.steps {
+        for number in 0..self.steps {
             if number >= heard {
                 step(residual)?;
             }
@@ -380,8 +391,8 @@ impl<'a> ReliefSolve<'a> {
         };
         let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
         let (mut heard, mut told) = (0, Ok(()));
-        while heard < self.config.steps && told.is_ok() {
-            let batch = SUBMITTED.min(self.config.steps - heard);
+        while heard < self.steps && told.is_ok() {
+            let batch = SUBMITTED.min(self.steps - heard);
             told = (0..batch).try_for_each(|_| step(residual));
             heard += batch;
             descent.steps(batch).map_err(|_| heard)?;

@@ -9,7 +9,7 @@ use super::adam::Adam;
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::finish::{finish, finishing};
-use super::heights::heights;
+use super::heights;
 use super::highlights::{MOST_SAMPLES, distance, highlights};
 use super::lit::Lit;
 use super::run::Run;
@@ -253,8 +253,8 @@ impl Step {
     }
 
     /// How often it reports progress.
-    fn iterations(&self, config: &Config) -> usize {
-        let height = &config.height;
+    fn iterations(&self, site: &Site) -> usize {
+        let config = site.config;
         match self {
             Self::Start(_) => config.initialisation.start_iterations,
             // The best start's steps are done.
@@ -268,7 +268,7 @@ impl Step {
             Self::Transport => config.transport.iterations,
             Self::Distance => config.transport.distance,
             Self::Highlights => config.transport.highlights,
-            Self::Heights => height.linearisations * height.reweightings * height.steps,
+            Self::Heights => heights::steps(&config.height, site.size),
             Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
         }
@@ -283,7 +283,7 @@ impl Step {
         let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
             preparation: 0.0,
             step: 1e-9 * (sample * samples + texel * texels),
-            steps: self.iterations(config),
+            steps: self.iterations(site),
         };
         let t = &config.transport;
         match self {
@@ -332,7 +332,7 @@ impl Step {
             Self::Start(number) => start(*number, site, run, solve)?,
             Self::WarmUp => {
                 let mut config = config.clone();
-                config.warm_up.iterations = self.iterations(site.config);
+                config.warm_up.iterations = self.iterations(site);
                 let best = solve.best.take();
                 if let Some(best) = &best {
                     solve.state = best.state.clone();
@@ -374,8 +374,9 @@ impl Step {
                 }
             }
             Self::Heights => {
-                let (steps, lit) = (self.iterations(config), solve.lit.as_ref());
-                let bend = run.relief(steps, |step| heights(site, &solve.state, lit, step))?;
+                let (steps, lit) = (self.iterations(site), solve.lit.as_ref());
+                let bend =
+                    run.relief(steps, |step| heights::heights(site, &solve.state, lit, step))?;
                 solve.state.resize(site.size);
                 solve.state.deviation = bend;
             }

@@ -21,7 +21,7 @@ fn short() -> Config {
     config.transport.distance = 5;
     config.transport.highlights = 5;
     config.transport.refinement = 6;
-    config.height.steps = 4;
+    config.height.steps = 32;
     config
 }
 

@@ -77,7 +77,7 @@ fn small() -> Config {
     config.transport.hold = 50;
     config.transport.refinement = 40;
     config.height.linearisations = 1;
-    config.height.steps = 10;
+    config.height.steps = 80;
     config
 }
 

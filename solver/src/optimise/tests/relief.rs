@@ -78,11 +78,11 @@ fn solve(change: impl Fn(&mut HeightConfig), stripe: f32) -> Found {
 }
 
 fn exact(height: &mut HeightConfig) {
-    height.coarsest_pixels = 0.0;
+    height.coarsest = 0.0;
     height.smoothness = 0.0;
     height.flatness = 0.0;
     height.albedo_damping = 1e6;
-    height.steps = 150;
+    height.steps = 600;
 }
 
 #[test]
