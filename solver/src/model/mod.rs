@@ -3,6 +3,7 @@
 pub mod blur;
 pub mod deviation;
 pub mod height;
+pub mod layer;
 pub mod networks;
 pub mod normals;
 pub mod planes;

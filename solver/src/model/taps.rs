@@ -152,7 +152,7 @@ impl Taps {
         value: impl Fn(usize, &[Row; C], &mut [Row; D], &mut Row) + Sync,
     ) -> (Vec<f32>, f64) {
         let (texels, _) = texture.as_chunks::<C>();
-        let sums = Mutex::new(vec![0.0; self.size.div_ceil(self.strip())]);
+        let sums = Mutex::new(vec![0.0; self.strips()]);
         let gradient = self.by_strip(|strip| {
             let (mut values, mut gradient) = ([Row::ZERO; C], [Row::ZERO; D]);
             let mut loss = Row::ZERO;
@@ -174,6 +174,11 @@ impl Taps {
         (gradient, sums.iter().sum())
     }
 
+    /// Strips of [`Taps::by_strip`].
+    pub(super) fn strips(&self) -> usize {
+        self.size.div_ceil(self.strip())
+    }
+
     /// Rows of a strip.
     fn strip(&self) -> usize {
         self.size.div_ceil(STRIPS).max(LEAST_ROWS)
@@ -182,7 +187,7 @@ impl Taps {
     /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
     /// contiguous. The row below a strip's last, which the next strip begins with, is added at the
     /// end.
-    fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
+    pub(super) fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
         let (line, rows) = (self.size * D, self.strip());
         let task = |number: usize, texels: &mut [f32]| {
             let (first, rows) = (number * rows, texels.len() / line);
@@ -212,15 +217,15 @@ fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> 
 }
 
 /// Some rows of a texture of `D` channels, and the row below them.
-struct Strip<'a, const D: usize> {
-    taps: &'a Taps,
-    number: usize,
+pub(super) struct Strip<'a, const D: usize> {
+    pub taps: &'a Taps,
+    pub number: usize,
     /// The first row.
-    first: usize,
+    pub first: usize,
     /// Samples whose upper texels are in these rows.
-    samples: Range<usize>,
-    texels: &'a mut [[f32; D]],
-    below: &'a mut [[f32; D]],
+    pub samples: Range<usize>,
+    pub texels: &'a mut [[f32; D]],
+    pub below: &'a mut [[f32; D]],
 }
 
 impl<const D: usize> Strip<'_, D> {

@@ -8,14 +8,14 @@ use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
 use crate::model::deviation::Deviation;
+use crate::model::layer::Layer;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::{BLOCK, Planes, Row};
+use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::region::Region;
-use crate::simd::widened;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -287,8 +287,7 @@ pub struct Diffuse<'a> {
     name: String,
     iterations: usize,
     prior: f32,
-    /// S_d of every channel, then F A_s S_s.
-    shading: Planes,
+    layer: Layer,
     by_diffuse: Adam,
 }
 
@@ -308,26 +307,34 @@ impl<'a> Diffuse<'a> {
             [diffuse, diffuse, diffuse, specular]
         });
         let (iterations, prior) = (config.fine_tuning.iterations, config.fine_tuning.prior);
-        Self::under(config, samples, shading, format!("diffuse {round}"), iterations, prior)
+        Self::under(config, samples, &shading, format!("diffuse {round}"), iterations, prior)
     }
 
     /// Under known shading: S_d of every channel, and the specular layer.
     pub fn under(
         config: &'a Config,
         samples: &'a Samples,
-        shading: Planes,
+        shading: &Planes,
         name: String,
         iterations: usize,
         prior: f32,
     ) -> Self {
         let count = 3 * samples.taps.size() * samples.taps.size();
         let by_diffuse = Adam::new(&config.adam, config.fine_tuning.diffuse_rate, count);
-        Self { config, samples, name, iterations, prior, shading, by_diffuse }
+        Self {
+            config,
+            samples,
+            name,
+            iterations,
+            prior,
+            layer: Layer::new(samples, shading),
+            by_diffuse,
+        }
     }
 
     /// Loss and its gradient by the diffuse albedo.
     pub(super) fn gradient(&self, state: &State) -> (f64, Vec<f32>) {
-        let (loss, mut by_diffuse) = diffuse_gradient(self.samples, &self.shading, &state.diffuse);
+        let (loss, mut by_diffuse) = self.layer.gradient(self.samples, &state.diffuse);
         let prior = prior(&state.diffuse, state.size, self.prior, &mut by_diffuse);
         (loss + prior, by_diffuse)
     }
@@ -355,10 +362,9 @@ impl Stage for Diffuse<'_> {
     fn job(&self) -> Option<Job<'_>> {
         let samples = self.samples;
         let known = Planes::from_fn(samples.len(), |i| {
-            let [r, g, b, specular]: [f32; 4] = self.shading.sample(i, 0);
-            let target: [f32; 3] = samples.target.sample(i, 0);
-            let rest = target.map(|target| target - specular);
-            [rest[0], rest[1], rest[2], samples.weight.get(0, i), r, g, b]
+            let [factor, target] = self.layer.known(i);
+            let [r, g, b] = (target - factor.w).truncate().to_array();
+            [r, g, b, target.w, factor.x, factor.y, factor.z]
         });
         Some(Job::Layer { taps: &samples.taps, known, prior: self.prior })
     }
@@ -384,41 +390,6 @@ pub fn layers(
         let [diffuse, specular] = shading.sample(i, 0);
         [diffuse, samples.fresnel.get(0, i) * bent.get(6, i) * specular]
     })
-}
-
-/// Loss and gradient by the diffuse albedo, with the shading known.
-fn diffuse_gradient(samples: &Samples, shading: &Planes, diffuse: &[f32]) -> (f64, Vec<f32>) {
-    let scale = 1.0 / (3.0 * samples.len() as f32);
-    let value = |block: usize, albedo: &[Row; 3], gradient: &mut [Row; 3], loss: &mut Row| {
-        let (target, weight) = (samples.target.rows_of(block), samples.weight.rows_of(block));
-        diffuse_block(shading.rows_of(block), target, weight, scale, albedo, gradient, loss);
-    };
-    let (gradient, sum) = samples.taps.exchange::<3, 3>(diffuse, value);
-    (sum * f64::from(scale), gradient)
-}
-
-widened! {
-    fn diffuse_block(
-        shading: &[Row; 4],
-        target: &[Row; 3],
-        weight: &[Row; 1],
-        scale: f32,
-        albedo: &[Row; 3],
-        gradient: &mut [Row; 3],
-        loss: &mut Row,
-    ) {
-        loss.0.fill(0.0);
-        for channel in 0..3 {
-            let (shading, specular) = (&shading[channel].0, &shading[3].0);
-            for lane in 0..BLOCK {
-                let model = albedo[channel].0[lane] * shading[lane] + specular[lane];
-                let residual = model - target[channel].0[lane];
-                let sign = if residual == 0.0 { 0.0 } else { 1.0f32.copysign(residual) };
-                loss.0[lane] += weight[0].0[lane] * residual.abs();
-                gradient[channel].0[lane] = weight[0].0[lane] * scale * sign * shading[lane];
-            }
-        }
-    }
 }
 
 pub(super) fn least_albedo(config: &Config) -> f32 {

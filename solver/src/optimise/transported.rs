@@ -134,7 +134,7 @@ pub(super) fn refined(
     let name = "albedo".to_owned();
     let (steps, prior) = (t.refinement, t.refinement_prior);
     let rest = Samples { target: lit.unveiled(samples), ..samples.clone() };
-    let mut stage = Diffuse::under(config, &rest, planes.clone(), name, steps, prior);
+    let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
     run.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(samples, &planes, &albedo, prior);

@@ -14,7 +14,7 @@
 //! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 28: gradients by both deviations and specular albedo |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
-//! | a diffuse step ([`Taps::exchange`](crate::model::taps::Taps::exchange)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
+//! | a diffuse step ([`Layer::gradient`](crate::model::layer::Layer::gradient)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
 //! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
