@@ -16,8 +16,10 @@ const LANES: usize = 16;
 const OPPOSITE: f32 = 1e-12;
 
 impl Transport {
-    /// [`Self::highlights`] on normals of one's own (unit), with their slopes; [`HIGHLIGHT_ROWS`] rows. Exact
-    /// derivatives of the model, along the surface and across it.
+    /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every sample, on these
+    /// normals (unit), in a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1, and how it changes
+    /// with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`] rows. `None` unless the transport
+    /// holds what is open ([`super::Beside::Open`]).
     pub fn bent_highlights(
         &self,
         light: &[f32],
@@ -121,11 +123,13 @@ mod tests {
     use crate::testing;
     use crate::transport::{Beside, Sky};
 
+    const NEARNESS: f32 = 0.7;
+
     /// A dome under a coloured light 1.4 metres away, seen by two cameras.
     fn scene() -> (Transport, Vec<f32>, Samples) {
         let (mesh, config) = (testing::dome(16), Config::default());
         let t = TransportConfig { texture_size: 32, rows: 6, ..config.transport.clone() };
-        let sky = Sky::even(t.rows).at(0.7);
+        let sky = Sky::even(t.rows).at(NEARNESS);
         let transport = Transport::new(&mesh, &sky, &t, 3, Beside::Open);
         let light = (0..CHANNELS * transport.cells()).map(|i| 1.0 + (i as f32 * 1.7).sin());
         let shade = |_| (Vec3::ONE, 1);
@@ -138,14 +142,15 @@ mod tests {
     }
 
     #[test]
-    fn highlights_are_the_same_on_the_normals_of_the_mesh() {
+    fn highlights_are_what_the_light_is_solved_for_with() {
         let (transport, light, samples) = scene();
-        let expected = transport.highlights(&light, &samples).unwrap();
+        let ones = Planes::from_fn(samples.len(), |_| [1.0]);
+        let rows = transport.reflection(&samples, &ones, transport.peak(&light), NEARNESS).unwrap();
         let found = transport.bent_highlights(&light, &samples, &samples.normal).unwrap();
         assert!(samples.len() > 500);
-        for i in 0..samples.len() {
-            for c in 0..CHANNELS {
-                let (expected, found) = (expected.get(c, i), found.get(c, i));
+        for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
+            for (c, expected) in expected.into_iter().enumerate() {
+                let found = found.get(c, i);
                 assert!((expected - found).abs() < 1e-4 * expected.max(1e-3), "{expected} {found}");
             }
         }

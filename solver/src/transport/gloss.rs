@@ -39,25 +39,9 @@ impl Reflection {
 }
 
 impl Transport {
-    /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every
-    /// sample, on the mesh normals, in a light of R, G, B per cell, scaled so that its [`Self::peak`]
-    /// is 1; R, G, B. `None` unless the transport holds what is open ([`super::Beside::Open`]).
-    pub fn highlights(&self, light: &[f32], samples: &Samples) -> Option<Planes> {
-        let (open, centres) = (self.open.as_ref()?, self.sky.centres());
-        let scale = scale(self.peak(light));
-        let light = self.through_lobes(light);
-        Some(Planes::from_fn(samples.len(), |i| {
-            let mut sum = [0.0; CHANNELS];
-            for (cell, weight) in self.reflecting(open, &centres, samples, i, self.sky.nearness) {
-                (0..CHANNELS).for_each(|c| sum[c] += scale * weight * light[cell][c]);
-            }
-            sum
-        }))
-    }
-
     /// The highlights of samples whose reflectances at normal incidence are `specular`, in colour, for lights of
     /// the scale that has this `peak`, at a nearness per metre that may be another than what the rays were
-    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::highlights`].
+    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::bent_highlights`].
     pub fn reflection(
         &self,
         samples: &Samples,

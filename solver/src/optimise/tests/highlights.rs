@@ -3,7 +3,6 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
-use crate::model::planes::Planes;
 use crate::model::samples::schlick;
 use crate::optimise::highlights::Highlights;
 use crate::optimise::site::Standing;
@@ -187,22 +186,5 @@ fn highlights_say_what_colour_the_lamp_has() {
     for c in [0, 2] {
         // Not all of it: what the highlights do not show has taken more of the tint than what they show.
         assert!((after[c] - 1.0).abs() < 0.6 * (before[c] - 1.0).abs(), "{before:?} {after:?}");
-    }
-}
-
-/// What is predicted for the veil is what the light was solved for with.
-#[test]
-fn highlights_of_texels_are_those_of_samples() {
-    let Lamp { sky, transport, samples, .. } = lamp();
-    let light: Vec<f32> =
-        (0..CHANNELS * sky.len()).map(|i| 1.0 + (i as f32 * 0.37).sin()).collect();
-    let veil = transport.highlights(&light, &samples).unwrap();
-    let ones = Planes::from_fn(samples.len(), |_| [1.0]);
-    let rows = transport.reflection(&samples, &ones, transport.peak(&light), 0.0).unwrap();
-    for (i, radiance) in rows.radiance(&light).into_iter().enumerate() {
-        let predicted: [f32; CHANNELS] = veil.sample(i, 0);
-        for (predicted, radiance) in predicted.into_iter().zip(radiance) {
-            assert!((predicted - radiance).abs() < 1e-4 * radiance, "{predicted} {radiance}");
-        }
     }
 }
