@@ -71,6 +71,6 @@ pub fn short() -> Config {
     config.transport.hold = 30;
     config.transport.refinement = 40;
     config.height.linearisations = 1;
-    config.height.steps = 10;
+    config.height.steps = 80;
     config
 }
