@@ -133,7 +133,14 @@ pub(super) fn refined(
     let t = &config.transport;
     let name = "albedo".to_owned();
     let (steps, prior) = (t.refinement, t.refinement_prior);
-    let rest = Samples { target: lit.unveiled(samples), ..samples.clone() };
+    // What the stage reads, and no more.
+    let rest = Samples {
+        target: lit.unveiled(samples),
+        weight: samples.weight.clone(),
+        taps: samples.taps.clone(),
+        pixel: samples.pixel.clone(),
+        ..Samples::none(state.size)
+    };
     let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
     run.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
