@@ -144,6 +144,9 @@ pub struct NormalEquations<'a> {
     pub rest: f32,
     /// See `flatness`.
     pub damping: f32,
+    /// Share of a colour's part along that of the diffuse layer (the slopes by the albedo) that counts for
+    /// nothing.
+    pub doubt: f32,
     /// Squared norm of the residual, over that of the goal, at which nothing moves any more.
     pub enough: f64,
 }

@@ -95,6 +95,8 @@ impl Config {
                 albedo_smoothing: 0.003,
                 blur: 0.003,
                 coarsest: 0.075,
+                rim: 2,
+                diffuse_doubt: 0.6,
                 flatness: 100.0,
                 smoothness: 300.0,
                 albedo_damping: 300.0,

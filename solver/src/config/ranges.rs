@@ -54,6 +54,8 @@ impl HeightConfig {
         range("height.blur", self.blur, narrow, "0 to 0.1")?;
         let within = |x: f32| (0.0..=1.0).contains(&x);
         range("height.coarsest", self.coarsest, within, "0 to 1")?;
+        range("height.diffuse_doubt", self.diffuse_doubt, within, "0 to 1")?;
+        range("height.rim", self.rim, |x: usize| x <= 16, "0 to 16")?;
         not_negative(&[
             ("height.flatness", self.flatness),
             ("height.smoothness", self.smoothness),

@@ -261,6 +261,11 @@ pub struct HeightConfig {
     /// Residuals coarser than this are no relief: a standard deviation, as a fraction of the side of a square
     /// as large as the mesh in the view. 0 keeps them.
     pub coarsest: f32,
+    /// Pixels this close to where the mesh ends in a view tell nothing of relief: they see two surfaces.
+    pub rim: usize,
+    /// Share of a residual's part in the colour of the diffuse layer that counts for nothing: most of what
+    /// the model gets wrong has that colour, relief in highlights that of the light.
+    pub diffuse_doubt: f32,
     /// Weight of the squared deviation. Without [`Self::highlights`], under explicit transport, over the
     /// squared contrast of the light, and more where that is even.
     pub flatness: f32,

@@ -9,6 +9,7 @@ mod finish;
 mod gloss;
 mod heights;
 pub(crate) mod highlights;
+mod linear_colour;
 mod lit;
 mod nearby;
 pub mod normalise;

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::relief::SLOPES;
+use super::linear_colour::SLOPES;
+use crate::config::HeightConfig;
 use crate::convolution::Shape;
 use crate::gbuffer::{GBuffer, blurred};
 use crate::model::planes::Planes;
@@ -15,88 +16,114 @@ const PAINT: f32 = 0.03;
 /// pixels.
 const NEIGHBOURHOOD: f32 = 3.0;
 
-/// The share of `left` around every sample that relief and paint of the usual strength would explain, at
-/// most 1: the rest is what the model gets wrong, along shadow edges and hairlines and in the ears.
-/// `floor` is the radiance that always counts as explained.
-pub(super) fn trust_in(
-    samples: &Samples,
-    views: &[GBuffer],
-    slopes: &Planes,
-    left: &Planes,
-    floor: f32,
-) -> Planes {
-    let squares = Planes::from_fn(samples.len(), |i| {
-        let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
-        let usual = |c: usize| {
-            let bend = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
-            // Half of a bend's square lies along the slope.
-            0.5 * RELIEF * RELIEF * bend.length_squared()
-                + (PAINT * s[12 + c]).powi(2)
-                + floor * floor
-        };
-        [left.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
-    });
-    let around = around(samples, views, &squares, |_| NEIGHBOURHOOD);
-    Planes::from_fn(samples.len(), |i| {
-        let [left, usual]: [f32; 2] = around.sample(i, 0);
-        [(usual / left.max(f32::MIN_POSITIVE)).min(1.0)]
-    })
+/// The samples in the pictures that they come from.
+pub(super) struct Nearby<'a> {
+    config: &'a HeightConfig,
+    samples: &'a Samples,
+    views: &'a [GBuffer],
+    /// Whether a sample lies farther inside its view's samples than [`HeightConfig::rim`].
+    inner: Vec<bool>,
 }
 
-/// `residual` (3 rows) less its own blur over the covered pixels, by a share of the side of a square as large
-/// as these; 0 keeps all.
-pub(super) fn without_coarse(
-    samples: &Samples,
-    views: &[GBuffer],
-    residual: &Planes,
-    share: f32,
-) -> Planes {
-    if share == 0.0 {
-        return residual.clone();
+impl<'a> Nearby<'a> {
+    pub fn new(config: &'a HeightConfig, samples: &'a Samples, views: &'a [GBuffer]) -> Self {
+        Self { config, samples, views, inner: inner(samples, views, config.rim) }
     }
-    let sigma = |view: &GBuffer| share * (view.len() as f32).sqrt();
-    let coarse = around(samples, views, residual, sigma);
-    Planes::from_fn(samples.len(), |i| {
-        let (fine, coarse): ([f32; 3], [f32; 3]) = (residual.sample(i, 0), coarse.sample(i, 0));
-        std::array::from_fn::<f32, 3, _>(|c| fine[c] - coarse[c])
-    })
+
+    /// The share of `left` around every sample that relief and paint of the usual strength would explain,
+    /// at most 1: the rest is what the model gets wrong, along shadow edges and hairlines and in the ears.
+    /// 0 on the rim.
+    pub fn trust(&self, slopes: &Planes, left: &Planes) -> Planes {
+        let floor = self.config.residual_floor;
+        let squares = self.each(|i| {
+            let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
+            let usual = |c: usize| {
+                let bend = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
+                // Half of a bend's square lies along the slope.
+                0.5 * RELIEF * RELIEF * bend.length_squared()
+                    + (PAINT * s[12 + c]).powi(2)
+                    + floor * floor
+            };
+            [left.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
+        });
+        let around = self.around(&squares, |_| NEIGHBOURHOOD);
+        Planes::from_fn(self.samples.len(), |i| {
+            let [left, usual]: [f32; 2] = around.sample(i, 0);
+            let share = (usual / left.max(f32::MIN_POSITIVE)).min(1.0);
+            [if self.inner[i] { share } else { 0.0 }]
+        })
+    }
+
+    /// `residual` (3 rows) less what of it is coarser than [`HeightConfig::coarsest`].
+    pub fn without_coarse(&self, residual: &Planes) -> Planes {
+        let share = self.config.coarsest;
+        if share == 0.0 {
+            return residual.clone();
+        }
+        let coarse = self.around(residual, |view| share * (view.len() as f32).sqrt());
+        self.each(|i| {
+            let (fine, coarse): ([f32; 3], [f32; 3]) = (residual.sample(i, 0), coarse.sample(i, 0));
+            std::array::from_fn(|c| fine[c] - coarse[c])
+        })
+    }
+
+    /// Of two residuals (3 rows) mostly the smaller one, sample by sample: each weighted by the other's
+    /// mean square around the sample.
+    pub fn smaller(&self, a: &Planes, b: &Planes) -> Planes {
+        let square =
+            |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();
+        let squares = self.each(|i| [square(a, i), square(b, i), 0.0]);
+        let around = self.around(&squares, |_| NEIGHBOURHOOD);
+        self.each(|i| {
+            let [by_a, by_b]: [f32; 2] = around.sample(i, 0);
+            let share = by_b / (by_a + by_b).max(f32::MIN_POSITIVE);
+            std::array::from_fn(|c| share * a.get(c, i) + (1.0 - share) * b.get(c, i))
+        })
+    }
+
+    fn each(&self, values: impl Fn(usize) -> [f32; 3] + Sync) -> Planes {
+        Planes::from_fn(self.samples.len(), values)
+    }
+
+    /// Three rows of values, blurred over the inner pixels of every view by `sigma` pixels of its.
+    fn around(&self, values: &Planes, sigma: impl Fn(&GBuffer) -> f32) -> Planes {
+        // The values and the cover of every view.
+        let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
+        let mut pictures: Vec<Vec<f32>> =
+            self.views.iter().map(|view| vec![0.0; 4 * view.width * view.height]).collect();
+        for (i, (view, pixel)) in places(self.samples).enumerate().filter(|(i, _)| self.inner[*i]) {
+            let [a, b, c]: [f32; 3] = values.sample(i, 0);
+            pictures[view][4 * pixel..][..4].copy_from_slice(&[a, b, c, 1.0]);
+        }
+        for (picture, view) in pictures.iter_mut().zip(self.views) {
+            *picture = blurred(picture, shape(view), sigma(view));
+        }
+        self.each(|i| {
+            let (view, pixel) = (self.samples.view_index[i], self.samples.pixel[i]);
+            let sums = &pictures[view as usize][4 * pixel as usize..][..4];
+            let cover = sums[3].max(f32::MIN_POSITIVE);
+            std::array::from_fn(|row| sums[row] / cover)
+        })
+    }
 }
 
-/// Of two residuals (3 rows) mostly the smaller one, sample by sample: each weighted by the other's mean
-/// square around the sample.
-pub(super) fn smaller(samples: &Samples, views: &[GBuffer], a: Planes, b: &Planes) -> Planes {
-    let square = |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();
-    let squares = Planes::from_fn(samples.len(), |i| [square(&a, i), square(b, i), 0.0]);
-    let around = around(samples, views, &squares, |_| NEIGHBOURHOOD);
-    Planes::from_fn(samples.len(), |i| {
-        let [by_a, by_b]: [f32; 2] = around.sample(i, 0);
-        let share = by_b / (by_a + by_b).max(f32::MIN_POSITIVE);
-        std::array::from_fn::<f32, 3, _>(|c| share * a.get(c, i) + (1.0 - share) * b.get(c, i))
-    })
+/// View and pixel of every sample.
+fn places(samples: &Samples) -> impl Iterator<Item = (usize, usize)> {
+    let pairs = samples.view_index.iter().zip(&samples.pixel);
+    pairs.map(|(view, pixel)| (*view as usize, *pixel as usize))
 }
 
-/// Three rows of values, blurred over the covered pixels of every view by `sigma` pixels of its.
-fn around(
-    samples: &Samples,
-    views: &[GBuffer],
-    values: &Planes,
-    sigma: impl Fn(&GBuffer) -> f32,
-) -> Planes {
-    // The values and the cover of every view.
-    let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
-    let mut pictures: Vec<Vec<f32>> =
-        views.iter().map(|view| vec![0.0; 4 * view.width * view.height]).collect();
-    for (i, (view, pixel)) in samples.view_index.iter().zip(&samples.pixel).enumerate() {
-        let [a, b, c]: [f32; 3] = values.sample(i, 0);
-        pictures[*view as usize][4 * *pixel as usize..][..4].copy_from_slice(&[a, b, c, 1.0]);
-    }
-    for (picture, view) in pictures.iter_mut().zip(views) {
-        *picture = blurred(picture, shape(view), sigma(view));
-    }
-    Planes::from_fn(samples.len(), |i| {
-        let (view, pixel) = (samples.view_index[i], samples.pixel[i]);
-        let sums = &pictures[view as usize][4 * pixel as usize..][..4];
-        let cover = sums[3].max(f32::MIN_POSITIVE);
-        std::array::from_fn::<f32, 3, _>(|row| sums[row] / cover)
-    })
+/// Whether all pixels of a view within `rim` of a sample's, to the sides and diagonally, are samples too.
+/// The picture's own edge is no rim.
+fn inner(samples: &Samples, views: &[GBuffer], rim: usize) -> Vec<bool> {
+    let mut covered: Vec<Vec<bool>> =
+        views.iter().map(|view| vec![false; view.width * view.height]).collect();
+    places(samples).for_each(|(view, pixel)| covered[view][pixel] = true);
+    let alone = |(view, pixel): (usize, usize)| {
+        let (width, height) = (views[view].width, views[view].height);
+        let within = |at: usize, size: usize| at.saturating_sub(rim)..(at + rim + 1).min(size);
+        within(pixel / width, height)
+            .all(|y| within(pixel % width, width).all(|x| covered[view][y * width + x]))
+    };
+    places(samples).map(alone).collect()
 }

@@ -10,8 +10,9 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::bent_highlights::BentHighlights;
+use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
 use super::lit::{LIT, Lit, bent_shading};
-use super::nearby::{smaller, trust_in, without_coarse};
+use super::nearby::Nearby;
 use super::stage::State;
 use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
@@ -23,14 +24,12 @@ use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
-use crate::model::planes::{BLOCK, Planes, Row};
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::simd::widened;
 use crate::transport::CHANNELS;
 
-/// Rows of the sampled unknowns: specular and diffuse deviation, albedo.
-const UNKNOWNS: usize = 9;
 /// Darkest albedo that a logarithm is taken of.
 const DARKEST: f32 = 1e-3;
 /// Least square of a light's contrast.
@@ -71,12 +70,8 @@ pub struct ReliefSolve<'a> {
     flatness: f32,
     /// Conjugate-gradient steps per reweighting.
     steps: usize,
-    views: &'a [GBuffer],
+    nearby: Nearby<'a>,
 }
-
-/// Rows of what a sample's colour gains from changes of its texels: by n_s (3, of every channel), by
-/// n_d (3 of R, then of G and B), by the diffuse albedo (the diffuse layer of R, G, B).
-pub(super) const SLOPES: usize = 15;
 
 impl<'a> ReliefSolve<'a> {
     /// `samples` are those of `views`, with taps of the side of `atlas`. Diffuse shading and albedo are those
@@ -118,7 +113,7 @@ impl<'a> ReliefSolve<'a> {
             flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
             highlights: None,
             steps: steps(height, size),
-            views,
+            nearby: Nearby::new(height, samples, views),
         }
     }
 
@@ -136,11 +131,10 @@ impl<'a> ReliefSolve<'a> {
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<(), SolveError> {
         let (slopes, target) = self.linearise(x);
-        let floor = self.config.residual_floor;
-        let trust = trust_in(self.samples, self.views, &slopes, &target, floor);
+        let trust = self.nearby.trust(&slopes, &target);
         (0..self.config.reweightings).try_for_each(|_| {
             let fitted = self.forward(&slopes, &self.sampled(x));
-            let (weight, residual) = self.weights(&target, &fitted, &trust);
+            let (weight, residual) = self.weights(&slopes, &target, &fitted, &trust);
             self.conjugate_gradients(&slopes, &weight, &target, x, residual, step)
         })
     }
@@ -216,7 +210,7 @@ impl<'a> ReliefSolve<'a> {
                     target[c] - diffuse[c] * (1.0 + change[c]) - highlight[c]
                 })
             });
-            without_coarse(samples, self.views, &residual, self.config.coarsest)
+            self.nearby.without_coarse(&residual)
         };
         let left = fine(&|i| {
             let gloss = samples.fresnel.get(0, i) * self.albedo.get(3, i);
@@ -224,7 +218,7 @@ impl<'a> ReliefSolve<'a> {
         });
         // The networks know sharp lamps better than the cells of the light do, and all else worse.
         let fine = match &highlights {
-            Some(by_light) => smaller(samples, self.views, fine(&|i| by_light.sample(i, 0)), &left),
+            Some(by_light) => self.nearby.smaller(&fine(&|i| by_light.sample(i, 0)), &left),
             None => left,
         };
         let explained = self.forward(&slopes, &q);
@@ -285,12 +279,21 @@ impl<'a> ReliefSolve<'a> {
         gradient
     }
 
-    /// Weights of the reweighted least squares, and the weighted mean absolute residual.
-    fn weights(&self, target: &Planes, fitted: &Planes, trust: &Planes) -> (Planes, f64) {
+    /// Weights of the reweighted least squares, and the weighted mean absolute residual, both of what is
+    /// [`believed`].
+    fn weights(
+        &self,
+        slopes: &Planes,
+        target: &Planes,
+        fitted: &Planes,
+        trust: &Planes,
+    ) -> (Planes, f64) {
         let floor = self.config.residual_floor;
         let size = |i: usize| {
             let (target, fitted): ([f32; 3], [f32; 3]) = (target.sample(i, 0), fitted.sample(i, 0));
-            (0..3).map(|c| (target[c] - fitted[c]).abs()).sum::<f32>() / 3.0
+            let left = std::array::from_fn(|c| target[c] - fitted[c]);
+            let left = believed(left, &slopes.sample(i, 0), self.config.diffuse_doubt);
+            left.iter().map(|z| z.abs()).sum::<f32>() / 3.0
         };
         let weight = Planes::from_fn(self.samples.len(), |i| {
             // In units of the floor, so that the weights of the penalties do not depend on it.
@@ -315,12 +318,13 @@ impl<'a> ReliefSolve<'a> {
     ) -> Result<(), SolveError> {
         let taps = &self.samples.taps;
         let texels = self.size * self.size;
+        let doubt = self.config.diffuse_doubt;
         // One pass over the samples: 16 values and the place of each, 76 bytes.
         let normal = |x: &[f32]| {
             let (height, albedo) = x.split_at(texels);
             let bend = self.field.bend(height);
             let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |block, q, out, _| {
-                normal_block(slopes.rows_of(block), weight.rows_of(block), q, out);
+                normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
             });
             let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
             let mut out = self.carried(&gathered, Some(&penalty));
@@ -330,8 +334,9 @@ impl<'a> ReliefSolve<'a> {
             out
         };
         let rows = Planes::from_fn(self.samples.len(), |i| {
-            let (target, weight): ([f32; 3], f32) = (target.sample(i, 0), weight.get(0, i));
-            transposed(&slopes.sample(i, 0), target.map(|z| weight * z))
+            let (slopes, target): ([f32; SLOPES], [f32; 3]) =
+                (slopes.sample(i, 0), target.sample(i, 0));
+            transposed(&slopes, believed(target, &slopes, doubt).map(|z| weight.get(0, i) * z))
         });
         let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
         drop(rows);
@@ -387,6 +392,7 @@ impl<'a> ReliefSolve<'a> {
             smoothness: self.config.smoothness,
             rest: REST,
             damping: self.config.albedo_damping,
+            doubt: self.config.diffuse_doubt,
             enough: ENOUGH,
         };
         let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
@@ -399,50 +405,6 @@ impl<'a> ReliefSolve<'a> {
         }
         x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
         Ok(told)
-    }
-}
-
-/// The change of a sample's colour by its unknowns.
-#[inline(always)]
-fn explained(s: &[f32; SLOPES], q: &[f32; UNKNOWNS]) -> [f32; 3] {
-    let highlight = s[0] * q[0] + s[1] * q[1] + s[2] * q[2];
-    std::array::from_fn(|c| {
-        let slope = &s[3 + 3 * c..];
-        let shading = slope[0] * q[3] + slope[1] * q[4] + slope[2] * q[5];
-        shading + highlight + s[12 + c] * q[6 + c]
-    })
-}
-
-/// The transpose of [`explained`].
-#[inline(always)]
-fn transposed(s: &[f32; SLOPES], z: [f32; 3]) -> [f32; UNKNOWNS] {
-    let all = z[0] + z[1] + z[2];
-    let mut q = [0.0; UNKNOWNS];
-    for k in 0..3 {
-        q[k] = s[k] * all;
-        q[3 + k] = s[3 + k] * z[0] + s[6 + k] * z[1] + s[9 + k] * z[2];
-        q[6 + k] = s[12 + k] * z[k];
-    }
-    q
-}
-
-widened! {
-    /// What a block's unknowns explain, weighted, as gradients by the unknowns.
-    fn normal_block(
-        slopes: &[Row; SLOPES],
-        weight: &[Row; 1],
-        q: &[Row; UNKNOWNS],
-        out: &mut [Row; UNKNOWNS],
-    ) {
-        for lane in 0..BLOCK {
-            let s = std::array::from_fn(|row| slopes[row].0[lane]);
-            let q = std::array::from_fn(|row| q[row].0[lane]);
-            let colour = explained(&s, &q).map(|z| weight[0].0[lane] * z);
-            let by = transposed(&s, colour);
-            for row in 0..UNKNOWNS {
-                out[row].0[lane] = by[row];
-            }
-        }
     }
 }
 

@@ -15,6 +15,8 @@ use super::testing;
 const SIDE: usize = 32;
 const TEXELS: usize = SIDE * SIDE;
 const STEPS: usize = 12;
+/// Share of the part in the diffuse layer's colour that counts for nothing.
+const DOUBT: f32 = 0.6;
 /// Weights of flatness, smoothness, heights, albedo.
 const WEIGHTS: [f32; 4] = [30.0, 60.0, 1e-3, 30.0];
 
@@ -38,18 +40,18 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
     let by = Planes::from_fn::<9>(q.len(), |i| {
         let s: [f32; 15] = equations.slopes.sample(i, 0);
         let q: [f32; 9] = q.sample(i, 0);
-        let mut by = [0.0; 9];
-        for c in 0..3 {
-            let row = |k: usize| match k / 3 {
-                0 => s[k],
-                1 => s[3 + 3 * c + k % 3],
-                _ if k % 3 == c => s[12 + c],
-                _ => 0.0,
-            };
-            let colour: f32 = (0..9).map(|k| row(k) * q[k]).sum();
-            let z = equations.weight.get(0, i) * colour;
-            (0..9).for_each(|k| by[k] += row(k) * z);
-        }
+        let row = |c: usize, k: usize| match k / 3 {
+            0 => s[k],
+            1 => s[3 + 3 * c + k % 3],
+            _ if k % 3 == c => s[12 + c],
+            _ => 0.0,
+        };
+        let colour: [f32; 3] =
+            std::array::from_fn(|c| (0..9).map(|k| row(c, k) * q[k]).sum::<f32>());
+        let diffuse = glam::Vec3::from_slice(&s[12..]).normalize();
+        let colour = glam::Vec3::from_array(colour);
+        let z = equations.weight.get(0, i) * (colour - DOUBT * diffuse.dot(colour) * diffuse);
+        let by: [f32; 9] = std::array::from_fn(|k| (0..3).map(|c| row(c, k) * z[c]).sum());
         by
     });
     let gathered = equations.taps.gather::<9>(&by, 0);
@@ -100,6 +102,7 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
         smoothness,
         rest,
         damping,
+        doubt: DOUBT,
         enough: 1e-12,
     };
     let mut descent = backend.descent(&equations).unwrap();

@@ -3,7 +3,12 @@
 
 struct Parameters {
     samples: u32,
+    // Share of a colour's part along that of the diffuse layer that counts for nothing.
+    doubt: f32,
 }
+
+// Least square of a diffuse layer's colour that has a direction.
+const LEAST_SQUARE: f32 = 1e-12;
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 // Slopes by n_s (3), by n_d of R, G, B (9), by the albedo (3); then the weight.
@@ -36,7 +41,8 @@ fn main(
     let diffuse = mat3x3(slope(i, 3u), slope(i, 6u), slope(i, 9u));
     let shading = slope(i, 12u);
     let explained = unknown(i, 3u) * diffuse + dot(specular, unknown(i, 0u)) + shading * unknown(i, 6u);
-    let z = slopes[place(i, 15u, 16u)] * explained;
+    let along = dot(shading, explained) / max(dot(shading, shading), LEAST_SQUARE);
+    let z = slopes[place(i, 15u, 16u)] * (explained - parameters.doubt * along * shading);
     let by_specular = specular * (z.x + z.y + z.z);
     let by_diffuse = diffuse * z;
     let by_albedo = shading * z;
