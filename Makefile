@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results results-512 test software-gpu bench lint miri clean
+.PHONY: build demo emily results test software-gpu bench lint miri clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -33,14 +33,9 @@ emily: build
 
 # Hours on two cores; needs Debian's blender-data for one of the lights.
 results: build
-	$(BIN)/unshade run scenes/suites/method.toml -o runs/method
-	$(BIN)/unshade run scenes/suites/degraded.toml -o runs/degraded
-	$(BIN)/unshade table runs/method runs/degraded -o docs/results.md
-
-# The same four lights with pictures of 512² pixels and textures of 1024² texels.
-results-512: build
 	$(BIN)/unshade run scenes/suites/method-512.toml -o runs/method-512
-	$(BIN)/unshade table runs/method-512 -o docs/results-512.md
+	$(BIN)/unshade run scenes/suites/degraded.toml -o runs/degraded
+	$(BIN)/unshade table runs/method-512 runs/degraded -o docs/results.md
 
 test: build
 	cargo test --release --workspace --quiet
