@@ -32,7 +32,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         }
         Verb::Run { suite, out } => return run_suite(&suite, &out),
         Verb::Report { run, out } => {
-            report::write(&run, &out)?;
+            alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             println!("{}", out.join("index.html").display());
         }
         Verb::Table { runs, out } => {

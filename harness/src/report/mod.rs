@@ -95,6 +95,9 @@ pub enum ReportError {
     /// The target holds something else, which would be lost.
     #[error("{0}: exists and is not a report; choose a new folder")]
     NotAReport(PathBuf),
+    /// The user interrupted.
+    #[error("interrupted; the same command makes the report anew")]
+    Interrupted,
     /// There is nothing to make a table of.
     #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
     NoScores(PathBuf),
@@ -136,12 +139,17 @@ const BASELINE: &str = "baseline.json";
 /// Stands in every page, and tells a folder that may be replaced from one that may not.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
-/// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report.
-pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
+/// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
+/// go on.
+pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
+
+/// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report. If
+/// `hearer` ends it, the earlier report stays.
+pub fn write(run: &Path, out: &Path, hearer: &mut Hearer) -> Result<ReportSummary, ReportError> {
     check_target(out)?;
     let manifest = RunFile::open(run)?;
     let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
-    let page = fill(run, &manifest, folder.path()).inspect_err(|_| {
+    let page = fill(run, &manifest, folder.path(), hearer).inspect_err(|_| {
         // The report's own fault is what matters, not that its remains could not be removed.
         let _ = fs::remove_dir_all(folder.path());
     })?;
@@ -154,8 +162,13 @@ pub fn write(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
 }
 
 /// Writes everything below `root`.
-fn fill(run: &Path, manifest: &RunFile, root: &Path) -> Result<Page, ReportError> {
-    let page = Page::make(run, manifest, root)?;
+fn fill(
+    run: &Path,
+    manifest: &RunFile,
+    root: &Path,
+    hearer: &mut Hearer,
+) -> Result<Page, ReportError> {
+    let page = Page::make(run, manifest, root, hearer)?;
     if page.has_every_score() {
         Baseline::of_run(run)?.write(&root.join(BASELINE))?;
     }

@@ -13,7 +13,7 @@ use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
-use super::{MARK, ReportError, metric, tone};
+use super::{Hearer, MARK, ReportError, metric, tone};
 use crate::metrics::{METRICS, Metric};
 use crate::score::{Protocol, Scores};
 
@@ -65,13 +65,21 @@ struct TimeRow {
 
 impl Page {
     /// Reads the run, and writes the pictures and the scores below `root`.
-    pub fn make(run: &Path, manifest: &RunFile, root: &Path) -> Result<Self, ReportError> {
+    pub fn make(
+        run: &Path,
+        manifest: &RunFile,
+        root: &Path,
+        hearer: &mut Hearer,
+    ) -> Result<Self, ReportError> {
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
         let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
         let pairs = manifest.cases.iter().zip(&scores);
         let columns: Vec<Vec<Column>> = pairs.map(|(case, scores)| columns(case, scores)).collect();
         let (mut summaries, mut cases) = (Vec::new(), Vec::new());
-        for (case, columns) in manifest.cases.iter().zip(&columns) {
+        for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
+            if !hearer(done as u64, manifest.cases.len() as u64, &case.id) {
+                return Err(ReportError::Interrupted);
+            }
             summaries.push(summary(case, columns));
             cases.push(CaseView::make(run, case, columns, root)?);
         }

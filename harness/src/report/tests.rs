@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use solver::picture::{self, Picture};
 
-use super::{fake, write};
+use super::{ReportError, ReportSummary, fake, write};
 use crate::compare::Baseline;
 
 struct Made {
@@ -26,8 +26,13 @@ fn shared() -> &'static Made {
     MADE.get_or_init(report)
 }
 
+/// Writes a report that nobody interrupts.
+fn whole(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
+    write(run, out, &mut |_, _, _| true)
+}
+
 fn again(folder: &Path) -> String {
-    write(&folder.join("run"), &folder.join("report")).unwrap();
+    whole(&folder.join("run"), &folder.join("report")).unwrap();
     fs::read_to_string(folder.join("report/index.html")).unwrap()
 }
 
@@ -265,7 +270,7 @@ fn broken_runs_are_refused_in_one_line_and_leave_the_earlier_report() {
             Some(content) => fs::write(&path, content).unwrap(),
             None => fs::remove_file(&path).unwrap(),
         }
-        let message = write(&run, &root.join("report")).unwrap_err().to_string();
+        let message = whole(&run, &root.join("report")).unwrap_err().to_string();
         fs::write(&path, original).unwrap();
         assert!(!message.contains('\n'), "{message}");
         let name = Path::new(file).file_name().unwrap().to_string_lossy();
@@ -283,13 +288,29 @@ fn broken_runs_are_refused_in_one_line_and_leave_the_earlier_report() {
 }
 
 #[test]
+fn an_interrupt_leaves_the_earlier_report() {
+    let made = report();
+    let (root, run) = (made.folder.path(), made.folder.path().join("run"));
+    let mut heard = vec![];
+    let result = write(&run, &root.join("report"), &mut |done, total, case| {
+        heard.push((done, total, case.to_owned()));
+        done == 0
+    });
+    assert!(matches!(result, Err(ReportError::Interrupted)), "{result:?}");
+    assert_eq!(heard.len(), 2, "{heard:?}");
+    assert_eq!(heard[0].0, 0);
+    assert!(!root.join("report.partial").exists());
+    assert_eq!(fs::read_to_string(root.join("report/index.html")).unwrap(), made.html);
+}
+
+#[test]
 fn a_nan_in_a_map_is_reported_with_its_place() {
     let made = report();
     let path = made.folder.path().join("run/maps/demo-flash/unshade/specular_albedo.exr");
     let mut map = Picture::new(96, 96, 1);
     map.pixel_mut(3, 2)[0] = f32::NAN;
     picture::write_exr(&path, &map, &["Y"]).unwrap();
-    let result = write(&made.folder.path().join("run"), &made.folder.path().join("report"));
+    let result = whole(&made.folder.path().join("run"), &made.folder.path().join("report"));
     let message = result.unwrap_err().to_string();
     assert!(message.contains("specular_albedo.exr: NaN at column 3, row 2"), "{message}");
 }
@@ -300,7 +321,7 @@ fn a_folder_that_is_not_a_report_is_not_replaced() {
     let target = made.folder.path().join("thesis");
     fs::create_dir(&target).unwrap();
     fs::write(target.join("chapter.tex"), "years of work").unwrap();
-    let message = write(&made.folder.path().join("run"), &target).unwrap_err().to_string();
+    let message = whole(&made.folder.path().join("run"), &target).unwrap_err().to_string();
     assert!(message.contains("is not a report; choose a new folder"), "{message}");
     assert!(target.join("chapter.tex").exists());
 }

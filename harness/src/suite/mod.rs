@@ -19,6 +19,6 @@ pub use method::{Entrant, Method};
 #[cfg(feature = "python")]
 pub(crate) use run::SOLVER_SOURCES;
 pub use run::{
-    Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, run, synth,
+    Observer, RunError, RunSummary, Tools, contact_sheet, describe, relight, report, run, synth,
 };
 pub use scene::{Scene, SceneError};

@@ -7,6 +7,7 @@ use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use serde_json::{Value, json};
@@ -27,6 +28,8 @@ use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_sta
 /// What the solver's and the scoring's code was when this program was built.
 pub(crate) const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
 const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
+/// The stage that comes last.
+const REPORT: &str = "report";
 
 /// How a run can end badly; each message is one line.
 #[derive(Debug, thiserror::Error)]
@@ -51,7 +54,7 @@ pub enum RunError {
     #[error(transparent)]
     Score(#[from] ScoreError),
     #[error(transparent)]
-    Report(#[from] ReportError),
+    Report(ReportError),
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
@@ -83,6 +86,15 @@ impl From<StageError> for RunError {
         match error {
             StageError::Interrupted => Self::Interrupted,
             error => Self::Stage(error),
+        }
+    }
+}
+
+impl From<ReportError> for RunError {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Interrupted => Self::Interrupted,
+            error => Self::Report(error),
         }
     }
 }
@@ -131,7 +143,7 @@ pub fn run(
         Err(TryLockError::Error(error)) => return Err(error.into()),
     }
     let renderer = tools.interpreter.fingerprint()?;
-    let total = suite.cases.len() * (1 + 3 * suite.entrants.len());
+    let total = suite.cases.len() * (1 + 3 * suite.entrants.len()) + 1;
     let records = Records::open(out)?;
     let mut stages = Stages { out, tools, observer, records, ran: 0, skipped: 0, total };
     let manifest = manifest(suite, &renderer);
@@ -147,8 +159,25 @@ pub fn run(
     }
     let (ran, skipped) = (stages.ran, stages.skipped);
     let folder = out.join("report");
-    report::write(out, &folder)?;
+    let start = Instant::now();
+    observer.stage_begins(REPORT, ran + skipped, total);
+    report(out, &folder, tools, &mut |done, total, what| observer.step(done, total, what))?;
+    observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
     Ok(RunSummary { report: folder.join("index.html"), ran, skipped })
+}
+
+/// Writes the report of the run folder `run` to the folder `out`.
+pub fn report(
+    run: &Path,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    report::write(run, out, &mut |done, total, case| {
+        step(done, total, case);
+        !tools.interrupt.load(Ordering::Relaxed)
+    })?;
+    Ok(())
 }
 
 fn manifest(suite: &Suite, renderer: &str) -> Value {
