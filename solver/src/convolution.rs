@@ -10,7 +10,6 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::parallel::from_parts;
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -50,41 +49,57 @@ pub fn convolve(
     before: impl Fn(usize, usize, &mut [f32]) + Sync,
     after: impl Fn(usize, usize, &mut [f32]) + Sync,
 ) -> Vec<f32> {
-    if kernel.len() == 1 {
-        let fill = |row: usize, out: &mut [f32]| {
-            out.copy_from_slice(&picture[row * out.len()..][..out.len()]);
-            before(row, 0, out);
-            after(row, 0, out);
-        };
-        return from_parts(picture.len(), shape.width * shape.channels, fill).0;
-    }
     let mut out = Vec::with_capacity(picture.len());
-    let tasks = tasks(&mut out.spare_capacity_mut()[..picture.len()], shape, kernel.len());
-    tasks.into_par_iter().for_each(|mut task| {
-        let mut strip = Strip::new(picture, kernel, shape, region, task.columns.clone());
-        for (row, out) in task.rows.zip(&mut task.out) {
-            let (first, values) = strip.row(row, &before);
-            after(row, task.columns.start + first / shape.channels, values);
-            let (left, rest) = out.split_at_mut(first);
-            let (inside, right) = rest.split_at_mut(values.len());
-            inside.iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
-            left.iter_mut().chain(right).for_each(|out| _ = out.write(0.0));
-        }
-    });
-    // SAFETY: the tasks have written every one of the values.
+    let read = |row: usize, column: usize, values: &mut [f32]| {
+        let first = (row * shape.width + column) * shape.channels;
+        values.copy_from_slice(&picture[first..first + values.len()]);
+        before(row, column, values);
+    };
+    let write = |row: usize, column: usize, values: &mut [f32], out: &mut [MaybeUninit<f32>]| {
+        after(row, column, values);
+        out.iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
+    };
+    let clear = |out: &mut [MaybeUninit<f32>]| out.iter_mut().for_each(|out| _ = out.write(0.0));
+    let values = &mut out.spare_capacity_mut()[..picture.len()];
+    convolve_into(values, kernel, shape, region, read, write, clear);
+    // SAFETY: every one of the values was written or cleared.
     unsafe { out.set_len(picture.len()) };
     out
 }
 
+/// The same from what `read` fills in (the row, the first column, values) to what `write` does with it:
+/// the row, the first column, values, and their place in `out`. What is left out there is passed to `skip`.
+pub fn convolve_into<T: Send>(
+    out: &mut [T],
+    kernel: &[f32],
+    shape: Shape,
+    region: &Region,
+    read: impl Fn(usize, usize, &mut [f32]) + Sync,
+    write: impl Fn(usize, usize, &mut [f32], &mut [T]) + Sync,
+    skip: impl Fn(&mut [T]) + Sync,
+) {
+    tasks(out, shape, kernel.len()).into_par_iter().for_each(|mut task| {
+        let mut strip = Strip::new(kernel, shape, region, task.columns.clone());
+        for (row, out) in task.rows.zip(&mut task.out) {
+            let (first, values) = strip.row(row, &read);
+            let (left, rest) = out.split_at_mut(first);
+            let (inside, right) = rest.split_at_mut(values.len());
+            write(row, task.columns.start + first / shape.channels, values, inside);
+            skip(left);
+            skip(right);
+        }
+    });
+}
+
 /// Some rows of a strip of columns.
-struct Task<'a> {
+struct Task<'a, T> {
     columns: Range<usize>,
     rows: Range<usize>,
     /// Where the rows go.
-    out: Vec<&'a mut [MaybeUninit<f32>]>,
+    out: Vec<&'a mut [T]>,
 }
 
-fn tasks(out: &mut [MaybeUninit<f32>], shape: Shape, reach: usize) -> Vec<Task<'_>> {
+fn tasks<T>(out: &mut [T], shape: Shape, reach: usize) -> Vec<Task<'_, T>> {
     let Shape { width, height, channels } = shape;
     let (line, strips) = (width * channels, width.div_ceil(STRIP));
     // The rows above and below a task's are convolved for its neighbours as well.
@@ -109,7 +124,6 @@ fn tasks(out: &mut [MaybeUninit<f32>], shape: Shape, reach: usize) -> Vec<Task<'
 
 /// The rows of a strip, asked for downwards.
 struct Strip<'a> {
-    picture: &'a [f32],
     kernel: &'a [f32],
     shape: Shape,
     region: &'a Region,
@@ -134,17 +148,10 @@ struct Strip<'a> {
 }
 
 impl<'a> Strip<'a> {
-    fn new(
-        picture: &'a [f32],
-        kernel: &'a [f32],
-        shape: Shape,
-        region: &'a Region,
-        columns: Range<usize>,
-    ) -> Self {
+    fn new(kernel: &'a [f32], shape: Shape, region: &'a Region, columns: Range<usize>) -> Self {
         let (reach, length) = (kernel.len() - 1, columns.len() * shape.channels);
         let (stride, lines) = (length.next_multiple_of(TILE), 2 * reach + ROWS);
         Self {
-            picture,
             kernel,
             shape,
             region,
@@ -175,13 +182,9 @@ impl<'a> Strip<'a> {
     }
 
     /// A row of the result: where it begins, and its values.
-    fn row(
-        &mut self,
-        row: usize,
-        before: impl Fn(usize, usize, &mut [f32]),
-    ) -> (usize, &mut [f32]) {
+    fn row(&mut self, row: usize, read: impl Fn(usize, usize, &mut [f32])) -> (usize, &mut [f32]) {
         if !self.summed.contains(&row) {
-            self.sum(row / ROWS * ROWS, before);
+            self.sum(row / ROWS * ROWS, read);
         }
         let end = self.inside.end.min(self.length);
         let sums = &mut self.sums[(row - self.summed.start) * self.stride..];
@@ -189,12 +192,12 @@ impl<'a> Strip<'a> {
     }
 
     /// Sums up the rows from `first` on.
-    fn sum(&mut self, first: usize, before: impl Fn(usize, usize, &mut [f32])) {
+    fn sum(&mut self, first: usize, read: impl Fn(usize, usize, &mut [f32])) {
         let Self { kernel, lines, stride, .. } = *self;
         let reach = kernel.len() - 1;
         let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(self.shape.height);
         for row in rows.start.max(self.seen.end)..rows.end {
-            self.convolve(row, &before);
+            self.convolve(row, &read);
         }
         self.seen = rows.clone();
         self.summed = first..first + ROWS;
@@ -208,7 +211,7 @@ impl<'a> Strip<'a> {
     }
 
     /// Brings a row of the picture to the ring: what will be summed up of it.
-    fn convolve(&mut self, row: usize, before: impl Fn(usize, usize, &mut [f32])) {
+    fn convolve(&mut self, row: usize, read: impl Fn(usize, usize, &mut [f32])) {
         let Shape { width, channels, .. } = self.shape;
         let (first, reach) = (self.columns.start, self.kernel.len() - 1);
         let near = (reach + ROWS).next_multiple_of(ROWS);
@@ -218,22 +221,20 @@ impl<'a> Strip<'a> {
         }
         let from = (first + inside.start / channels).saturating_sub(reach);
         let to = (first + inside.end.div_ceil(channels)).min(self.columns.end) + reach;
-        let read = (row * width + from) * channels..(row * width + to.min(width)) * channels;
-        let values = &mut self.padded[(from + reach - first) * channels..][..read.len()];
-        values.copy_from_slice(&self.picture[read]);
-        before(row, from, values);
+        let count = (to.min(width) - from) * channels;
+        read(row, from, &mut self.padded[(from + reach - first) * channels..][..count]);
         let margins = inside.start..inside.end + 2 * reach * channels;
         let line = &mut self.ring[row % self.lines * self.stride..][inside];
         horizontal(line, &self.padded[margins], self.kernel, channels);
     }
 }
 
-/// One vector of most machines.
-type Eight = [f32; 8];
+/// One vector, or two or four narrower ones.
+type Sixteen = [f32; HALF];
 
 #[inline(always)]
-fn add_scaled(sum: &mut Eight, factor: f32, values: Eight) {
-    for lane in 0..8 {
+fn add_scaled(sum: &mut Sixteen, factor: f32, values: &Sixteen) {
+    for lane in 0..HALF {
         sum[lane] += factor * values[lane];
     }
 }
@@ -249,16 +250,15 @@ widened! {
         lines: &[(usize, [f32; ROWS])],
     ) {
         for at in values.step_by(HALF) {
-            let mut tile = [[[0.0f32; 8]; HALF / 8]; ROWS];
+            let mut tile = [[0.0f32; HALF]; ROWS];
             for (line, weights) in lines {
-                let (values, _) = ring[line + at..][..HALF].as_chunks::<8>();
+                let Some(values) = ring[line + at..].first_chunk() else { return };
                 for (sums, weight) in tile.iter_mut().zip(weights) {
-                    add_scaled(&mut sums[0], *weight, values[0]);
-                    add_scaled(&mut sums[1], *weight, values[1]);
+                    add_scaled(sums, *weight, values);
                 }
             }
             for (row, tile) in tile.iter().enumerate() {
-                sums[row * stride + at..][..HALF].copy_from_slice(tile.as_flattened());
+                sums[row * stride + at..][..HALF].copy_from_slice(tile);
             }
         }
     }
@@ -270,19 +270,21 @@ widened! {
         let middle = (kernel.len() - 1) * channels;
         for (tile, out) in out.as_chunks_mut::<TILE>().0.iter_mut().enumerate() {
             let at = middle + tile * TILE;
-            let mut sums = [[0.0f32; 8]; TILE / 8];
-            let (here, _) = padded[at..at + TILE].as_chunks::<8>();
+            let mut sums = [[0.0f32; HALF]; TILE / HALF];
+            let (here, _) = padded[at..at + TILE].as_chunks();
             for (sum, here) in sums.iter_mut().zip(here) {
-                add_scaled(sum, kernel[0], *here);
+                add_scaled(sum, kernel[0], here);
             }
             for (distance, weight) in kernel.iter().enumerate().skip(1) {
                 let shift = distance * channels;
-                let (left, _) = padded[at - shift..at - shift + TILE].as_chunks::<8>();
-                let (right, _) = padded[at + shift..at + shift + TILE].as_chunks::<8>();
+                let (left, _) = padded[at - shift..at - shift + TILE].as_chunks::<HALF>();
+                let (right, _) = padded[at + shift..at + shift + TILE].as_chunks::<HALF>();
                 for (sum, (left, right)) in sums.iter_mut().zip(left.iter().zip(right)) {
                     let mut both = *left;
-                    add_scaled(&mut both, 1.0, *right);
-                    add_scaled(sum, *weight, both);
+                    for lane in 0..HALF {
+                        both[lane] += right[lane];
+                    }
+                    add_scaled(sum, *weight, &both);
                 }
             }
             out.copy_from_slice(sums.as_flattened());

@@ -15,11 +15,12 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
-use crate::model::deviation::Bend;
+use crate::model::bend::{Bend, GRADIENT};
 use crate::model::networks::Networks;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
-use crate::model::planes::Planes;
+use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
+use crate::model::taps::{Strip, blocks};
 use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
@@ -60,8 +61,8 @@ pub trait Backend: Send + Sync {
     ) -> (f64, Planes);
 
     /// The same with the directions and the specular albedo of textures: gradients by d, by its blur and
-    /// by the specular albedo at the samples ([`BENT`] rows). The albedo's last row is not read.
-    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Planes) {
+    /// by the specular albedo go to `texels` ([`GRADIENT`] values each). The albedo's last row is not read.
+    fn bend_textures(&self, relief: &TexturedRelief, texels: &mut [f32]) -> f64 {
         let TexturedRelief { networks, samples, light, albedo, bend, specular, scale } = *relief;
         let bent = bend.sample(specular, samples);
         let directions = scale.directions(samples, Some(&bent));
@@ -69,11 +70,15 @@ pub trait Backend: Send + Sync {
         albedo.copy_row(3, &bent, 6);
         let (loss, gradient) = self.bend(networks, samples, light, &directions, &albedo);
         let by_deviation = scale.adjoint(samples, &bent, &gradient);
-        let rows = Planes::from_blocks(BENT, samples.len(), |block, rows| {
-            rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
-            rows[DIRECTIONS] = gradient.block(block)[DIRECTIONS];
-        });
-        (loss, rows)
+        let add = |rows: &mut [Row; BENT], strip: &mut Strip<GRADIENT>| {
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
+                rows[DIRECTIONS] = gradient.block(block)[DIRECTIONS];
+                strip.add_bent(block, lanes, rows);
+            }
+        };
+        samples.taps.by_strip_in(texels, || [Row::ZERO; BENT], add);
+        loss
     }
 
     /// S_d and S_s of every sample (2 rows).

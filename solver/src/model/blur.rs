@@ -1,6 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
-use crate::convolution::{Shape, convolve, gaussian};
+use crate::convolution::{Shape, convolve, convolve_into, gaussian};
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -50,35 +50,48 @@ impl Blur {
 
     /// The blurred texture.
     pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
-        self.apply_in(&self.whole, texture)
+        let after = |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
+        convolve(texture, &self.kernel, self.shape(), &self.whole, |_, _, _| {}, after)
     }
 
-    /// The blurred texture in a region; elsewhere it may be zero.
-    pub fn apply_in(&self, region: &Region, texture: &[f32]) -> Vec<f32> {
-        let after = |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
-        convolve(texture, &self.kernel, self.shape(), region, |_, _, _| {}, after)
+    /// The blurred texture in a region; elsewhere `out` may stay as it is.
+    pub fn apply_in(&self, region: &Region, texture: &[f32], out: &mut [f32]) {
+        let read = |row: usize, column: usize, values: &mut [f32]| {
+            let first = (row * self.size + column) * self.channels;
+            values.copy_from_slice(&texture[first..first + values.len()]);
+        };
+        let write = |row: usize, column: usize, values: &mut [f32], out: &mut [f32]| {
+            self.scale(row, column, values);
+            out.copy_from_slice(values);
+        };
+        convolve_into(out, &self.kernel, self.shape(), region, read, write, |_| {});
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
     pub fn adjoint(&self, gradient: &[f32]) -> Vec<f32> {
-        self.adjoint_in(&self.whole, gradient, |_, _| {})
-    }
-
-    /// The transpose of [`Blur::apply`] in a region; elsewhere it may be zero. What comes out is passed to
-    /// `after`, with its place in the texture's values.
-    pub fn adjoint_in(
-        &self,
-        region: &Region,
-        gradient: &[f32],
-        after: impl Fn(usize, &mut [f32]) + Sync,
-    ) -> Vec<f32> {
         // apply = N K with K symmetric and N diagonal, so the transpose is K N.
         let before =
             |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
-        let after = |row: usize, column: usize, values: &mut [f32]| {
-            after((row * self.size + column) * self.channels, values);
+        convolve(gradient, &self.kernel, self.shape(), &self.whole, before, |_, _, _| {})
+    }
+
+    /// The transpose of [`Blur::apply_in`]: where the gradient is not zero, from what `read` fills in to
+    /// what `write` makes of it in `out`. Both are told the row and the first column.
+    pub fn adjoint_in(
+        &self,
+        region: &Region,
+        read: impl Fn(usize, usize, &mut [f32]) + Sync,
+        write: impl Fn(usize, usize, &[f32], &mut [f32]) + Sync,
+        out: &mut [f32],
+    ) {
+        let read = |row: usize, column: usize, values: &mut [f32]| {
+            read(row, column, values);
+            self.scale(row, column, values);
         };
-        convolve(gradient, &self.kernel, self.shape(), region, before, after)
+        let write = |row: usize, column: usize, values: &mut [f32], out: &mut [f32]| {
+            write(row, column, values, out);
+        };
+        convolve_into(out, &self.kernel, self.shape(), region, read, write, |_| {});
     }
 
     fn shape(&self) -> Shape {

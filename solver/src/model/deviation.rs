@@ -4,19 +4,13 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
+use super::bend::{Bend, GRADIENT};
 use super::blur::Blur;
 use super::normals::DirectionScale;
-use super::planes::{Planes, Row};
-use super::samples::Samples;
-use crate::backend::BENT;
 use crate::backend::cpu::exp;
 use crate::config::Config;
-use crate::parallel::from_parts;
 use crate::region::Region;
 use crate::simd::widened;
-
-/// Values that one task works through.
-const CHUNK: usize = 1 << 14;
 
 /// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
 /// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
@@ -31,14 +25,6 @@ pub struct Deviation {
     blur: Blur,
     /// How directions are scaled.
     pub scale: DirectionScale,
-}
-
-/// The textures d and blur(d), 3 channels each.
-pub struct Bend {
-    /// For the specular normal.
-    pub sharp: Vec<f32>,
-    /// For the diffuse normal.
-    pub blurred: Vec<f32>,
 }
 
 /// What [`Deviation`] is made of.
@@ -82,23 +68,23 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
-        self.textures_in(&Region::whole(self.size, self.size), deviation)
+        let mut bend = Bend::new(self.size);
+        self.textures_in(&Region::whole(self.size, self.size), deviation, &mut bend);
+        bend
     }
 
-    /// The same; the blur in a region only.
-    pub fn textures_in(&self, region: &Region, deviation: &[f32]) -> Bend {
+    /// The same in a region; elsewhere `bend` may stay as it is.
+    pub fn textures_in(&self, region: &Region, deviation: &[f32], bend: &mut Bend) {
         let band = self.band(Cow::Borrowed(deviation), Blur::apply);
-        let sharp = match self.range {
-            Some(range) => {
-                let fill = |part: usize, out: &mut [f32]| {
-                    squash(out, &band[part * CHUNK..], range);
-                };
-                from_parts(band.len(), CHUNK, fill).0
+        let squash = |at: usize, out: &mut [f32]| {
+            let band = &band[at..at + out.len()];
+            match self.range {
+                Some(range) => squash(out, band, range),
+                None => out.copy_from_slice(band),
             }
-            None => band.into_owned(),
         };
-        let blurred = self.blur.apply_in(region, &sharp);
-        Bend { sharp, blurred }
+        self.reaches(region).rows_of(&mut bend.sharp, 3, squash);
+        self.blur.apply_in(region, &bend.sharp, &mut bend.blurred);
     }
 
     /// The region on which texels of another depend: where [`Self::adjoint_in`] is not zero if the
@@ -107,20 +93,36 @@ impl Deviation {
         region.dilated(self.blur.reach(), self.size)
     }
 
-    /// Carries gradients by d and by its blur, zero outside of a region, to the deviation texture;
-    /// `reached` is what it [reaches](Self::reaches).
-    pub fn adjoint_in(
-        &self,
-        reached: &Region,
-        bend: &Bend,
-        by_sharp: &[f32],
-        by_blurred: &[f32],
-    ) -> Vec<f32> {
-        let after = |at: usize, gradient: &mut [f32]| {
-            unsquash(gradient, &by_sharp[at..], &bend.sharp[at..], self.range);
+    /// Where the deviation texture moves, given what [`Self::reaches`] says.
+    pub fn moved<'a>(&self, reached: &'a Region) -> Cow<'a, Region> {
+        match self.banded() {
+            true => Cow::Owned(Region::whole(self.size, self.size)),
+            false => Cow::Borrowed(reached),
+        }
+    }
+
+    /// Whether B is anything but the identity.
+    fn banded(&self) -> bool {
+        self.wide.is_some() || self.narrow.reach() > 0
+    }
+
+    /// Carries gradients by d and by its blur ([`GRADIENT`] values a texel), zero outside of a region, to the
+    /// deviation texture, in `out`; `reached` is what it [reaches](Self::reaches).
+    pub fn adjoint_in(&self, reached: &Region, bend: &Bend, gradient: &[f32], out: &mut Vec<f32>) {
+        let texels =
+            |row: usize, column: usize| &gradient.as_chunks().0[row * self.size + column..];
+        let read = |row: usize, column: usize, values: &mut [f32]| {
+            blurred(values.as_chunks_mut().0, texels(row, column));
         };
-        let gradient = self.blur.adjoint_in(reached, by_blurred, after);
-        self.band(Cow::Owned(gradient), Blur::adjoint).into_owned()
+        let write = |row: usize, column: usize, values: &[f32], out: &mut [f32]| {
+            let sharp = &bend.sharp[3 * (row * self.size + column)..];
+            let (values, out) = (values.as_chunks().0, out.as_chunks_mut().0);
+            unsquash(out, values, texels(row, column), sharp.as_chunks().0, self.range);
+        };
+        self.blur.adjoint_in(reached, read, write, out);
+        if self.banded() {
+            *out = self.band(Cow::Owned(std::mem::take(out)), Blur::adjoint).into_owned();
+        }
     }
 
     /// B or its transpose.
@@ -142,11 +144,28 @@ impl Deviation {
 }
 
 widened! {
+    /// Of the gradients of texels, those by blur(d).
+    fn blurred(out: &mut [[f32; 3]], texels: &[[f32; GRADIENT]]) {
+        for (out, [_, _, _, x, y, z, _, _]) in out.iter_mut().zip(texels) {
+            *out = [*x, *y, *z];
+        }
+    }
+}
+
+widened! {
     /// The derivative of d = range x tanh(t), by d, times both gradients by d.
-    fn unsquash(gradient: &mut [f32], by_sharp: &[f32], sharp: &[f32], range: Option<f32>) {
+    fn unsquash(
+        out: &mut [[f32; 3]],
+        through_blur: &[[f32; 3]],
+        texels: &[[f32; GRADIENT]],
+        sharp: &[[f32; 3]],
+        range: Option<f32>,
+    ) {
         let (range, square) = range.map_or((1.0, 0.0), |range| (range, 1.0 / range));
-        for ((g, by_sharp), d) in gradient.iter_mut().zip(by_sharp).zip(sharp) {
-            *g = (*g + by_sharp) * (range - d * d * square);
+        for (((out, g), texel), d) in out.iter_mut().zip(through_blur).zip(texels).zip(sharp) {
+            for c in 0..3 {
+                out[c] = (g[c] + texel[c]) * (range - d[c] * d[c] * square);
+            }
         }
     }
 }
@@ -157,30 +176,5 @@ widened! {
         for (out, t) in out.iter_mut().zip(t) {
             *out = range * (1.0 - 2.0 / (exp(2.0 * t) + 1.0));
         }
-    }
-}
-
-impl Bend {
-    /// d, its blur and the specular albedo at every sample.
-    pub fn sample(&self, specular: &[f32], samples: &Samples) -> Planes {
-        Planes::from_blocks(BENT, samples.len(), |block, rows| {
-            rows.first_chunk_mut().into_iter().for_each(|rows| {
-                self.sample_block(specular, samples, block, rows);
-            });
-        })
-    }
-
-    /// The same at the samples of a block.
-    pub fn sample_block(
-        &self,
-        specular: &[f32],
-        samples: &Samples,
-        block: usize,
-        rows: &mut [Row; BENT],
-    ) {
-        let [a, b, c, d, e, f, g] = rows;
-        samples.taps.sample_block(&self.sharp, block, [a, b, c]);
-        samples.taps.sample_block(&self.blurred, block, [d, e, f]);
-        samples.taps.sample_block(specular, block, [g]);
     }
 }

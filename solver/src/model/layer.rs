@@ -1,7 +1,5 @@
 //! A layer that is known but for its texture: loss and gradient of the texture alone, in one pass.
 
-use std::sync::Mutex;
-
 use glam::{Vec4, Vec4Swizzles};
 use rayon::prelude::*;
 
@@ -35,14 +33,8 @@ impl Layer {
     pub fn gradient(&self, samples: &Samples, texture: &[f32]) -> (f64, Vec<f32>) {
         let taps = &samples.taps;
         let scale = 1.0 / (3.0 * samples.len() as f32);
-        let sums = Mutex::new(vec![0.0; taps.strips()]);
-        let gradient = taps.by_strip(|strip| {
-            let sum = strip_gradient(strip, texture.as_chunks().0, &self.0, scale);
-            if let Ok(mut sums) = sums.lock() {
-                sums[strip.number] = sum;
-            }
-        });
-        let sums = sums.into_inner().unwrap_or_default();
+        let (gradient, sums) =
+            taps.by_strip(|strip| strip_gradient(strip, texture.as_chunks().0, &self.0, scale));
         (sums.iter().sum::<f64>() * f64::from(scale), gradient)
     }
 }

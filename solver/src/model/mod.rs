@@ -1,5 +1,6 @@
 //! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
+pub mod bend;
 pub mod blur;
 pub mod deviation;
 pub mod height;

@@ -33,41 +33,18 @@ impl DirectionScale {
     pub fn directions(&self, samples: &Samples, deviation: Option<&Planes>) -> Planes {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
             let deviation = deviation.map_or(&STILL[..], |planes| planes.block(block));
-            self.directions_of(samples, block, deviation, out);
+            let (normal, view) = (samples.normal.block(block), samples.view.block(block));
+            bend(self, normal, view, deviation, out);
         })
-    }
-
-    /// The same of the samples of a block.
-    pub fn directions_of(
-        &self,
-        samples: &Samples,
-        block: usize,
-        deviation: &[Row],
-        out: &mut [Row],
-    ) {
-        bend(self, samples.normal.block(block), samples.view.block(block), deviation, out);
     }
 
     /// Carries gradients of the directions (the first six rows of `gradient`) to the deviation and
     /// its blur.
     pub fn adjoint(&self, samples: &Samples, deviation: &Planes, gradient: &Planes) -> Planes {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
-            let gradient = gradient.block(block);
-            self.adjoint_of(samples, block, deviation.block(block), gradient, out);
+            let (normal, view) = (samples.normal.block(block), samples.view.block(block));
+            bend_adjoint(self, normal, view, deviation.block(block), gradient.block(block), out);
         })
-    }
-
-    /// The same of the samples of a block.
-    pub fn adjoint_of(
-        &self,
-        samples: &Samples,
-        block: usize,
-        deviation: &[Row],
-        gradient: &[Row],
-        out: &mut [Row],
-    ) {
-        let (normal, view) = (samples.normal.block(block), samples.view.block(block));
-        bend_adjoint(self, normal, view, deviation, gradient, out);
     }
 }
 

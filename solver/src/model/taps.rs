@@ -5,7 +5,6 @@
 //! sums of a cell stay in registers while its samples pass. A sample's place is 12 bytes.
 
 use std::ops::Range;
-use std::sync::Mutex;
 
 use glam::Vec2;
 use rayon::prelude::*;
@@ -135,11 +134,12 @@ impl Taps {
     /// the texels they were interpolated from.
     pub fn gather<const C: usize>(&self, gradient: &Planes, first: usize) -> Vec<f32> {
         let rows = |block: usize| gradient.block(block)[first..].first_chunk::<C>();
-        self.by_strip(|strip| {
+        let add = |strip: &mut Strip<C>| {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 rows(block).into_iter().for_each(|rows| strip.add(block, lanes.clone(), rows));
             }
-        })
+        };
+        self.by_strip(add).0
     }
 
     /// [`Taps::sample`] and [`Taps::gather`] in one pass, without planes between them. Given the number
@@ -152,8 +152,7 @@ impl Taps {
         value: impl Fn(usize, &[Row; C], &mut [Row; D], &mut Row) + Sync,
     ) -> (Vec<f32>, f64) {
         let (texels, _) = texture.as_chunks::<C>();
-        let sums = Mutex::new(vec![0.0; self.strips()]);
-        let gradient = self.by_strip(|strip| {
+        let (gradient, sums) = self.by_strip(|strip| {
             let (mut values, mut gradient) = ([Row::ZERO; C], [Row::ZERO; D]);
             let mut loss = Row::ZERO;
             let mut sum = 0.0;
@@ -166,17 +165,9 @@ impl Taps {
                 sum += loss.0[lanes.clone()].iter().map(|term| f64::from(*term)).sum::<f64>();
                 strip.add(block, lanes, &gradient);
             }
-            if let Ok(mut sums) = sums.lock() {
-                sums[strip.number] = sum;
-            }
+            sum
         });
-        let sums = sums.into_inner().unwrap_or_default();
         (gradient, sums.iter().sum())
-    }
-
-    /// Strips of [`Taps::by_strip`].
-    pub(super) fn strips(&self) -> usize {
-        self.size.div_ceil(self.strip())
     }
 
     /// Rows of a strip.
@@ -185,30 +176,69 @@ impl Taps {
     }
 
     /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
-    /// contiguous. The row below a strip's last, which the next strip begins with, is added at the
-    /// end.
-    pub(super) fn by_strip<const D: usize>(&self, work: impl Fn(&mut Strip<D>) + Sync) -> Vec<f32> {
-        let (line, rows) = (self.size * D, self.strip());
-        let task = |number: usize, texels: &mut [f32]| {
-            let (first, rows) = (number * rows, texels.len() / line);
-            let samples = self.row_start[first]..self.row_start[first + rows];
-            let mut below = vec![0.0; line];
-            let below_texels = below.as_chunks_mut().0;
-            let texels = texels.as_chunks_mut().0;
-            work(&mut Strip { taps: self, number, first, samples, texels, below: below_texels });
-            below
+    /// contiguous; and its results, in order. The row below a strip's last, which the next strip begins
+    /// with, is added at the end.
+    pub(super) fn by_strip<const D: usize, T: Send>(
+        &self,
+        work: impl Fn(&mut Strip<D>) -> T + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        let line = self.size * D;
+        let task = |number: usize, texels: &mut [f32]| self.in_strip(number, texels, &work);
+        let (mut texels, results) = from_parts(self.size * line, self.strip() * line, task);
+        let results = self.join::<D, T>(&mut texels, results);
+        (texels, results)
+    }
+
+    /// The same in texels that there are, whatever their values, and with scratch of the threads.
+    pub fn by_strip_in<const D: usize, S, T: Send>(
+        &self,
+        texels: &mut [f32],
+        scratch: impl Fn() -> S + Send + Sync,
+        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
+    ) -> Vec<T> {
+        let task = |scratch: &mut S, (number, texels): (usize, &mut [f32])| {
+            texels.fill(0.0);
+            self.in_strip(number, texels, |strip| work(scratch, strip))
         };
-        let (mut texels, below) = from_parts(self.size * line, rows * line, task);
-        let strips = texels.par_chunks_mut(rows * line).skip(1);
+        let strips = texels.par_chunks_mut(self.strip() * self.size * D).enumerate();
+        let results = strips.map_init(scratch, task).collect();
+        self.join::<D, T>(texels, results)
+    }
+
+    /// Work on one strip; the row below, and the result.
+    fn in_strip<const D: usize, T>(
+        &self,
+        number: usize,
+        texels: &mut [f32],
+        work: impl FnOnce(&mut Strip<D>) -> T,
+    ) -> (Vec<f32>, T) {
+        let line = self.size * D;
+        let first = number * self.strip();
+        let samples = self.row_start[first]..self.row_start[first + texels.len() / line];
+        let mut below = vec![0.0; line];
+        let texels = texels.as_chunks_mut().0;
+        let below_texels = below.as_chunks_mut().0;
+        let result = work(&mut Strip { taps: self, first, samples, texels, below: below_texels });
+        (below, result)
+    }
+
+    /// Adds the rows below; the results.
+    fn join<const D: usize, T: Send>(
+        &self,
+        texels: &mut [f32],
+        results: Vec<(Vec<f32>, T)>,
+    ) -> Vec<T> {
+        let (below, results): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        let strips = texels.par_chunks_mut(self.strip() * self.size * D).skip(1);
         strips.zip(&below).for_each(|(texels, below)| {
             texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
         });
-        texels
+        results
     }
 }
 
 /// The blocks that a range of samples lies in, with its lanes of each.
-fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
+pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
     let first = samples.start / BLOCK;
     (first..samples.end.div_ceil(BLOCK).max(first)).map(move |block| {
         let start = block * BLOCK;
@@ -217,14 +247,16 @@ fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> 
 }
 
 /// Some rows of a texture of `D` channels, and the row below them.
-pub(super) struct Strip<'a, const D: usize> {
+pub struct Strip<'a, const D: usize> {
+    /// Of all samples.
     pub taps: &'a Taps,
-    pub number: usize,
     /// The first row.
     pub first: usize,
     /// Samples whose upper texels are in these rows.
     pub samples: Range<usize>,
+    /// The rows' texels.
     pub texels: &'a mut [[f32; D]],
+    /// Those of the row below.
     pub below: &'a mut [[f32; D]],
 }
 

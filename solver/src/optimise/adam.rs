@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::config::AdamConfig;
+use crate::region::Region;
 use crate::simd::widened;
 
 /// Elements that one task works through.
@@ -83,17 +84,49 @@ impl Adam {
     /// Moves the parameters against the gradient, by `share` of the learning rate, and not below
     /// `least`.
     pub fn step(&mut self, parameters: &mut [f32], gradient: &[f32], share: f32, least: f32) {
-        self.steps += 1;
-        let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
-        let [rate, root] = self.factors(self.steps, share);
+        let factors = self.next(share, least);
         parameters
             .par_chunks_mut(CHUNK)
             .zip(gradient.par_chunks(CHUNK))
             .zip(self.first.par_chunks_mut(CHUNK).zip(self.second.par_chunks_mut(CHUNK)))
             .for_each(|((parameters, gradient), (first, second))| {
-                let factors = Factors { beta1, beta2, epsilon, rate, root, least };
                 step(parameters, gradient, first, second, &factors);
             });
+    }
+
+    /// The same for the texels of a region of a texture, outside of which the gradient is zero and was zero
+    /// before: there, nothing would move. `gradient` fills in values, told their place in the texture.
+    pub fn step_in(
+        &mut self,
+        region: &Region,
+        parameters: &mut [f32],
+        gradient: impl Fn(usize, &mut [f32]) + Sync,
+        share: f32,
+        least: f32,
+    ) {
+        let factors = self.next(share, least);
+        let line = parameters.len() / region.0.len();
+        let channels = line / region.0.len();
+        let moments = self.first.par_chunks_mut(line).zip(self.second.par_chunks_mut(line));
+        let rows = parameters.par_chunks_mut(line).zip(moments).zip(&region.0).enumerate();
+        rows.for_each_init(
+            || vec![0.0; line],
+            |room, (row, ((parameters, (first, second)), columns))| {
+                let inside = columns.start * channels..columns.end * channels;
+                let values = &mut room[..inside.len()];
+                gradient(row * line + inside.start, values);
+                let (first, second) = (&mut first[inside.clone()], &mut second[inside.clone()]);
+                step(&mut parameters[inside], values, first, second, &factors);
+            },
+        );
+    }
+
+    /// Counts a step; its factors.
+    fn next(&mut self, share: f32, least: f32) -> Factors {
+        self.steps += 1;
+        let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
+        let [rate, root] = self.factors(self.steps, share);
+        Factors { beta1, beta2, epsilon, rate, root, least }
     }
 }
 

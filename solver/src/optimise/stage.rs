@@ -7,10 +7,11 @@ use super::adam::Adam;
 use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
+use crate::model::bend::{Bend, GRADIENT};
 use crate::model::deviation::Deviation;
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
-use crate::model::normals::DirectionScale;
+use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
@@ -186,6 +187,8 @@ pub struct Relief<'a> {
     /// Texels that samples see, and those on which these depend.
     sampled: Region,
     reached: Region,
+    /// Of a step, kept for the next one's.
+    room: Room,
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -208,6 +211,7 @@ impl<'a> Relief<'a> {
             deviation,
             reached: deviation.reaches(&sampled),
             sampled,
+            room: Room::default(),
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -217,26 +221,56 @@ impl<'a> Relief<'a> {
         }
     }
 
-    /// Loss and its gradients by deviation and specular albedo.
-    pub(super) fn gradient(
-        &self,
-        state: &State,
-        backend: &dyn Backend,
-    ) -> (f64, Vec<f32>, Vec<f32>) {
-        let (taps, deviation) = (&self.samples.taps, self.deviation);
-        let bend = deviation.textures_in(&self.sampled, &state.deviation);
-        let (loss, gradient) = backend.bend_textures(&TexturedRelief {
+    /// Loss; its gradients by deviation and specular albedo are left in [`Room`].
+    pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> f64 {
+        let Self { deviation, sampled, reached, room, .. } = self;
+        let room = room.of_size(state.size);
+        deviation.textures_in(sampled, &state.deviation, &mut room.bend);
+        let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
             light: &self.light,
             albedo: &self.albedo,
-            bend: &bend,
+            bend: &room.bend,
             specular: &state.specular,
             scale: &deviation.scale,
-        });
-        let [by_sharp, by_blurred] = [0, 3].map(|row| taps.gather::<3>(&gradient, row));
-        let by_deviation = deviation.adjoint_in(&self.reached, &bend, &by_sharp, &by_blurred);
-        (loss, by_deviation, taps.gather::<1>(&gradient, 6))
+        };
+        let loss = backend.bend_textures(&relief, &mut room.by_bend);
+        deviation.adjoint_in(reached, &room.bend, &room.by_bend, &mut room.by_deviation);
+        loss
+    }
+}
+
+/// What a step on the relief works in.
+pub(super) struct Room {
+    bend: Bend,
+    /// Gradients, [`GRADIENT`] values a texel.
+    by_bend: Vec<f32>,
+    /// By the deviation texture.
+    pub by_deviation: Vec<f32>,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self { bend: Bend::new(0), by_bend: vec![], by_deviation: vec![] }
+    }
+}
+
+impl Room {
+    /// For textures of side `size`. What a region leaves out stays zero.
+    fn of_size(&mut self, size: usize) -> &mut Self {
+        if self.by_bend.is_empty() {
+            let texels = size * size;
+            (self.bend, self.by_bend) = (Bend::new(size), vec![0.0; GRADIENT * texels]);
+            self.by_deviation = vec![0.0; 3 * texels];
+        }
+        self
+    }
+
+    /// Gradients by the specular albedo, from a texel on.
+    pub fn by_specular(&self, first: usize, gradient: &mut [f32]) {
+        let texels = &self.by_bend.as_chunks::<GRADIENT>().0[first..];
+        gradient.iter_mut().zip(texels).for_each(|(out, texel)| *out = texel[DIRECTIONS]);
     }
 }
 
@@ -251,9 +285,16 @@ impl Stage for Relief<'_> {
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
         let least = least_albedo(self.config);
-        let (loss, by_deviation, by_specular) = self.gradient(state, backend);
-        self.by_deviation.step(&mut state.deviation, &by_deviation, share, f32::NEG_INFINITY);
-        self.by_specular.step(&mut state.specular, &by_specular, share, least);
+        let loss = self.gradient(state, backend);
+        let (deviation, specular) = (&mut state.deviation, &mut state.specular);
+        let room = &self.room;
+        let gradient = |first: usize, gradient: &mut [f32]| {
+            gradient.copy_from_slice(&room.by_deviation[first..first + gradient.len()]);
+        };
+        let moved = self.deviation.moved(&self.reached);
+        self.by_deviation.step_in(&moved, deviation, gradient, share, f32::NEG_INFINITY);
+        let gradient = |first: usize, gradient: &mut [f32]| room.by_specular(first, gradient);
+        self.by_specular.step_in(&self.sampled, specular, gradient, share, least);
         loss
     }
 

@@ -2,14 +2,17 @@
 //! that compile them for each instruction set.
 
 use super::Level;
+use super::directions::{adjoint, bend as bend_directions};
 use super::lanes::{LaneSum, Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};
+use crate::model::bend::GRADIENT;
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
+use crate::model::taps::{Strip, blocks};
 
 /// Chains of [`peak`]: more than the latency of a multiply-add times those begun per cycle.
 pub const PEAK_CHAINS: usize = 12;
@@ -127,24 +130,24 @@ fn bend_body<S: Lanes, const C: usize>(
     loss
 }
 
-/// The same of a block, from textures, and by them.
+/// The same of the samples of a strip, from textures, and by them. A block at its end is seen twice.
 #[inline(always)]
 fn textured_body<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
     relief: &TexturedRelief,
-    first: usize,
     s: &mut Scratch,
-    out: &mut [Row],
+    strip: &mut Strip<GRADIENT>,
 ) -> f64 {
     let TexturedRelief { samples, light, albedo, bend, specular, scale, .. } = *relief;
     let inputs = Inputs { packed, samples, directions: light, albedo };
     let mut loss = 0.0;
     let (mut bent, mut directions) = ([Row::ZERO; BENT], [Row::ZERO; DIRECTIONS]);
-    let mut gradient = [Row::ZERO; BENT];
-    for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
-        let block = first + block;
+    let (mut gradient, mut by_texture) = ([Row::ZERO; BENT], [Row::ZERO; BENT]);
+    let mut lengths = [Row::ZERO; 2];
+    for (block, lanes) in blocks(strip.samples.clone()) {
         bend.sample_block(specular, samples, block, &mut bent);
-        scale.directions_of(samples, block, &bent, &mut directions);
+        let known = [samples.normal.block(block), samples.view.block(block)];
+        bend_directions::<S>(scale, known, &bent, &mut lengths, &mut directions);
         let filled = samples.len() - block * BLOCK;
         if filled < BLOCK {
             // A normal of zero has no direction.
@@ -152,9 +155,13 @@ fn textured_body<S: Lanes, const C: usize>(
         }
         let pixels = Pixels { specular: &bent[DIRECTIONS], ..inputs.pixels(block) };
         let light = light.block(block);
-        loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient);
-        scale.adjoint_of(samples, block, &bent, &gradient, out);
-        out[DIRECTIONS] = gradient[DIRECTIONS];
+        let of_block = bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient);
+        if lanes.start == 0 {
+            loss += of_block;
+        }
+        adjoint::<S>(scale, known, &bent, &lengths, &gradient, &mut by_texture);
+        by_texture[DIRECTIONS] = gradient[DIRECTIONS];
+        strip.add_bent(block, lanes, &by_texture);
     }
     loss
 }
@@ -264,7 +271,7 @@ macro_rules! entry {
 
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
-entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, s: &mut Scratch, strip: &mut Strip<GRADIENT>) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(peak, peak_body(rounds: usize) -> f32);

@@ -34,6 +34,8 @@ pub trait Lanes: Copy {
     fn mul(self, b: Self) -> Self;
     /// 1 / self, relative error at most 1e-7.
     fn reciprocal(self) -> Self;
+    /// 1 / sqrt(self), relative error at most 3e-7.
+    fn reciprocal_root(self) -> Self;
     /// self * b + c, rounded once where the hardware can.
     fn mul_add(self, b: Self, c: Self) -> Self;
     /// The larger one; `b` if either is NaN.
@@ -54,9 +56,12 @@ pub trait Lanes: Copy {
 
 /// e^x, relative error about 1e-7; x is clamped to [-87, 88].
 #[inline(always)]
-pub fn exp<S: Lanes>(x: S) -> S {
-    // In this order a NaN passes through, so that a diverged solve shows in its loss.
-    exp_below(S::splat(88.0).min(x))
+pub fn exp<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
+    for x in &mut x {
+        // In this order a NaN passes through, so that a diverged solve shows in its loss.
+        *x = S::splat(88.0).min(*x);
+    }
+    exp_below(x)
 }
 
 /// [`exp`] in plain operations, which a compiler makes vectors of.
@@ -82,28 +87,53 @@ const EXP: [f32; 6] = [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0
 
 /// [`exp`] of what is not above 88.
 #[inline(always)]
-fn exp_below<S: Lanes>(x: S) -> S {
-    let x = S::splat(-87.0).max(x);
-    let n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
-    let r = n.mul_add(S::splat(-LN_2), x);
-    let r = n.mul_add(S::splat(REST_OF_LN_2), r);
-    let mut sum = S::splat(EXP_FIRST);
-    for factor in EXP {
-        sum = sum.mul_add(r, S::splat(factor));
+fn exp_below<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
+    let mut n = x;
+    for (x, n) in x.iter_mut().zip(&mut n) {
+        *x = S::splat(-87.0).max(*x);
+        *n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
     }
-    sum.scale(n)
+    for part in [-LN_2, REST_OF_LN_2] {
+        for (r, n) in x.iter_mut().zip(&n) {
+            *r = n.mul_add(S::splat(part), *r);
+        }
+    }
+    let mut sums = [S::splat(EXP_FIRST); N];
+    horner(&mut sums, &x, &EXP);
+    for (sum, n) in sums.iter_mut().zip(n) {
+        *sum = sum.scale(n);
+    }
+    sums
+}
+
+/// Goes on with polynomials: sum x + factor for every factor. Vectors that wait for their last sum take
+/// turns.
+#[inline(always)]
+fn horner<S: Lanes, const N: usize>(sums: &mut [S; N], x: &[S; N], factors: &[f32]) {
+    for factor in factors {
+        for (sum, x) in sums.iter_mut().zip(x) {
+            *sum = sum.mul_add(*x, S::splat(*factor));
+        }
+    }
 }
 
 /// log(1 + e^x) and its derivative, the logistic function; relative error about 2e-7.
 #[inline(always)]
-pub fn softplus<S: Lanes>(x: S) -> (S, S) {
+pub fn softplus<S: Lanes, const N: usize>(x: [S; N]) -> ([S; N], [S; N]) {
     let one = S::splat(1.0);
     let zero = S::splat(0.0);
-    let e = exp_below(zero.sub(x.abs()));
-    let logistic = one.add(e).reciprocal();
+    let mut below = x;
+    for x in &mut below {
+        *x = zero.sub(x.abs());
+    }
+    let e = exp_below(below);
+    let mut slopes = e;
+    for slope in &mut slopes {
+        *slope = one.add(*slope).reciprocal();
+    }
     // log(1 + e) / e on 0 to 1, with the least largest relative error: 3.3e-8.
-    let mut sum = S::splat(0.005_364_822_7);
-    for factor in [
+    let mut sums = [S::splat(0.005_364_822_7); N];
+    let factors = [
         -0.030_065_786,
         0.079_204_52,
         -0.137_538_02,
@@ -112,11 +142,13 @@ pub fn softplus<S: Lanes>(x: S) -> (S, S) {
         0.333_213_24,
         -0.499_996_48,
         1.0,
-    ] {
-        sum = sum.mul_add(e, S::splat(factor));
+    ];
+    horner(&mut sums, &e, &factors);
+    for k in 0..N {
+        sums[k] = sums[k].mul_add(e[k], x[k].max(zero));
+        slopes[k] = slopes[k].where_positive_else(x[k], e[k].mul(slopes[k]));
     }
-    let slope = logistic.where_positive_else(x, e.mul(logistic));
-    (sum.mul_add(e, x.max(zero)), slope)
+    (sums, slopes)
 }
 
 /// Plain arrays, left to the compiler.
@@ -151,6 +183,7 @@ impl Lanes for Portable {
     #[inline(always)] fn sub(self, b: Self) -> Self { zip(self, b, |a, b| a - b) }
     #[inline(always)] fn mul(self, b: Self) -> Self { zip(self, b, |a, b| a * b) }
     #[inline(always)] fn reciprocal(self) -> Self { zip(self, self, |a, _| 1.0 / a) }
+    #[inline(always)] fn reciprocal_root(self) -> Self { zip(self, self, |a, _| 1.0 / a.sqrt()) }
     #[inline(always)] fn mul_add(self, b: Self, c: Self) -> Self { self.mul(b).add(c) }
     #[inline(always)] fn max(self, b: Self) -> Self { zip(self, b, |a, b| if a > b { a } else { b }) }
     #[inline(always)] fn min(self, b: Self) -> Self { zip(self, b, |a, b| if a < b { a } else { b }) }
@@ -248,6 +281,11 @@ mod x86 {
                 let y = _mm512_rcp14_ps(a);
                 _mm512_fmadd_ps(_mm512_fnmadd_ps(a, y, _mm512_set1_ps(1.0)), y, y)
             };
+            reciprocal_root(a) = {
+                let y = _mm512_rsqrt14_ps(a);
+                let error = _mm512_fnmadd_ps(_mm512_mul_ps(a, y), y, _mm512_set1_ps(1.0));
+                _mm512_fmadd_ps(_mm512_mul_ps(error, _mm512_set1_ps(0.5)), y, y)
+            };
             mul_add(a, b, c) = _mm512_fmadd_ps(a, b, c);
             max(a, b) = _mm512_max_ps(a, b);
             min(a, b) = _mm512_min_ps(a, b);
@@ -290,6 +328,7 @@ mod x86 {
             sub(a, b) = _mm256_sub_ps(a, b);
             mul(a, b) = _mm256_mul_ps(a, b);
             reciprocal(a) = _mm256_div_ps(_mm256_set1_ps(1.0), a);
+            reciprocal_root(a) = _mm256_div_ps(_mm256_set1_ps(1.0), _mm256_sqrt_ps(a));
             mul_add(a, b, c) = _mm256_fmadd_ps(a, b, c);
             max(a, b) = _mm256_max_ps(a, b);
             min(a, b) = _mm256_min_ps(a, b);
@@ -317,9 +356,10 @@ mod tests {
             let x = step as f32 * 0.01;
             let exact = f64::from(x).exp();
             let relative = |got: f32, exact: f64| (f64::from(got) / exact - 1.0).abs();
-            worst_exp = worst_exp.max(relative(exp(Portable::splat(x)).0[3], exact));
-            assert_eq!(exp_plain(x), exp(Portable::splat(x)).0[0], "{x}");
-            let (value, slope) = softplus(Portable::splat(x));
+            let [power] = exp([Portable::splat(x)]);
+            worst_exp = worst_exp.max(relative(power.0[3], exact));
+            assert_eq!(exp_plain(x), power.0[0], "{x}");
+            let ([value], [slope]) = softplus([Portable::splat(x)]);
             worst_softplus = worst_softplus.max(relative(value.0[0], exact.ln_1p()));
             worst_slope = worst_slope.max(relative(slope.0[7], exact / (1.0 + exact)));
         }

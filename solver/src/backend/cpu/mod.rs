@@ -11,17 +11,19 @@
 //! |---|---|---|
 //! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
 //! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
-//! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 28: gradients by both deviations and specular albedo |
+//! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 0 |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
 //! | a diffuse step ([`Layer::gradient`](crate::model::layer::Layer::gradient)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
 //! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
-//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A joint step is 7488
+//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures bent in
+//! normals costs a texel 332 bytes more: both deviations and the gradients are written and read, some twice. A joint step is 7488
 //! FLOP a sample, so that it is bound by arithmetic on every machine with more than 0.012 bytes
 //! of bandwidth per FLOP; the diffuse and specular steps are bound by memory.
 
+mod directions;
 mod kernels;
 mod lanes;
 mod perceptron;
@@ -201,13 +203,13 @@ impl Backend for Cpu {
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Planes) {
-        let (networks, len) = (relief.networks, relief.samples.len());
-        let packed = &pack(networks);
-        let (gradient, losses) = chunks(networks, BENT, len, |first, scratch, out| {
-            kernels::textured(self.level, packed, relief, first, scratch, out)
+    fn bend_textures(&self, relief: &TexturedRelief, texels: &mut [f32]) -> f64 {
+        let packed = &pack(relief.networks);
+        let scratch = || Scratch::new(relief.networks);
+        let losses = relief.samples.taps.by_strip_in(texels, scratch, |scratch, strip| {
+            kernels::textured(self.level, packed, relief, scratch, strip)
         });
-        (losses.iter().sum(), gradient)
+        losses.iter().sum()
     }
 
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {

@@ -10,8 +10,10 @@ pub fn exponentials<S: Lanes>(rows: &mut [Row]) {
     for row in rows {
         let mut at = 0;
         while at < BLOCK {
-            lanes::exp(S::load(row, at)).store(row, at);
-            at += S::WIDTH;
+            for (k, value) in lanes::exp(load::<S>(row, at)).into_iter().enumerate() {
+                value.store(row, at + k * S::WIDTH);
+            }
+            at += TURNS * S::WIDTH;
         }
     }
 }
@@ -22,12 +24,26 @@ pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
     for (row, slopes) in rows.iter_mut().zip(slopes) {
         let mut at = 0;
         while at < BLOCK {
-            let (value, slope) = lanes::softplus(S::load(row, at));
-            value.store(row, at);
-            slope.store(slopes, at);
-            at += S::WIDTH;
+            let (values, derivatives) = lanes::softplus(load::<S>(row, at));
+            for (k, (value, slope)) in values.into_iter().zip(derivatives).enumerate() {
+                value.store(row, at + k * S::WIDTH);
+                slope.store(slopes, at + k * S::WIDTH);
+            }
+            at += TURNS * S::WIDTH;
         }
     }
+}
+
+/// Vectors that wait for each other's results in turn.
+const TURNS: usize = 4;
+
+#[inline(always)]
+fn load<S: Lanes>(row: &Row, at: usize) -> [S; TURNS] {
+    let mut values = [S::splat(0.0); TURNS];
+    for (k, value) in values.iter_mut().enumerate() {
+        *value = S::load(row, at + k * S::WIDTH);
+    }
+    values
 }
 
 /// out = sum of a x b over rows.
