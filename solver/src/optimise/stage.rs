@@ -188,7 +188,7 @@ pub struct Relief<'a> {
     sampled: Region,
     reached: Region,
     /// Of a step, kept for the next one's.
-    room: Room,
+    pub(super) room: Room,
     by_deviation: Adam,
     by_specular: Adam,
 }

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use glam::{Vec2, Vec3};
 
 use super::solve::{Options, solve_on};
-use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use super::stage::{Diffuse, Relief, Room, Stage, State, WarmUp};
 use crate::backend::cpu::{Cpu, Level};
 use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
@@ -243,9 +243,8 @@ fn the_stages_see_the_same_loss() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let joint = WarmUp::new(&config, &samples, &state).gradient(&state, &backend).loss;
-    let relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1)
-        .gradient(&state, &backend)
-        .0;
+    let relief =
+        Relief::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state, &backend);
     let diffuse =
         Diffuse::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state).0;
     assert!((relief / joint - 1.0).abs() < 1e-5, "{relief} {joint}");
