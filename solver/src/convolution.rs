@@ -14,7 +14,7 @@ use crate::region::Region;
 use crate::simd::widened;
 
 /// Columns of a strip.
-const STRIP: usize = 256;
+pub const COLUMNS: usize = 256;
 /// Rows that are summed up together.
 const ROWS: usize = 4;
 /// Values of a row that are summed up together: of a line, of the lines of the ring. What is asked for is
@@ -55,69 +55,86 @@ pub fn convolve(
         values.copy_from_slice(&picture[first..first + values.len()]);
         before(row, column, values);
     };
-    let write = |row: usize, column: usize, values: &mut [f32], out: &mut [MaybeUninit<f32>]| {
-        after(row, column, values);
-        out.iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
+    let write = |place: &Place, values: &mut [f32], out: &mut &mut [MaybeUninit<f32>]| {
+        after(place.row, place.columns.start, values);
+        let inside = place.within(shape.channels);
+        out.iter_mut().for_each(|out| _ = out.write(0.0));
+        out[inside].iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
     };
-    let clear = |out: &mut [MaybeUninit<f32>]| out.iter_mut().for_each(|out| _ = out.write(0.0));
-    let values = &mut out.spare_capacity_mut()[..picture.len()];
-    convolve_into(values, kernel, shape, region, read, write, clear);
-    // SAFETY: every one of the values was written or cleared.
+    let parts = parts(&mut out.spare_capacity_mut()[..picture.len()], shape.width, shape.channels);
+    convolve_into(parts, kernel, shape, region, read, write);
+    // SAFETY: all parts were written.
     unsafe { out.set_len(picture.len()) };
     out
 }
 
-/// The same from what `read` fills in (the row, the first column, values) to what `write` does with it:
-/// the row, the first column, values, and their place in `out`. What is left out there is passed to `skip`.
-pub fn convolve_into<T: Send>(
-    out: &mut [T],
+/// Cuts a texture's rows where strips of columns end: what tasks write to.
+pub fn parts<T>(texture: &mut [T], width: usize, channels: usize) -> Vec<&mut [T]> {
+    let rows = texture.chunks_mut(width * channels);
+    rows.flat_map(|row| row.chunks_mut(COLUMNS * channels)).collect()
+}
+
+/// Values of a row of the result.
+pub struct Place {
+    pub row: usize,
+    pub columns: Range<usize>,
+    /// The first column of the part that they belong to.
+    first: usize,
+}
+
+impl Place {
+    /// Where they lie in the part.
+    pub fn within(&self, channels: usize) -> Range<usize> {
+        (self.columns.start - self.first) * channels..(self.columns.end - self.first) * channels
+    }
+}
+
+/// The same from what `read` fills in (the row, the first column, values) to what `write` does with it
+/// for each of the [`parts`], whether or not there are values.
+pub fn convolve_into<O: Send>(
+    parts: Vec<O>,
     kernel: &[f32],
     shape: Shape,
     region: &Region,
     read: impl Fn(usize, usize, &mut [f32]) + Sync,
-    write: impl Fn(usize, usize, &mut [f32], &mut [T]) + Sync,
-    skip: impl Fn(&mut [T]) + Sync,
+    write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
 ) {
-    tasks(out, shape, kernel.len()).into_par_iter().for_each(|mut task| {
-        let mut strip = Strip::new(kernel, shape, region, task.columns.clone());
-        for (row, out) in task.rows.zip(&mut task.out) {
-            let (first, values) = strip.row(row, &read);
-            let (left, rest) = out.split_at_mut(first);
-            let (inside, right) = rest.split_at_mut(values.len());
-            write(row, task.columns.start + first / shape.channels, values, inside);
-            skip(left);
-            skip(right);
+    tasks(parts, shape, kernel.len()).into_par_iter().for_each(|task| {
+        let first = task.columns.start;
+        let mut strip = Strip::new(kernel, shape, region, task.columns);
+        for (row, mut part) in task.rows.zip(task.parts) {
+            let (at, values) = strip.row(row, &read);
+            let start = first + at / shape.channels;
+            let columns = start..start + values.len() / shape.channels;
+            write(&Place { row, columns, first }, values, &mut part);
         }
     });
 }
 
 /// Some rows of a strip of columns.
-struct Task<'a, T> {
+struct Task<O> {
     columns: Range<usize>,
     rows: Range<usize>,
-    /// Where the rows go.
-    out: Vec<&'a mut [T]>,
+    /// One a row.
+    parts: Vec<O>,
 }
 
-fn tasks<T>(out: &mut [T], shape: Shape, reach: usize) -> Vec<Task<'_, T>> {
-    let Shape { width, height, channels } = shape;
-    let (line, strips) = (width * channels, width.div_ceil(STRIP));
+fn tasks<O>(parts: Vec<O>, shape: Shape, reach: usize) -> Vec<Task<O>> {
+    let Shape { width, height, .. } = shape;
+    let strips = width.div_ceil(COLUMNS);
     // The rows above and below a task's are convolved for its neighbours as well.
     let rows = (strips * height).div_ceil(TASKS * rayon::current_num_threads()).max(4 * reach);
-    let mut tasks = vec![];
-    for (number, lines) in out.chunks_mut(rows.next_multiple_of(ROWS) * line).enumerate() {
-        let first = number * rows.next_multiple_of(ROWS);
-        let task = |strip: usize| Task {
-            columns: strip * STRIP..width.min((strip + 1) * STRIP),
-            rows: first..first + lines.len() / line,
-            out: vec![],
-        };
-        let begin = tasks.len();
-        tasks.extend((0..strips).map(task));
-        for line in lines.chunks_mut(line) {
-            let parts = line.chunks_mut(STRIP * channels);
-            tasks[begin..].iter_mut().zip(parts).for_each(|(task, part)| task.out.push(part));
-        }
+    let rows = rows.next_multiple_of(ROWS);
+    let task = |first: usize, strip: usize| Task {
+        columns: strip * COLUMNS..width.min((strip + 1) * COLUMNS),
+        rows: first..height.min(first + rows),
+        parts: vec![],
+    };
+    let firsts = (0..height).step_by(rows);
+    let mut tasks: Vec<_> =
+        firsts.flat_map(|first| (0..strips).map(move |strip| task(first, strip))).collect();
+    for (at, part) in parts.into_iter().enumerate() {
+        tasks[at / strips / rows * strips + at % strips].parts.push(part);
     }
     tasks
 }

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 /// Of every row, one range of columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Region(pub Vec<Range<usize>>);
@@ -24,21 +22,6 @@ impl Region {
             }
         };
         Self((0..self.0.len()).map(row).collect())
-    }
-
-    /// Passes the region's values of every row of a texture of `channels`, as wide as the region has rows, to
-    /// `work`, with their place in it; in parallel.
-    pub fn rows_of(
-        &self,
-        texture: &mut [f32],
-        channels: usize,
-        work: impl Fn(usize, &mut [f32]) + Sync,
-    ) {
-        let line = self.0.len() * channels;
-        texture.par_chunks_mut(line).zip(&self.0).enumerate().for_each(|(y, (values, columns))| {
-            let inside = columns.start * channels..columns.end * channels;
-            work(y * line + inside.start, &mut values[inside]);
-        });
     }
 
     /// From the first to the last column that some rows have.

@@ -15,12 +15,13 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
-use crate::model::bend::{Bend, GRADIENT};
+use crate::model::bend::{self, TEXEL, Texel};
 use crate::model::networks::Networks;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::taps::{Strip, blocks};
+use crate::region::Region;
 use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
@@ -60,24 +61,24 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> (f64, Planes);
 
-    /// The same with the directions and the specular albedo of textures: gradients by d, by its blur and
-    /// by the specular albedo go to `texels` ([`GRADIENT`] values each). The albedo's last row is not read.
-    fn bend_textures(&self, relief: &TexturedRelief, texels: &mut [f32]) -> f64 {
-        let TexturedRelief { networks, samples, light, albedo, bend, specular, scale } = *relief;
-        let bent = bend.sample(specular, samples);
+    /// The same with the directions and the specular albedo of textures; gradients go to texels, which are
+    /// zero outside of what the samples see. The albedo's last row is not read.
+    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
+        let TexturedRelief { networks, samples, region, light, albedo, texels, scale } = *relief;
+        let bent = bend::sample(texels, &samples.taps);
         let directions = scale.directions(samples, Some(&bent));
         let mut albedo = albedo.clone();
         albedo.copy_row(3, &bent, 6);
-        let (loss, gradient) = self.bend(networks, samples, light, &directions, &albedo);
-        let by_deviation = scale.adjoint(samples, &bent, &gradient);
-        let add = |rows: &mut [Row; BENT], strip: &mut Strip<GRADIENT>| {
+        let (loss, by_sample) = self.bend(networks, samples, light, &directions, &albedo);
+        let by_deviation = scale.adjoint(samples, &bent, &by_sample);
+        let add = |rows: &mut [Row; BENT], strip: &mut Strip<TEXEL>| {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
-                rows[DIRECTIONS] = gradient.block(block)[DIRECTIONS];
+                rows[DIRECTIONS] = by_sample.block(block)[DIRECTIONS];
                 strip.add_bent(block, lanes, rows);
             }
         };
-        samples.taps.by_strip_in(texels, || [Row::ZERO; BENT], add);
+        samples.taps.by_strip_in(region, gradient, || [Row::ZERO; BENT], add);
         loss
     }
 
@@ -103,14 +104,14 @@ pub struct TexturedRelief<'a> {
     pub networks: &'a Networks,
     /// The pixels.
     pub samples: &'a Samples,
+    /// The texels that they see.
+    pub region: &'a Region,
     /// L(p).
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one is read.
     pub albedo: &'a Planes,
-    /// Deviations.
-    pub bend: &'a Bend,
-    /// The texture of the specular albedo.
-    pub specular: &'a [f32],
+    /// Deviations and specular albedo.
+    pub texels: &'a [Texel],
     /// How directions are scaled.
     pub scale: &'a DirectionScale,
 }

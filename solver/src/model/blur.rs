@@ -1,6 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
-use crate::convolution::{Shape, convolve, convolve_into, gaussian};
+use crate::convolution::{Place, Shape, convolve, convolve_into, gaussian};
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -54,17 +54,20 @@ impl Blur {
         convolve(texture, &self.kernel, self.shape(), &self.whole, |_, _, _| {}, after)
     }
 
-    /// The blurred texture in a region; elsewhere `out` may stay as it is.
-    pub fn apply_in(&self, region: &Region, texture: &[f32], out: &mut [f32]) {
-        let read = |row: usize, column: usize, values: &mut [f32]| {
-            let first = (row * self.size + column) * self.channels;
-            values.copy_from_slice(&texture[first..first + values.len()]);
+    /// [`Blur::apply`] in a region, from what `read` fills in (told the row and the first column) to what
+    /// `write` makes of it in the [parts](crate::convolution::parts) of a texture.
+    pub fn apply_in<O: Send>(
+        &self,
+        region: &Region,
+        read: impl Fn(usize, usize, &mut [f32]) + Sync,
+        write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
+        parts: Vec<O>,
+    ) {
+        let write = |place: &Place, values: &mut [f32], part: &mut O| {
+            self.scale(place.row, place.columns.start, values);
+            write(place, values, part);
         };
-        let write = |row: usize, column: usize, values: &mut [f32], out: &mut [f32]| {
-            self.scale(row, column, values);
-            out.copy_from_slice(values);
-        };
-        convolve_into(out, &self.kernel, self.shape(), region, read, write, |_| {});
+        convolve_into(parts, &self.kernel, self.shape(), region, read, write);
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
@@ -75,23 +78,19 @@ impl Blur {
         convolve(gradient, &self.kernel, self.shape(), &self.whole, before, |_, _, _| {})
     }
 
-    /// The transpose of [`Blur::apply_in`]: where the gradient is not zero, from what `read` fills in to
-    /// what `write` makes of it in `out`. Both are told the row and the first column.
-    pub fn adjoint_in(
+    /// [`Blur::adjoint`] in the same way.
+    pub fn adjoint_in<O: Send>(
         &self,
         region: &Region,
         read: impl Fn(usize, usize, &mut [f32]) + Sync,
-        write: impl Fn(usize, usize, &[f32], &mut [f32]) + Sync,
-        out: &mut [f32],
+        write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
+        parts: Vec<O>,
     ) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
             read(row, column, values);
             self.scale(row, column, values);
         };
-        let write = |row: usize, column: usize, values: &mut [f32], out: &mut [f32]| {
-            write(row, column, values, out);
-        };
-        convolve_into(out, &self.kernel, self.shape(), region, read, write, |_| {});
+        convolve_into(parts, &self.kernel, self.shape(), region, read, write);
     }
 
     fn shape(&self) -> Shape {

@@ -4,13 +4,17 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::bend::{Bend, GRADIENT};
+use super::bend::{Bend, Texel};
 use super::blur::Blur;
-use super::normals::DirectionScale;
+use super::normals::{DIRECTIONS, DirectionScale};
 use crate::backend::cpu::exp;
 use crate::config::Config;
+use crate::convolution::{COLUMNS, Place, parts};
 use crate::region::Region;
 use crate::simd::widened;
+
+/// Of the deviation texture.
+const CHANNELS: usize = 3;
 
 /// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
 /// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
@@ -45,7 +49,7 @@ impl Deviation {
     /// For textures of side `size`.
     pub fn new(config: &Config, size: usize) -> Self {
         let fine = &config.fine_tuning;
-        let blur = |sigma: f32| Blur::new(size, 3, sigma * size as f32);
+        let blur = |sigma: f32| Blur::new(size, CHANNELS, sigma * size as f32);
         if config.height.enabled {
             return Self {
                 range: None,
@@ -68,23 +72,25 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
-        let mut bend = Bend::new(self.size);
-        self.textures_in(&Region::whole(self.size, self.size), deviation, &mut bend);
-        bend
+        let mut sharp = vec![0.0; deviation.len()];
+        self.squash(&mut sharp, &self.band(deviation));
+        Bend { blurred: self.blur.apply(&sharp), sharp }
     }
 
-    /// The same in a region; elsewhere `bend` may stay as it is.
-    pub fn textures_in(&self, region: &Region, deviation: &[f32], bend: &mut Bend) {
-        let band = self.band(Cow::Borrowed(deviation), Blur::apply);
-        let squash = |at: usize, out: &mut [f32]| {
-            let band = &band[at..at + out.len()];
-            match self.range {
-                Some(range) => squash(out, band, range),
-                None => out.copy_from_slice(band),
-            }
+    /// d, its blur and the specular albedo in a region, of B t ([`Self::band`]); elsewhere the texels may
+    /// stay as they are.
+    pub fn texels_in(&self, region: &Region, band: &[f32], specular: &[f32], texels: &mut [Texel]) {
+        let read = |row: usize, column: usize, values: &mut [f32]| {
+            self.squash(values, &band[CHANNELS * (row * self.size + column)..]);
         };
-        self.reaches(region).rows_of(&mut bend.sharp, 3, squash);
-        self.blur.apply_in(region, &bend.sharp, &mut bend.blurred);
+        let write = |place: &Place, blurred: &mut [f32], texels: &mut &mut [Texel]| {
+            let first = place.row * self.size + place.columns.start;
+            let mut sharp = [0.0; CHANNELS * COLUMNS];
+            let sharp = &mut sharp[..blurred.len()];
+            self.squash(sharp, &band[CHANNELS * first..]);
+            side_by_side(&mut texels[place.within(1)], sharp, blurred, &specular[first..]);
+        };
+        self.blur.apply_in(region, read, write, parts(texels, self.size, 1));
     }
 
     /// The region on which texels of another depend: where [`Self::adjoint_in`] is not zero if the
@@ -93,40 +99,61 @@ impl Deviation {
         region.dilated(self.blur.reach(), self.size)
     }
 
-    /// Where the deviation texture moves, given what [`Self::reaches`] says.
-    pub fn moved<'a>(&self, reached: &'a Region) -> Cow<'a, Region> {
-        match self.banded() {
-            true => Cow::Owned(Region::whole(self.size, self.size)),
-            false => Cow::Borrowed(reached),
-        }
-    }
-
     /// Whether B is anything but the identity.
-    fn banded(&self) -> bool {
+    pub fn banded(&self) -> bool {
         self.wide.is_some() || self.narrow.reach() > 0
     }
 
-    /// Carries gradients by d and by its blur ([`GRADIENT`] values a texel), zero outside of a region, to the
-    /// deviation texture, in `out`; `reached` is what it [reaches](Self::reaches).
-    pub fn adjoint_in(&self, reached: &Region, bend: &Bend, gradient: &[f32], out: &mut Vec<f32>) {
-        let texels =
-            |row: usize, column: usize| &gradient.as_chunks().0[row * self.size + column..];
+    /// B t, with t the deviation texture.
+    pub fn band<'a>(&self, deviation: &'a [f32]) -> Cow<'a, [f32]> {
+        self.pass(Cow::Borrowed(deviation), Blur::apply)
+    }
+
+    /// Carries gradients by B t to t.
+    pub fn band_adjoint(&self, gradient: Vec<f32>) -> Vec<f32> {
+        self.pass(Cow::Owned(gradient), Blur::adjoint).into_owned()
+    }
+
+    /// Carries gradients of texels, zero outside of a region, through the blur: `write` is given those by
+    /// d and by the specular albedo in what the region [reaches](Self::reaches), for each of the
+    /// [`parts`] of a texture.
+    pub fn adjoint_in<O: Send>(
+        &self,
+        reached: &Region,
+        gradient: &[Texel],
+        parts: Vec<O>,
+        write: impl Fn(&Place, &mut [f32], &[f32], &mut O) + Sync,
+    ) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
-            blurred(values.as_chunks_mut().0, texels(row, column));
+            by_blur(values.as_chunks_mut().0, &gradient[row * self.size + column..]);
         };
-        let write = |row: usize, column: usize, values: &[f32], out: &mut [f32]| {
-            let sharp = &bend.sharp[3 * (row * self.size + column)..];
-            let (values, out) = (values.as_chunks().0, out.as_chunks_mut().0);
-            unsquash(out, values, texels(row, column), sharp.as_chunks().0, self.range);
+        let write = |place: &Place, values: &mut [f32], part: &mut O| {
+            let texels = &gradient[place.row * self.size + place.columns.start..];
+            let mut specular = [0.0; COLUMNS];
+            let specular = &mut specular[..place.columns.len()];
+            others(values.as_chunks_mut().0, specular, texels);
+            write(place, values, specular, part);
         };
-        self.blur.adjoint_in(reached, read, write, out);
-        if self.banded() {
-            *out = self.band(Cow::Owned(std::mem::take(out)), Blur::adjoint).into_owned();
+        self.blur.adjoint_in(reached, read, write, parts);
+    }
+
+    /// Multiplies gradients by d with its derivatives by B t: range (1 - tanh(B t)^2).
+    pub fn unsquash(&self, by_d: &mut [f32], band: &[f32]) {
+        if let Some(range) = self.range {
+            unsquash(by_d, band, range);
+        }
+    }
+
+    /// d of so many values of B t.
+    fn squash(&self, out: &mut [f32], band: &[f32]) {
+        match self.range {
+            Some(range) => squash(out, band, range),
+            None => out.copy_from_slice(&band[..out.len()]),
         }
     }
 
     /// B or its transpose.
-    fn band<'a>(
+    fn pass<'a>(
         &self,
         texture: Cow<'a, [f32]>,
         blur: fn(&Blur, &[f32]) -> Vec<f32>,
@@ -144,8 +171,18 @@ impl Deviation {
 }
 
 widened! {
+    fn side_by_side(texels: &mut [Texel], sharp: &[f32], blurred: &[f32], specular: &[f32]) {
+        let (sharp, _) = sharp.as_chunks::<CHANNELS>();
+        let (blurred, _) = blurred.as_chunks::<CHANNELS>();
+        for (((texel, d), b), s) in texels.iter_mut().zip(sharp).zip(blurred).zip(specular) {
+            *texel = [d[0], d[1], d[2], b[0], b[1], b[2], *s, 0.0];
+        }
+    }
+}
+
+widened! {
     /// Of the gradients of texels, those by blur(d).
-    fn blurred(out: &mut [[f32; 3]], texels: &[[f32; GRADIENT]]) {
+    fn by_blur(out: &mut [[f32; CHANNELS]], texels: &[Texel]) {
         for (out, [_, _, _, x, y, z, _, _]) in out.iter_mut().zip(texels) {
             *out = [*x, *y, *z];
         }
@@ -153,28 +190,36 @@ widened! {
 }
 
 widened! {
-    /// The derivative of d = range x tanh(t), by d, times both gradients by d.
-    fn unsquash(
-        out: &mut [[f32; 3]],
-        through_blur: &[[f32; 3]],
-        texels: &[[f32; GRADIENT]],
-        sharp: &[[f32; 3]],
-        range: Option<f32>,
-    ) {
-        let (range, square) = range.map_or((1.0, 0.0), |range| (range, 1.0 / range));
-        for (((out, g), texel), d) in out.iter_mut().zip(through_blur).zip(texels).zip(sharp) {
-            for c in 0..3 {
-                out[c] = (g[c] + texel[c]) * (range - d[c] * d[c] * square);
+    /// Adds those by d to those that came through the blur; and those by the specular albedo.
+    fn others(by_d: &mut [[f32; CHANNELS]], by_specular: &mut [f32], texels: &[Texel]) {
+        for ((out, specular), texel) in by_d.iter_mut().zip(by_specular).zip(texels) {
+            for c in 0..CHANNELS {
+                out[c] += texel[c];
             }
+            *specular = texel[DIRECTIONS];
         }
     }
 }
 
 widened! {
-    /// range x tanh(t), accurate to about 1e-7 of the range.
-    fn squash(out: &mut [f32], t: &[f32], range: f32) {
-        for (out, t) in out.iter_mut().zip(t) {
-            *out = range * (1.0 - 2.0 / (exp(2.0 * t) + 1.0));
+    fn unsquash(by_d: &mut [f32], band: &[f32], range: f32) {
+        for (g, t) in by_d.iter_mut().zip(band) {
+            let d = tanh(*t);
+            *g *= range * (1.0 - d * d);
         }
     }
+}
+
+widened! {
+    fn squash(out: &mut [f32], t: &[f32], range: f32) {
+        for (out, t) in out.iter_mut().zip(t) {
+            *out = range * tanh(*t);
+        }
+    }
+}
+
+/// Accurate to about 1e-7.
+#[inline(always)]
+fn tanh(t: f32) -> f32 {
+    1.0 - 2.0 / (exp(2.0 * t) + 1.0)
 }

@@ -110,24 +110,15 @@ impl Taps {
 
     /// Samples a texture of `C` interleaved channels.
     pub fn sample<const C: usize>(&self, texture: &[f32]) -> Planes {
+        let (texels, _) = texture.as_chunks();
         Planes::from_blocks(C, self.cell.len(), |block, rows| {
             rows.first_chunk_mut().into_iter().for_each(|rows: &mut [Row; C]| {
-                self.sample_block(texture, block, rows.each_mut());
+                let first = block * BLOCK;
+                let last = (first + BLOCK).min(self.cell.len());
+                let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
+                sample_block(cell, fraction, texels, self.size, 0, rows);
             });
         })
-    }
-
-    /// The values of a texture at the samples of a block.
-    pub fn sample_block<const C: usize>(
-        &self,
-        texture: &[f32],
-        block: usize,
-        mut rows: [&mut Row; C],
-    ) {
-        let first = block * BLOCK;
-        let last = (first + BLOCK).min(self.cell.len());
-        let (cell, fraction) = (&self.cell[first..last], &self.fraction[first..last]);
-        sample_block(cell, fraction, texture.as_chunks().0, self.size, 0, &mut rows);
     }
 
     /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
@@ -159,8 +150,7 @@ impl Taps {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
                 let (cell, fraction) = (&self.cell[samples.clone()], &self.fraction[samples]);
-                let rows = &mut values.each_mut();
-                sample_block(cell, fraction, texels, self.size, lanes.start, rows);
+                sample_block(cell, fraction, texels, self.size, lanes.start, &mut values);
                 value(block, &values, &mut gradient, &mut loss);
                 sum += loss.0[lanes.clone()].iter().map(|term| f64::from(*term)).sum::<f64>();
                 strip.add(block, lanes, &gradient);
@@ -189,15 +179,21 @@ impl Taps {
         (texels, results)
     }
 
-    /// The same in texels that there are, whatever their values, and with scratch of the threads.
+    /// The same in texels that are zero but in the samples' `region`, whatever they are there; and with
+    /// scratch of the threads.
     pub fn by_strip_in<const D: usize, S, T: Send>(
         &self,
-        texels: &mut [f32],
+        region: &Region,
+        texels: &mut [[f32; D]],
         scratch: impl Fn() -> S + Send + Sync,
         work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
     ) -> Vec<T> {
+        let texels = texels.as_flattened_mut();
         let task = |scratch: &mut S, (number, texels): (usize, &mut [f32])| {
-            texels.fill(0.0);
+            let rows = texels.chunks_exact_mut(self.size * D);
+            for (row, columns) in rows.zip(&region.0[number * self.strip()..]) {
+                row[columns.start * D..columns.end * D].fill(0.0);
+            }
             self.in_strip(number, texels, |strip| work(scratch, strip))
         };
         let strips = texels.par_chunks_mut(self.strip() * self.size * D).enumerate();
@@ -343,7 +339,7 @@ widened! {
         texels: &[[f32; C]],
         size: usize,
         first: usize,
-        rows: &mut [&mut Row; C],
+        rows: &mut [Row; C],
     ) {
         assert!(first + cell.len() <= BLOCK);
         for (lane, (cell, fraction)) in cell.iter().zip(fraction).enumerate() {

@@ -1,10 +1,11 @@
 //! Adam (Kingma and Ba 2015), in the exact form of the framework that the paper uses.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::config::AdamConfig;
-use crate::region::Region;
 use crate::simd::widened;
 
 /// Elements that one task works through.
@@ -94,31 +95,19 @@ impl Adam {
             });
     }
 
-    /// The same for the texels of a region of a texture, outside of which the gradient is zero and was zero
-    /// before: there, nothing would move. `gradient` fills in values, told their place in the texture.
-    pub fn step_in(
-        &mut self,
-        region: &Region,
-        parameters: &mut [f32],
-        gradient: impl Fn(usize, &mut [f32]) + Sync,
+    /// The same, in parts that `cut` makes of an array. Where a gradient is zero, and was zero before,
+    /// nothing would move.
+    pub fn parts<'a>(
+        &'a mut self,
+        parameters: &'a mut [f32],
+        cut: impl Fn(&'a mut [f32]) -> Vec<&'a mut [f32]>,
         share: f32,
         least: f32,
-    ) {
+    ) -> Vec<Part<'a>> {
         let factors = self.next(share, least);
-        let line = parameters.len() / region.0.len();
-        let channels = line / region.0.len();
-        let moments = self.first.par_chunks_mut(line).zip(self.second.par_chunks_mut(line));
-        let rows = parameters.par_chunks_mut(line).zip(moments).zip(&region.0).enumerate();
-        rows.for_each_init(
-            || vec![0.0; line],
-            |room, (row, ((parameters, (first, second)), columns))| {
-                let inside = columns.start * channels..columns.end * channels;
-                let values = &mut room[..inside.len()];
-                gradient(row * line + inside.start, values);
-                let (first, second) = (&mut first[inside.clone()], &mut second[inside.clone()]);
-                step(&mut parameters[inside], values, first, second, &factors);
-            },
-        );
+        let moments = cut(&mut self.first).into_iter().zip(cut(&mut self.second));
+        let part = |(parameters, (first, second))| Part { parameters, first, second, factors };
+        cut(parameters).into_iter().zip(moments).map(part).collect()
     }
 
     /// Counts a step; its factors.
@@ -130,7 +119,26 @@ impl Adam {
     }
 }
 
+/// Some parameters in the midst of a step.
+pub struct Part<'a> {
+    /// Moved or not.
+    pub parameters: &'a mut [f32],
+    first: &'a mut [f32],
+    second: &'a mut [f32],
+    factors: Factors,
+}
+
+impl Part<'_> {
+    /// Moves some of them.
+    pub fn step(&mut self, range: Range<usize>, gradient: &[f32]) {
+        let Self { parameters, first, second, factors } = self;
+        let (first, second) = (&mut first[range.clone()], &mut second[range.clone()]);
+        step(&mut parameters[range], gradient, first, second, factors);
+    }
+}
+
 /// What a step does to every element.
+#[derive(Clone, Copy)]
 struct Factors {
     beta1: f32,
     beta2: f32,

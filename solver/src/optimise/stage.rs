@@ -3,15 +3,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adam::Adam;
+use super::adam::{Adam, Part};
 use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
-use crate::model::bend::{Bend, GRADIENT};
+use crate::convolution::{Place, parts};
+use crate::model::bend::{self, TEXEL, Texel};
 use crate::model::deviation::Deviation;
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
-use crate::model::normals::{DIRECTIONS, DirectionScale};
+use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
@@ -187,8 +188,10 @@ pub struct Relief<'a> {
     /// Texels that samples see, and those on which these depend.
     sampled: Region,
     reached: Region,
-    /// Of a step, kept for the next one's.
-    pub(super) room: Room,
+    /// Of a step, kept for the next one's: what normals are bent with, and gradients by it. What a region
+    /// leaves out stays zero.
+    texels: Vec<Texel>,
+    by_texel: Vec<Texel>,
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -211,7 +214,8 @@ impl<'a> Relief<'a> {
             deviation,
             reached: deviation.reaches(&sampled),
             sampled,
-            room: Room::default(),
+            texels: vec![[0.0; TEXEL]; state.specular.len()],
+            by_texel: vec![[0.0; TEXEL]; state.specular.len()],
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -221,58 +225,51 @@ impl<'a> Relief<'a> {
         }
     }
 
-    /// Loss; its gradients by deviation and specular albedo are left in [`Room`].
-    pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> f64 {
-        let Self { deviation, sampled, reached, room, .. } = self;
-        let room = room.of_size(state.size);
-        deviation.textures_in(sampled, &state.deviation, &mut room.bend);
+    /// Loss; its gradients by the texels are kept.
+    fn differentiate(&mut self, state: &State, backend: &dyn Backend) -> f64 {
+        let Self { deviation, sampled, texels, by_texel, .. } = self;
+        deviation.texels_in(sampled, &deviation.band(&state.deviation), &state.specular, texels);
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
+            region: sampled,
             light: &self.light,
             albedo: &self.albedo,
-            bend: &room.bend,
-            specular: &state.specular,
+            texels,
             scale: &deviation.scale,
         };
-        let loss = backend.bend_textures(&relief, &mut room.by_bend);
-        deviation.adjoint_in(reached, &room.bend, &room.by_bend, &mut room.by_deviation);
-        loss
+        backend.bend_textures(&relief, by_texel)
+    }
+
+    /// Loss, and its gradients by deviation and specular albedo.
+    pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> ReliefGradient {
+        let loss = self.differentiate(state, backend);
+        let (deviation, size) = (self.deviation, state.size);
+        let band = deviation.band(&state.deviation);
+        let [mut by_band, mut specular] = [3, 1].map(|channels| vec![0.0; channels * size * size]);
+        let all = parts(&mut by_band, size, 3).into_iter().zip(parts(&mut specular, size, 1));
+        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Parts| {
+            deviation.unsquash(by_d, &band[3 * (place.row * size + place.columns.start)..]);
+            a[place.within(3)].copy_from_slice(by_d);
+            b[place.within(1)].copy_from_slice(by_specular);
+        };
+        deviation.adjoint_in(&self.reached, &self.by_texel, all.collect(), write);
+        ReliefGradient { loss, deviation: deviation.band_adjoint(by_band), specular }
     }
 }
 
-/// What a step on the relief works in.
-pub(super) struct Room {
-    bend: Bend,
-    /// Gradients, [`GRADIENT`] values a texel.
-    by_bend: Vec<f32>,
-    /// By the deviation texture.
-    pub by_deviation: Vec<f32>,
+/// Of both textures.
+type Parts<'a> = (&'a mut [f32], &'a mut [f32]);
+
+/// Gradients of the loss.
+pub(super) struct ReliefGradient {
+    pub loss: f64,
+    pub deviation: Vec<f32>,
+    pub specular: Vec<f32>,
 }
 
-impl Default for Room {
-    fn default() -> Self {
-        Self { bend: Bend::new(0), by_bend: vec![], by_deviation: vec![] }
-    }
-}
-
-impl Room {
-    /// For textures of side `size`. What a region leaves out stays zero.
-    fn of_size(&mut self, size: usize) -> &mut Self {
-        if self.by_bend.is_empty() {
-            let texels = size * size;
-            (self.bend, self.by_bend) = (Bend::new(size), vec![0.0; GRADIENT * texels]);
-            self.by_deviation = vec![0.0; 3 * texels];
-        }
-        self
-    }
-
-    /// Gradients by the specular albedo, from a texel on.
-    pub fn by_specular(&self, first: usize, gradient: &mut [f32]) {
-        let texels = &self.by_bend.as_chunks::<GRADIENT>().0[first..];
-        gradient.iter_mut().zip(texels).for_each(|(out, texel)| *out = texel[DIRECTIONS]);
-    }
-}
+/// The same of the textures and what moves them.
+type Moved<'a> = (Part<'a>, Part<'a>);
 
 impl Stage for Relief<'_> {
     fn name(&self) -> String {
@@ -284,17 +281,28 @@ impl Stage for Relief<'_> {
     }
 
     fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
-        let least = least_albedo(self.config);
-        let loss = self.gradient(state, backend);
-        let (deviation, specular) = (&mut state.deviation, &mut state.specular);
-        let room = &self.room;
-        let gradient = |first: usize, gradient: &mut [f32]| {
-            gradient.copy_from_slice(&room.by_deviation[first..first + gradient.len()]);
+        let (least, size) = (least_albedo(self.config), state.size);
+        if self.deviation.banded() {
+            let ReliefGradient { loss, deviation, specular } = self.gradient(state, backend);
+            let gradients = [deviation, specular];
+            self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, share));
+            return loss;
+        }
+        // Without gradients of whole textures between the blur and the step.
+        let loss = self.differentiate(state, backend);
+        let Self { deviation, by_deviation, by_specular, .. } = self;
+        let free = f32::NEG_INFINITY;
+        let cut = |texture| parts(texture, size, 3);
+        let both = by_deviation.parts(&mut state.deviation, cut, share, free).into_iter();
+        let cut = |texture| parts(texture, size, 1);
+        let both = both.zip(by_specular.parts(&mut state.specular, cut, share, least));
+        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Moved| {
+            let within = place.within(3);
+            deviation.unsquash(by_d, &a.parameters[within.clone()]);
+            a.step(within, by_d);
+            b.step(place.within(1), by_specular);
         };
-        let moved = self.deviation.moved(&self.reached);
-        self.by_deviation.step_in(&moved, deviation, gradient, share, f32::NEG_INFINITY);
-        let gradient = |first: usize, gradient: &mut [f32]| room.by_specular(first, gradient);
-        self.by_specular.step_in(&self.sampled, specular, gradient, share, least);
+        deviation.adjoint_in(&self.reached, &self.by_texel, both.collect(), write);
         loss
     }
 
@@ -423,7 +431,10 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let bent = deviation.textures(&state.deviation).sample(&state.specular, samples);
+    let mut texels = vec![[0.0; TEXEL]; state.specular.len()];
+    let band = deviation.band(&state.deviation);
+    deviation.texels_in(&samples.taps.region(), &band, &state.specular, &mut texels);
+    let bent = bend::sample(&texels, &samples.taps);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);

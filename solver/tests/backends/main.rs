@@ -16,6 +16,7 @@ mod stages;
 #[allow(dead_code, reason = "shared with the unit tests, which need more of it")]
 #[path = "../../src/testing.rs"]
 mod testing;
+mod textured;
 
 use std::sync::LazyLock;
 
@@ -33,11 +34,12 @@ type Body = fn(&dyn Backend);
 type OnAdapter = fn(&Adapter);
 
 /// Of every backend.
-const SHARED: [(&str, Body); 4] = [
+const SHARED: [(&str, Body); 5] = [
     ("joint gradients match central differences", kernels::joint_gradients),
     ("bend gradients match central differences", kernels::bend_gradients),
     ("shading matches the reference and the other backends", kernels::shading),
     ("so many samples are what each of them is", sizes::samples),
+    ("the relief in one pass is that through planes", textured::relief),
 ];
 
 /// Of backends that take in whole stages.

@@ -35,9 +35,11 @@ use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedRelief};
+use crate::model::bend::{TEXEL, Texel};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
+use crate::model::taps::Strip;
 
 /// An instruction set that this machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,12 +205,13 @@ impl Backend for Cpu {
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief, texels: &mut [f32]) -> f64 {
+    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
         let packed = &pack(relief.networks);
         let scratch = || Scratch::new(relief.networks);
-        let losses = relief.samples.taps.by_strip_in(texels, scratch, |scratch, strip| {
+        let work = |scratch: &mut Scratch, strip: &mut Strip<TEXEL>| {
             kernels::textured(self.level, packed, relief, scratch, strip)
-        });
+        };
+        let losses = relief.samples.taps.by_strip_in(relief.region, gradient, scratch, work);
         losses.iter().sum()
     }
 

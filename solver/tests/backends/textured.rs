@@ -1,0 +1,76 @@
+//! The relief through textures in one pass, against planes between its parts.
+
+use solver::Config;
+use solver::backend::{Backend, JointGradient, TexturedRelief};
+use solver::model::bend::{TEXEL, Texel};
+use solver::model::deviation::Deviation;
+use solver::model::networks::Networks;
+use solver::model::planes::Planes;
+use solver::model::samples::Samples;
+
+use super::scene::problem;
+
+/// A backend without passes of its own over textures.
+struct ByPlanes<'a>(&'a dyn Backend);
+
+impl Backend for ByPlanes<'_> {
+    fn name(&self) -> String {
+        self.0.name()
+    }
+
+    fn joint(&self, n: &Networks, s: &Samples, d: &Planes, a: &Planes) -> JointGradient {
+        self.0.joint(n, s, d, a)
+    }
+
+    fn light(&self, n: &Networks, p: &Planes) -> Planes {
+        self.0.light(n, p)
+    }
+
+    fn bend(&self, n: &Networks, s: &Samples, l: &Planes, d: &Planes, a: &Planes) -> (f64, Planes) {
+        self.0.bend(n, s, l, d, a)
+    }
+
+    fn shade(&self, n: &Networks, l: &Planes, d: &Planes) -> Planes {
+        self.0.shade(n, l, d)
+    }
+}
+
+/// Loss and gradients of a bent dome; the texels that nothing sees have none.
+pub fn relief(backend: &dyn Backend) {
+    let mut config = Config::preset("paper").unwrap();
+    config.fine_tuning.deviation_blur = 0.05;
+    let (samples, state) = problem(&config);
+    let deviation = Deviation::new(&config, state.size);
+    let t: Vec<f32> = (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
+    let empty = vec![[0.0; TEXEL]; state.specular.len()];
+    let (mut texels, region) = (empty.clone(), samples.taps.region());
+    deviation.texels_in(&region, &t, &state.specular, &mut texels);
+    let relief = TexturedRelief {
+        networks: &state.networks,
+        samples: &samples,
+        region: &region,
+        light: &backend.light(&state.networks, &samples.position),
+        albedo: &state.albedo(&samples),
+        texels: &texels,
+        scale: &deviation.scale,
+    };
+    let [fused, split] = [backend, &ByPlanes(backend)].map(|backend| {
+        // What an earlier step has left.
+        let mut gradient = empty.clone();
+        for (row, columns) in gradient.chunks_mut(state.size).zip(&region.0) {
+            row[columns.clone()].fill([1.0; TEXEL]);
+        }
+        (backend.bend_textures(&relief, &mut gradient), gradient)
+    });
+    assert!((fused.0 / split.0 - 1.0).abs() < 1e-6, "{} {}", fused.0, split.0);
+    let size = |texels: &[Texel]| texels.as_flattened().iter().fold(0.0f32, |m, g| m.max(g.abs()));
+    assert!(size(&split.1) > 0.0);
+    for (at, (got, expected)) in fused.1.iter().zip(&split.1).enumerate() {
+        for (got, expected) in got.iter().zip(expected) {
+            let error = (got - expected).abs();
+            assert!(error < 1e-5 * size(&split.1), "{at}: {got} {expected}");
+        }
+        let (row, column) = (at / state.size, at % state.size);
+        assert!(region.0[row].contains(&column) || *got == [0.0; TEXEL], "{at}");
+    }
+}
