@@ -87,11 +87,14 @@ pub fn vector_gradients<S: Lanes>(
     diffuse: &mut [Row],
     specular: &mut [Row],
 ) {
+    let [diffuse_shading, specular_shading] = by_shading;
     for (k, light) in light.iter_mut().enumerate() {
         let mut at = 0;
         while at < BLOCK {
-            let [by_diffuse, by_specular] = [0, 1].map(|term| S::load(&by_shading[term], at));
-            let [slope_diffuse, slope_specular] = [0, 1].map(|term| S::load(&slopes[term][k], at));
+            let (by_diffuse, by_specular) =
+                (S::load(diffuse_shading, at), S::load(specular_shading, at));
+            let (slope_diffuse, slope_specular) =
+                (S::load(&slopes[0][k], at), S::load(&slopes[1][k], at));
             let (l, d) = (S::load(light, at), S::load(&diffuse[k], at));
             let by_light = by_diffuse.mul_add(d, by_specular.mul(S::load(&specular[k], at)));
             l.mul(by_light).store(light, at);
