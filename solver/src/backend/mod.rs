@@ -15,7 +15,7 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
-use crate::model::bend::{self, TEXEL, Texel};
+use crate::model::bend::{TEXEL, Texel, VECTORS};
 use crate::model::networks::Networks;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{Planes, Row};
@@ -65,7 +65,7 @@ pub trait Backend: Send + Sync {
     /// zero outside of what the samples see. The albedo's last row is not read.
     fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
         let TexturedRelief { networks, samples, region, light, albedo, texels, scale } = *relief;
-        let bent = bend::sample(texels, &samples.taps);
+        let bent = samples.taps.sample_vectors::<VECTORS>(texels.as_flattened(), BENT);
         let directions = scale.directions(samples, Some(&bent));
         let mut albedo = albedo.clone();
         albedo.copy_row(3, &bent, 6);
@@ -75,7 +75,7 @@ pub trait Backend: Send + Sync {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
                 rows[DIRECTIONS] = by_sample.block(block)[DIRECTIONS];
-                strip.add_bent(block, lanes, rows);
+                strip.add_vectors::<VECTORS>(block, lanes, rows);
             }
         };
         samples.taps.by_strip_in(region, gradient, || [Row::ZERO; BENT], add);

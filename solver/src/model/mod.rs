@@ -12,4 +12,5 @@ pub mod prior;
 mod rows;
 pub mod samples;
 pub mod taps;
+pub mod texels;
 pub mod texture;

@@ -93,9 +93,8 @@ impl<'a> ReliefSolve<'a> {
         let diffuse: Vec<f32> = smooth.apply(&logs).iter().map(|log| log.exp()).collect();
         let diffuse = resample(&diffuse, state.size, 3, size);
         let specular = resample(&state.specular, state.size, 1, size);
-        let albedo = samples
-            .taps
-            .sample::<ALBEDOS>(&interleave::<ALBEDOS>(&[(&diffuse, 3), (&specular, 1)]));
+        let albedo = interleave::<ALBEDOS>(&[(&diffuse, 3), (&specular, 1)]);
+        let albedo = samples.taps.sample_vectors::<1>(&albedo, ALBEDOS);
         Self {
             config: height,
             backend,

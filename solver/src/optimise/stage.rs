@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::adam::{Adam, Part};
 use crate::backend::resident::{Job, ReliefJob, Variable};
-use crate::backend::{ALBEDOS, Backend, TexturedRelief};
+use crate::backend::{ALBEDOS, BENT, Backend, TexturedRelief};
 use crate::config::Config;
 use crate::convolution::{Place, parts};
-use crate::model::bend::{self, TEXEL, Texel};
+use crate::model::bend::{TEXEL, Texel, VECTORS};
 use crate::model::deviation::Deviation;
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
@@ -49,7 +49,7 @@ impl State {
     /// Diffuse and specular albedo at every sample.
     pub fn albedo(&self, samples: &Samples) -> Planes {
         let texture = interleave::<ALBEDOS>(&[(&self.diffuse, 3), (&self.specular, 1)]);
-        samples.taps.sample::<ALBEDOS>(&texture)
+        samples.taps.sample_vectors::<1>(&texture, ALBEDOS)
     }
 }
 
@@ -121,7 +121,7 @@ impl<'a> WarmUp<'a> {
         let (samples, taps) = (self.samples, &self.samples.taps);
         let joint =
             backend.joint(&state.networks, samples, &self.directions, &state.albedo(samples));
-        let by_albedo = taps.gather::<ALBEDOS>(&joint.albedo, 0);
+        let by_albedo = taps.gather_vectors::<1, ALBEDOS>(&joint.albedo);
         let mut diffuse = part::<ALBEDOS, 3>(&by_albedo, 0);
         let specular = part::<ALBEDOS, 1>(&by_albedo, 3);
         let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut diffuse);
@@ -434,7 +434,7 @@ pub fn layers(
     let mut texels = vec![[0.0; TEXEL]; state.specular.len()];
     let band = deviation.band(&state.deviation);
     deviation.texels_in(&samples.taps.region(), &band, &state.specular, &mut texels);
-    let bent = bend::sample(&texels, &samples.taps);
+    let bent = samples.taps.sample_vectors::<VECTORS>(texels.as_flattened(), BENT);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);

@@ -7,7 +7,7 @@ use super::lanes::{LaneSum, Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};
-use crate::model::bend::{TEXEL, sample_block};
+use crate::model::bend::{TEXEL, VECTORS};
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
@@ -145,7 +145,7 @@ fn textured_body<S: Lanes, const C: usize>(
     let (mut gradient, mut by_texture) = ([Row::ZERO; BENT], [Row::ZERO; BENT]);
     let mut lengths = [Row::ZERO; 2];
     for (block, lanes) in blocks(strip.samples.clone()) {
-        sample_block(texels, &samples.taps, block, &mut bent);
+        samples.taps.sample_vectors_of::<VECTORS>(texels.as_flattened(), block, &mut bent);
         let known = [samples.normal.block(block), samples.view.block(block)];
         bend_directions::<S>(scale, known, &bent, &mut lengths, &mut directions);
         let filled = samples.len() - block * BLOCK;
@@ -161,7 +161,7 @@ fn textured_body<S: Lanes, const C: usize>(
         }
         adjoint::<S>(scale, known, &bent, &lengths, &gradient, &mut by_texture);
         by_texture[DIRECTIONS] = gradient[DIRECTIONS];
-        strip.add_bent(block, lanes, &by_texture);
+        strip.add_vectors::<VECTORS>(block, lanes, &by_texture);
     }
     loss
 }
