@@ -48,7 +48,8 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     let (pixels, texels) = (size.pixels as f64, (size.texture * size.texture) as f64);
     let mut time = |name, flops: f64, values: f64, work: &mut dyn FnMut()| {
         let milliseconds = 1e3 * best(size.budget, 2, work);
-        kernels.push(Kernel { name, milliseconds, cost: Cost { flops, bytes: 4.0 * values } });
+        let cost = Cost { flops, operations: flops, bytes: 4.0 * values };
+        kernels.push(Kernel { name, milliseconds, cost });
     };
     let taps = &samples.taps;
     let scale = DirectionScale::from(&config.networks);

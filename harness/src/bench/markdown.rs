@@ -49,8 +49,10 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
     writeln!(
         page,
         "One step of the paper's stages on synthetic G-buffers of ten views. The floors are the \
-         operations over the multiply-adds per second, and the bytes (every value read once and \
-         written once) over the memory's.\n"
+         operations over the multiply-adds per second, of the products of networks and blurs alone \
+         (of which the share of the peak is counted) and of all arithmetic, whose every vector operation \
+         takes a multiply-add's place; and the bytes (every value read once and written once) over the \
+         memory's. The last column has the time over the largest floor.\n"
     )?;
     write_steps(page, report.steps.iter())?;
 
@@ -158,8 +160,8 @@ pub fn write_solves(page: &mut String, solves: &[Solved]) -> std::fmt::Result {
 fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> std::fmt::Result {
     writeln!(
         page,
-        "| step | backend | pixels | textures | ms | floor: compute / memory, ms | share of the peak | \
-         GB/s | memory |\n|---|---|---|---|---|---|---|---|---|"
+        "| step | backend | pixels | textures | ms | floor: products / all arithmetic / memory, ms | \
+         share of the peak | GB/s | memory | x floor |\n|---|---|---|---|---|---|---|---|---|---|"
     )?;
     for step in steps {
         let threads = if step.threads == 1 {
@@ -169,17 +171,20 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
         };
         writeln!(
             page,
-            "| {} | {}, {threads} | {} | {}² | {:.2} | {:.2} / {:.2} | {:.0} % | {:.1} | {} |",
+            "| {} | {}, {threads} | {} | {}² | {:.2} | {:.2} / {:.2} / {:.2} | {:.0} % | {:.1} | {} \
+             | {:.1} |",
             step.kind.name(),
             step.backend,
             count(step.pixels),
             step.texture,
             step.milliseconds,
+            step.product_floor,
             step.compute_floor,
             step.memory_floor,
             100.0 * step.share_of_peak(),
             step.cost.bytes / step.milliseconds / 1e6,
             step.peak_memory.map_or(String::new(), size),
+            step.milliseconds / step.floor(),
         )?;
     }
     Ok(())

@@ -73,7 +73,9 @@ pub struct Step {
     pub milliseconds: f64,
     /// The least work.
     pub cost: Cost,
-    /// Milliseconds that the multiply-adds alone would take.
+    /// Milliseconds that the products alone would take.
+    pub product_floor: f64,
+    /// Milliseconds that all arithmetic would take.
     pub compute_floor: f64,
     /// Milliseconds that memory alone would take.
     pub memory_floor: f64,
@@ -87,9 +89,9 @@ impl Step {
         self.compute_floor.max(self.memory_floor)
     }
 
-    /// Share of the peak of multiply-adds.
+    /// Share of the peak of multiply-adds that the products are.
     pub fn share_of_peak(&self) -> f64 {
-        self.compute_floor / self.milliseconds
+        self.product_floor / self.milliseconds
     }
 }
 
@@ -123,7 +125,8 @@ pub fn measure(
         texture,
         milliseconds: 1e3 * seconds,
         cost,
-        compute_floor: 1e3 * cost.flops / reach.flops,
+        product_floor: 1e3 * cost.flops / reach.flops,
+        compute_floor: 1e3 * cost.operations / reach.flops,
         memory_floor: 1e3 * cost.bytes / reach.bytes,
         peak_memory: forgot.then(peak_memory).flatten(),
     }
