@@ -54,7 +54,7 @@ pub trait Lanes: Copy {
     fn where_positive_else(self, gate: Self, other: Self) -> Self;
 }
 
-/// e^x, relative error about 1e-7; x is clamped to [-87, 88].
+/// e^x, relative error about 1e-7; x is clamped to [-40, 88].
 #[inline(always)]
 pub fn exp<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
     for x in &mut x {
@@ -69,7 +69,7 @@ pub fn exp<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
 pub fn exp_plain(x: f32) -> f32 {
     /// Adding it leaves no bits for a fraction, and an integer in the lowest bits.
     const SHIFT: f32 = 12_582_912.0;
-    let x = x.clamp(-87.0, 88.0);
+    let x = x.clamp(LEAST, 88.0);
     let shifted = x * std::f32::consts::LOG2_E + SHIFT;
     let n = shifted - SHIFT;
     let r = n * REST_OF_LN_2 + (n * -LN_2 + x);
@@ -77,6 +77,9 @@ pub fn exp_plain(x: f32) -> f32 {
     f32::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 23))
 }
 
+/// Below, e^x stays what it is here, 4e-18: it changes no sum, but its products with gradients would be
+/// subnormal, which some processors take a hundred times as long for.
+const LEAST: f32 = -40.0;
 /// ln 2 in two parts, the first with so few bits that its product with an exponent is exact.
 const LN_2: f32 = 0.693_359_4;
 const REST_OF_LN_2: f32 = 2.121_944_4e-4;
@@ -90,7 +93,7 @@ const EXP: [f32; 6] = [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0
 fn exp_below<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
     let mut n = x;
     for (x, n) in x.iter_mut().zip(&mut n) {
-        *x = S::splat(-87.0).max(*x);
+        *x = S::splat(LEAST).max(*x);
         *n = x.mul(S::splat(std::f32::consts::LOG2_E)).round();
     }
     for part in [-LN_2, REST_OF_LN_2] {
@@ -352,7 +355,7 @@ mod tests {
     #[test]
     fn exp_and_softplus_are_accurate_and_their_derivatives_match() {
         let (mut worst_exp, mut worst_softplus, mut worst_slope) = (0.0f64, 0.0f64, 0.0f64);
-        for step in -8000..8000 {
+        for step in -4000..8000 {
             let x = step as f32 * 0.01;
             let exact = f64::from(x).exp();
             let relative = |got: f32, exact: f64| (f64::from(got) / exact - 1.0).abs();

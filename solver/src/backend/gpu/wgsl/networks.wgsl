@@ -82,15 +82,15 @@ fn exponentials(z: Outputs) -> Outputs {
     var out: Outputs;
     #for j in 0..O
         // Unlike clamp, this lets a NaN through, which the loss then shows.
-        let least = select(z[j], vec4(-87.0), z[j] < vec4(-87.0));
+        let least = select(z[j], vec4(-40.0), z[j] < vec4(-40.0));
         out[j] = exp(select(least, vec4(88.0), least > vec4(88.0)));
     #end
     return out;
 }
 
-// log(1 + e^z) = max(z, 0) + 2 artanh(s), s = e / (2 + e), e = e^-|z|: exact for any z.
+// log(1 + e^z) = max(z, 0) + 2 artanh(s), s = e / (2 + e), e = e^-|z|, not below the processor's least.
 fn softplus(z: vec4<f32>) -> vec4<f32> {
-    let e = exp(max(-abs(z), vec4(-87.0)));
+    let e = exp(max(-abs(z), vec4(-40.0)));
     let s = e / (2.0 + e);
     let q = s * s;
     var sum = 1.0 / 11.0 + q * (1.0 / 13.0);
@@ -104,7 +104,7 @@ fn softplus(z: vec4<f32>) -> vec4<f32> {
 
 // Its derivative.
 fn logistic(z: vec4<f32>) -> vec4<f32> {
-    let e = exp(max(-abs(z), vec4(-87.0)));
+    let e = exp(max(-abs(z), vec4(-40.0)));
     return select(e, vec4(1.0), z > vec4(0.0)) / (1.0 + e);
 }
 
