@@ -14,8 +14,8 @@
 //! - Heights: 380 bytes a sample while the slopes are found (samples, light vector, directions,
 //!   highlights, slopes, residuals and unknowns), 200 bytes a texel of the height texture.
 //! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
-//!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, both deviations,
-//!   what is gathered, and the gradient).
+//!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, the 8 values that
+//!   samples see of deviations and specular albedo, their 8 gradients, and what a step leaves).
 //! - Maps: 155 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
