@@ -106,7 +106,7 @@ impl<'a> Running<'a> {
             pixels: self.pixels,
             texture: self.texture,
             milliseconds: 1e3 * seconds,
-            floors: [1e3 * cost.flops / flops, 1e3 * cost.bytes / bytes],
+            floors: [1e3 * cost.operations / flops, 1e3 * cost.bytes / bytes],
             memory: gpu.memory(),
             passes,
             losses,
