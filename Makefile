@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test software-gpu bench lint miri clean
+.PHONY: build demo emily results test software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -67,6 +67,13 @@ MIRI = MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-tree-borrows -Zmiri-permissive
 miri:
 	$(MIRI) --lib -- model::planes
 	$(MIRI) --test backends -- "few texels"
+
+# The kernels' tests on aarch64 in an emulator, minutes; needs `rustup target add aarch64-unknown-linux-gnu` and
+# Debian's qemu-user, gcc-aarch64-linux-gnu and libc6-dev-arm64-cross.
+neon:
+	CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
+	  CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
+	  cargo test -p solver --test backends --target aarch64-unknown-linux-gnu
 
 clean:
 	rm -rf target .venv .tools runs

@@ -2,11 +2,11 @@
 //! sampled from their textures go in; losses, gradients and shading come out. A device with memory of
 //! its own may besides take in whole stages, see [`resident`].
 //!
-//! On x86-64 the processor's kernels are compiled for AVX-512, AVX2 with FMA, and plain SSE2, and chosen at
-//! run time. Elsewhere there are the portable ones alone, arrays of eight floats whose loops compilers make
-//! vectors of: on aarch64 two NEON registers each, with products and sums rounded apart. They index
-//! slices, without `unsafe`; every other level is compared with them, on numbers of samples around all
-//! widths too (`solver/tests/backends`). `make miri` interprets planes and taps.
+//! The processor's kernels are compiled for AVX-512, AVX2 with FMA, and plain SSE2 on x86-64, chosen at run
+//! time, and for NEON on aarch64. The portable ones, all there is elsewhere, are arrays of eight floats whose
+//! loops compilers make vectors of. They index slices, without `unsafe`; every other level is compared with
+//! them, on numbers of samples around all widths too (`solver/tests/backends`; `make neon` does it in an
+//! emulator). `make miri` interprets planes and taps.
 
 mod choice;
 pub mod cpu;

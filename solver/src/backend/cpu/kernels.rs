@@ -262,7 +262,11 @@ macro_rules! entry {
                     Level::Portable => {}
                 }
             }
-            #[cfg(not(target_arch = "x86_64"))]
+            #[cfg(target_arch = "aarch64")]
+            if level == Level::Neon {
+                return $body::<super::lanes::Neon, 4>($($arg),*);
+            }
+            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             let Level::Portable = level;
             $body::<Portable, 2>($($arg),*)
         }

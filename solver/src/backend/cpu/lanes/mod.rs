@@ -1,20 +1,33 @@
-//! Vectors of floats with one meaning and three widths.
+//! Vectors of floats with one meaning and several widths.
 //!
 //! A vector type is only ever used inside functions that are entered after its instruction set was
 //! found (see [`super::Level`]); that is what makes the intrinsics sound.
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod intrinsics;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 #[cfg(target_arch = "x86_64")]
-use crate::model::planes::BLOCK;
-use crate::model::planes::Row;
+mod x86;
+
+#[cfg(target_arch = "aarch64")]
+pub use neon::Neon;
+#[cfg(target_arch = "x86_64")]
+pub use x86::{Avx2, Avx512};
+
+use crate::model::planes::{BLOCK, Row};
+
+/// Lanes of the widest vector.
+const SUMS: usize = 16;
 
 /// Partial sums, one per lane; narrower vectors use the first lanes.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-pub struct LaneSum(pub [f32; 16]);
+pub struct LaneSum(pub [f32; SUMS]);
 
 /// A vector of floats.
 pub trait Lanes: Copy {
-    /// Number of floats; divides the block's length and is at most 16.
+    /// Number of floats; divides the block's length and is at most that of a sum.
     const WIDTH: usize;
     /// All lanes `x`.
     fn splat(x: f32) -> Self;
@@ -204,146 +217,6 @@ impl Lanes for Portable {
             *a = if gate.0[lane] > 0.0 { *a } else { other.0[lane] };
         }
         self
-    }
-}
-
-/// A row's lanes must exist before they are read or written through a pointer.
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-fn check(at: usize, width: usize) {
-    assert!(at + width <= BLOCK);
-}
-
-#[cfg(target_arch = "x86_64")]
-pub use x86::{Avx2, Avx512};
-
-#[cfg(target_arch = "x86_64")]
-#[rustfmt::skip]
-mod x86 {
-    use std::arch::x86_64::*;
-    use super::{LaneSum, Lanes, Row, check};
-
-    /// 16 lanes; AVX-512 F.
-    #[derive(Clone, Copy)]
-    pub struct Avx512(__m512);
-
-    /// 8 lanes; AVX2 and FMA.
-    #[derive(Clone, Copy)]
-    pub struct Avx2(__m256);
-
-    /// Methods that are nothing but one intrinsic on values.
-    macro_rules! values {
-        ($($name:ident($($arg:ident),*) = $body:expr;)*) => {
-            $(values!(@ $name, ($($arg),*), $body);)*
-        };
-        (@ $name:ident, ($a:ident), $body:expr) => {
-            // SAFETY: an intrinsic on values needs only its instruction set, and this type is used
-            // after that was found.
-            #[inline(always)] fn $name(self) -> Self { let $a = self.0; Self(unsafe { $body }) }
-        };
-        (@ $name:ident, ($a:ident, $b:ident), $body:expr) => {
-            // SAFETY: as above.
-            #[inline(always)] fn $name(self, b: Self) -> Self { let ($a, $b) = (self.0, b.0); Self(unsafe { $body }) }
-        };
-        (@ $name:ident, ($a:ident, $b:ident, $c:ident), $body:expr) => {
-            // SAFETY: as above.
-            #[inline(always)] fn $name(self, b: Self, c: Self) -> Self { let ($a, $b, $c) = (self.0, b.0, c.0); Self(unsafe { $body }) }
-        };
-    }
-
-    impl Lanes for Avx512 {
-        const WIDTH: usize = 16;
-        #[inline(always)] fn splat(x: f32) -> Self {
-            // SAFETY: needs only AVX-512 F, and this type is used after that was found.
-            Self(unsafe { _mm512_set1_ps(x) })
-        }
-        #[inline(always)] fn load(row: &Row, at: usize) -> Self {
-            check(at, Self::WIDTH);
-            // SAFETY: the lanes lie inside the row, as just checked; the load may be unaligned.
-            Self(unsafe { _mm512_loadu_ps(row.0.as_ptr().add(at)) })
-        }
-        #[inline(always)] fn store(self, row: &mut Row, at: usize) {
-            check(at, Self::WIDTH);
-            // SAFETY: the lanes lie inside the row, as just checked; the store may be unaligned.
-            unsafe { _mm512_storeu_ps(row.0.as_mut_ptr().add(at), self.0) }
-        }
-        #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
-            // SAFETY: a sum has 16 lanes.
-            Self(unsafe { _mm512_loadu_ps(sum.0.as_ptr()) })
-        }
-        #[inline(always)] fn store_sum(self, sum: &mut LaneSum) {
-            // SAFETY: a sum has 16 lanes.
-            unsafe { _mm512_storeu_ps(sum.0.as_mut_ptr(), self.0) }
-        }
-        values! {
-            add(a, b) = _mm512_add_ps(a, b);
-            sub(a, b) = _mm512_sub_ps(a, b);
-            mul(a, b) = _mm512_mul_ps(a, b);
-            reciprocal(a) = {
-                // 14 bits, doubled by one step of Newton's method.
-                let y = _mm512_rcp14_ps(a);
-                _mm512_fmadd_ps(_mm512_fnmadd_ps(a, y, _mm512_set1_ps(1.0)), y, y)
-            };
-            reciprocal_root(a) = {
-                let y = _mm512_rsqrt14_ps(a);
-                let error = _mm512_fnmadd_ps(_mm512_mul_ps(a, y), y, _mm512_set1_ps(1.0));
-                _mm512_fmadd_ps(_mm512_mul_ps(error, _mm512_set1_ps(0.5)), y, y)
-            };
-            mul_add(a, b, c) = _mm512_fmadd_ps(a, b, c);
-            max(a, b) = _mm512_max_ps(a, b);
-            min(a, b) = _mm512_min_ps(a, b);
-            abs(a) = _mm512_abs_ps(a);
-            round(a) = _mm512_roundscale_ps::<0>(a);
-            scale(a, n) = _mm512_scalef_ps(a, n);
-            where_positive(a, gate) = _mm512_maskz_mov_ps(
-                _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), a);
-            where_positive_else(a, gate, other) = _mm512_mask_blend_ps(
-                _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), other, a);
-        }
-    }
-
-    impl Lanes for Avx2 {
-        const WIDTH: usize = 8;
-        #[inline(always)] fn splat(x: f32) -> Self {
-            // SAFETY: needs only AVX, and this type is used after AVX2 was found.
-            Self(unsafe { _mm256_set1_ps(x) })
-        }
-        #[inline(always)] fn load(row: &Row, at: usize) -> Self {
-            check(at, Self::WIDTH);
-            // SAFETY: the lanes lie inside the row, as just checked; the load may be unaligned.
-            Self(unsafe { _mm256_loadu_ps(row.0.as_ptr().add(at)) })
-        }
-        #[inline(always)] fn store(self, row: &mut Row, at: usize) {
-            check(at, Self::WIDTH);
-            // SAFETY: the lanes lie inside the row, as just checked; the store may be unaligned.
-            unsafe { _mm256_storeu_ps(row.0.as_mut_ptr().add(at), self.0) }
-        }
-        #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
-            // SAFETY: a sum has 16 lanes, of which 8 are read.
-            Self(unsafe { _mm256_loadu_ps(sum.0.as_ptr()) })
-        }
-        #[inline(always)] fn store_sum(self, sum: &mut LaneSum) {
-            // SAFETY: a sum has 16 lanes, of which 8 are written.
-            unsafe { _mm256_storeu_ps(sum.0.as_mut_ptr(), self.0) }
-        }
-        values! {
-            add(a, b) = _mm256_add_ps(a, b);
-            sub(a, b) = _mm256_sub_ps(a, b);
-            mul(a, b) = _mm256_mul_ps(a, b);
-            reciprocal(a) = _mm256_div_ps(_mm256_set1_ps(1.0), a);
-            reciprocal_root(a) = _mm256_div_ps(_mm256_set1_ps(1.0), _mm256_sqrt_ps(a));
-            mul_add(a, b, c) = _mm256_fmadd_ps(a, b, c);
-            max(a, b) = _mm256_max_ps(a, b);
-            min(a, b) = _mm256_min_ps(a, b);
-            abs(a) = _mm256_andnot_ps(_mm256_set1_ps(-0.0), a);
-            round(a) = _mm256_round_ps::<8>(a);
-            scale(a, n) = _mm256_mul_ps(a, _mm256_castsi256_ps(_mm256_slli_epi32::<23>(
-                _mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)))));
-            where_positive(a, gate) = _mm256_and_ps(
-                _mm256_cmp_ps::<_CMP_GT_OQ>(gate, _mm256_setzero_ps()), a);
-            where_positive_else(a, gate, other) = _mm256_blendv_ps(
-                other, a, _mm256_cmp_ps::<_CMP_GT_OQ>(gate, _mm256_setzero_ps()));
-        }
     }
 }
 
