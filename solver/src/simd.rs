@@ -77,7 +77,8 @@ pub(crate) fn has_avx2() -> bool {
 
 pub(crate) use widened;
 
-#[cfg(all(test, target_arch = "x86_64"))]
+#[cfg(test)]
+#[cfg(target_arch = "x86_64")]
 mod tests {
     use std::cell::Cell;
 

@@ -6,7 +6,11 @@ use rayon::prelude::*;
 use super::planes::Planes;
 use super::samples::Samples;
 use super::taps::Strip;
-use crate::simd::widened;
+use crate::simd::{prefetch, widened};
+
+/// Samples that memory is asked for ahead of the one at hand: some processors do not see by themselves
+/// early enough that they will be needed.
+const AHEAD: usize = 64;
 
 /// What is known of every sample, 32 bytes: the texture's factor of R, G, B, what is added; the target's R, G,
 /// B, the weight.
@@ -79,6 +83,8 @@ widened! {
             let (down_left, down_right) = (below_left - left, below_right - right);
             let (mut upper, mut lower, mut loss) = ([Vec4::ZERO; 2], [Vec4::ZERO; 2], Vec4::ZERO);
             while sample < cells.len() && cells[sample] == cell {
+                prefetch(known, sample + AHEAD);
+                prefetch(fractions, sample + AHEAD);
                 let [fx, fy] = fractions[sample];
                 let [factor, target] = known[sample];
                 let (left, right) = (left + fy * down_left, right + fy * down_right);
