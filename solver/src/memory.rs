@@ -6,31 +6,35 @@
 //!
 //! - Always: picture, mask and labels of every training view (14 bytes a pixel of the frame); the
 //!   G-buffer of what is covered (52 bytes a covered pixel).
-//! - Samples: 14 values and 5 words of place, 76 bytes; twice that while they are sorted.
+//! - Samples: 14 values and 5 words of place, 76 bytes; 190 more while they are sorted.
 //! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
 //!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
 //!   cells for each of the samples whose highlights are followed.
-//! - Heights: 380 bytes a sample while the slopes are found (samples, light vector, directions,
-//!   highlights, slopes, residuals and unknowns), 200 bytes a texel of the height texture.
-//! - Fine-tuning: 340 bytes a sample (samples, light vector, albedos, gradients: 152; the rest is what
-//!   the allocator keeps) and 155 bytes a texel (7 values of the state, 8 moments, the 8 values that
-//!   samples see of deviations and specular albedo, their 8 gradients, and what a step leaves).
-//! - Maps: 155 bytes a texel of the maps (state, surface, maps, and the copies that are written),
+//! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
+//!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
+//! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
+//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, the 8 values that samples see of
+//!   deviations and specular albedo, their 8 gradients); 170 where heights have been before.
+//! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
-//! Estimated and measured peaks (largest resident set of `unshade solve`, 4 views; the
-//! second and the last with 10, which alone are of this version):
+//! Estimated and measured peaks (largest resident set of `unshade solve --backend cpu`, ten views):
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
-//! | `unshade` | 15 thousand | 2048² | 686 MB | 701 MB |
-//! | `unshade` | 251 thousand | 512² | 238 MB | 239 MB |
-//! | `unshade` | 435 thousand | 512² | 256 MB | 271 MB |
-//! | `unshade` | 435 thousand | 1024² | 378 MB | 404 MB |
-//! | `unshade` | 435 thousand | 2048² | 865 MB | 877 MB |
-//! | `paper` | 435 thousand | 1024² | 378 MB | 393 MB |
-//! | `unshade` | 1.0 million | 1024² | 623 MB | 664 MB |
+//! | `unshade` | 251 thousand | 512² | 258 MB | 248 MB |
+//! | `unshade` | 251 thousand | 1024² | 299 MB | 310 MB |
+//! | `unshade` | 251 thousand | 2048² | 833 MB | 864 MB |
+//! | `unshade` | 1.0 million | 512² | 645 MB | 658 MB |
+//! | `unshade` | 1.0 million | 1024² | 687 MB | 678 MB |
+//! | `unshade` | 1.0 million | 2048² | 1043 MB | 1009 MB |
+//! | `paper` | 251 thousand | 512² | 154 MB | 158 MB |
+//! | `paper` | 251 thousand | 1024² | 257 MB | 254 MB |
+//! | `paper` | 251 thousand | 2048² | 666 MB | 650 MB |
+//! | `paper` | 1.0 million | 512² | 406 MB | 391 MB |
+//! | `paper` | 1.0 million | 1024² | 466 MB | 447 MB |
+//! | `paper` | 1.0 million | 2048² | 875 MB | 849 MB |
 
 use std::fmt;
 use std::fs;
@@ -42,19 +46,20 @@ use crate::optimise::highlights::MOST_SAMPLES;
 use crate::optimise::site::{map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.
-const PROGRAM: f64 = 30e6;
+const PROGRAM: f64 = 50e6;
 const FRAME_PIXEL: f64 = 14.0;
 const COVERED_PIXEL: f64 = 52.0;
 const SAMPLE: f64 = 76.0;
-const SORTING: f64 = 150.0;
+const SORTING: f64 = 190.0;
 const WARM_UP_SAMPLE: f64 = 180.0;
 const WARM_UP_TEXEL: f64 = 130.0;
 const TRANSPORT_SAMPLE: f64 = 280.0;
-const HEIGHT_SAMPLE: f64 = 380.0;
-const HEIGHT_TEXEL: f64 = 200.0;
-const FINE_SAMPLE: f64 = 340.0;
-const FINE_TEXEL: f64 = 155.0;
-const MAP_TEXEL: f64 = 155.0;
+const HEIGHT_SAMPLE: f64 = 490.0;
+const HEIGHT_TEXEL: f64 = 100.0;
+const FINE_SAMPLE: f64 = 190.0;
+const FINE_TEXEL: f64 = 130.0;
+const FINE_TEXEL_AFTER_HEIGHTS: f64 = 170.0;
+const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
 const CHART: f64 = 0.8;
 
@@ -111,15 +116,17 @@ impl Estimate {
         let height = match config.height.enabled {
             true => {
                 let side = size as f64 * f64::from(config.height.texture_share);
-                let samples = covered * HEIGHT_SAMPLE.max(SAMPLE + SORTING);
-                samples + side * side * HEIGHT_TEXEL + texels * 28.0
+                covered * HEIGHT_SAMPLE + side * side * HEIGHT_TEXEL + texels * 28.0
             }
             false => 0.0,
         };
-        let fine = covered * FINE_SAMPLE.max(SAMPLE + SORTING) + texels * FINE_TEXEL;
+        let texel = if config.height.enabled { FINE_TEXEL_AFTER_HEIGHTS } else { FINE_TEXEL };
+        let fine = covered * FINE_SAMPLE + texels * texel;
+        let sorting = covered * (SAMPLE + SORTING);
         let maps =
             square(map_size(config.fine_tuning.texture_size, size)) * MAP_TEXEL + covered * SAMPLE;
-        let most = [warm_up, transport, height, fine, maps].into_iter().fold(0.0, f64::max);
+        let most =
+            [warm_up, transport, sorting, height, fine, maps].into_iter().fold(0.0, f64::max);
         Self { views, pixels, texture_size: size, peak: (base + most) as u64, taken: taken as u64 }
     }
 
