@@ -133,13 +133,14 @@ pub struct TorchRow {
 /// Measures everything; `progress` hears what comes next.
 pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
     let bench = Bench { quick: options.quick };
+    // Before there is a load of our own.
+    let machine = Machine::here();
     // First, so that what the process keeps of other measurements does not count as theirs.
     let mut solves = vec![];
     for capture in &options.captures {
         progress(&format!("solving {}", capture.display()));
         solves.extend(solves::measure(capture, &Cpu::new())?);
     }
-    let machine = Machine::here();
     progress("bandwidth");
     let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
     let mut devices: Vec<(Box<dyn Backend>, Reach)> = vec![];
