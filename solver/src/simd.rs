@@ -36,12 +36,12 @@ macro_rules! widened {
     };
 }
 
-/// Asks memory for a value before it is needed; for nothing beyond the end, or where there is no such
-/// instruction.
+/// Asks memory for a value before it is needed; beyond the end it is harmless, and elsewhere than on x86-64
+/// it does nothing.
 #[inline(always)]
 pub(crate) fn prefetch<T>(values: &[T], at: usize) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: it loads nothing into the program, whatever the address.
+    // SAFETY: it loads nothing into the program and cannot fault, whatever the address.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().wrapping_add(at).cast());

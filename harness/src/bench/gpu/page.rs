@@ -29,8 +29,9 @@ pub fn write_gpu(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Res
     }
     writeln!(
         page,
-        "Whole steps as a solve submits them, against the floors of the steps above (all arithmetic, bytes) by what compute \
-         kernels reach on this device; the losses of the first steps beside the processor's.\n"
+        "Whole steps as a solve submits them, against the floors of the steps above (all arithmetic, \
+         bytes) by what compute kernels reach on this device; the losses of the first steps beside the \
+         processor's.\n"
     )?;
     write_steps(page, &report.steps)?;
     if !report.solves.is_empty() {

@@ -77,20 +77,23 @@ fn backward(network: u32, h: ptr<function, Hidden>, by_output: Outputs, by_hidde
     #end
 }
 
+// The least argument of an exponential, as on the processor (lanes).
+const LEAST = vec4(-40.0);
+
 // e^z, with the range of the processor's.
 fn exponentials(z: Outputs) -> Outputs {
     var out: Outputs;
     #for j in 0..O
         // Unlike clamp, this lets a NaN through, which the loss then shows.
-        let least = select(z[j], vec4(-40.0), z[j] < vec4(-40.0));
+        let least = select(z[j], LEAST, z[j] < LEAST);
         out[j] = exp(select(least, vec4(88.0), least > vec4(88.0)));
     #end
     return out;
 }
 
-// log(1 + e^z) = max(z, 0) + 2 artanh(s), s = e / (2 + e), e = e^-|z|, not below the processor's least.
+// log(1 + e^z) = max(z, 0) + 2 artanh(s), s = e / (2 + e), e = e^-|z|.
 fn softplus(z: vec4<f32>) -> vec4<f32> {
-    let e = exp(max(-abs(z), vec4(-40.0)));
+    let e = exp(max(-abs(z), LEAST));
     let s = e / (2.0 + e);
     let q = s * s;
     var sum = 1.0 / 11.0 + q * (1.0 / 13.0);
@@ -104,7 +107,7 @@ fn softplus(z: vec4<f32>) -> vec4<f32> {
 
 // Its derivative.
 fn logistic(z: vec4<f32>) -> vec4<f32> {
-    let e = exp(max(-abs(z), vec4(-40.0)));
+    let e = exp(max(-abs(z), LEAST));
     return select(e, vec4(1.0), z > vec4(0.0)) / (1.0 + e);
 }
 
