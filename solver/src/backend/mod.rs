@@ -47,6 +47,22 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> JointGradient;
 
+    /// The same with the albedos of a texture, and gradients by its texels.
+    fn joint_textures(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        directions: &Planes,
+        albedo: &[f32],
+    ) -> TexturedJointGradient {
+        let taps = &samples.taps;
+        let sampled = taps.sample_vectors::<1>(albedo, ALBEDOS);
+        let JointGradient { loss, networks, albedo } =
+            self.joint(networks, samples, directions, &sampled);
+        let albedo = taps.gather_vectors::<1, ALBEDOS>(&albedo);
+        TexturedJointGradient { loss, networks, albedo }
+    }
+
     /// The light vector L(p) of every sample.
     fn light(&self, networks: &Networks, position: &Planes) -> Planes;
 
@@ -125,4 +141,15 @@ pub struct JointGradient {
     pub networks: Vec<f32>,
     /// By sampled albedo, [`ALBEDOS`] rows.
     pub albedo: Planes,
+}
+
+/// What [`Backend::joint_textures`] finds.
+#[derive(Clone, Debug)]
+pub struct TexturedJointGradient {
+    /// The data term.
+    pub loss: f64,
+    /// By network parameter.
+    pub networks: Vec<f32>,
+    /// By texel, [`ALBEDOS`] values each.
+    pub albedo: Vec<f32>,
 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::Vec2;
 use rayon::prelude::*;
 
-use super::planes::{BLOCK, Planes, Row};
+use super::planes::{BLOCK, CHUNK_BLOCKS, Planes, Row};
 use crate::parallel::from_parts;
 use crate::region::Region;
 use crate::simd::widened;
@@ -199,6 +199,40 @@ impl Taps {
         let strips = texels.par_chunks_mut(self.strip() * self.size * D).enumerate();
         let results = strips.map_init(scratch, task).collect();
         self.join::<D, T>(texels, results)
+    }
+
+    /// Texels of `D` channels that `work` adds to, chunk by chunk of whole blocks of samples; and its
+    /// results, in order. Chunks have texels of their own, which are added in their order.
+    pub fn by_chunk<const D: usize, S, T: Send>(
+        &self,
+        scratch: impl Fn() -> S + Send + Sync,
+        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        let (count, chunk, line) = (self.cell.len(), CHUNK_BLOCKS * BLOCK, self.size * D);
+        let row = |sample: usize| self.cell[sample] as usize / self.size;
+        let task = |scratch: &mut S, number: usize| {
+            let samples = number * chunk..((number + 1) * chunk).min(count);
+            let first = row(samples.start);
+            let rows = row(samples.end - 1) + 2 - first;
+            let mut own = vec![0.0; rows * line];
+            let (texels, below) = own.as_chunks_mut().0.split_at_mut((rows - 1) * self.size);
+            let result = work(scratch, &mut Strip { taps: self, first, samples, texels, below });
+            ((first * line, own), result)
+        };
+        let chunks = (0..count.div_ceil(chunk)).into_par_iter();
+        let (parts, results): (Vec<_>, Vec<_>) = chunks.map_init(scratch, task).unzip();
+        let add = |number: usize, texels: &mut [f32]| {
+            let strip = number * self.strip() * line;
+            let end = strip + texels.len();
+            for (first, own) in &parts {
+                let (from, to) = (strip.max(*first), end.min(first + own.len()));
+                if from < to {
+                    let sums = texels[from - strip..to - strip].iter_mut();
+                    sums.zip(&own[from - first..]).for_each(|(sum, value)| *sum += value);
+                }
+            }
+        };
+        (from_parts(self.size * line, self.strip() * line, add).0, results)
     }
 
     /// Work on one strip; the row below, and the result.
@@ -406,6 +440,26 @@ mod tests {
         let right: f64 =
             gathered.iter().zip(&texture).map(|(g, t)| f64::from(*g) * f64::from(*t)).sum();
         assert!((left - right).abs() < 1e-3 * left.abs().max(1.0), "{left} {right}");
+    }
+
+    #[test]
+    fn chunks_of_samples_add_up_to_the_strips_sums() {
+        // Two chunks, the second one of less than a block, that share a row.
+        let count = CHUNK_BLOCKS * BLOCK + 100;
+        let (taps, _) = Taps::sorted(16, &points(count));
+        let gradient = Planes::from_fn(count, |i| [(i as f32).cos(), 1.0]);
+        let add = |(): &mut (), strip: &mut Strip<2>| {
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                strip.add(block, lanes, gradient.rows_of(block));
+            }
+            strip.samples.len()
+        };
+        let (sums, lengths) = taps.by_chunk(|| (), add);
+        assert_eq!(lengths, [count - 100, 100]);
+        for (sum, expected) in sums.iter().zip(taps.gather::<2>(&gradient, 0)) {
+            assert!((sum - expected).abs() < 1e-4 * expected.abs().max(1.0), "{sum} {expected}");
+        }
+        assert!(Taps::sorted(16, &[]).0.by_chunk(|| (), add).0.iter().all(|sum| *sum == 0.0));
     }
 
     #[test]

@@ -48,8 +48,12 @@ impl State {
 
     /// Diffuse and specular albedo at every sample.
     pub fn albedo(&self, samples: &Samples) -> Planes {
-        let texture = interleave::<ALBEDOS>(&[(&self.diffuse, 3), (&self.specular, 1)]);
-        samples.taps.sample_vectors::<1>(&texture, ALBEDOS)
+        samples.taps.sample_vectors::<1>(&self.albedo_texture(), ALBEDOS)
+    }
+
+    /// Diffuse and specular albedo, texel by texel.
+    fn albedo_texture(&self) -> Vec<f32> {
+        interleave::<ALBEDOS>(&[(&self.diffuse, 3), (&self.specular, 1)])
     }
 }
 
@@ -118,12 +122,11 @@ impl<'a> WarmUp<'a> {
 
     /// Loss and its gradient.
     pub(super) fn gradient(&self, state: &State, backend: &dyn Backend) -> WarmUpGradient {
-        let (samples, taps) = (self.samples, &self.samples.taps);
+        let albedo = state.albedo_texture();
         let joint =
-            backend.joint(&state.networks, samples, &self.directions, &state.albedo(samples));
-        let by_albedo = taps.gather_vectors::<1, ALBEDOS>(&joint.albedo);
-        let mut diffuse = part::<ALBEDOS, 3>(&by_albedo, 0);
-        let specular = part::<ALBEDOS, 1>(&by_albedo, 3);
+            backend.joint_textures(&state.networks, self.samples, &self.directions, &albedo);
+        let mut diffuse = part::<ALBEDOS, 3>(&joint.albedo, 0);
+        let specular = part::<ALBEDOS, 1>(&joint.albedo, 3);
         let prior = prior(&state.diffuse, state.size, self.config.warm_up.prior, &mut diffuse);
         WarmUpGradient { loss: joint.loss + prior, networks: joint.networks, diffuse, specular }
     }

@@ -34,11 +34,12 @@ type Body = fn(&dyn Backend);
 type OnAdapter = fn(&Adapter);
 
 /// Of every backend.
-const SHARED: [(&str, Body); 5] = [
+const SHARED: [(&str, Body); 6] = [
     ("joint gradients match central differences", kernels::joint_gradients),
     ("bend gradients match central differences", kernels::bend_gradients),
     ("shading matches the reference and the other backends", kernels::shading),
     ("so many samples are what each of them is", sizes::samples),
+    ("the warm-up in one pass is that through planes", textured::joint),
     ("the relief in one pass is that through planes", textured::relief),
 ];
 

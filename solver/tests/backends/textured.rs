@@ -1,12 +1,15 @@
-//! The relief through textures in one pass, against planes between its parts.
+//! Passes through textures, against planes between their parts.
 
 use solver::Config;
 use solver::backend::{Backend, JointGradient, TexturedRelief};
 use solver::model::bend::{TEXEL, Texel};
 use solver::model::deviation::Deviation;
 use solver::model::networks::Networks;
+use solver::model::normals::DirectionScale;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
+use solver::model::texture::interleave;
+use solver::optimise::stage::State;
 
 use super::scene::problem;
 
@@ -32,6 +35,24 @@ impl Backend for ByPlanes<'_> {
 
     fn shade(&self, n: &Networks, l: &Planes, d: &Planes) -> Planes {
         self.0.shade(n, l, d)
+    }
+}
+
+/// Loss and gradients of the warm-up.
+pub fn joint(backend: &dyn Backend) {
+    let config = Config::preset("paper").unwrap();
+    let (samples, State { networks, diffuse, specular, .. }) = problem(&config);
+    let directions = DirectionScale::from(&config.networks).directions(&samples, None);
+    let albedo = interleave::<4>(&[(&diffuse, 3), (&specular, 1)]);
+    let [fused, split] = [backend, &ByPlanes(backend)]
+        .map(|backend| backend.joint_textures(&networks, &samples, &directions, &albedo));
+    assert!((fused.loss / split.loss - 1.0).abs() < 1e-6, "{} {}", fused.loss, split.loss);
+    for (got, expected) in [(fused.networks, split.networks), (fused.albedo, split.albedo)] {
+        let size = expected.iter().fold(0.0f32, |m, g| m.max(g.abs()));
+        assert!(size > 0.0 && got.len() == expected.len());
+        for (at, (got, expected)) in got.iter().zip(&expected).enumerate() {
+            assert!((got - expected).abs() < 1e-5 * size, "{at}: {got} {expected}");
+        }
     }
 }
 

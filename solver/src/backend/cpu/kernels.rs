@@ -2,6 +2,7 @@
 //! that compile them for each instruction set.
 
 use super::Level;
+use super::ahead::Ahead;
 use super::directions::{adjoint, bend as bend_directions};
 use super::lanes::{LaneSum, Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
@@ -44,6 +45,11 @@ impl Scratch {
             sums: vec![LaneSum([0.0; 16]); networks.parameters.len()],
         }
     }
+
+    /// The sums of their lanes.
+    pub fn added(&self) -> Vec<f32> {
+        self.sums.iter().map(LaneSum::added).collect()
+    }
 }
 
 /// The inputs of the passes that have a target.
@@ -70,9 +76,14 @@ impl<'a> Inputs<'a> {
 
 /// Activated outputs of both directional networks, and their slopes.
 #[inline(always)]
-fn kernels<S: Lanes, const C: usize>(packed: &[Packed; 3], directions: &[Row], s: &mut Scratch) {
-    forward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse);
-    forward::<S, C>(&packed[2], &directions[3..DIRECTIONS], &mut s.specular);
+fn kernels<S: Lanes, const C: usize>(
+    packed: &[Packed; 3],
+    directions: &[Row],
+    s: &mut Scratch,
+    ahead: &mut Ahead,
+) {
+    forward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, ahead);
+    forward::<S, C>(&packed[2], &directions[3..DIRECTIONS], &mut s.specular, ahead);
     shade::softplus::<S>(s.diffuse.outputs(), &mut s.slopes[0]);
     shade::softplus::<S>(s.specular.outputs(), &mut s.slopes[1]);
 }
@@ -88,27 +99,60 @@ fn joint_body<S: Lanes, const C: usize>(
     s.sums.fill(LaneSum([0.0; 16]));
     let mut loss = 0.0;
     for (block, out) in out.chunks_exact_mut(ALBEDOS).enumerate() {
-        let block = first + block;
-        let position = inputs.samples.position.block(block);
-        let directions = inputs.directions.block(block);
-        forward::<S, C>(&inputs.packed[0], position, &mut s.light);
-        shade::exponentials::<S>(s.light.outputs());
-        kernels::<S, C>(inputs.packed, directions, s);
-        let (light, diffuse, specular) =
-            (s.light.outputs(), s.diffuse.outputs(), s.specular.outputs());
-        shade::dot::<S>(light, diffuse, &mut s.shading[0]);
-        shade::dot::<S>(light, specular, &mut s.shading[1]);
-        loss += shade::compose::<S>(&inputs.pixels(block), &s.shading, &mut s.gradient);
+        let albedo = inputs.albedo.block(first + block);
+        loss += joint_block::<S, C>(inputs, first + block, albedo, s);
         out.copy_from_slice(&s.gradient.albedo);
-        let by_shading = &s.gradient.shading;
-        shade::vector_gradients::<S>(by_shading, &s.slopes, light, diffuse, specular);
-        let one = s.sums.len() / 3;
-        let (a, rest) = s.sums.split_at_mut(one);
-        let (b, c) = rest.split_at_mut(one);
-        backward::<S, C>(&inputs.packed[0], position, &mut s.light, Some(a), None);
-        backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, Some(b), None);
-        backward::<S, C>(&inputs.packed[2], &directions[3..], &mut s.specular, Some(c), None);
     }
+    loss
+}
+
+/// The same of a chunk of samples with the albedos of a texture, and gradients by its texels.
+#[inline(always)]
+fn joint_textured_body<S: Lanes, const C: usize>(
+    inputs: &Inputs,
+    texture: &[f32],
+    s: &mut Scratch,
+    strip: &mut Strip<ALBEDOS>,
+) -> f64 {
+    s.sums.fill(LaneSum([0.0; 16]));
+    let mut loss = 0.0;
+    let mut albedo = [Row::ZERO; ALBEDOS];
+    for (block, lanes) in blocks(strip.samples.clone()) {
+        inputs.samples.taps.sample_vectors_of::<1>(texture, block, &mut albedo);
+        loss += joint_block::<S, C>(inputs, block, &albedo, s);
+        strip.add_vectors::<1>(block, lanes, &s.gradient.albedo);
+    }
+    loss
+}
+
+#[inline(always)]
+fn joint_block<S: Lanes, const C: usize>(
+    inputs: &Inputs,
+    block: usize,
+    albedo: &[Row],
+    s: &mut Scratch,
+) -> f64 {
+    let Samples { position, fresnel, target, weight, .. } = inputs.samples;
+    let ahead = [position, inputs.directions, fresnel, target, weight];
+    let ahead = &mut Ahead::new(&ahead, block + 1);
+    let position = position.block(block);
+    let directions = inputs.directions.block(block);
+    forward::<S, C>(&inputs.packed[0], position, &mut s.light, ahead);
+    shade::exponentials::<S>(s.light.outputs());
+    kernels::<S, C>(inputs.packed, directions, s, ahead);
+    let (light, diffuse, specular) = (s.light.outputs(), s.diffuse.outputs(), s.specular.outputs());
+    shade::dot::<S>(light, diffuse, &mut s.shading[0]);
+    shade::dot::<S>(light, specular, &mut s.shading[1]);
+    let pixels = Pixels { albedo, specular: &albedo[3], ..inputs.pixels(block) };
+    let loss = shade::compose::<S>(&pixels, &s.shading, &mut s.gradient);
+    let by_shading = &s.gradient.shading;
+    shade::vector_gradients::<S>(by_shading, &s.slopes, light, diffuse, specular);
+    let one = s.sums.len() / 3;
+    let (a, rest) = s.sums.split_at_mut(one);
+    let (b, c) = rest.split_at_mut(one);
+    backward::<S, C>(&inputs.packed[0], position, &mut s.light, Some(a), None, ahead);
+    backward::<S, C>(&inputs.packed[1], &directions[..3], &mut s.diffuse, Some(b), None, ahead);
+    backward::<S, C>(&inputs.packed[2], &directions[3..], &mut s.specular, Some(c), None, ahead);
     loss
 }
 
@@ -125,7 +169,11 @@ fn bend_body<S: Lanes, const C: usize>(
     for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
         let block = first + block;
         let (pixels, directions) = (inputs.pixels(block), inputs.directions.block(block));
-        loss += bend_block::<S, C>(inputs.packed, &pixels, light.block(block), directions, s, out);
+        let Samples { fresnel, target, weight, .. } = inputs.samples;
+        let ahead = [light, inputs.directions, inputs.albedo, fresnel, target, weight];
+        let ahead = &mut Ahead::new(&ahead, block + 1);
+        let light = light.block(block);
+        loss += bend_block::<S, C>(inputs.packed, &pixels, light, directions, s, out, ahead);
     }
     loss
 }
@@ -154,8 +202,12 @@ fn textured_body<S: Lanes, const C: usize>(
             directions.iter_mut().for_each(|row| row.0[filled..].fill(0.0));
         }
         let pixels = Pixels { specular: &bent[DIRECTIONS], ..inputs.pixels(block) };
+        let Samples { normal, view, fresnel, target, weight, .. } = samples;
+        let ahead = [light, albedo, normal, view, fresnel, target, weight];
+        let ahead = &mut Ahead::new(&ahead, block + 1);
         let light = light.block(block);
-        let of_block = bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient);
+        let of_block =
+            bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
         if lanes.start == 0 {
             loss += of_block;
         }
@@ -174,8 +226,9 @@ fn bend_block<S: Lanes, const C: usize>(
     directions: &[Row],
     s: &mut Scratch,
     out: &mut [Row],
+    ahead: &mut Ahead,
 ) -> f64 {
-    kernels::<S, C>(packed, directions, s);
+    kernels::<S, C>(packed, directions, s, ahead);
     let (diffuse, specular) = (s.diffuse.outputs(), s.specular.outputs());
     shade::dot::<S>(light, diffuse, &mut s.shading[0]);
     shade::dot::<S>(light, specular, &mut s.shading[1]);
@@ -184,9 +237,9 @@ fn bend_block<S: Lanes, const C: usize>(
     shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
     shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
     let by_input = &mut s.by_direction;
-    backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input));
+    backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input), ahead);
     out[..3].copy_from_slice(&by_input[..3]);
-    backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, Some(by_input));
+    backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, Some(by_input), ahead);
     out[3..6].copy_from_slice(&by_input[..3]);
     out[6] = s.gradient.albedo[3];
     loss
@@ -203,7 +256,9 @@ fn light_body<S: Lanes, const C: usize>(
 ) {
     let outputs = s.light.outputs().len();
     for (block, out) in out.chunks_exact_mut(outputs).enumerate() {
-        forward::<S, C>(&packed[0], position.block(first + block), &mut s.light);
+        let block = first + block;
+        let ahead = &mut Ahead::new(&[position], block + 1);
+        forward::<S, C>(&packed[0], position.block(block), &mut s.light, ahead);
         shade::exponentials::<S>(s.light.outputs());
         out.copy_from_slice(s.light.outputs());
     }
@@ -220,8 +275,10 @@ fn shade_body<S: Lanes, const C: usize>(
     out: &mut [Row],
 ) {
     for (block, out) in out.chunks_exact_mut(2).enumerate() {
-        let light = light.block(first + block);
-        kernels::<S, C>(packed, directions.block(first + block), s);
+        let block = first + block;
+        let ahead = &mut Ahead::new(&[light, directions], block + 1);
+        let light = light.block(block);
+        kernels::<S, C>(packed, directions.block(block), s, ahead);
         shade::dot::<S>(light, s.diffuse.outputs(), &mut out[0]);
         shade::dot::<S>(light, s.specular.outputs(), &mut out[1]);
     }
@@ -274,6 +331,7 @@ macro_rules! entry {
 }
 
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(joint_textured, joint_textured_body(inputs: &Inputs, texture: &[f32], s: &mut Scratch, strip: &mut Strip<ALBEDOS>) -> f64);
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, s: &mut Scratch, strip: &mut Strip<TEXEL>) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));

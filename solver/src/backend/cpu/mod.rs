@@ -10,6 +10,7 @@
 //! | pass | read | written |
 //! |---|---|---|
 //! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
+//! | [`Backend::joint_textures`] | 68: the same without the albedos, and place | 0 |
 //! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
 //! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 0 |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
@@ -24,6 +25,7 @@
 //! FLOP a sample, so that it is bound by arithmetic on every machine with more than 0.012 bytes
 //! of bandwidth per FLOP; the diffuse and specular steps are bound by memory.
 
+mod ahead;
 mod directions;
 mod kernels;
 mod lanes;
@@ -35,7 +37,7 @@ use std::fmt;
 use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
 use self::perceptron::Packed;
-use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedRelief};
+use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
 use crate::model::bend::{TEXEL, Texel};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
@@ -162,6 +164,17 @@ fn chunks<T: Send>(
     })
 }
 
+/// Losses and gradients of chunks, in their order.
+fn total(networks: &Networks, parts: Vec<(f64, Vec<f32>)>) -> (f64, Vec<f32>) {
+    let mut total = vec![0.0f64; networks.parameters.len()];
+    let mut loss = 0.0;
+    for (part, sums) in parts {
+        loss += part;
+        total.iter_mut().zip(sums).for_each(|(total, sum)| *total += f64::from(sum));
+    }
+    (loss, total.into_iter().map(|gradient| gradient as f32).collect())
+}
+
 impl Backend for Cpu {
     fn name(&self) -> String {
         format!("cpu, {}", self.level)
@@ -178,17 +191,30 @@ impl Backend for Cpu {
         let inputs = Inputs { packed, samples, directions, albedo };
         let (by_albedo, parts) = chunks(networks, ALBEDOS, samples.len(), |first, scratch, out| {
             let loss = kernels::joint(self.level, &inputs, first, scratch, out);
-            let sum = |lanes: &lanes::LaneSum| lanes.0.iter().sum::<f32>();
-            (loss, scratch.sums.iter().map(sum).collect::<Vec<f32>>())
+            (loss, scratch.added())
         });
-        let mut total = vec![0.0f64; networks.parameters.len()];
-        let mut loss = 0.0;
-        for (part, sums) in parts {
-            loss += part;
-            total.iter_mut().zip(sums).for_each(|(total, sum)| *total += f64::from(sum));
-        }
-        let total = total.into_iter().map(|gradient| gradient as f32).collect();
-        JointGradient { loss, networks: total, albedo: by_albedo }
+        let (loss, networks) = total(networks, parts);
+        JointGradient { loss, networks, albedo: by_albedo }
+    }
+
+    fn joint_textures(
+        &self,
+        networks: &Networks,
+        samples: &Samples,
+        directions: &Planes,
+        albedo: &[f32],
+    ) -> TexturedJointGradient {
+        let packed = &pack(networks);
+        // Sampled albedos are not asked for.
+        let inputs = Inputs { packed, samples, directions, albedo: directions };
+        let scratch = || Scratch::new(networks);
+        let work = |scratch: &mut Scratch, strip: &mut Strip<ALBEDOS>| {
+            let loss = kernels::joint_textured(self.level, &inputs, albedo, scratch, strip);
+            (loss, scratch.added())
+        };
+        let (albedo, parts) = samples.taps.by_chunk(scratch, work);
+        let (loss, networks) = total(networks, parts);
+        TexturedJointGradient { loss, networks, albedo }
     }
 
     fn light(&self, networks: &Networks, position: &Planes) -> Planes {

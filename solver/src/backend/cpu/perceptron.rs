@@ -3,6 +3,7 @@
 //! Matrices are walked in tiles of 4 outputs x `C` vectors, whose 4 C partial sums stay in
 //! registers; weights are packed so that a tile reads them in order.
 
+use super::ahead::Ahead;
 use super::lanes::{LaneSum, Lanes};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{BLOCK, Row};
@@ -71,15 +72,20 @@ impl Trace {
 
 /// Computes all layers; ReLU between them, nothing after the last.
 #[inline(always)]
-pub fn forward<S: Lanes, const C: usize>(packed: &Packed, input: &[Row], trace: &mut Trace) {
+pub fn forward<S: Lanes, const C: usize>(
+    packed: &Packed,
+    input: &[Row],
+    trace: &mut Trace,
+    ahead: &mut Ahead,
+) {
     let last = packed.layers.len() - 1;
     for (index, layer) in packed.layers.iter().enumerate() {
         let (before, rest) = trace.layers.split_at_mut(index);
         let input = before.last().map_or(input, Vec::as_slice);
         if index < last {
-            product::<S, C, RELU>(&layer.forward, &layer.bias, input, &[], &mut rest[0]);
+            product::<S, C, RELU>(&layer.forward, &layer.bias, input, &[], &mut rest[0], ahead);
         } else {
-            product::<S, C, PLAIN>(&layer.forward, &layer.bias, input, &[], &mut rest[0]);
+            product::<S, C, PLAIN>(&layer.forward, &layer.bias, input, &[], &mut rest[0], ahead);
         }
     }
 }
@@ -93,6 +99,7 @@ pub fn backward<S: Lanes, const C: usize>(
     trace: &mut Trace,
     mut sums: Option<&mut [LaneSum]>,
     mut by_input: Option<&mut [Row]>,
+    ahead: &mut Ahead,
 ) {
     let [mut delta, mut next] = std::mem::take(&mut trace.delta);
     let last = packed.layers.len() - 1;
@@ -103,13 +110,13 @@ pub fn backward<S: Lanes, const C: usize>(
         if let Some(sums) = sums.as_deref_mut() {
             let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
             let sums = &mut sums[before..before + layer.parameters()];
-            weight_gradient::<S>(by_output, input, sums);
+            weight_gradient::<S>(by_output, input, sums, ahead);
         }
         if index > 0 {
             let next = &mut next[..input.len()];
-            product::<S, C, GATED>(&layer.backward, &[], by_output, input, next);
+            product::<S, C, GATED>(&layer.backward, &[], by_output, input, next, ahead);
         } else if let Some(by_input) = by_input.as_deref_mut() {
-            product::<S, C, PLAIN>(&layer.backward, &[], by_output, &[], by_input);
+            product::<S, C, PLAIN>(&layer.backward, &[], by_output, &[], by_input, ahead);
         }
         std::mem::swap(&mut delta, &mut next);
     }
@@ -136,12 +143,14 @@ fn product<S: Lanes, const C: usize, const THEN: u8>(
     input: &[Row],
     gate: &[Row],
     output: &mut [Row],
+    ahead: &mut Ahead,
 ) {
     for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
         let weights = &weights[tile * input.len()..][..input.len()];
         let bias = bias.get(tile).copied().unwrap_or_default();
         let mut at = 0;
         while at < BLOCK {
+            ahead.ask();
             let mut sums = [[S::splat(0.0); C]; TILE];
             for (sums, bias) in sums.iter_mut().zip(bias) {
                 *sums = [S::splat(bias); C];
@@ -176,7 +185,12 @@ fn product<S: Lanes, const C: usize, const THEN: u8>(
 
 /// Adds delta x input^T and the sum of delta to the sums of weights and biases.
 #[inline(always)]
-fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [LaneSum]) {
+fn weight_gradient<S: Lanes>(
+    delta: &[Row],
+    input: &[Row],
+    sums: &mut [LaneSum],
+    ahead: &mut Ahead,
+) {
     let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
     let tiles = delta.chunks_exact(TILE).zip(biases.chunks_exact_mut(TILE));
     for (tile, (delta, bias)) in tiles.enumerate() {
@@ -184,6 +198,7 @@ fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [LaneSum])
         let weights = &mut weights[first..first + TILE * input.len()];
         let mut column = 0;
         while column < input.len() {
+            ahead.ask();
             let rest = &input[column..];
             let at = column;
             column += match (rest.len(), column) {

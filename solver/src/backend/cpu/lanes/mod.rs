@@ -25,6 +25,19 @@ const SUMS: usize = 16;
 #[repr(C, align(64))]
 pub struct LaneSum(pub [f32; SUMS]);
 
+impl LaneSum {
+    /// Their sum, by halves: no addition waits for all others.
+    pub fn added(&self) -> f32 {
+        let mut sums = self.0;
+        for half in [8, 4, 2, 1] {
+            for lane in 0..half {
+                sums[lane] += sums[lane + half];
+            }
+        }
+        sums[0]
+    }
+}
+
 /// A vector of floats.
 pub trait Lanes: Copy {
     /// Number of floats; divides the block's length and is at most that of a sum.
