@@ -1,7 +1,7 @@
 //! The machine: what it calls itself, and what it reaches in this very run.
 
 use std::fs;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -73,6 +73,16 @@ pub fn peak(level: Level, budget: Duration) -> f64 {
         debug_assert_eq!(each.len(), threads);
     });
     flops / seconds
+}
+
+/// The same for about a fifth of a millisecond, each thread by its own clock: what is left of it at the pace
+/// that the work before has brought the processor to.
+pub fn peak_now(cpu: &Cpu) -> f64 {
+    let rates = rayon::broadcast(|_| {
+        let begin = Instant::now();
+        cpu.multiply_adds(ROUNDS / 50) / begin.elapsed().as_secs_f64()
+    });
+    rates.iter().sum()
 }
 
 /// Bytes per second of a = b + s c over arrays of `bytes` each, which no cache should hold, all threads

@@ -52,7 +52,9 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
          operations over the multiply-adds per second, of the products of networks and blurs alone \
          (of which the share of the peak is counted) and of all arithmetic, whose every vector operation \
          takes a multiply-add's place; and the bytes (every value read once and written once) over the \
-         memory's. The last column has the time over the largest floor.\n"
+         memory's. The share is given of the multiply-adds above, and of those in a fifth of a millisecond \
+         right after such a step (the most of several times): what the processor is slowed down to by its \
+         work, or by others', no kernel can exceed. The last column has the time over the largest floor.\n"
     )?;
     write_steps(page, report.steps.iter())?;
 
@@ -161,9 +163,13 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
     writeln!(
         page,
         "| step | backend | pixels | textures | ms | floor: products / all arithmetic / memory, ms | \
-         share of the peak | GB/s | memory | x floor |\n|---|---|---|---|---|---|---|---|---|---|"
+         share of the peak: machine's / after the step | GB/s | memory | x floor |\n|---|---|---|---|---|---|---|---|---|---|"
     )?;
     for step in steps {
+        let share = match step.shares_of_peak() {
+            [0.0, _] => "no products".to_owned(),
+            [of_machine, after] => format!("{:.0} / {:.0} %", 100.0 * of_machine, 100.0 * after),
+        };
         let threads = if step.threads == 1 {
             "1 thread".to_owned()
         } else {
@@ -171,7 +177,7 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
         };
         writeln!(
             page,
-            "| {} | {}, {threads} | {} | {}² | {:.2} | {:.2} / {:.2} / {:.2} | {:.0} % | {:.1} | {} \
+            "| {} | {}, {threads} | {} | {}² | {:.2} | {:.2} / {:.2} / {:.2} | {} | {:.1} | {} \
              | {:.1} |",
             step.kind.name(),
             step.backend,
@@ -181,7 +187,7 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
             step.product_floor,
             step.compute_floor,
             step.memory_floor,
-            100.0 * step.share_of_peak(),
+            share,
             step.cost.bytes / step.milliseconds / 1e6,
             step.peak_memory.map_or(String::new(), size),
             step.milliseconds / step.floor(),

@@ -143,30 +143,30 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     }
     progress("bandwidth");
     let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
-    let mut devices: Vec<(Box<dyn Backend>, Reach)> = vec![];
+    let mut devices: Vec<(Cpu, Reach)> = vec![];
     for level in Level::available() {
         progress(&format!("multiply-adds, {level}"));
         let flops = machine::peak(level, bench.budget());
-        devices.push((Box::new(Cpu::at(level)), Reach { flops, bytes: bandwidth }));
+        devices.push((Cpu::at(level), Reach { flops, bytes: bandwidth }));
     }
     let reach = devices.iter().map(|(device, reach)| (device.name(), *reach)).collect();
     let mut steps = vec![];
     for (kind, size) in bench.sizes() {
         for (device, reach) in &devices {
             progress(&format!("{}, {} pixels, {}", kind.name(), size.0, device.name()));
-            steps.push(steps::measure(kind, &**device, *reach, size, bench.budget()));
+            steps.push(steps::measure(kind, device, *reach, size, bench.budget()));
         }
     }
     // Levels come in rising order, and there is always the portable one.
     let Some((device, reach_of_best)) = devices.last() else { unreachable!("no level at all") };
     progress("kernels");
-    let kernels = kernels::measure(&**device, &bench.kernel_size());
-    let scaling = bench.scaling(&**device, *reach_of_best, progress);
-    let paper = bench.paper_size(&**device, *reach_of_best, progress);
+    let kernels = kernels::measure(device, &bench.kernel_size());
+    let scaling = bench.scaling(device, *reach_of_best, progress);
+    let paper = bench.paper_size(device, *reach_of_best, progress);
     // Not looked for before: its driver takes memory, which would count as that of the steps.
     let adapter = if options.gpu { adapter()? } else { None };
     let gpu = adapter
-        .map(|adapter| bench.gpu(&adapter, &**device, &options.captures, progress))
+        .map(|adapter| bench.gpu(&adapter, device, &options.captures, progress))
         .transpose()?;
     let torch = match &options.torch {
         None => Torch::Absent { mend: MEND.to_owned() },
@@ -177,7 +177,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
                 |(kind, size): &(Kind, (usize, usize))| *kind == Kind::WarmUp || size.0 < LARGE;
             for (kind, size) in bench.sizes().into_iter().filter(worth) {
                 progress(&format!("{}, {} pixels, PyTorch", kind.name(), size.0));
-                rows.push(torch_row(python, kind, size, &**device, &steps)?);
+                rows.push(torch_row(python, kind, size, device, &steps)?);
             }
             Torch::Measured(rows)
         }
@@ -221,12 +221,7 @@ impl Bench {
         }
     }
 
-    fn scaling(
-        &self,
-        device: &dyn Backend,
-        reach: Reach,
-        progress: &mut dyn FnMut(&str),
-    ) -> Vec<Step> {
+    fn scaling(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> Vec<Step> {
         let (pixels, textures): (&[usize], &[usize]) = match self.quick {
             true => (&[1000, 4000], &[16, 32]),
             false => (&[10_000, 100_000, 1_000_000, 10_000_000], &[128, 256, 512, 1024, 2048]),
@@ -260,12 +255,7 @@ impl Bench {
         Paper { quick: self.quick, share: if self.quick { 10_000 } else { PAPER_SHARE } }
     }
 
-    fn paper_size(
-        &self,
-        device: &dyn Backend,
-        reach: Reach,
-        progress: &mut dyn FnMut(&str),
-    ) -> PaperSize {
+    fn paper_size(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> PaperSize {
         let paper = self.paper();
         let share = paper.share;
         let mut steps = vec![];

@@ -4,12 +4,14 @@ use std::time::Duration;
 
 use serde::Serialize;
 use solver::backend::Backend;
+use solver::backend::cpu::Cpu;
 use solver::memory::Hoard;
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
 use super::clock::{best, forget_peak, peak_memory};
 use super::cost::{self, Cost};
+use super::machine::peak_now;
 use super::synthetic::{Problem, paper};
 
 /// A kind of step.
@@ -79,6 +81,8 @@ pub struct Step {
     pub compute_floor: f64,
     /// Milliseconds that memory alone would take.
     pub memory_floor: f64,
+    /// Multiply-adds right after such a step, FLOP/s: the most of several times.
+    pub flops_after: f64,
     /// Largest resident set of the process, bytes.
     pub peak_memory: Option<u64>,
 }
@@ -89,16 +93,18 @@ impl Step {
         self.compute_floor.max(self.memory_floor)
     }
 
-    /// Share of the peak of multiply-adds that the products are.
-    pub fn share_of_peak(&self) -> f64 {
-        self.product_floor / self.milliseconds
+    /// Share of the peak of multiply-adds that the products are: of the machine's, and of what is left
+    /// of it after such steps.
+    pub fn shares_of_peak(&self) -> [f64; 2] {
+        let after = 1e3 * self.cost.flops / self.flops_after;
+        [self.product_floor, after].map(|floor| floor / self.milliseconds)
     }
 }
 
 /// Measures one kind of step; everything else is given back before.
 pub fn measure(
     kind: Kind,
-    backend: &dyn Backend,
+    backend: &Cpu,
     reach: Reach,
     (pixels, texture): (usize, usize),
     budget: Duration,
@@ -116,6 +122,12 @@ pub fn measure(
     let seconds = best(budget, 2, || {
         stage.step(&mut state, backend, 1.0);
     });
+    // Not in between: the steps are to find the processor as those of a solve do.
+    let mut flops_after = 0.0f64;
+    best(budget / 4, 2, || {
+        stage.step(&mut state, backend, 1.0);
+        flops_after = flops_after.max(peak_now(backend));
+    });
     let cost = kind.cost(pixels, texture);
     Step {
         kind,
@@ -128,6 +140,7 @@ pub fn measure(
         product_floor: 1e3 * cost.flops / reach.flops,
         compute_floor: 1e3 * cost.operations / reach.flops,
         memory_floor: 1e3 * cost.bytes / reach.bytes,
+        flops_after,
         peak_memory: forgot.then(peak_memory).flatten(),
     }
 }
