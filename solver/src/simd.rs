@@ -39,15 +39,15 @@ macro_rules! widened {
 /// Asks memory for a value before it is needed; beyond the end it is harmless, and elsewhere than on x86-64
 /// it does nothing.
 #[inline(always)]
-pub(crate) fn prefetch<T>(values: &[T], at: usize) {
+pub(crate) fn prefetch<T>(address: *const T) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: it loads nothing into the program and cannot fault, whatever the address.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().wrapping_add(at).cast());
+        _mm_prefetch::<_MM_HINT_T0>(address.cast());
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (values, at);
+    let _ = address;
 }
 
 /// Whether the machine has AVX-512 F, BW, DQ and VL: all that have any, but for Xeon Phi.

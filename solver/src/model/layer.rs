@@ -83,8 +83,8 @@ widened! {
             let (down_left, down_right) = (below_left - left, below_right - right);
             let (mut upper, mut lower, mut loss) = ([Vec4::ZERO; 2], [Vec4::ZERO; 2], Vec4::ZERO);
             while sample < cells.len() && cells[sample] == cell {
-                prefetch(known, sample + AHEAD);
-                prefetch(fractions, sample + AHEAD);
+                prefetch(known.as_ptr().wrapping_add(sample + AHEAD));
+                prefetch(fractions.as_ptr().wrapping_add(sample + AHEAD));
                 let [fx, fy] = fractions[sample];
                 let [factor, target] = known[sample];
                 let (left, right) = (left + fy * down_left, right + fy * down_right);

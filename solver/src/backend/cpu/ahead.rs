@@ -3,20 +3,21 @@
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::simd::prefetch;
 
-/// Values in a line of the cache.
-const LINE: usize = 16;
 /// Planes that any pass reads, at most.
 const PLANES: usize = 7;
-/// Lines asked for at a time: a block of a joint pass has 224 and 300 tiles, of the others up to 368 and
-/// from 40 to 150.
-const PACE: usize = 2;
+/// Values asked for at a time, two lines of the cache: a block of a joint pass has 224 lines and 300 tiles,
+/// of the others up to 368 and from 40 to 150.
+const PACE: usize = 32;
+const LINE: usize = 16;
 
 /// Rows asked for a few lines at a time, between tiles of products: a core waits for some ten lines at most,
 /// and whatever it reads besides would have to wait as well. It has no influence on results.
 pub struct Ahead<'a> {
     planes: [&'a [Row]; PLANES],
     plane: usize,
-    line: usize,
+    /// Of the rows at hand: what is next, and how often may be asked yet.
+    next: *const f32,
+    left: usize,
 }
 
 impl<'a> Ahead<'a> {
@@ -26,21 +27,32 @@ impl<'a> Ahead<'a> {
         for (rows, planes) in rows.iter_mut().zip(planes).filter(|(_, p)| block < p.blocks()) {
             *rows = planes.block(block);
         }
-        Self { planes: rows, plane: 0, line: 0 }
+        let mut ahead = Self { planes: rows, plane: 0, next: std::ptr::null(), left: 0 };
+        ahead.turn();
+        ahead
     }
 
     /// Asks for the next lines.
     #[inline(always)]
     pub fn ask(&mut self) {
-        for _ in 0..PACE {
-            let Some(rows) = self.planes.get(self.plane) else { return };
-            match rows.get(self.line * LINE / BLOCK) {
-                Some(row) => {
-                    prefetch(&row.0, self.line * LINE % BLOCK);
-                    self.line += 1;
-                }
-                None => (self.plane, self.line) = (self.plane + 1, 0),
+        if self.left > 0 {
+            prefetch(self.next);
+            prefetch(self.next.wrapping_add(LINE));
+            self.next = self.next.wrapping_add(PACE);
+            self.left -= 1;
+            if self.left == 0 {
+                self.turn();
             }
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn turn(&mut self) {
+        while let (0, Some(rows)) = (self.left, self.planes.get(self.plane)) {
+            self.plane += 1;
+            self.next = rows.as_ptr().cast();
+            self.left = rows.len() * BLOCK / PACE;
         }
     }
 }

@@ -4,7 +4,7 @@
 use super::Level;
 use super::ahead::Ahead;
 use super::directions::{adjoint, bend as bend_directions};
-use super::lanes::{LaneSum, Lanes, Portable};
+use super::lanes::{Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};
@@ -27,8 +27,8 @@ pub struct Scratch {
     shading: [Row; 2],
     gradient: PixelGradient,
     by_direction: [Row; 4],
-    /// One per network parameter.
-    pub sums: Vec<LaneSum>,
+    /// Gradients by the networks' parameters, in the order of the tiles.
+    pub sums: Vec<f32>,
 }
 
 impl Scratch {
@@ -42,13 +42,8 @@ impl Scratch {
             shading: [Row::ZERO; 2],
             gradient: PixelGradient { shading: [Row::ZERO; 2], albedo: [Row::ZERO; 4] },
             by_direction: [Row::ZERO; 4],
-            sums: vec![LaneSum([0.0; 16]); networks.parameters.len()],
+            sums: vec![0.0; networks.parameters.len()],
         }
-    }
-
-    /// The sums of their lanes.
-    pub fn added(&self) -> Vec<f32> {
-        self.sums.iter().map(LaneSum::added).collect()
     }
 }
 
@@ -96,7 +91,7 @@ fn joint_body<S: Lanes, const C: usize>(
     s: &mut Scratch,
     out: &mut [Row],
 ) -> f64 {
-    s.sums.fill(LaneSum([0.0; 16]));
+    s.sums.fill(0.0);
     let mut loss = 0.0;
     for (block, out) in out.chunks_exact_mut(ALBEDOS).enumerate() {
         let albedo = inputs.albedo.block(first + block);
@@ -114,7 +109,7 @@ fn joint_textured_body<S: Lanes, const C: usize>(
     s: &mut Scratch,
     strip: &mut Strip<ALBEDOS>,
 ) -> f64 {
-    s.sums.fill(LaneSum([0.0; 16]));
+    s.sums.fill(0.0);
     let mut loss = 0.0;
     let mut albedo = [Row::ZERO; ALBEDOS];
     for (block, lanes) in blocks(strip.samples.clone()) {
@@ -295,9 +290,7 @@ fn peak_body<S: Lanes, const C: usize>(rounds: usize) -> f32 {
             *sum = sum.mul_add(factor, term);
         }
     }
-    let mut total = LaneSum([0.0; 16]);
-    sums.into_iter().reduce(S::add).unwrap_or(term).store_sum(&mut total);
-    total.0[0]
+    S::sums([sums.into_iter().reduce(S::add).unwrap_or(term); 4])[0]
 }
 
 /// An entry point per instruction set; the tiles are as wide as the registers allow.

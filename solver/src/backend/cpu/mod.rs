@@ -1,11 +1,11 @@
 //! The processor: explicit vectors of the widest instruction set there is.
 //!
-//! Samples are worked through in chunks of [`CHUNK_BLOCKS`] blocks. A chunk's weight gradients stay
-//! in vector lanes; they are summed per chunk, and over the chunks in their order in f64, so that
-//! the number of threads has no influence.
+//! Samples are worked through in chunks of [`CHUNK_BLOCKS`] blocks. A chunk's weight gradients are summed
+//! block by block, and over the chunks in their order in f64, so that the number of threads has no
+//! influence.
 //!
 //! What passes between memory and a sample per iteration, in bytes; everything else lives in about
-//! 200 KiB of scratch per thread:
+//! 250 KiB of scratch per thread:
 //!
 //! | pass | read | written |
 //! |---|---|---|
@@ -36,7 +36,7 @@ use std::fmt;
 
 use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
-use self::perceptron::Packed;
+use self::perceptron::{Packed, in_order};
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
 use crate::model::bend::{TEXEL, Texel};
 use crate::model::networks::{Network, Networks};
@@ -172,7 +172,7 @@ fn total(networks: &Networks, parts: Vec<(f64, Vec<f32>)>) -> (f64, Vec<f32>) {
         loss += part;
         total.iter_mut().zip(sums).for_each(|(total, sum)| *total += f64::from(sum));
     }
-    (loss, total.into_iter().map(|gradient| gradient as f32).collect())
+    (loss, in_order(networks, &total).into_iter().map(|gradient| gradient as f32).collect())
 }
 
 impl Backend for Cpu {
@@ -191,7 +191,7 @@ impl Backend for Cpu {
         let inputs = Inputs { packed, samples, directions, albedo };
         let (by_albedo, parts) = chunks(networks, ALBEDOS, samples.len(), |first, scratch, out| {
             let loss = kernels::joint(self.level, &inputs, first, scratch, out);
-            (loss, scratch.added())
+            (loss, scratch.sums.clone())
         });
         let (loss, networks) = total(networks, parts);
         JointGradient { loss, networks, albedo: by_albedo }
@@ -210,7 +210,7 @@ impl Backend for Cpu {
         let scratch = || Scratch::new(networks);
         let work = |scratch: &mut Scratch, strip: &mut Strip<ALBEDOS>| {
             let loss = kernels::joint_textured(self.level, &inputs, albedo, scratch, strip);
-            (loss, scratch.added())
+            (loss, scratch.sums.clone())
         };
         let (albedo, parts) = samples.taps.by_chunk(scratch, work);
         let (loss, networks) = total(networks, parts);

@@ -4,12 +4,14 @@
 //! registers; weights are packed so that a tile reads them in order.
 
 use super::ahead::Ahead;
-use super::lanes::{LaneSum, Lanes};
+use super::lanes::{Lanes, Task};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{BLOCK, Row};
 
 /// Outputs per tile.
 const TILE: usize = 4;
+/// Of the first layer; the others have whole tiles.
+const INPUTS: usize = 3;
 
 /// A network's weights in the order of the tiles.
 pub struct Packed {
@@ -70,6 +72,27 @@ impl Trace {
     }
 }
 
+/// Sums of [`backward`], in the order of the parameters.
+pub fn in_order(networks: &Networks, sums: &[f64]) -> Vec<f64> {
+    let mut parameters = vec![0.0; sums.len()];
+    for network in Network::ALL {
+        for layer in 0..networks.layers() {
+            let (weights, biases) = networks.place(network, layer);
+            let inputs = networks.shape[layer];
+            for (at, sum) in sums[weights.start..biases.end].iter().enumerate() {
+                let (tile, rest) = (at / TILE / (1 + inputs), at % (TILE * (1 + inputs)));
+                let output = tile * TILE + rest % TILE;
+                let place = match (rest / TILE).checked_sub(1) {
+                    Some(input) => weights.start + output * inputs + input,
+                    None => biases.start + output,
+                };
+                parameters[place] = *sum;
+            }
+        }
+    }
+    parameters
+}
+
 /// Computes all layers; ReLU between them, nothing after the last.
 #[inline(always)]
 pub fn forward<S: Lanes, const C: usize>(
@@ -90,14 +113,15 @@ pub fn forward<S: Lanes, const C: usize>(
     }
 }
 
-/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, in the
-/// order of the parameters) and, if asked, to the inputs (3 rows and one of padding).
+/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, layer by
+/// layer, of every four outputs those by the biases, then by their weights input by input) and, if asked, to
+/// the inputs (3 rows and one of padding).
 #[inline(always)]
 pub fn backward<S: Lanes, const C: usize>(
     packed: &Packed,
     input: &[Row],
     trace: &mut Trace,
-    mut sums: Option<&mut [LaneSum]>,
+    mut sums: Option<&mut [f32]>,
     mut by_input: Option<&mut [Row]>,
     ahead: &mut Ahead,
 ) {
@@ -145,101 +169,109 @@ fn product<S: Lanes, const C: usize, const THEN: u8>(
     output: &mut [Row],
     ahead: &mut Ahead,
 ) {
-    for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
-        let weights = &weights[tile * input.len()..][..input.len()];
-        let bias = bias.get(tile).copied().unwrap_or_default();
-        let mut at = 0;
-        while at < BLOCK {
-            ahead.ask();
-            let mut sums = [[S::splat(0.0); C]; TILE];
-            for (sums, bias) in sums.iter_mut().zip(bias) {
-                *sums = [S::splat(bias); C];
-            }
-            for (weights, row) in weights.iter().zip(input) {
-                let mut x = [S::splat(0.0); C];
-                for (c, x) in x.iter_mut().enumerate() {
-                    *x = S::load(row, at + c * S::WIDTH);
-                }
-                for (sums, weight) in sums.iter_mut().zip(weights) {
-                    let weight = S::splat(*weight);
-                    for (sum, x) in sums.iter_mut().zip(x) {
-                        *sum = weight.mul_add(x, *sum);
+    S::apart(Product::<C, THEN> { weights, bias, input, gate, output, ahead });
+}
+
+struct Product<'a, 'b, const C: usize, const THEN: u8> {
+    weights: &'a [[f32; TILE]],
+    bias: &'a [[f32; TILE]],
+    input: &'a [Row],
+    gate: &'a [Row],
+    output: &'a mut [Row],
+    ahead: &'a mut Ahead<'b>,
+}
+
+impl<const C: usize, const THEN: u8> Task for Product<'_, '_, C, THEN> {
+    #[inline(always)]
+    fn run<S: Lanes>(self) {
+        let Self { weights, bias, input, gate, output, ahead } = self;
+        for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
+            let weights = &weights[tile * input.len()..][..input.len()];
+            let bias = bias.get(tile).copied().unwrap_or_default();
+            let mut at = 0;
+            while at < BLOCK {
+                ahead.ask();
+                let mut sums = [[S::splat(0.0); C]; TILE];
+                for (weights, row) in weights.iter().zip(input) {
+                    let mut x = [S::splat(0.0); C];
+                    for (c, x) in x.iter_mut().enumerate() {
+                        *x = S::load(row, at + c * S::WIDTH);
+                    }
+                    for (sums, weight) in sums.iter_mut().zip(weights) {
+                        let weight = S::splat(*weight);
+                        for (sum, x) in sums.iter_mut().zip(x) {
+                            *sum = weight.mul_add(x, *sum);
+                        }
                     }
                 }
-            }
-            for (index, (row, sums)) in output.iter_mut().zip(sums).enumerate() {
-                for (c, sum) in sums.into_iter().enumerate() {
-                    let at = at + c * S::WIDTH;
-                    let value = match THEN {
-                        RELU => S::splat(0.0).max(sum),
-                        GATED => sum.where_positive(S::load(&gate[tile * TILE + index], at)),
-                        _ => sum,
-                    };
-                    value.store(row, at);
+                for (index, (row, sums)) in output.iter_mut().zip(sums).enumerate() {
+                    let bias = S::splat(bias[index]);
+                    for (c, sum) in sums.into_iter().enumerate() {
+                        let at = at + c * S::WIDTH;
+                        let value = match THEN {
+                            RELU => S::splat(0.0).max(sum.add(bias)),
+                            GATED => sum.where_positive(S::load(&gate[tile * TILE + index], at)),
+                            _ => sum.add(bias),
+                        };
+                        value.store(row, at);
+                    }
                 }
+                at += C * S::WIDTH;
             }
-            at += C * S::WIDTH;
         }
     }
 }
 
 /// Adds delta x input^T and the sum of delta to the sums of weights and biases.
 #[inline(always)]
-fn weight_gradient<S: Lanes>(
-    delta: &[Row],
-    input: &[Row],
-    sums: &mut [LaneSum],
-    ahead: &mut Ahead,
-) {
-    let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
-    let tiles = delta.chunks_exact(TILE).zip(biases.chunks_exact_mut(TILE));
-    for (tile, (delta, bias)) in tiles.enumerate() {
-        let first = tile * TILE * input.len();
-        let weights = &mut weights[first..first + TILE * input.len()];
-        let mut column = 0;
-        while column < input.len() {
-            ahead.ask();
-            let rest = &input[column..];
-            let at = column;
-            column += match (rest.len(), column) {
-                (1, _) => outer::<S, 1, false>(delta, rest, at, weights, bias),
-                (2, _) => outer::<S, 2, false>(delta, rest, at, weights, bias),
-                (3, 0) => outer::<S, 3, true>(delta, rest, at, weights, bias),
-                (3, _) => outer::<S, 3, false>(delta, rest, at, weights, bias),
-                (_, 0) => outer::<S, TILE, true>(delta, rest, at, weights, bias),
-                _ => outer::<S, TILE, false>(delta, rest, at, weights, bias),
-            };
+fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [f32], ahead: &mut Ahead) {
+    S::apart(WeightGradient { delta, input, sums, ahead });
+}
+
+struct WeightGradient<'a, 'b> {
+    delta: &'a [Row],
+    input: &'a [Row],
+    sums: &'a mut [f32],
+    ahead: &'a mut Ahead<'b>,
+}
+
+impl Task for WeightGradient<'_, '_> {
+    #[inline(always)]
+    fn run<S: Lanes>(self) {
+        let Self { delta, input, sums, ahead } = self;
+        let (fours, rest) = input.as_chunks::<TILE>();
+        let tiles = sums.as_chunks_mut().0.chunks_exact_mut(1 + input.len());
+        for (delta, sums) in delta.as_chunks().0.iter().zip(tiles) {
+            let [bias, weights @ ..] = sums else { continue };
+            let (four_weights, rest_weights) = weights.as_chunks_mut();
+            for (tile, (input, weights)) in fours.iter().zip(four_weights).enumerate() {
+                ahead.ask();
+                if tile == 0 {
+                    outer::<S, TILE, true>(delta, input, weights, bias);
+                } else {
+                    outer::<S, TILE, false>(delta, input, weights, bias);
+                }
+            }
+            if let (Some(input), Some(weights)) =
+                (rest.first_chunk(), rest_weights.first_chunk_mut())
+            {
+                ahead.ask();
+                outer::<S, INPUTS, true>(delta, input, weights, bias);
+            }
         }
     }
 }
 
-/// One tile of the outer product, 4 x `K`, and with `BIAS` the sums of delta; returns `K`.
+/// One tile of the outer product, 4 x `K`, and with `BIAS` the sums of delta.
 #[inline(always)]
 fn outer<S: Lanes, const K: usize, const BIAS: bool>(
-    delta: &[Row],
-    input: &[Row],
-    column: usize,
-    weights: &mut [LaneSum],
-    bias: &mut [LaneSum],
-) -> usize {
-    let stride = weights.len() / TILE;
-    let (Some((delta, _)), Some((input, _)), Some((bias, _))) = (
-        delta.split_first_chunk::<TILE>(),
-        input.split_first_chunk::<K>(),
-        bias.split_first_chunk_mut::<TILE>(),
-    ) else {
-        return K;
-    };
+    delta: &[Row; TILE],
+    input: &[Row; K],
+    weights: &mut [[f32; TILE]; K],
+    bias: &mut [f32; TILE],
+) {
     let mut sums = [[S::splat(0.0); K]; TILE];
     let mut totals = [S::splat(0.0); TILE];
-    for (j, sums) in sums.iter_mut().enumerate() {
-        for (k, sum) in sums.iter_mut().enumerate() {
-            *sum = S::load_sum(&weights[j * stride + column + k]);
-        }
-        if BIAS {
-            totals[j] = S::load_sum(&bias[j]);
-        }
-    }
     let mut at = 0;
     while at < BLOCK {
         let mut x = [S::splat(0.0); K];
@@ -257,13 +289,15 @@ fn outer<S: Lanes, const K: usize, const BIAS: bool>(
         }
         at += S::WIDTH;
     }
-    for (j, sums) in sums.into_iter().enumerate() {
-        for (k, sum) in sums.into_iter().enumerate() {
-            sum.store_sum(&mut weights[j * stride + column + k]);
-        }
-        if BIAS {
-            totals[j].store_sum(&mut bias[j]);
+    let [a, b, c, d] = sums;
+    for (k, weights) in weights.iter_mut().enumerate() {
+        for (place, sum) in weights.iter_mut().zip(S::sums([a[k], b[k], c[k], d[k]])) {
+            *place += sum;
         }
     }
-    K
+    if BIAS {
+        for (place, sum) in bias.iter_mut().zip(S::sums(totals)) {
+            *place += sum;
+        }
+    }
 }

@@ -10,8 +10,18 @@ pub fn check(at: usize, width: usize) {
 
 /// Methods that are nothing but one intrinsic, of vectors of `$width` floats.
 macro_rules! memory {
-    ($width:literal, $splat:ident, $load:ident, $store:ident) => {
+    ($width:literal, $features:literal, $splat:ident, $load:ident, $store:ident) => {
         const WIDTH: usize = $width;
+        #[inline(always)]
+        fn apart(task: impl Task) {
+            #[target_feature(enable = $features)]
+            #[inline(never)]
+            fn run<S: Lanes>(task: impl Task) {
+                task.run::<S>();
+            }
+            // SAFETY: as of `splat`.
+            unsafe { run::<Self>(task) }
+        }
         #[inline(always)]
         fn splat(x: f32) -> Self {
             // SAFETY: an intrinsic on values needs only its instruction set, and this type is used after
@@ -29,18 +39,6 @@ macro_rules! memory {
             check(at, $width);
             // SAFETY: the lanes lie inside the row, as just checked; the store may be unaligned.
             unsafe { $store(row.0.as_mut_ptr().add(at), self.0) }
-        }
-        #[inline(always)]
-        fn load_sum(sum: &LaneSum) -> Self {
-            const { assert!($width <= SUMS) };
-            // SAFETY: a sum has that many lanes.
-            Self(unsafe { $load(sum.0.as_ptr()) })
-        }
-        #[inline(always)]
-        fn store_sum(self, sum: &mut LaneSum) {
-            const { assert!($width <= SUMS) };
-            // SAFETY: a sum has that many lanes.
-            unsafe { $store(sum.0.as_mut_ptr(), self.0) }
         }
     };
 }

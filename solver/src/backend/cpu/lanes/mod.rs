@@ -17,41 +17,27 @@ pub use x86::{Avx2, Avx512};
 
 use crate::model::planes::{BLOCK, Row};
 
-/// Lanes of the widest vector.
-const SUMS: usize = 16;
-
-/// Partial sums, one per lane; narrower vectors use the first lanes.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub struct LaneSum(pub [f32; SUMS]);
-
-impl LaneSum {
-    /// Their sum, by halves: no addition waits for all others.
-    pub fn added(&self) -> f32 {
-        let mut sums = self.0;
-        for half in [8, 4, 2, 1] {
-            for lane in 0..half {
-                sums[lane] += sums[lane + half];
-            }
-        }
-        sums[0]
-    }
+/// What can be done with any vectors.
+pub trait Task {
+    /// Does it.
+    fn run<S: Lanes>(self);
 }
 
 /// A vector of floats.
 pub trait Lanes: Copy {
-    /// Number of floats; divides the block's length and is at most that of a sum.
+    /// Number of floats; divides the block's length.
     const WIDTH: usize;
+    /// Does a task in a function of its own: there the compiler keeps a loop's sums in registers, whatever the
+    /// caller does besides.
+    fn apart(task: impl Task);
     /// All lanes `x`.
     fn splat(x: f32) -> Self;
     /// Lanes `at..at + WIDTH` of a row.
     fn load(row: &Row, at: usize) -> Self;
     /// Writes lanes `at..at + WIDTH` of a row.
     fn store(self, row: &mut Row, at: usize);
-    /// The first lanes of a sum.
-    fn load_sum(sum: &LaneSum) -> Self;
-    /// Writes the first lanes of a sum.
-    fn store_sum(self, sum: &mut LaneSum);
+    /// Of each of four vectors, the sum of its lanes.
+    fn sums(four: [Self; 4]) -> [f32; 4];
     /// self + b.
     fn add(self, b: Self) -> Self;
     /// self - b.
@@ -195,6 +181,7 @@ fn zip(mut a: Portable, b: Portable, f: impl Fn(f32, f32) -> f32) -> Portable {
 #[rustfmt::skip]
 impl Lanes for Portable {
     const WIDTH: usize = 8;
+    #[inline(never)] fn apart(task: impl Task) { task.run::<Self>(); }
     #[inline(always)] fn splat(x: f32) -> Self { Self([x; 8]) }
     #[inline(always)] fn load(row: &Row, at: usize) -> Self {
         let mut out = [0.0; 8];
@@ -202,12 +189,16 @@ impl Lanes for Portable {
         Self(out)
     }
     #[inline(always)] fn store(self, row: &mut Row, at: usize) { row.0[at..at + 8].copy_from_slice(&self.0); }
-    #[inline(always)] fn load_sum(sum: &LaneSum) -> Self {
-        let mut out = [0.0; 8];
-        out.copy_from_slice(&sum.0[..8]);
-        Self(out)
+    #[inline(always)] fn sums(four: [Self; 4]) -> [f32; 4] {
+        let mut sums = [0.0; 4];
+        for quarter in 0..2 {
+            for (sum, v) in sums.iter_mut().zip(four) {
+                let [a, b] = [quarter, 2 + quarter].map(|lane| v.0[lane] + v.0[lane + 4]);
+                *sum += a + b;
+            }
+        }
+        sums
     }
-    #[inline(always)] fn store_sum(self, sum: &mut LaneSum) { sum.0[..8].copy_from_slice(&self.0); }
     #[inline(always)] fn add(self, b: Self) -> Self { zip(self, b, |a, b| a + b) }
     #[inline(always)] fn sub(self, b: Self) -> Self { zip(self, b, |a, b| a - b) }
     #[inline(always)] fn mul(self, b: Self) -> Self { zip(self, b, |a, b| a * b) }

@@ -3,14 +3,24 @@
 use std::arch::aarch64::*;
 
 use super::intrinsics::{check, memory, values};
-use super::{LaneSum, Lanes, Row, SUMS};
+use super::{Lanes, Row, Task};
 
 /// 4 lanes; every aarch64 has them.
 #[derive(Clone, Copy)]
 pub struct Neon(float32x4_t);
 
 impl Lanes for Neon {
-    memory!(4, vdupq_n_f32, vld1q_f32, vst1q_f32);
+    memory!(4, "neon", vdupq_n_f32, vld1q_f32, vst1q_f32);
+    #[inline(always)]
+    fn sums([a, b, c, d]: [Self; 4]) -> [f32; 4] {
+        let mut out = [0.0; 4];
+        // SAFETY: as of `splat`; the store writes the four floats of the array.
+        unsafe {
+            let sums = vpaddq_f32(vpaddq_f32(a.0, b.0), vpaddq_f32(c.0, d.0));
+            vst1q_f32(out.as_mut_ptr(), sums);
+        }
+        out
+    }
     values! {
         add(a, b) = vaddq_f32(a, b);
         sub(a, b) = vsubq_f32(a, b);

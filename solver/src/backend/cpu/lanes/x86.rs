@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 
 use super::intrinsics::{check, memory, values};
-use super::{LaneSum, Lanes, Row, SUMS};
+use super::{Lanes, Row, Task};
 
 /// 16 lanes; AVX-512 F.
 #[derive(Clone, Copy)]
@@ -13,8 +13,32 @@ pub struct Avx512(__m512);
 #[derive(Clone, Copy)]
 pub struct Avx2(__m256);
 
+/// Both halves added.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn four(halves: __m256) -> [f32; 4] {
+    let sums = _mm_add_ps(_mm256_castps256_ps128(halves), _mm256_extractf128_ps::<1>(halves));
+    let mut out = [0.0; 4];
+    // SAFETY: it writes the four floats of the array.
+    unsafe { _mm_storeu_ps(out.as_mut_ptr(), sums) };
+    out
+}
+
 impl Lanes for Avx512 {
-    memory!(16, _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps);
+    memory!(16, "avx512f", _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps);
+    #[inline(always)]
+    fn sums([a, b, c, d]: [Self; 4]) -> [f32; 4] {
+        // SAFETY: as of `splat`.
+        unsafe {
+            let ab = _mm512_add_ps(_mm512_unpacklo_ps(a.0, b.0), _mm512_unpackhi_ps(a.0, b.0));
+            let cd = _mm512_add_ps(_mm512_unpacklo_ps(c.0, d.0), _mm512_unpackhi_ps(c.0, d.0));
+            let even = _mm512_shuffle_ps::<0b01_00_01_00>(ab, cd);
+            let quarters = _mm512_add_ps(even, _mm512_shuffle_ps::<0b11_10_11_10>(ab, cd));
+            let upper = _mm512_extractf64x4_pd::<1>(_mm512_castps_pd(quarters));
+            let halves = _mm256_add_ps(_mm512_castps512_ps256(quarters), _mm256_castpd_ps(upper));
+            four(halves)
+        }
+    }
     values! {
         add(a, b) = _mm512_add_ps(a, b);
         sub(a, b) = _mm512_sub_ps(a, b);
@@ -43,7 +67,12 @@ impl Lanes for Avx512 {
 }
 
 impl Lanes for Avx2 {
-    memory!(8, _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps);
+    memory!(8, "avx2,fma", _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps);
+    #[inline(always)]
+    fn sums([a, b, c, d]: [Self; 4]) -> [f32; 4] {
+        // SAFETY: as of `splat`.
+        unsafe { four(_mm256_hadd_ps(_mm256_hadd_ps(a.0, b.0), _mm256_hadd_ps(c.0, d.0))) }
+    }
     values! {
         add(a, b) = _mm256_add_ps(a, b);
         sub(a, b) = _mm256_sub_ps(a, b);
