@@ -11,7 +11,7 @@ use crate::backend::cpu::exp;
 use crate::config::Config;
 use crate::convolution::{COLUMNS, Place, parts};
 use crate::region::Region;
-use crate::simd::widened;
+use crate::simd::{prefetch_like, widened};
 
 /// Of the deviation texture.
 const CHANNELS: usize = 3;
@@ -81,14 +81,18 @@ impl Deviation {
     /// stay as they are.
     pub fn texels_in(&self, region: &Region, band: &[f32], specular: &[f32], texels: &mut [Texel]) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
-            self.squash(values, &band[CHANNELS * (row * self.size + column)..]);
+            let band = &band[CHANNELS * (row * self.size + column)..][..values.len()];
+            prefetch_like(band, CHANNELS * self.size);
+            self.squash(values, band);
         };
         let write = |place: &Place, blurred: &mut [f32], texels: &mut &mut [Texel]| {
             let first = place.row * self.size + place.columns.start;
             let mut sharp = [0.0; CHANNELS * COLUMNS];
             let sharp = &mut sharp[..blurred.len()];
             self.squash(sharp, &band[CHANNELS * first..]);
-            side_by_side(&mut texels[place.within(1)], sharp, blurred, &specular[first..]);
+            let texels = &mut texels[place.within(1)];
+            prefetch_like(texels, self.size);
+            side_by_side(texels, sharp, blurred, &specular[first..]);
         };
         self.blur.apply_in(region, read, write, parts(texels, self.size, 1));
     }
@@ -125,7 +129,9 @@ impl Deviation {
         write: impl Fn(&Place, &mut [f32], &[f32], &mut O) + Sync,
     ) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
-            by_blur(values.as_chunks_mut().0, &gradient[row * self.size + column..]);
+            let gradient = &gradient[row * self.size + column..][..values.len() / CHANNELS];
+            prefetch_like(gradient, self.size);
+            by_blur(values.as_chunks_mut().0, gradient);
         };
         let write = |place: &Place, values: &mut [f32], part: &mut O| {
             let texels = &gradient[place.row * self.size + place.columns.start..];

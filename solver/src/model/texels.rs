@@ -7,8 +7,10 @@ use glam::{Mat4, Vec4};
 
 use super::planes::{BLOCK, Planes, Row};
 use super::taps::{Strip, Taps, blocks};
-use crate::simd::widened;
+use crate::simd::{prefetch, widened};
 
+/// Samples whose texels are asked for ahead of those of the one at hand.
+const AHEAD: usize = 32;
 /// Values of a vector.
 const FOUR: usize = 4;
 
@@ -66,12 +68,18 @@ widened! {
         values: &mut [[Vec4; H]; BLOCK],
     ) {
         let (texels, size) = (texture.as_chunks::<FOUR>().0.as_chunks::<H>().0, taps.size());
+        let later = taps.cells().get(samples.start + AHEAD..).unwrap_or_default();
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
         assert!(cells.len() <= BLOCK && fractions.len() == cells.len());
         let mut sample = 0;
         while sample < cells.len() {
             let cell = cells[sample];
             let at = cell as usize;
+            if let Some(next) = later.get(sample) {
+                let next = texels.as_ptr().wrapping_add(*next as usize);
+                prefetch(next);
+                prefetch(next.wrapping_add(size));
+            }
             let upper = pair(&texels[at..at + 2]);
             let mut down = pair(&texels[at + size..at + size + 2]);
             for side in 0..2 {

@@ -296,9 +296,9 @@ impl Stage for Relief<'_> {
         let Self { deviation, by_deviation, by_specular, .. } = self;
         let free = f32::NEG_INFINITY;
         let cut = |texture| parts(texture, size, 3);
-        let both = by_deviation.parts(&mut state.deviation, cut, share, free).into_iter();
+        let both = by_deviation.parts(&mut state.deviation, cut, 3 * size, share, free).into_iter();
         let cut = |texture| parts(texture, size, 1);
-        let both = both.zip(by_specular.parts(&mut state.specular, cut, share, least));
+        let both = both.zip(by_specular.parts(&mut state.specular, cut, size, share, least));
         let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Moved| {
             let within = place.within(3);
             deviation.unsquash(by_d, &a.parameters[within.clone()]);
