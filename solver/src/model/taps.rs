@@ -173,14 +173,17 @@ impl Taps {
         work: impl Fn(&mut Strip<D>) -> T + Sync,
     ) -> (Vec<f32>, Vec<T>) {
         let line = self.size * D;
-        let task = |number: usize, texels: &mut [f32]| self.in_strip(number, texels, &work);
+        let task = |number: usize, texels: &mut [f32]| {
+            let samples = self.samples_of(number, texels.len() / line);
+            self.in_strip(number, texels, samples, &work)
+        };
         let (mut texels, results) = from_parts(self.size * line, self.strip() * line, task);
         let results = self.join::<D, T>(&mut texels, results);
         (texels, results)
     }
 
-    /// The same in texels that are zero but in the samples' `region`, whatever they are there; and with
-    /// scratch of the threads.
+    /// The same of whole blocks, a block in the strip that its first sample is in; in texels that are zero but
+    /// in the samples' `region`, whatever they are there; and with scratch of the threads.
     pub fn by_strip_in<const D: usize, S, T: Send>(
         &self,
         region: &Region,
@@ -194,7 +197,9 @@ impl Taps {
             for (row, columns) in rows.zip(&region.0[number * self.strip()..]) {
                 row[columns.start * D..columns.end * D].fill(0.0);
             }
-            self.in_strip(number, texels, |strip| work(scratch, strip))
+            let Range { start, end } = self.samples_of(number, texels.len() / (self.size * D));
+            let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cell.len());
+            self.in_strip(number, texels, whole(start)..whole(end), |strip| work(scratch, strip))
         };
         let strips = texels.par_chunks_mut(self.strip() * self.size * D).enumerate();
         let results = strips.map_init(scratch, task).collect();
@@ -222,48 +227,63 @@ impl Taps {
         let chunks = (0..count.div_ceil(chunk)).into_par_iter();
         let (parts, results): (Vec<_>, Vec<_>) = chunks.map_init(scratch, task).unzip();
         let add = |number: usize, texels: &mut [f32]| {
-            let strip = number * self.strip() * line;
-            let end = strip + texels.len();
-            for (first, own) in &parts {
-                let (from, to) = (strip.max(*first), end.min(first + own.len()));
-                if from < to {
-                    let sums = texels[from - strip..to - strip].iter_mut();
-                    sums.zip(&own[from - first..]).for_each(|(sum, value)| *sum += value);
-                }
-            }
+            add_parts(number * self.strip() * line, texels, &parts);
         };
         (from_parts(self.size * line, self.strip() * line, add).0, results)
     }
 
-    /// Work on one strip; the row below, and the result.
+    /// The samples whose upper texels are in a strip of so many rows.
+    fn samples_of(&self, strip: usize, rows: usize) -> Range<usize> {
+        let first = strip * self.strip();
+        self.row_start[first]..self.row_start[first + rows]
+    }
+
+    /// Work on samples that begin in a strip; the rows below that they reach, where these begin, and the
+    /// result.
     fn in_strip<const D: usize, T>(
         &self,
         number: usize,
         texels: &mut [f32],
+        samples: Range<usize>,
         work: impl FnOnce(&mut Strip<D>) -> T,
-    ) -> (Vec<f32>, T) {
+    ) -> ((usize, Vec<f32>), T) {
         let line = self.size * D;
         let first = number * self.strip();
-        let samples = self.row_start[first]..self.row_start[first + texels.len() / line];
-        let mut below = vec![0.0; line];
+        let end = first + texels.len() / line;
+        // The last sample's lower texels are in the row below its cell's.
+        let last =
+            self.cell[samples.clone()].last().map_or(0, |cell| *cell as usize / self.size + 2);
+        let mut below = vec![0.0; last.saturating_sub(end) * line];
         let texels = texels.as_chunks_mut().0;
         let below_texels = below.as_chunks_mut().0;
         let result = work(&mut Strip { taps: self, first, samples, texels, below: below_texels });
-        (below, result)
+        ((end * line, below), result)
     }
 
     /// Adds the rows below; the results.
     fn join<const D: usize, T: Send>(
         &self,
         texels: &mut [f32],
-        results: Vec<(Vec<f32>, T)>,
+        results: Vec<((usize, Vec<f32>), T)>,
     ) -> Vec<T> {
         let (below, results): (Vec<_>, Vec<_>) = results.into_iter().unzip();
-        let strips = texels.par_chunks_mut(self.strip() * self.size * D).skip(1);
-        strips.zip(&below).for_each(|(texels, below)| {
-            texels.iter_mut().zip(below).for_each(|(sum, value)| *sum += value);
-        });
+        let strip = self.strip() * self.size * D;
+        let strips = texels.par_chunks_mut(strip).enumerate();
+        strips.for_each(|(number, texels)| add_parts(number * strip, texels, &below));
         results
+    }
+}
+
+/// Adds to values, of which the first has number `start`, what parts have of them: the first one's number, and
+/// values.
+fn add_parts(start: usize, values: &mut [f32], parts: &[(usize, Vec<f32>)]) {
+    let end = start + values.len();
+    for (first, part) in parts {
+        let (from, to) = (start.max(*first), end.min(first + part.len()));
+        if from < to {
+            let sums = values[from - start..to - start].iter_mut();
+            sums.zip(&part[from - first..]).for_each(|(sum, value)| *sum += value);
+        }
     }
 }
 
@@ -282,11 +302,11 @@ pub struct Strip<'a, const D: usize> {
     pub taps: &'a Taps,
     /// The first row.
     pub first: usize,
-    /// Samples whose upper texels are in these rows.
+    /// Samples whose upper texels are in these rows, or in those below.
     pub samples: Range<usize>,
     /// The rows' texels.
     pub texels: &'a mut [[f32; D]],
-    /// Those of the row below.
+    /// Those of the rows below.
     pub below: &'a mut [[f32; D]],
 }
 
@@ -328,10 +348,11 @@ widened! {
                 sample += 1;
             }
             let at = here as usize - *first * size;
-            add(&mut texels[at..at + 2], &upper);
-            match (at + size).checked_sub(texels.len()) {
-                None => add(&mut texels[at + size..at + size + 2], &lower),
-                Some(at) => add(&mut below[at..at + 2], &lower),
+            for (at, sums) in [(at, upper), (at + size, lower)] {
+                match at.checked_sub(texels.len()) {
+                    None => add(&mut texels[at..at + 2], &sums),
+                    Some(at) => add(&mut below[at..at + 2], &sums),
+                }
             }
         }
     }

@@ -150,7 +150,7 @@ fn turned([x, y, z, w]: [Vec4; FOUR]) -> [Vec4; FOUR] {
 
 widened! {
     /// Adds what samples have to the texels of their cells, in rows of a texture from `first` on and in
-    /// the row below. The sums of a cell stay in registers while its samples pass.
+    /// those below. The sums of a cell stay in registers while its samples pass.
     fn gather<const H: usize>(
         taps: &Taps,
         first: usize,
@@ -181,10 +181,11 @@ widened! {
                 sample += 1;
             }
             let at = cell as usize - first * size;
-            add(&mut here[at..at + 2], &upper);
-            match (at + size).checked_sub(here.len()) {
-                None => add(&mut here[at + size..at + size + 2], &lower),
-                Some(at) => add(&mut below[at..at + 2], &lower),
+            for (at, sums) in [(at, upper), (at + size, lower)] {
+                match at.checked_sub(here.len()) {
+                    None => add(&mut here[at..at + 2], &sums),
+                    Some(at) => add(&mut below[at..at + 2], &sums),
+                }
             }
         }
     }

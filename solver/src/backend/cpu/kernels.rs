@@ -173,7 +173,7 @@ fn bend_body<S: Lanes, const C: usize>(
     loss
 }
 
-/// The same of the samples of a strip, from textures, and by them. A block at its end is seen twice.
+/// The same of the samples of a strip, from textures, and by them.
 #[inline(always)]
 fn textured_body<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
@@ -201,11 +201,7 @@ fn textured_body<S: Lanes, const C: usize>(
         let ahead = [light, albedo, normal, view, fresnel, target, weight];
         let ahead = &mut Ahead::new(&ahead, block + 1);
         let light = light.block(block);
-        let of_block =
-            bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
-        if lanes.start == 0 {
-            loss += of_block;
-        }
+        loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
         adjoint::<S>(scale, known, &bent, &lengths, &gradient, &mut by_texture);
         by_texture[DIRECTIONS] = gradient[DIRECTIONS];
         strip.add_vectors::<VECTORS>(block, lanes, &by_texture);
