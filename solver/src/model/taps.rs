@@ -290,7 +290,8 @@ fn add_parts(start: usize, values: &mut [f32], parts: &[(usize, Vec<f32>)]) {
 /// The blocks that a range of samples lies in, with its lanes of each.
 pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
     let first = samples.start / BLOCK;
-    (first..samples.end.div_ceil(BLOCK).max(first)).map(move |block| {
+    let end = if samples.is_empty() { first } else { samples.end.div_ceil(BLOCK) };
+    (first..end).map(move |block| {
         let start = block * BLOCK;
         (block, samples.start.max(start) - start..samples.end.min(start + BLOCK) - start)
     })

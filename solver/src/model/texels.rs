@@ -205,6 +205,7 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::region::Region;
 
     /// Bit for bit what any texture's sums are, on more rows than a strip has.
     #[test]
@@ -223,5 +224,31 @@ mod tests {
         let (mut sums, others) = (taps.gather::<8>(&planes, 0), taps.gather_vectors::<2, 8>(&part));
         sums.iter_mut().skip(7).step_by(8).for_each(|sum| *sum = 0.0);
         assert_eq!(sums, others);
+    }
+
+    /// Of samples so sparse that a block reaches over several strips, and only in the upper half.
+    #[test]
+    fn every_block_is_worked_on_once_and_reaches_all_its_texels() {
+        let (size, count) = (300, 1000);
+        let noise = |i: usize, k: f32| ((i as f32 + 1.0) * k).sin().abs();
+        let uvs: Vec<_> = (0..count)
+            .map(|i| Vec2::new(noise(i, 12.9898), 0.5 + 0.5 * noise(i, 78.233)))
+            .collect();
+        let taps = Taps::sorted(size, &uvs).0;
+        let planes =
+            Planes::from_fn(count, |i| std::array::from_fn::<_, 8, _>(|k| noise(i + k, 0.7)));
+        let work = |_: &mut (), strip: &mut Strip<8>| {
+            let blocks = blocks(strip.samples.clone());
+            blocks
+                .map(|(block, lanes)| strip.add_vectors::<2>(block, lanes, planes.block(block)))
+                .count()
+        };
+        let mut sums = vec![[1.0; 8]; size * size];
+        let counts = taps.by_strip_in(&Region::whole(size, size), &mut sums, || (), work);
+        assert_eq!(counts.iter().sum::<usize>(), count.div_ceil(BLOCK));
+        let expected = taps.gather_vectors::<2, 8>(&planes);
+        for (sum, expected) in sums.as_flattened().iter().zip(&expected) {
+            assert!((sum - expected).abs() < 1e-5, "{sum} {expected}");
+        }
     }
 }
