@@ -20,7 +20,7 @@ use crate::model::networks::Networks;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
-use crate::model::taps::{Strip, blocks};
+use crate::model::strips::{Strip, blocks};
 use crate::region::Region;
 use resident::{Descent, Job, NormalEquations, Resident};
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::planes::Planes;
 use super::samples::Samples;
-use super::taps::Strip;
+use super::strips::Strip;
 use crate::simd::{prefetch, widened};
 
 /// Samples that memory is asked for ahead of the one at hand: some processors do not see by themselves

@@ -11,6 +11,7 @@ pub mod planes;
 pub mod prior;
 mod rows;
 pub mod samples;
+pub mod strips;
 pub mod taps;
 pub mod texels;
 pub mod texture;

@@ -6,7 +6,8 @@ use std::ops::Range;
 use glam::{Mat4, Vec4};
 
 use super::planes::{BLOCK, Planes, Row};
-use super::taps::{Strip, Taps, blocks};
+use super::strips::{Strip, blocks};
+use super::taps::Taps;
 use crate::simd::{prefetch, widened};
 
 /// Samples whose texels are asked for ahead of those of the one at hand.

@@ -13,7 +13,7 @@ use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
-use crate::model::taps::{Strip, blocks};
+use crate::model::strips::{Strip, blocks};
 
 /// Chains of [`peak`]: more than the latency of a multiply-add times those begun per cycle.
 pub const PEAK_CHAINS: usize = 12;

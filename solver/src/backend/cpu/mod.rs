@@ -42,7 +42,7 @@ use crate::model::bend::{TEXEL, Texel};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
-use crate::model::taps::Strip;
+use crate::model::strips::Strip;
 
 /// An instruction set that this machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

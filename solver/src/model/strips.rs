@@ -1,0 +1,224 @@
+//! Texels that samples add to, strip by strip of rows or chunk by chunk of samples, in an order that does not
+//! depend on the number of threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::planes::{BLOCK, CHUNK_BLOCKS, Row};
+use super::taps::Taps;
+use crate::parallel::from_parts;
+use crate::region::Region;
+use crate::simd::widened;
+
+/// A gather is cut into about this many strips, whatever the number of threads.
+const STRIPS: usize = 64;
+/// Rows of a strip, at least.
+const LEAST_ROWS: usize = 4;
+
+impl Taps {
+    /// Rows of a strip.
+    fn strip(&self) -> usize {
+        self.size().div_ceil(STRIPS).max(LEAST_ROWS)
+    }
+
+    /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
+    /// contiguous; and its results, in order. The row below a strip's last, which the next strip begins
+    /// with, is added at the end.
+    pub(super) fn by_strip<const D: usize, T: Send>(
+        &self,
+        work: impl Fn(&mut Strip<D>) -> T + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        let line = self.size() * D;
+        let task = |number: usize, texels: &mut [f32]| {
+            let samples = self.samples_of(number, texels.len() / line);
+            self.in_strip(number, texels, samples, &work)
+        };
+        let (mut texels, results) = from_parts(self.size() * line, self.strip() * line, task);
+        let results = self.join::<D, T>(&mut texels, results);
+        (texels, results)
+    }
+
+    /// The same of whole blocks, a block in the strip that its first sample is in; in texels that are zero but
+    /// in the samples' `region`, whatever they are there; and with scratch of the threads.
+    pub fn by_strip_in<const D: usize, S, T: Send>(
+        &self,
+        region: &Region,
+        texels: &mut [[f32; D]],
+        scratch: impl Fn() -> S + Send + Sync,
+        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
+    ) -> Vec<T> {
+        let texels = texels.as_flattened_mut();
+        let task = |scratch: &mut S, (number, texels): (usize, &mut [f32])| {
+            let rows = texels.chunks_exact_mut(self.size() * D);
+            for (row, columns) in rows.zip(&region.0[number * self.strip()..]) {
+                row[columns.start * D..columns.end * D].fill(0.0);
+            }
+            let Range { start, end } = self.samples_of(number, texels.len() / (self.size() * D));
+            let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
+            self.in_strip(number, texels, whole(start)..whole(end), |strip| work(scratch, strip))
+        };
+        let strips = texels.par_chunks_mut(self.strip() * self.size() * D).enumerate();
+        let results = strips.map_init(scratch, task).collect();
+        self.join::<D, T>(texels, results)
+    }
+
+    /// Texels of `D` channels that `work` adds to, chunk by chunk of whole blocks of samples; and its
+    /// results, in order. Chunks have texels of their own, which are added in their order.
+    pub fn by_chunk<const D: usize, S, T: Send>(
+        &self,
+        scratch: impl Fn() -> S + Send + Sync,
+        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        let (count, chunk, line) = (self.cells().len(), CHUNK_BLOCKS * BLOCK, self.size() * D);
+        let row = |sample: usize| self.cells()[sample] as usize / self.size();
+        let task = |scratch: &mut S, number: usize| {
+            let samples = number * chunk..((number + 1) * chunk).min(count);
+            let first = row(samples.start);
+            let rows = row(samples.end - 1) + 2 - first;
+            let mut own = vec![0.0; rows * line];
+            let (texels, below) = own.as_chunks_mut().0.split_at_mut((rows - 1) * self.size());
+            let result = work(scratch, &mut Strip { taps: self, first, samples, texels, below });
+            ((first * line, own), result)
+        };
+        let chunks = (0..count.div_ceil(chunk)).into_par_iter();
+        let (parts, results): (Vec<_>, Vec<_>) = chunks.map_init(scratch, task).unzip();
+        let add = |number: usize, texels: &mut [f32]| {
+            add_parts(number * self.strip() * line, texels, &parts);
+        };
+        (from_parts(self.size() * line, self.strip() * line, add).0, results)
+    }
+
+    /// The samples whose upper texels are in a strip of so many rows.
+    fn samples_of(&self, strip: usize, rows: usize) -> Range<usize> {
+        let first = strip * self.strip();
+        self.samples_in(first..first + rows)
+    }
+
+    /// Work on samples that begin in a strip; the rows below that they reach, where these begin, and the
+    /// result.
+    fn in_strip<const D: usize, T>(
+        &self,
+        number: usize,
+        texels: &mut [f32],
+        samples: Range<usize>,
+        work: impl FnOnce(&mut Strip<D>) -> T,
+    ) -> ((usize, Vec<f32>), T) {
+        let line = self.size() * D;
+        let first = number * self.strip();
+        let end = first + texels.len() / line;
+        // The last sample's lower texels are in the row below its cell's.
+        let last =
+            self.cells()[samples.clone()].last().map_or(0, |cell| *cell as usize / self.size() + 2);
+        let mut below = vec![0.0; last.saturating_sub(end) * line];
+        let texels = texels.as_chunks_mut().0;
+        let below_texels = below.as_chunks_mut().0;
+        let result = work(&mut Strip { taps: self, first, samples, texels, below: below_texels });
+        ((end * line, below), result)
+    }
+
+    /// Adds the rows below; the results.
+    fn join<const D: usize, T: Send>(
+        &self,
+        texels: &mut [f32],
+        results: Vec<((usize, Vec<f32>), T)>,
+    ) -> Vec<T> {
+        let (below, results): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        let strip = self.strip() * self.size() * D;
+        let strips = texels.par_chunks_mut(strip).enumerate();
+        strips.for_each(|(number, texels)| add_parts(number * strip, texels, &below));
+        results
+    }
+}
+
+/// Adds to values, of which the first has number `start`, what parts have of them: the first one's number, and
+/// values.
+fn add_parts(start: usize, values: &mut [f32], parts: &[(usize, Vec<f32>)]) {
+    let end = start + values.len();
+    for (first, part) in parts {
+        let (from, to) = (start.max(*first), end.min(first + part.len()));
+        if from < to {
+            let sums = values[from - start..to - start].iter_mut();
+            sums.zip(&part[from - first..]).for_each(|(sum, value)| *sum += value);
+        }
+    }
+}
+
+/// The blocks that a range of samples lies in, with its lanes of each.
+pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let first = samples.start / BLOCK;
+    let end = if samples.is_empty() { first } else { samples.end.div_ceil(BLOCK) };
+    (first..end).map(move |block| {
+        let start = block * BLOCK;
+        (block, samples.start.max(start) - start..samples.end.min(start + BLOCK) - start)
+    })
+}
+
+/// Some rows of a texture of `D` channels, and those below that its samples reach.
+pub struct Strip<'a, const D: usize> {
+    /// Of all samples.
+    pub taps: &'a Taps,
+    /// The first row.
+    pub first: usize,
+    /// Samples whose upper texels are in these rows, or in those below.
+    pub samples: Range<usize>,
+    /// The rows' texels.
+    pub texels: &'a mut [[f32; D]],
+    /// Those of the rows below.
+    pub below: &'a mut [[f32; D]],
+}
+
+impl<const D: usize> Strip<'_, D> {
+    /// Adds some lanes of a block.
+    pub(super) fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
+        let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
+        let cells = &self.taps.cells()[samples.clone()];
+        let fractions = &self.taps.fractions()[samples];
+        add_lanes(self, cells, fractions, lanes.start, rows);
+    }
+}
+
+widened! {
+    /// Adds the gradients of samples that begin at a lane. The sums of a cell stay in registers while its
+    /// samples pass.
+    fn add_lanes<const D: usize>(
+        strip: &mut Strip<D>,
+        cell: &[u32],
+        fraction: &[[f32; 2]],
+        lane: usize,
+        rows: &[Row; D],
+    ) {
+        let Strip { taps, first, texels, below, .. } = strip;
+        let size = taps.size();
+        assert!(lane + cell.len() <= BLOCK && fraction.len() == cell.len());
+        let mut sample = 0;
+        while sample < cell.len() {
+            let here = cell[sample];
+            let (mut upper, mut lower) = ([[0.0; D]; 2], [[0.0; D]; 2]);
+            while sample < cell.len() && cell[sample] == here {
+                let [fx, fy] = fraction[sample];
+                for (side, share) in [1.0 - fx, fx].into_iter().enumerate() {
+                    for channel in 0..D {
+                        let g = share * rows[channel].0[lane + sample];
+                        upper[side][channel] += (1.0 - fy) * g;
+                        lower[side][channel] += fy * g;
+                    }
+                }
+                sample += 1;
+            }
+            let at = here as usize - *first * size;
+            for (at, sums) in [(at, upper), (at + size, lower)] {
+                match at.checked_sub(texels.len()) {
+                    None => add(&mut texels[at..at + 2], &sums),
+                    Some(at) => add(&mut below[at..at + 2], &sums),
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add<const D: usize>(sum: &mut [[f32; D]], values: &[[f32; D]; 2]) {
+    let values = values.as_flattened();
+    sum.as_flattened_mut().iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+}
