@@ -5,10 +5,11 @@ use crate::simd::prefetch;
 
 /// Planes that any pass reads, at most.
 const PLANES: usize = 7;
-/// Values asked for at a time, two lines of the cache: a block of a joint pass has 224 lines and 300 tiles,
-/// of the others up to 368 and from 40 to 150.
-const PACE: usize = 32;
+/// Values in a line of the cache.
 const LINE: usize = 16;
+/// Values asked for at a time, two lines: a block of a joint pass has 224 lines and 300 tiles, of the others up
+/// to 368 and from 40 to 150.
+const PACE: usize = 2 * LINE;
 
 /// Rows asked for a few lines at a time, between tiles of products: a core waits for some ten lines at most,
 /// and whatever it reads besides would have to wait as well. It has no influence on results.
@@ -46,6 +47,7 @@ impl<'a> Ahead<'a> {
         }
     }
 
+    /// Goes on to the next planes that have rows.
     #[cold]
     #[inline(never)]
     fn turn(&mut self) {

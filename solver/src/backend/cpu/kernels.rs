@@ -27,7 +27,7 @@ pub struct Scratch {
     shading: [Row; 2],
     gradient: PixelGradient,
     by_direction: [Row; 4],
-    /// Gradients by the networks' parameters, in the order of the tiles.
+    /// Gradients by the networks' parameters.
     pub sums: Vec<f32>,
 }
 

@@ -36,7 +36,7 @@ use std::fmt;
 
 use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
-use self::perceptron::{Packed, in_order};
+use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
 use crate::model::bend::{TEXEL, Texel};
 use crate::model::networks::{Network, Networks};
@@ -172,7 +172,7 @@ fn total(networks: &Networks, parts: Vec<(f64, Vec<f32>)>) -> (f64, Vec<f32>) {
         loss += part;
         total.iter_mut().zip(sums).for_each(|(total, sum)| *total += f64::from(sum));
     }
-    (loss, in_order(networks, &total).into_iter().map(|gradient| gradient as f32).collect())
+    (loss, total.into_iter().map(|gradient| gradient as f32).collect())
 }
 
 impl Backend for Cpu {

@@ -72,27 +72,6 @@ impl Trace {
     }
 }
 
-/// Sums of [`backward`], in the order of the parameters.
-pub fn in_order(networks: &Networks, sums: &[f64]) -> Vec<f64> {
-    let mut parameters = vec![0.0; sums.len()];
-    for network in Network::ALL {
-        for layer in 0..networks.layers() {
-            let (weights, biases) = networks.place(network, layer);
-            let inputs = networks.shape[layer];
-            for (at, sum) in sums[weights.start..biases.end].iter().enumerate() {
-                let (tile, rest) = (at / TILE / (1 + inputs), at % (TILE * (1 + inputs)));
-                let output = tile * TILE + rest % TILE;
-                let place = match (rest / TILE).checked_sub(1) {
-                    Some(input) => weights.start + output * inputs + input,
-                    None => biases.start + output,
-                };
-                parameters[place] = *sum;
-            }
-        }
-    }
-    parameters
-}
-
 /// Computes all layers; ReLU between them, nothing after the last.
 #[inline(always)]
 pub fn forward<S: Lanes, const C: usize>(
@@ -105,17 +84,17 @@ pub fn forward<S: Lanes, const C: usize>(
     for (index, layer) in packed.layers.iter().enumerate() {
         let (before, rest) = trace.layers.split_at_mut(index);
         let input = before.last().map_or(input, Vec::as_slice);
+        let (weights, bias, output) = (&layer.forward, &layer.bias, &mut rest[0]);
         if index < last {
-            product::<S, C, RELU>(&layer.forward, &layer.bias, input, &[], &mut rest[0], ahead);
+            S::apart(Product::<C, RELU> { weights, bias, input, gate: &[], output, ahead });
         } else {
-            product::<S, C, PLAIN>(&layer.forward, &layer.bias, input, &[], &mut rest[0], ahead);
+            S::apart(Product::<C, PLAIN> { weights, bias, input, gate: &[], output, ahead });
         }
     }
 }
 
-/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, layer by
-/// layer, of every four outputs those by the biases, then by their weights input by input) and, if asked, to
-/// the inputs (3 rows and one of padding).
+/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, in the
+/// order of the parameters) and, if asked, to the inputs (3 rows and one of padding).
 #[inline(always)]
 pub fn backward<S: Lanes, const C: usize>(
     packed: &Packed,
@@ -134,13 +113,21 @@ pub fn backward<S: Lanes, const C: usize>(
         if let Some(sums) = sums.as_deref_mut() {
             let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
             let sums = &mut sums[before..before + layer.parameters()];
-            weight_gradient::<S>(by_output, input, sums, ahead);
+            S::apart(WeightGradient { delta: by_output, input, sums, ahead });
         }
+        let (weights, bias, gate) = (&layer.backward, &[], input);
         if index > 0 {
-            let next = &mut next[..input.len()];
-            product::<S, C, GATED>(&layer.backward, &[], by_output, input, next, ahead);
-        } else if let Some(by_input) = by_input.as_deref_mut() {
-            product::<S, C, PLAIN>(&layer.backward, &[], by_output, &[], by_input, ahead);
+            let (input, output) = (by_output, &mut next[..gate.len()]);
+            S::apart(Product::<C, GATED> { weights, bias, input, gate, output, ahead });
+        } else if let Some(output) = by_input.as_deref_mut() {
+            S::apart(Product::<C, PLAIN> {
+                weights,
+                bias,
+                input: by_output,
+                gate: &[],
+                output,
+                ahead,
+            });
         }
         std::mem::swap(&mut delta, &mut next);
     }
@@ -160,18 +147,6 @@ const RELU: u8 = 1;
 const GATED: u8 = 2;
 
 /// output = matrix x input (+ bias), through `THEN`; `gate` has the activations that close gates.
-#[inline(always)]
-fn product<S: Lanes, const C: usize, const THEN: u8>(
-    weights: &[[f32; TILE]],
-    bias: &[[f32; TILE]],
-    input: &[Row],
-    gate: &[Row],
-    output: &mut [Row],
-    ahead: &mut Ahead,
-) {
-    S::apart(Product::<C, THEN> { weights, bias, input, gate, output, ahead });
-}
-
 struct Product<'a, 'b, const C: usize, const THEN: u8> {
     weights: &'a [[f32; TILE]],
     bias: &'a [[f32; TILE]],
@@ -223,11 +198,6 @@ impl<const C: usize, const THEN: u8> Task for Product<'_, '_, C, THEN> {
 }
 
 /// Adds delta x input^T and the sum of delta to the sums of weights and biases.
-#[inline(always)]
-fn weight_gradient<S: Lanes>(delta: &[Row], input: &[Row], sums: &mut [f32], ahead: &mut Ahead) {
-    S::apart(WeightGradient { delta, input, sums, ahead });
-}
-
 struct WeightGradient<'a, 'b> {
     delta: &'a [Row],
     input: &'a [Row],
@@ -239,35 +209,33 @@ impl Task for WeightGradient<'_, '_> {
     #[inline(always)]
     fn run<S: Lanes>(self) {
         let Self { delta, input, sums, ahead } = self;
+        let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
         let (fours, rest) = input.as_chunks::<TILE>();
-        let tiles = sums.as_chunks_mut().0.chunks_exact_mut(1 + input.len());
-        for (delta, sums) in delta.as_chunks().0.iter().zip(tiles) {
-            let [bias, weights @ ..] = sums else { continue };
-            let (four_weights, rest_weights) = weights.as_chunks_mut();
-            for (tile, (input, weights)) in fours.iter().zip(four_weights).enumerate() {
+        let rows = weights.chunks_exact_mut(TILE * input.len()).zip(biases.as_chunks_mut().0);
+        for (delta, (weights, bias)) in delta.as_chunks().0.iter().zip(rows) {
+            for (tile, input) in fours.iter().enumerate() {
                 ahead.ask();
                 if tile == 0 {
-                    outer::<S, TILE, true>(delta, input, weights, bias);
+                    outer::<S, TILE, true>(delta, input, 0, weights, bias);
                 } else {
-                    outer::<S, TILE, false>(delta, input, weights, bias);
+                    outer::<S, TILE, false>(delta, input, tile * TILE, weights, bias);
                 }
             }
-            if let (Some(input), Some(weights)) =
-                (rest.first_chunk(), rest_weights.first_chunk_mut())
-            {
+            if let Some(input) = rest.first_chunk() {
                 ahead.ask();
-                outer::<S, INPUTS, true>(delta, input, weights, bias);
+                outer::<S, INPUTS, true>(delta, input, 0, weights, bias);
             }
         }
     }
 }
 
-/// One tile of the outer product, 4 x `K`, and with `BIAS` the sums of delta.
+/// One tile of the outer product, 4 x `K` from a column on, and with `BIAS` the sums of delta.
 #[inline(always)]
 fn outer<S: Lanes, const K: usize, const BIAS: bool>(
     delta: &[Row; TILE],
     input: &[Row; K],
-    weights: &mut [[f32; TILE]; K],
+    column: usize,
+    weights: &mut [f32],
     bias: &mut [f32; TILE],
 ) {
     let mut sums = [[S::splat(0.0); K]; TILE];
@@ -289,9 +257,11 @@ fn outer<S: Lanes, const K: usize, const BIAS: bool>(
         }
         at += S::WIDTH;
     }
-    let [a, b, c, d] = sums;
-    for (k, weights) in weights.iter_mut().enumerate() {
-        for (place, sum) in weights.iter_mut().zip(S::sums([a[k], b[k], c[k], d[k]])) {
+    let stride = weights.len() / TILE;
+    for (weights, sums) in weights.chunks_exact_mut(stride).zip(sums) {
+        let mut four = [S::splat(0.0); TILE];
+        four[..K].copy_from_slice(&sums);
+        for (place, sum) in weights[column..column + K].iter_mut().zip(S::sums(four)) {
             *place += sum;
         }
     }
