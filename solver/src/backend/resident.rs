@@ -14,7 +14,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
 use crate::optimise::adam::Adam;
-use crate::transport::Transport;
+use crate::transport::{Reflection, Transport};
 
 /// A stage as a device may take it in: all that stays as it is while the stage runs.
 pub enum Job<'a> {
@@ -43,6 +43,8 @@ pub enum Job<'a> {
     Relief(ReliefJob<'a>),
     /// Moves the light's logarithm, its nearness, diffuse and specular albedo, networks.
     Transported(TransportedJob<'a>),
+    /// Moves the light's logarithm, its nearness, the diffuse albedo.
+    Highlights(HighlightsJob<'a>),
 }
 
 /// See [`Job::Relief`].
@@ -77,6 +79,19 @@ pub struct TransportedJob<'a> {
     pub grey_mean: f32,
     /// Weight of every texel's coloured shading.
     pub grey_texel: f32,
+}
+
+/// See [`Job::Highlights`]. The samples' taps are of the transport's size.
+#[derive(Clone, Copy)]
+pub struct HighlightsJob<'a> {
+    /// The pixels.
+    pub samples: &'a Samples,
+    /// From light to diffuse shading.
+    pub transport: &'a Transport,
+    /// From light to the highlights of the pixels.
+    pub reflection: &'a Reflection,
+    /// Weight of the albedo prior.
+    pub prior: f32,
 }
 
 /// Something that a stage moves, with its optimiser.

@@ -13,6 +13,7 @@ use super::stage::{Memory, Stage, State};
 use super::tint::tint;
 use super::transported::{Probed, reflectance};
 use crate::backend::Backend;
+use crate::backend::resident::{HighlightsJob, Job, Variable};
 use crate::config::{Config, TransportConfig};
 use crate::error::SolveError;
 use crate::model::planes::Planes;
@@ -46,7 +47,12 @@ pub(super) fn distance(
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let stage = Highlights::new(site.config, transport, &samples, &state, probed);
+    let found = Found {
+        log_light: &probed.log_light,
+        nearness: probed.standing.nearness,
+        gloss: &probed.gloss,
+    };
+    let stage = Highlights::new(site.config, transport, &samples, &state, found);
     let Some(stage) = stage else { return Ok(t.distance) };
     let (name, iterations) = ("distance", t.distance);
     let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
@@ -73,36 +79,43 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
     let transport = site.transport(lit.standing);
     let samples = site.pictures().samples(&site.space, transport.size());
     let mut state = lit.state.clone();
-    let begun = Probed {
-        log_light: lit.light.radiance.iter().map(|light| light.ln()).collect(),
-        standing: lit.standing,
-        networks: state.networks.clone(),
-        tint: [1.0; CHANNELS],
-        gloss: std::mem::take(&mut lit.gloss),
-    };
-    let stage = Highlights::new(site.config, transport, &samples, &state, &begun);
+    let log_light: Vec<f32> = lit.light.radiance.iter().map(|light| light.ln()).collect();
+    let gloss = std::mem::take(&mut lit.gloss);
+    let found = Found { log_light: &log_light, nearness: lit.standing.nearness, gloss: &gloss };
+    let stage = Highlights::new(site.config, transport, &samples, &state, found);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run, site, &samples, state, begun.gloss, lit.standing, light);
+    *lit = Lit::new(run, site, &samples, state, gloss, lit.standing, light);
     lit.explained = true;
     Ok(0)
 }
 
+/// What is known of a light, and of skin's reflectance.
+#[derive(Clone, Copy)]
+pub struct Found<'a> {
+    /// Logarithm of the light, R, G, B per cell.
+    pub log_light: &'a [f32],
+    /// Per metre.
+    pub nearness: f32,
+    /// Reflectance at normal incidence, texel by texel of the transport's texture.
+    pub gloss: &'a [f32],
+}
+
 /// Light and diffuse albedo on the transport's texture.
-pub(super) struct Highlights<'a> {
+pub struct Highlights<'a> {
     config: &'a TransportConfig,
     transport: &'a Transport,
     samples: Samples,
     reflection: Reflection,
     /// Logarithm of the light, R, G, B per cell.
-    pub log_light: Vec<f32>,
+    pub(super) log_light: Vec<f32>,
     /// How near the light is, in the transport's unit; one value, which only moves if the transport says
     /// what that changes.
-    pub nearness: Vec<f32>,
+    pub(super) nearness: Vec<f32>,
     name: &'static str,
     iterations: usize,
-    pub hold: usize,
+    pub(super) hold: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -125,21 +138,21 @@ impl<'a> Highlights<'a> {
         transport: &'a Transport,
         samples: &Samples,
         state: &State,
-        begun: &Probed,
+        found: Found,
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
         let samples = samples.thinned(MOST_SAMPLES);
-        let gloss = samples.taps.sample::<1>(&begun.gloss);
-        let light: Vec<f32> = begun.log_light.iter().map(|log| log.exp()).collect();
+        let gloss = samples.taps.sample::<1>(found.gloss);
+        let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
-        let reflection = transport.reflection(&samples, &gloss, peak, begun.standing.nearness)?;
+        let reflection = transport.reflection(&samples, &gloss, peak, found.nearness)?;
         Some(Self {
             config: t,
             transport,
             samples,
             reflection,
-            log_light: begun.log_light.clone(),
-            nearness: vec![begun.standing.nearness / transport.near()],
+            log_light: found.log_light.to_vec(),
+            nearness: vec![found.nearness / transport.near()],
             name: "highlights",
             iterations: t.highlights,
             hold: 0,
@@ -156,7 +169,7 @@ impl<'a> Highlights<'a> {
 
     /// Gives the light the colour of its highlights, at the same [peak](Transport::peak), and says by what
     /// it was multiplied; the albedo of `state`, with which the light was found, is to be divided by it.
-    pub fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
+    pub(super) fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
         let light = self.light();
         let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);
         let layer = self.layer(state, &shading);
@@ -180,7 +193,7 @@ impl<'a> Highlights<'a> {
     }
 
     /// Loss and its gradients.
-    pub fn gradient(&self, state: &State) -> Gradient {
+    pub(super) fn gradient(&self, state: &State) -> Gradient {
         let (light, samples) = (self.light(), &self.samples);
         let (shading, gain) = self.transport.shading_nearer(&light, self.nearness[0]);
         let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
@@ -237,6 +250,25 @@ impl Stage for Highlights<'_> {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
         }
         gradient.loss
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        Some(Job::Highlights(HighlightsJob {
+            samples: &self.samples,
+            transport: self.transport,
+            reflection: &self.reflection,
+            prior: self.config.prior,
+        }))
+    }
+
+    fn variables<'b>(&'b mut self, state: &'b mut State) -> Vec<Variable<'b>> {
+        let nearness = Variable::new(&mut self.nearness, &mut self.by_nearness, 0.0);
+        let diffuse = Variable::new(&mut state.diffuse, &mut self.by_diffuse, 0.0);
+        vec![
+            Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
+            Variable { most: Transport::nearest(), ..nearness },
+            Variable { hold: self.hold, ..diffuse },
+        ]
     }
 
     fn memory(&mut self) -> Memory<'_> {

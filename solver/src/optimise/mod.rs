@@ -8,7 +8,7 @@ mod confidence;
 mod finish;
 mod gloss;
 mod heights;
-pub(crate) mod highlights;
+pub mod highlights;
 mod linear_colour;
 mod lit;
 mod nearby;

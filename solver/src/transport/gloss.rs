@@ -25,6 +25,11 @@ pub(super) const GRAZING: f32 = 1e-3;
 pub struct Reflection(Matrix);
 
 impl Reflection {
+    /// Of every sample, a weight for every cell: for a device that multiplies with them.
+    pub(crate) fn rows(&self) -> &[f32] {
+        &self.0.rows
+    }
+
     /// Radiance of every sample in a light of R, G, B per cell.
     pub fn radiance(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
         self.0.product(light)

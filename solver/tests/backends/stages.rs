@@ -7,6 +7,7 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::model::deviation::Deviation;
+use solver::optimise::highlights::{Found, Highlights};
 use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use solver::optimise::transported::Transported;
@@ -44,12 +45,12 @@ fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec
 
 struct End {
     state: State,
-    own: Vec<f32>,
+    own: Vec<Vec<f32>>,
 }
 
 impl End {
     fn of(state: State, stage: &mut dyn Stage) -> Self {
-        let own = stage.memory().own.iter().flat_map(|own| own.iter()).copied().collect();
+        let own = stage.memory().own.iter().map(|own| own.to_vec()).collect();
         Self { state, own }
     }
 }
@@ -82,12 +83,13 @@ fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Bac
 
 type Field = fn(&End) -> &[f32];
 
-const FIELDS: [(&str, Field); 5] = [
+const FIELDS: [(&str, Field); 6] = [
     ("networks", |end| &end.state.networks.parameters),
     ("diffuse", |end| &end.state.diffuse),
     ("specular", |end| &end.state.specular),
     ("deviation", |end| &end.state.deviation),
-    ("the stage's own", |end| &end.own),
+    ("light", |end| end.own.first().map_or(&[], |own| own)),
+    ("nearness", |end| end.own.get(1).map_or(&[], |own| own)),
 ];
 
 pub fn warm_up(backend: &dyn Backend) {
@@ -147,6 +149,26 @@ pub fn transported(backend: &dyn Backend) {
             (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
         compare(backend, &state, |_| {
             Transported::new(&config, &transport, &samples, &state, light.clone())
+        });
+    }
+}
+
+pub fn highlights(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.transport.texture_size = 32;
+    config.transport.rows = 6;
+    config.transport.hold = 22;
+    let (samples, state) = problem(&config);
+    let mesh = testing::dome(24);
+    let gloss = vec![0.04; state.specular.len()];
+    for beside in [Beside::Nearness, Beside::Open] {
+        let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
+        let light: Vec<f32> =
+            (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
+        let nearness = 0.4 * transport.near();
+        let found = Found { log_light: &light, nearness, gloss: &gloss };
+        compare(backend, &state, |_| {
+            Highlights::new(&config, &transport, &samples, &state, found).unwrap()
         });
     }
 }

@@ -33,10 +33,12 @@ mod bending;
 mod ceilings;
 mod device;
 mod heights;
+mod highlights;
 mod joint;
 mod kernel;
 mod layer;
 mod layout;
+mod matrix;
 mod pieces;
 mod program;
 mod relief;
@@ -233,6 +235,7 @@ impl Backend for Gpu {
                 }
                 Some(Box::new(transported::program(self, layout, job)))
             }
+            Job::Highlights(job) => Some(Box::new(highlights::program(self, job))),
             Job::Relief(job) => Some(Box::new(relief::program(self, job))),
         }
     }

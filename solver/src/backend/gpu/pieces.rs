@@ -28,7 +28,7 @@ pub(super) struct Pieces(pub Vec<Range<usize>>);
 impl Pieces {
     /// Of `len` samples whose widest planes have `rows` rows.
     pub fn new(device: &Device, len: usize, rows: usize) -> Self {
-        let piece = (device.piece * ROWS / rows.max(ROWS)).next_multiple_of(BLOCK);
+        let piece = (device.piece * ROWS / rows.max(ROWS) / BLOCK * BLOCK).max(BLOCK);
         let cut = |first: usize| first..len.min(first + piece);
         Self((0..len).step_by(piece).map(cut).collect())
     }

@@ -4,9 +4,7 @@ use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
 use crate::model::samples::schlick;
-use crate::optimise::highlights::Highlights;
-use crate::optimise::site::Standing;
-use crate::optimise::transported::Probed;
+use crate::optimise::highlights::{Found, Highlights};
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
 /// Of skin at normal incidence.
@@ -22,14 +20,9 @@ fn gradients_reach_light_distance_and_albedo() {
     let transport = Transport::new(&mesh, &Sky::even(4), &config.transport, 0, Beside::Nearness);
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
-    let begun = Probed {
-        standing: Standing { nearness: 0.4 * transport.near(), bounce_albedo: 0.0 },
-        networks: state.networks.clone(),
-        gloss: vec![0.2; SIDE * SIDE],
-        log_light: light.clone(),
-        tint: [1.0; CHANNELS],
-    };
-    let mut stage = Highlights::new(&config, &transport, &samples, &state, &begun).unwrap();
+    let gloss = vec![0.2; SIDE * SIDE];
+    let known = Found { log_light: &light, nearness: 0.4 * transport.near(), gloss: &gloss };
+    let mut stage = Highlights::new(&config, &transport, &samples, &state, known).unwrap();
     let found = stage.gradient(&state);
     let loss = |state: &State| stage.gradient(state).loss;
     assert_gradient("diffuse", &state, &found.diffuse, |s| &mut s.diffuse, 2e-3, loss);
@@ -131,14 +124,10 @@ fn lamp() -> Lamp {
 impl Lamp {
     /// The light that explains the pictures with the albedo that is given.
     fn found(&self, state: &State, gloss: f32, samples: &Samples) -> Highlights<'_> {
-        let begun = Probed {
-            log_light: vec![0.0; CHANNELS * self.sky.len()],
-            standing: Standing { nearness: 0.1, bounce_albedo: 0.0 },
-            networks: state.networks.clone(),
-            gloss: vec![gloss; self.transport.size() * self.transport.size()],
-            tint: [1.0; CHANNELS],
-        };
-        let new = Highlights::new(&self.config, &self.transport, samples, state, &begun);
+        let log_light = vec![0.0; CHANNELS * self.sky.len()];
+        let gloss = vec![gloss; self.transport.size() * self.transport.size()];
+        let found = Found { log_light: &log_light, nearness: 0.1, gloss: &gloss };
+        let new = Highlights::new(&self.config, &self.transport, samples, state, found);
         let mut stage = new.unwrap();
         stage.hold = usize::MAX;
         for _ in 0..400 {

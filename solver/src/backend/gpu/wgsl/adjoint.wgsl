@@ -1,9 +1,11 @@
-// The transport's adjoint, summed over chunks of ROWS rows: one cell a thread, a chunk a workgroup and 256
+// A matrix's adjoint, summed over chunks of ROWS rows: one cell a thread, a chunk a workgroup and 256
 // cells. GAINED as in transport.wgsl.
 
 struct Parameters {
     rows: u32,
     cells: u32,
+    // Where the sums of its chunks begin.
+    first: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -35,7 +37,7 @@ fn main(
         }
         sum += weight * vec3(by_row[3u * row], by_row[3u * row + 1u], by_row[3u * row + 2u]);
     }
-    let out = 3u * (first / ROWS * parameters.cells + cell);
+    let out = 3u * ((parameters.first + first / ROWS) * parameters.cells + cell);
     partial_sums[out] = sum.x;
     partial_sums[out + 1u] = sum.y;
     partial_sums[out + 2u] = sum.z;
