@@ -22,6 +22,7 @@ use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::strips::{Strip, blocks};
 use crate::region::Region;
+use crate::transport::Glints;
 use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
@@ -100,6 +101,11 @@ pub trait Backend: Send + Sync {
 
     /// S_d and S_s of every sample (2 rows).
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes;
+
+    /// Highlights on these normals, see [`Glints::on`].
+    fn highlights(&self, glints: &Glints, samples: &Samples, normals: &Planes) -> Planes {
+        glints.on(samples, normals)
+    }
 
     /// The program of a stage on the device; nothing if its steps are taken through the methods
     /// above.

@@ -4,15 +4,16 @@ use glam::Vec3;
 
 use super::lit::Lit;
 use super::site::Site;
+use crate::backend::Backend;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::transport::{HIGHLIGHT_ROWS, Transport};
+use crate::transport::{Glints, HIGHLIGHT_ROWS};
 
 /// What makes them: the light, and the specular albedo of the samples.
 pub(super) struct BentHighlights<'a> {
-    transport: &'a Transport,
-    light: &'a [f32],
+    backend: &'a dyn Backend,
+    glints: Glints<'a>,
     /// Specular albedo of every sample.
     albedo: Planes,
 }
@@ -20,28 +21,28 @@ pub(super) struct BentHighlights<'a> {
 impl<'a> BentHighlights<'a> {
     /// `None` if it is switched off, or if the light was not solved for with its highlights.
     pub fn new(site: &'a Site, lit: &'a Lit, samples: &Samples) -> Option<Self> {
-        let wanted = site.config.height.highlights && lit.explained;
-        wanted.then(|| {
-            let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
-            let albedo = samples.taps.sample::<1>(&gloss);
-            let light = &lit.light.radiance;
-            Self { transport: site.transport(lit.standing), light, albedo }
-        })
+        if !site.config.height.highlights || !lit.explained {
+            return None;
+        }
+        let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
+        let albedo = samples.taps.sample::<1>(&gloss);
+        let glints = site.transport(lit.standing).glints(&lit.light.radiance)?;
+        Some(Self { backend: site.backend, glints, albedo })
     }
 
     /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.
-    pub fn at(&self, samples: &Samples, bends: &Planes) -> Option<Planes> {
+    pub fn at(&self, samples: &Samples, bends: &Planes) -> Planes {
         let bent = |i: usize| {
             Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bends.sample(i, 0))
         };
         let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
-        let highlights = self.transport.bent_highlights(self.light, samples, &normals)?;
-        Some(Planes::from_fn(samples.len(), |i| {
+        let highlights = self.backend.highlights(&self.glints, samples, &normals);
+        Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(normals.sample(i, 0));
             let [r, g, b, x, y, z]: [f32; HIGHLIGHT_ROWS] = highlights.sample(i, 0);
             let by = Vec3::new(x, y, z) / bent(i).length();
             let [x, y, z] = (by - normal * normal.dot(by)).to_array();
             [r, g, b, x, y, z].map(|value| self.albedo.get(0, i) * value)
-        }))
+        })
     }
 }

@@ -152,7 +152,7 @@ impl<'a> ReliefSolve<'a> {
     fn linearise(&self, x: &[f32]) -> (Planes, Planes) {
         let samples = self.samples;
         let q = self.sampled(x);
-        let highlights = self.highlights.as_ref().and_then(|light| light.at(samples, &q));
+        let highlights = self.highlights.as_ref().map(|light| light.at(samples, &q));
         // Shading by the networks.
         let directions = self.scale.directions(samples, Some(&q));
         let shading = self.backend.shade(self.networks, &self.light, &directions);

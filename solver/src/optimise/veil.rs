@@ -53,8 +53,8 @@ pub(super) fn veil(
     specular: &[f32],
 ) -> Vec<f32> {
     let taps = &samples.taps;
-    let highlights = transport.bent_highlights(light, samples, &samples.normal);
-    let Some(highlights) = highlights else { return vec![] };
+    let Some(glints) = transport.glints(light) else { return vec![] };
+    let highlights = backend.highlights(&glints, samples, &samples.normal);
     let directions = DirectionScale::from(config).directions(samples, None);
     let known = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &known, &directions);

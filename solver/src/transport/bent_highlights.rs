@@ -3,29 +3,31 @@
 use glam::Vec3;
 
 use super::gloss::{F0, GRAZING, LOBES, scale};
+use super::matrix::Matrix;
 use super::{CHANNELS, LUMINANCE, Transport};
 use crate::model::planes::Planes;
 use crate::model::samples::{Samples, schlick};
 use crate::simd::widened;
 
-/// Rows of [`Transport::bent_highlights`]: R, G, B, and how the luminance changes with the normal's x, y, z.
+/// Rows of [`Glints::on`]: R, G, B, and how the luminance changes with the normal's x, y, z.
 pub const HIGHLIGHT_ROWS: usize = CHANNELS + 3;
 /// Cells that are summed beside each other.
 const LANES: usize = 16;
 /// Least squared length of the sum of two directions.
 const OPPOSITE: f32 = 1e-12;
 
+/// What makes highlights on skin, whatever its normals: a light, and what of it is open.
+pub struct Glints<'a> {
+    transport: &'a Transport,
+    open: &'a Matrix,
+    cells: Vec<Cells>,
+    scale: f32,
+}
+
 impl Transport {
-    /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every sample, on these
-    /// normals (unit), in a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1, and how it changes
-    /// with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`] rows. `None` unless the transport
-    /// holds what is open ([`super::Beside::Open`]).
-    pub fn bent_highlights(
-        &self,
-        light: &[f32],
-        samples: &Samples,
-        normals: &Planes,
-    ) -> Option<Planes> {
+    /// Of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the transport holds
+    /// what is open ([`super::Beside::Open`]).
+    pub fn glints(&self, light: &[f32]) -> Option<Glints<'_>> {
         let open = self.open.as_ref()?;
         let scale = scale(self.peak(light));
         let light = self.through_lobes(light);
@@ -36,18 +38,60 @@ impl Transport {
             let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
             (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
         }
-        Some(Planes::from_fn(samples.len(), |i| {
-            let row = self.row_of(samples, i);
+        Some(Glints { transport: self, open, cells, scale })
+    }
+}
+
+impl Glints<'_> {
+    /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every sample, on these
+    /// normals (unit), and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`]
+    /// rows.
+    pub fn on(&self, samples: &Samples, normals: &Planes) -> Planes {
+        let Self { transport, open, cells, scale } = self;
+        Planes::from_fn(samples.len(), |i| {
+            let row = transport.row_of(samples, i);
             let seen = Seen {
                 normal: Vec3::from_array(normals.sample(i, 0)),
                 view: Vec3::from_array(samples.view.sample(i, 0)),
-                from: self.sky.nearness * self.places[row],
+                from: transport.sky.nearness * transport.places[row],
             };
             let mut sums = [0.0; HIGHLIGHT_ROWS];
-            sum_lobes(&cells, &open.rows[row * self.cells()..][..self.cells()], &seen, &mut sums);
+            sum_lobes(cells, &open.rows[row * open.cells..][..open.cells], &seen, &mut sums);
             sums.map(|sum| scale * sum)
-        }))
+        })
     }
+
+    /// For a device that does the same.
+    pub(crate) fn parts(&self, samples: &Samples) -> GlintParts<'_> {
+        let Self { transport, open, cells, scale } = self;
+        GlintParts {
+            cells: cells.as_flattened().as_flattened(),
+            open: &open.rows,
+            row: (0..samples.len()).map(|i| transport.row_of(samples, i) as u32).collect(),
+            from: transport.places.iter().map(|place| transport.sky.nearness * *place).collect(),
+            scale: *scale,
+            constants: [F0, GRAZING, OPPOSITE],
+            lobes: LOBES,
+        }
+    }
+}
+
+/// See [`Glints::parts`].
+pub(crate) struct GlintParts<'a> {
+    /// In blocks of 16 cells, seven rows each: direction from the sky's centre, R, G, B, luminance.
+    pub cells: &'a [f32],
+    /// Rows of as many weights as there are cells.
+    pub open: &'a [f32],
+    /// Of every sample.
+    pub row: Vec<u32>,
+    /// Of every row, its place in units of the sky's radius.
+    pub from: Vec<Vec3>,
+    /// Of the result.
+    pub scale: f32,
+    /// Reflectance at normal incidence, least cosine of the view, least squared length of a sum of directions.
+    pub constants: [f32; 3],
+    /// Roughness and share.
+    pub lobes: [(f32, f32); 2],
 }
 
 /// Values of a cell: its direction from the sky's centre, R, G, B, luminance.
@@ -73,6 +117,10 @@ widened! {
             let mut here = [0.0; LANES];
             let some = (open.len() - first).min(LANES);
             here[..some].copy_from_slice(&open[first..first + some]);
+            // Half of the sky is behind the surface.
+            if here == [0.0; LANES] {
+                continue;
+            }
             for lane in 0..LANES {
                 let l = Vec3::new(cells[0][lane], cells[1][lane], cells[2][lane]) - from;
                 let l = l * (1.0 / l.length_squared().max(OPPOSITE).sqrt());
@@ -146,7 +194,7 @@ mod tests {
         let (transport, light, samples) = scene();
         let ones = Planes::from_fn(samples.len(), |_| [1.0]);
         let rows = transport.reflection(&samples, &ones, transport.peak(&light), NEARNESS).unwrap();
-        let found = transport.bent_highlights(&light, &samples, &samples.normal).unwrap();
+        let found = transport.glints(&light).unwrap().on(&samples, &samples.normal);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
             for (c, expected) in expected.into_iter().enumerate() {
@@ -166,10 +214,10 @@ mod tests {
                 (normal + step * (axis - normal * normal.dot(axis))).to_array()
             };
             let normals = Planes::from_fn(samples.len(), normal);
-            let bent = transport.bent_highlights(&light, &samples, &normals).unwrap();
+            let bent = transport.glints(&light).unwrap().on(&samples, &normals);
             move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
         };
-        let bent = transport.bent_highlights(&light, &samples, &samples.normal).unwrap();
+        let bent = transport.glints(&light).unwrap().on(&samples, &samples.normal);
         for axis in [Vec3::X, Vec3::Y] {
             let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
             let (mut error, mut energy) = (0.0, 0.0);

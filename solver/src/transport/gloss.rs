@@ -49,7 +49,7 @@ impl Reflection {
 impl Transport {
     /// The highlights of samples whose reflectances at normal incidence are `specular`, in colour, for lights of
     /// the scale that has this `peak`, at a nearness per metre that may be another than what the rays were
-    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::bent_highlights`].
+    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::glints`].
     pub fn reflection(
         &self,
         samples: &Samples,

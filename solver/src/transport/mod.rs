@@ -25,7 +25,7 @@ use crate::capture::Mesh;
 use crate::config::TransportConfig;
 use crate::fill;
 use crate::gbuffer::Atlas;
-pub use bent_highlights::HIGHLIGHT_ROWS;
+pub use bent_highlights::{Glints, HIGHLIGHT_ROWS};
 pub use gloss::Reflection;
 use matrix::Matrix;
 pub use rays::{Impact, Occluder};

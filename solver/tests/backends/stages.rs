@@ -2,16 +2,18 @@
 
 use std::time::Duration;
 
+use glam::Vec3;
 use solver::Config;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::model::deviation::Deviation;
+use solver::model::planes::Planes;
 use solver::optimise::highlights::{Found, Highlights};
 use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use solver::optimise::transported::Transported;
-use solver::transport::{Beside, Sky, Transport};
+use solver::transport::{Beside, HIGHLIGHT_ROWS, Sky, Transport};
 
 use super::scene::problem;
 use super::testing;
@@ -170,6 +172,31 @@ pub fn highlights(backend: &dyn Backend) {
         compare(backend, &state, |_| {
             Highlights::new(&config, &transport, &samples, &state, found).unwrap()
         });
+    }
+}
+
+pub fn bent_highlights(backend: &dyn Backend) {
+    let mut config = Config::default();
+    config.transport.texture_size = 32;
+    let (samples, _) = problem(&config);
+    let mesh = testing::dome(24);
+    let sky = Sky::even(6).at(0.3);
+    let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Open);
+    let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
+    let light: Vec<f32> = light.collect();
+    let glints = transport.glints(&light).unwrap();
+    let bent = |i: usize| {
+        let bend = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
+        (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bend)).normalize()
+    };
+    let normals = Planes::from_fn(samples.len(), |i| bent(i).to_array());
+    let [found, expected] =
+        [backend, &Cpu::new()].map(|backend| backend.highlights(&glints, &samples, &normals));
+    for row in 0..HIGHLIGHT_ROWS {
+        let values = || (0..samples.len()).map(|i| (found.get(row, i), expected.get(row, i)));
+        let largest = values().map(|(_, expected)| expected.abs()).fold(0.0, f32::max);
+        let off = values().map(|(found, expected)| (found - expected).abs()).fold(0.0, f32::max);
+        assert!(largest > 0.1 && off < 1e-4 * largest, "row {row}: {off} of {largest}");
     }
 }
 

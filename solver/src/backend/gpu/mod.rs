@@ -2,7 +2,7 @@
 //!
 //! All stages of gradient steps and the height solve's conjugate gradients run on the device from end to
 //! end, see [`super::resident`]. The processor does what happens once: G-buffers, rays, linearisations of
-//! the height solve (with shading and gradients of the networks from here), maps and views.
+//! the height solve (with highlights, and shading and gradients of the networks, from here), maps and views.
 //!
 //! Layouts are the processor's: planes of blocks of 256 samples, gradients of textures by gather in texel
 //! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
@@ -32,6 +32,7 @@ mod adapter;
 mod bending;
 mod ceilings;
 mod device;
+mod glints;
 mod heights;
 mod highlights;
 mod joint;
@@ -61,6 +62,7 @@ use super::{Backend, BackendError, JointGradient};
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
+use crate::transport::Glints;
 
 /// An adapter that computes.
 pub struct Gpu {
@@ -197,6 +199,13 @@ impl Backend for Gpu {
         self.either(
             |device| bending::shade(device, networks, light, directions),
             |cpu| cpu.shade(networks, light, directions),
+        )
+    }
+
+    fn highlights(&self, glints: &Glints, samples: &Samples, normals: &Planes) -> Planes {
+        self.either(
+            |device| glints::highlights(device, glints, samples, normals),
+            |cpu| cpu.highlights(glints, samples, normals),
         )
     }
 

@@ -1,0 +1,40 @@
+//! Highlights of a light on any normals.
+
+use super::device::Device;
+use super::kernel::Pass;
+use super::pieces::Pieces;
+use crate::backend::resident::DeviceError;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::transport::{Glints, HIGHLIGHT_ROWS};
+
+/// See [`Glints::on`].
+pub(super) fn highlights(
+    device: &Device,
+    glints: &Glints,
+    samples: &Samples,
+    normals: &Planes,
+) -> Result<Planes, DeviceError> {
+    let parts = glints.parts(samples);
+    let cells = parts.open.len() / parts.from.len().max(1);
+    let pieces = Pieces::new(device, samples.len(), HIGHLIGHT_ROWS);
+    let surface = pieces.upload(device, "surface", &[normals, &samples.view]);
+    let out = pieces.zeros(device, "highlights", HIGHLIGHT_ROWS);
+    let lit = device.filled("cells", parts.cells);
+    let open = device.filled("open", parts.open);
+    let from: Vec<[f32; 3]> = parts.from.iter().map(|from| from.to_array()).collect();
+    let from = device.filled("places", &from);
+    let kernel = device.kernel("bent highlights", include_str!("wgsl/glints.wgsl"), &[], "urrrrrw");
+    let [(a, a_share), (b, b_share)] = parts.lobes;
+    let [f0, grazing, opposite] = parts.constants;
+    let floats = [parts.scale, f0, grazing, opposite, a, a_share, b, b_share].map(f32::to_bits);
+    let pass = |(at, piece): (usize, &std::ops::Range<usize>)| {
+        let row = device.filled("rows", &parts.row[piece.clone()]);
+        let words = [&[piece.len() as u32, cells as u32], floats.as_slice()].concat();
+        let buffers = [&device.uniform(&words), &lit, &open, &row, &from, &surface[at], &out[at]];
+        Pass::over(device, &kernel, &buffers, piece.len())
+    };
+    let passes: Vec<Pass> = pieces.0.iter().enumerate().map(pass).collect();
+    device.submit(&passes, None, 1);
+    Ok(pieces.planes(HIGHLIGHT_ROWS, &device.read(&out.iter().collect::<Vec<_>>())?))
+}
