@@ -1,7 +1,8 @@
 //! One multilayer perceptron on a block of samples: forward, backward, weight gradients.
 //!
 //! Matrices are walked in tiles of 4 outputs x `C` vectors, whose 4 C partial sums stay in
-//! registers; weights are packed so that a tile reads them in order.
+//! registers; weights are packed so that a tile reads them in order. Gradients of weights are summed in
+//! tiles of 4 outputs x `C` inputs: as many sums, and those of the biases.
 
 use super::ahead::Ahead;
 use super::lanes::{Lanes, Task};
@@ -10,7 +11,7 @@ use crate::model::planes::{BLOCK, Row};
 
 /// Outputs per tile.
 const TILE: usize = 4;
-/// Of the first layer; the others have whole tiles.
+/// Of the first layer; of the others the number is a multiple of [`TILE`].
 const INPUTS: usize = 3;
 
 /// A network's weights in the order of the tiles.
@@ -113,7 +114,7 @@ pub fn backward<S: Lanes, const C: usize>(
         if let Some(sums) = sums.as_deref_mut() {
             let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
             let sums = &mut sums[before..before + layer.parameters()];
-            S::apart(WeightGradient { delta: by_output, input, sums, ahead });
+            S::apart(WeightGradient::<C> { delta: by_output, input, sums, ahead });
         }
         let (weights, bias, gate) = (&layer.backward, &[], input);
         if index > 0 {
@@ -198,32 +199,36 @@ impl<const C: usize, const THEN: u8> Task for Product<'_, '_, C, THEN> {
 }
 
 /// Adds delta x input^T and the sum of delta to the sums of weights and biases.
-struct WeightGradient<'a, 'b> {
+struct WeightGradient<'a, 'b, const C: usize> {
     delta: &'a [Row],
     input: &'a [Row],
     sums: &'a mut [f32],
     ahead: &'a mut Ahead<'b>,
 }
 
-impl Task for WeightGradient<'_, '_> {
+impl<const C: usize> Task for WeightGradient<'_, '_, C> {
     #[inline(always)]
     fn run<S: Lanes>(self) {
         let Self { delta, input, sums, ahead } = self;
         let (weights, biases) = sums.split_at_mut(delta.len() * input.len());
-        let (fours, rest) = input.as_chunks::<TILE>();
+        let (tiles, rest) = input.as_chunks::<C>();
         let rows = weights.chunks_exact_mut(TILE * input.len()).zip(biases.as_chunks_mut().0);
         for (delta, (weights, bias)) in delta.as_chunks().0.iter().zip(rows) {
-            for (tile, input) in fours.iter().enumerate() {
+            for (tile, input) in tiles.iter().enumerate() {
                 ahead.ask();
                 if tile == 0 {
-                    outer::<S, TILE, true>(delta, input, 0, weights, bias);
+                    outer::<S, C, true>(delta, input, 0, weights, bias);
                 } else {
-                    outer::<S, TILE, false>(delta, input, tile * TILE, weights, bias);
+                    outer::<S, C, false>(delta, input, tile * C, weights, bias);
                 }
             }
+            // Three inputs are less than a tile of four, or one more than a tile of two.
             if let Some(input) = rest.first_chunk() {
                 ahead.ask();
                 outer::<S, INPUTS, true>(delta, input, 0, weights, bias);
+            } else if let Some(input) = rest.first_chunk() {
+                ahead.ask();
+                outer::<S, 1, false>(delta, input, INPUTS - 1, weights, bias);
             }
         }
     }
