@@ -10,6 +10,7 @@ use super::normals::{DIRECTIONS, DirectionScale};
 use crate::backend::cpu::exp;
 use crate::config::Config;
 use crate::convolution::{COLUMNS, Place, parts};
+use crate::parallel::from_parts;
 use crate::region::Region;
 use crate::simd::{prefetch_like, widened};
 
@@ -72,27 +73,23 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
-        let mut sharp = vec![0.0; deviation.len()];
-        self.squash(&mut sharp, &self.band(deviation));
+        let sharp = self.squashed(&self.band(deviation));
         Bend { blurred: self.blur.apply(&sharp), sharp }
     }
 
-    /// d, its blur and the specular albedo in a region, of B t ([`Self::band`]); elsewhere the texels may
-    /// stay as they are.
-    pub fn texels_in(&self, region: &Region, band: &[f32], specular: &[f32], texels: &mut [Texel]) {
+    /// d ([`Self::squashed`]), its blur and the specular albedo in a region; elsewhere the texels may stay as
+    /// they are.
+    pub fn texels_in(&self, region: &Region, d: &[f32], specular: &[f32], texels: &mut [Texel]) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
-            let band = &band[CHANNELS * (row * self.size + column)..][..values.len()];
-            prefetch_like(band, CHANNELS * self.size);
-            self.squash(values, band);
+            let d = &d[CHANNELS * (row * self.size + column)..][..values.len()];
+            prefetch_like(d, CHANNELS * self.size);
+            values.copy_from_slice(d);
         };
         let write = |place: &Place, blurred: &mut [f32], texels: &mut &mut [Texel]| {
             let first = place.row * self.size + place.columns.start;
-            let mut sharp = [0.0; CHANNELS * COLUMNS];
-            let sharp = &mut sharp[..blurred.len()];
-            self.squash(sharp, &band[CHANNELS * first..]);
             let texels = &mut texels[place.within(1)];
             prefetch_like(texels, self.size);
-            side_by_side(texels, sharp, blurred, &specular[first..]);
+            side_by_side(texels, &d[CHANNELS * first..], blurred, &specular[first..]);
         };
         self.blur.apply_in(region, read, write, parts(texels, self.size, 1));
     }
@@ -144,14 +141,20 @@ impl Deviation {
     }
 
     /// Multiplies gradients by d with its derivatives by B t: range (1 - tanh(B t)^2).
-    pub fn unsquash(&self, by_d: &mut [f32], band: &[f32]) {
+    pub fn unsquash(&self, by_d: &mut [f32], d: &[f32]) {
         if let Some(range) = self.range {
-            unsquash(by_d, band, range);
+            unsquash(by_d, d, range);
         }
     }
 
+    /// d of a texture's B t ([`Self::band`]).
+    pub fn squashed(&self, band: &[f32]) -> Vec<f32> {
+        let line = CHANNELS * self.size;
+        from_parts(band.len(), line, |row, out| self.squash(out, &band[row * line..])).0
+    }
+
     /// d of so many values of B t.
-    fn squash(&self, out: &mut [f32], band: &[f32]) {
+    pub fn squash(&self, out: &mut [f32], band: &[f32]) {
         match self.range {
             Some(range) => squash(out, band, range),
             None => out.copy_from_slice(&band[..out.len()]),
@@ -208,10 +211,10 @@ widened! {
 }
 
 widened! {
-    fn unsquash(by_d: &mut [f32], band: &[f32], range: f32) {
-        for (g, t) in by_d.iter_mut().zip(band) {
-            let d = tanh(*t);
-            *g *= range * (1.0 - d * d);
+    fn unsquash(by_d: &mut [f32], d: &[f32], range: f32) {
+        let inverse = 1.0 / range;
+        for (g, d) in by_d.iter_mut().zip(d) {
+            *g *= range - inverse * d * d;
         }
     }
 }

@@ -18,6 +18,7 @@ use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::region::Region;
+use crate::simd::prefetch_like;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -195,6 +196,8 @@ pub struct Relief<'a> {
     /// leaves out stays zero.
     texels: Vec<Texel>,
     by_texel: Vec<Texel>,
+    /// The deviation d, and how many steps led to it.
+    d: (usize, Vec<f32>),
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -219,6 +222,7 @@ impl<'a> Relief<'a> {
             sampled,
             texels: vec![[0.0; TEXEL]; state.specular.len()],
             by_texel: vec![[0.0; TEXEL]; state.specular.len()],
+            d: (0, vec![]),
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -230,8 +234,8 @@ impl<'a> Relief<'a> {
 
     /// Loss; its gradients by the texels are kept.
     fn differentiate(&mut self, state: &State, backend: &dyn Backend) -> f64 {
-        let Self { deviation, sampled, texels, by_texel, .. } = self;
-        deviation.texels_in(sampled, &deviation.band(&state.deviation), &state.specular, texels);
+        let Self { deviation, sampled, texels, by_texel, d: (_, d), .. } = self;
+        deviation.texels_in(sampled, d, &state.specular, texels);
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
@@ -246,13 +250,13 @@ impl<'a> Relief<'a> {
 
     /// Loss, and its gradients by deviation and specular albedo.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> ReliefGradient {
+        self.d.1 = self.deviation.squashed(&self.deviation.band(&state.deviation));
         let loss = self.differentiate(state, backend);
-        let (deviation, size) = (self.deviation, state.size);
-        let band = deviation.band(&state.deviation);
+        let (deviation, size, (_, d)) = (self.deviation, state.size, &self.d);
         let [mut by_band, mut specular] = [3, 1].map(|channels| vec![0.0; channels * size * size]);
         let all = parts(&mut by_band, size, 3).into_iter().zip(parts(&mut specular, size, 1));
         let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Parts| {
-            deviation.unsquash(by_d, &band[3 * (place.row * size + place.columns.start)..]);
+            deviation.unsquash(by_d, &d[3 * (place.row * size + place.columns.start)..]);
             a[place.within(3)].copy_from_slice(by_d);
             b[place.within(1)].copy_from_slice(by_specular);
         };
@@ -271,8 +275,8 @@ pub(super) struct ReliefGradient {
     pub specular: Vec<f32>,
 }
 
-/// The same of the textures and what moves them.
-type Moved<'a> = (Part<'a>, Part<'a>);
+/// The same of the textures with what moves them, and of d.
+type Moved<'a> = ((Part<'a>, Part<'a>), &'a mut [f32]);
 
 impl Stage for Relief<'_> {
     fn name(&self) -> String {
@@ -292,20 +296,31 @@ impl Stage for Relief<'_> {
             return loss;
         }
         // Without gradients of whole textures between the blur and the step.
+        let done = self.by_deviation.steps();
+        if self.d.1.is_empty() || self.d.0 != done {
+            // The last step was not taken here.
+            self.d.1 = self.deviation.squashed(&state.deviation);
+        }
         let loss = self.differentiate(state, backend);
-        let Self { deviation, by_deviation, by_specular, .. } = self;
+        self.d.0 = done + 1;
+        let Self { deviation, by_deviation, by_specular, d: (_, d), .. } = self;
         let free = f32::NEG_INFINITY;
         let cut = |texture| parts(texture, size, 3);
         let both = by_deviation.parts(&mut state.deviation, cut, 3 * size, share, free).into_iter();
         let cut = |texture| parts(texture, size, 1);
         let both = both.zip(by_specular.parts(&mut state.specular, cut, size, share, least));
-        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Moved| {
+        let all = both.zip(parts(d, size, 3));
+        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], moved: &mut Moved| {
+            let ((a, b), d) = moved;
             let within = place.within(3);
-            deviation.unsquash(by_d, &a.parameters[within.clone()]);
-            a.step(within, by_d);
+            let d = &mut d[within.clone()];
+            prefetch_like(d, 3 * size);
+            deviation.unsquash(by_d, d);
+            a.step(within.clone(), by_d);
+            deviation.squash(d, &a.parameters[within]);
             b.step(place.within(1), by_specular);
         };
-        deviation.adjoint_in(&self.reached, &self.by_texel, both.collect(), write);
+        deviation.adjoint_in(&self.reached, &self.by_texel, all.collect(), write);
         loss
     }
 
@@ -435,8 +450,8 @@ pub fn layers(
     backend: &dyn Backend,
 ) -> Planes {
     let mut texels = vec![[0.0; TEXEL]; state.specular.len()];
-    let band = deviation.band(&state.deviation);
-    deviation.texels_in(&samples.taps.region(), &band, &state.specular, &mut texels);
+    let d = deviation.squashed(&deviation.band(&state.deviation));
+    deviation.texels_in(&samples.taps.region(), &d, &state.specular, &mut texels);
     let bent = samples.taps.sample_vectors::<VECTORS>(texels.as_flattened(), BENT);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);

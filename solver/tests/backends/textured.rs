@@ -65,7 +65,7 @@ pub fn relief(backend: &dyn Backend) {
     let t: Vec<f32> = (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
     let empty = vec![[0.0; TEXEL]; state.specular.len()];
     let (mut texels, region) = (empty.clone(), samples.taps.region());
-    deviation.texels_in(&region, &t, &state.specular, &mut texels);
+    deviation.texels_in(&region, &deviation.squashed(&t), &state.specular, &mut texels);
     let relief = TexturedRelief {
         networks: &state.networks,
         samples: &samples,
