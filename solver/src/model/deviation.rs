@@ -212,7 +212,8 @@ widened! {
 
 widened! {
     fn unsquash(by_d: &mut [f32], d: &[f32], range: f32) {
-        let inverse = 1.0 / range;
+        // A range of zero leaves no deviation, and no gradient.
+        let inverse = 1.0 / range.max(f32::MIN_POSITIVE);
         for (g, d) in by_d.iter_mut().zip(d) {
             *g *= range - inverse * d * d;
         }
@@ -231,4 +232,31 @@ widened! {
 #[inline(always)]
 fn tanh(t: f32) -> f32 {
     1.0 - 2.0 / (exp(2.0 * t) + 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_derivative_is_that_of_the_squashed_texture_and_zero_without_a_range() {
+        let mut config = Config::preset("paper").unwrap();
+        let t = [-1.5f32, -0.2, 0.0, 0.7, 3.0, 20.0];
+        for range in [0.0, 1e-40, 0.5] {
+            config.fine_tuning.deviation_range = range;
+            let deviation = Deviation::new(&config, 4);
+            let squashed = |step: f32| {
+                let mut d = [0.0; 6];
+                deviation.squash(&mut d, &t.map(|t| t + step));
+                d
+            };
+            let mut by_t = [1.0; 6];
+            deviation.unsquash(&mut by_t, &squashed(0.0));
+            let (ahead, behind) = (squashed(1e-2), squashed(-1e-2));
+            for (i, by_t) in by_t.into_iter().enumerate() {
+                let expected = (ahead[i] - behind[i]) / 2e-2;
+                assert!((by_t - expected).abs() < 1e-4, "{range} {i}: {by_t} not {expected}");
+            }
+        }
+    }
 }
