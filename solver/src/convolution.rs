@@ -1,9 +1,8 @@
 //! Separable convolution with a symmetric kernel; what lies outside the picture is zero.
 //!
-//! A task works down a strip of columns: every row is convolved once, into a ring of as many lines as
-//! the kernel reaches over, and the columns of the ring are summed up. A value is read from memory about
-//! once and written once; the ring stays in the cache, whose lines rows of a picture would compete for
-//! where they are a power of two apart.
+//! A task works downwards: every row is convolved once, into a ring of as many lines as the kernel reaches
+//! over, and the columns of the ring are summed up. A value is read from memory about once, in the order in
+//! which memory runs, and written once; the ring stays in the cache.
 
 use std::mem::MaybeUninit;
 use std::ops::Range;
@@ -13,16 +12,17 @@ use rayon::prelude::*;
 use crate::region::Region;
 use crate::simd::widened;
 
-/// Columns of a strip.
-pub const COLUMNS: usize = 256;
-/// Rows that are summed up together.
+/// Rows that are summed up together, in registers; and one after the other, with lines that stay in the
+/// nearest cache, where they are as long as this.
 const ROWS: usize = 4;
+const GROUP: usize = 2 * ROWS;
+const NEAR: usize = 128;
 /// Values of a row that are summed up together: of a line, of the lines of the ring. What is asked for is
 /// rounded up to as many columns.
 const TILE: usize = 32;
 const HALF: usize = 16;
 /// Tasks per thread. (They share nothing, so that their number does not matter to the result.)
-const TASKS: usize = 4;
+const TASKS: usize = 2;
 
 /// Columns, rows and interleaved channels.
 #[derive(Clone, Copy)]
@@ -61,92 +61,57 @@ pub fn convolve(
         out.iter_mut().for_each(|out| _ = out.write(0.0));
         out[inside].iter_mut().zip(values).for_each(|(out, value)| _ = out.write(*value));
     };
-    let parts = parts(&mut out.spare_capacity_mut()[..picture.len()], shape.width, shape.channels);
-    convolve_into(parts, kernel, shape, region, read, write);
-    // SAFETY: all parts were written.
+    let line = shape.width * shape.channels;
+    let rows = out.spare_capacity_mut()[..picture.len()].chunks_mut(line).collect();
+    convolve_into(rows, kernel, shape, region, read, write);
+    // SAFETY: all rows were written.
     unsafe { out.set_len(picture.len()) };
     out
-}
-
-/// Cuts a texture's rows where strips of columns end: what tasks write to.
-pub fn parts<T>(texture: &mut [T], width: usize, channels: usize) -> Vec<&mut [T]> {
-    let rows = texture.chunks_mut(width * channels);
-    rows.flat_map(|row| row.chunks_mut(COLUMNS * channels)).collect()
 }
 
 /// Values of a row of the result.
 pub struct Place {
     pub row: usize,
     pub columns: Range<usize>,
-    /// The first column of the part that they belong to.
-    first: usize,
 }
 
 impl Place {
-    /// Where they lie in the part.
+    /// Where they lie in the row.
     pub fn within(&self, channels: usize) -> Range<usize> {
-        (self.columns.start - self.first) * channels..(self.columns.end - self.first) * channels
+        self.columns.start * channels..self.columns.end * channels
     }
 }
 
 /// The same from what `read` fills in (the row, the first column, values) to what `write` does with it
-/// for each of the [`parts`], whether or not there are values.
+/// for each of the `rows`, whether or not there are values.
 pub fn convolve_into<O: Send>(
-    parts: Vec<O>,
+    mut rows: Vec<O>,
     kernel: &[f32],
     shape: Shape,
     region: &Region,
     read: impl Fn(usize, usize, &mut [f32]) + Sync,
     write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
 ) {
-    tasks(parts, shape, kernel.len()).into_par_iter().for_each(|task| {
-        let first = task.columns.start;
-        let mut strip = Strip::new(kernel, shape, region, task.columns);
-        for (row, mut part) in task.rows.zip(task.parts) {
-            let (at, values) = strip.row(row, &read);
-            let start = first + at / shape.channels;
-            let columns = start..start + values.len() / shape.channels;
-            write(&Place { row, columns, first }, values, &mut part);
+    // The rows above and below a task's are convolved for its neighbours as well.
+    let count = rows.len().div_ceil(TASKS * rayon::current_num_threads()).max(4 * kernel.len());
+    let count = count.next_multiple_of(GROUP);
+    rows.par_chunks_mut(count).enumerate().for_each(|(task, rows)| {
+        let mut sums = Downwards::new(kernel, shape, region);
+        for (row, out) in (task * count..).zip(rows) {
+            let (first, values) = sums.row(row, &read);
+            let columns = first..first + values.len() / shape.channels;
+            write(&Place { row, columns }, values, out);
         }
     });
 }
 
-/// Some rows of a strip of columns.
-struct Task<O> {
-    columns: Range<usize>,
-    rows: Range<usize>,
-    /// One a row.
-    parts: Vec<O>,
-}
-
-fn tasks<O>(parts: Vec<O>, shape: Shape, reach: usize) -> Vec<Task<O>> {
-    let Shape { width, height, .. } = shape;
-    let strips = width.div_ceil(COLUMNS);
-    // The rows above and below a task's are convolved for its neighbours as well.
-    let rows = (strips * height).div_ceil(TASKS * rayon::current_num_threads()).max(4 * reach);
-    let rows = rows.next_multiple_of(ROWS);
-    let task = |first: usize, strip: usize| Task {
-        columns: strip * COLUMNS..width.min((strip + 1) * COLUMNS),
-        rows: first..height.min(first + rows),
-        parts: vec![],
-    };
-    let firsts = (0..height).step_by(rows);
-    let mut tasks: Vec<_> =
-        firsts.flat_map(|first| (0..strips).map(move |strip| task(first, strip))).collect();
-    for (at, part) in parts.into_iter().enumerate() {
-        tasks[at / strips / rows * strips + at % strips].parts.push(part);
-    }
-    tasks
-}
-
-/// The rows of a strip, asked for downwards.
-struct Strip<'a> {
+/// Rows of the result, asked for downwards.
+pub struct Downwards<'a> {
     kernel: &'a [f32],
     shape: Shape,
     region: &'a Region,
-    columns: Range<usize>,
-    /// Values of a line, and with what fills up the last tile.
-    length: usize,
+    /// Values from line to line: with what fills up the last tile; and so many more that lines, which would
+    /// be a power of two apart, do not compete for the same places of the cache.
     stride: usize,
     /// A row, with the kernel's reach on either side; zeros stand for what lies outside the picture.
     padded: Vec<f32>,
@@ -161,85 +126,95 @@ struct Strip<'a> {
     /// Of these, the values that were asked for.
     inside: Range<usize>,
     /// Of the lines of a sum: where it begins, and its weights in the rows.
-    taps: Vec<(usize, [f32; ROWS])>,
+    taps: [Vec<(usize, [f32; ROWS])>; GROUP / ROWS],
 }
 
-impl<'a> Strip<'a> {
-    fn new(kernel: &'a [f32], shape: Shape, region: &'a Region, columns: Range<usize>) -> Self {
-        let (reach, length) = (kernel.len() - 1, columns.len() * shape.channels);
-        let (stride, lines) = (length.next_multiple_of(TILE), 2 * reach + ROWS);
+impl<'a> Downwards<'a> {
+    /// With a kernel as [`convolve`] takes it.
+    pub fn new(kernel: &'a [f32], shape: Shape, region: &'a Region) -> Self {
+        let (reach, length) = (kernel.len() - 1, shape.width * shape.channels);
+        let (stride, lines) = (length.next_multiple_of(TILE) + HALF, 2 * reach + GROUP);
         Self {
             kernel,
             shape,
             region,
-            columns,
-            length,
             stride,
             padded: vec![0.0; stride + 2 * reach * shape.channels],
             ring: vec![0.0; lines * stride],
             lines,
             seen: 0..0,
-            sums: vec![0.0; ROWS * stride],
+            sums: vec![0.0; GROUP * stride],
             summed: 0..0,
             inside: 0..0,
-            taps: Vec::with_capacity(lines),
+            taps: std::array::from_fn(|_| Vec::with_capacity(2 * reach + ROWS)),
         }
     }
 
     /// What some rows have of the region, in whole tiles of `columns`: values of a line.
     fn inside(&self, rows: Range<usize>, columns: usize) -> Range<usize> {
-        let hull = self.region.columns(rows.start..rows.end.min(self.shape.height));
-        let (start, end) = (hull.start.max(self.columns.start), hull.end.min(self.columns.end));
+        let Range { start, end } = self.region.columns(rows.start..rows.end.min(self.shape.height));
         if start >= end {
             return 0..0;
         }
-        let [start, end] = [start, end].map(|column| column - self.columns.start);
         let tile = columns * self.shape.channels;
-        start / columns * tile..(end.div_ceil(columns) * tile).min(self.stride)
+        start / columns * tile..(end.div_ceil(columns) * tile).min(self.stride - HALF)
     }
 
-    /// A row of the result: where it begins, and its values.
-    fn row(&mut self, row: usize, read: impl Fn(usize, usize, &mut [f32])) -> (usize, &mut [f32]) {
+    /// A row of the result: the first column, and values from there on. They may be changed, once: what is
+    /// asked for again is what was left.
+    pub fn row(
+        &mut self,
+        row: usize,
+        read: impl Fn(usize, usize, &mut [f32]),
+    ) -> (usize, &mut [f32]) {
         if !self.summed.contains(&row) {
-            self.sum(row / ROWS * ROWS, read);
+            self.sum(row / GROUP * GROUP, read);
         }
-        let end = self.inside.end.min(self.length);
+        let Shape { width, channels, .. } = self.shape;
+        let Range { start, end } = self.inside;
         let sums = &mut self.sums[(row - self.summed.start) * self.stride..];
-        (self.inside.start, &mut sums[self.inside.start..end])
+        (start / channels, &mut sums[start..end.min(width * channels)])
     }
 
     /// Sums up the rows from `first` on.
     fn sum(&mut self, first: usize, read: impl Fn(usize, usize, &mut [f32])) {
         let Self { kernel, lines, stride, .. } = *self;
         let reach = kernel.len() - 1;
-        let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(self.shape.height);
+        let rows = first.saturating_sub(reach)..(first + GROUP + reach).min(self.shape.height);
         for row in rows.start.max(self.seen.end)..rows.end {
             self.convolve(row, &read);
         }
-        self.seen = rows.clone();
-        self.summed = first..first + ROWS;
+        self.seen = rows;
+        self.summed = first..first + GROUP;
         self.inside = self.inside(self.summed.clone(), HALF);
-        self.taps.clear();
-        self.taps.extend(rows.map(|row| {
-            let tap = |to: usize| *kernel.get(row.abs_diff(first + to)).unwrap_or(&0.0);
-            (row % lines * stride, std::array::from_fn(tap))
-        }));
-        vertical(&mut self.sums, stride, self.inside.clone(), &self.ring, &self.taps);
+        for (first, taps) in self.summed.clone().step_by(ROWS).zip(&mut self.taps) {
+            let rows = first.saturating_sub(reach)..(first + ROWS + reach).min(self.shape.height);
+            taps.clear();
+            taps.extend(rows.map(|row| {
+                let tap = |to: usize| *kernel.get(row.abs_diff(first + to)).unwrap_or(&0.0);
+                (row % lines * stride, std::array::from_fn(tap))
+            }));
+        }
+        for start in self.inside.clone().step_by(NEAR) {
+            let values = start..self.inside.end.min(start + NEAR);
+            for (sums, taps) in self.sums.chunks_exact_mut(ROWS * stride).zip(&self.taps) {
+                vertical(sums, stride, values.clone(), &self.ring, taps);
+            }
+        }
     }
 
     /// Brings a row of the picture to the ring: what will be summed up of it.
     fn convolve(&mut self, row: usize, read: impl Fn(usize, usize, &mut [f32])) {
         let Shape { width, channels, .. } = self.shape;
-        let (first, reach) = (self.columns.start, self.kernel.len() - 1);
-        let near = (reach + ROWS).next_multiple_of(ROWS);
+        let reach = self.kernel.len() - 1;
+        let near = (reach + GROUP).next_multiple_of(GROUP);
         let inside = self.inside(row.saturating_sub(near)..row + near, TILE);
         if inside.is_empty() {
             return;
         }
-        let from = (first + inside.start / channels).saturating_sub(reach);
-        let to = (first + inside.end.div_ceil(channels)).min(self.columns.end) + reach;
-        let count = (to.min(width) - from) * channels;
-        read(row, from, &mut self.padded[(from + reach - first) * channels..][..count]);
+        let from = (inside.start / channels).saturating_sub(reach);
+        let to = (inside.end.div_ceil(channels) + reach).min(width);
+        read(row, from, &mut self.padded[(from + reach) * channels..(to + reach) * channels]);
         let margins = inside.start..inside.end + 2 * reach * channels;
         let line = &mut self.ring[row % self.lines * self.stride..][inside];
         horizontal(line, &self.padded[margins], self.kernel, channels);
@@ -313,9 +288,9 @@ widened! {
 mod tests {
     use super::*;
 
-    /// Wider than a strip, with more rows than a task and than the ring has lines.
+    /// Of more rows than a task and than the ring has lines.
     #[test]
-    fn strips_tasks_and_regions_are_the_sum_written_out() {
+    fn tasks_and_regions_are_the_sum_written_out() {
         let (width, height, channels) = (300, 70, 2);
         let shape = Shape { width, height, channels };
         let picture: Vec<f32> = (0..width * height * 2).map(|i| (i as f32 * 0.7).sin()).collect();

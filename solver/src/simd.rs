@@ -50,17 +50,6 @@ pub(crate) fn prefetch<T>(address: *const T) {
     let _ = address;
 }
 
-/// Asks for as many values, which lie so many values `further` on.
-#[inline]
-pub(crate) fn prefetch_like<T>(values: &[T], further: usize) {
-    /// Of the cache.
-    const LINE: usize = 64;
-    let first = values.as_ptr().wrapping_add(further).cast::<u8>();
-    for at in (0..size_of_val(values)).step_by(LINE) {
-        prefetch(first.wrapping_add(at));
-    }
-}
-
 /// Whether the machine has AVX-512 F, BW, DQ and VL: all that have any, but for Xeon Phi.
 #[cfg(target_arch = "x86_64")]
 #[inline]

@@ -15,13 +15,12 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
-use crate::model::bend::{TEXEL, Texel, VECTORS};
+use crate::model::bend::{BentTextures, TEXEL, Texel, VECTORS};
 use crate::model::networks::Networks;
-use crate::model::normals::{DIRECTIONS, DirectionScale};
+use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::strips::{Strip, blocks};
-use crate::region::Region;
 use crate::transport::Glints;
 use resident::{Descent, Job, NormalEquations, Resident};
 
@@ -81,8 +80,8 @@ pub trait Backend: Send + Sync {
     /// The same with the directions and the specular albedo of textures; gradients go to texels, which are
     /// zero outside of what the samples see. The albedo's last row is not read.
     fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
-        let TexturedRelief { networks, samples, region, light, albedo, texels, scale } = *relief;
-        let bent = samples.taps.sample_vectors::<VECTORS>(texels.as_flattened(), BENT);
+        let TexturedRelief { networks, samples, light, albedo, textures } = *relief;
+        let (bent, scale) = (textures.sample(&samples.taps), &textures.deviation.scale);
         let directions = scale.directions(samples, Some(&bent));
         let mut albedo = albedo.clone();
         albedo.copy_row(3, &bent, 6);
@@ -95,7 +94,7 @@ pub trait Backend: Send + Sync {
                 strip.add_vectors::<VECTORS>(block, lanes, rows);
             }
         };
-        samples.taps.by_strip_in(region, gradient, || [Row::ZERO; BENT], add);
+        samples.taps.by_strip_in(textures.region, gradient, || [Row::ZERO; BENT], add);
         loss
     }
 
@@ -126,16 +125,12 @@ pub struct TexturedRelief<'a> {
     pub networks: &'a Networks,
     /// The pixels.
     pub samples: &'a Samples,
-    /// The texels that they see.
-    pub region: &'a Region,
     /// L(p).
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one is read.
     pub albedo: &'a Planes,
     /// Deviations and specular albedo.
-    pub texels: &'a [Texel],
-    /// How directions are scaled.
-    pub scale: &'a DirectionScale,
+    pub textures: BentTextures<'a>,
 }
 
 /// What [`Backend::joint`] finds.

@@ -1,6 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
-use crate::convolution::{Place, Shape, convolve, convolve_into, gaussian};
+use crate::convolution::{Downwards, Place, Shape, convolve, convolve_into, gaussian};
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -54,20 +54,10 @@ impl Blur {
         convolve(texture, &self.kernel, self.shape(), &self.whole, |_, _, _| {}, after)
     }
 
-    /// [`Blur::apply`] in a region, from what `read` fills in (told the row and the first column) to what
-    /// `write` makes of it in the [parts](crate::convolution::parts) of a texture.
-    pub fn apply_in<O: Send>(
-        &self,
-        region: &Region,
-        read: impl Fn(usize, usize, &mut [f32]) + Sync,
-        write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
-        parts: Vec<O>,
-    ) {
-        let write = |place: &Place, values: &mut [f32], part: &mut O| {
-            self.scale(place.row, place.columns.start, values);
-            write(place, values, part);
-        };
-        convolve_into(parts, &self.kernel, self.shape(), region, read, write);
+    /// Rows of [`Blur::apply`], downwards, with what they have of a region.
+    pub fn rows<'a>(&'a self, region: &'a Region) -> BlurredRows<'a> {
+        let rows = Downwards::new(&self.kernel, self.shape(), region);
+        BlurredRows { blur: self, rows }
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
@@ -78,19 +68,20 @@ impl Blur {
         convolve(gradient, &self.kernel, self.shape(), &self.whole, before, |_, _, _| {})
     }
 
-    /// [`Blur::adjoint`] in the same way.
+    /// [`Blur::adjoint`] in a region, from what `read` fills in (told the row and the first column) to what
+    /// `write` does with it for each of the `rows`.
     pub fn adjoint_in<O: Send>(
         &self,
         region: &Region,
         read: impl Fn(usize, usize, &mut [f32]) + Sync,
         write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
-        parts: Vec<O>,
+        rows: Vec<O>,
     ) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
             read(row, column, values);
             self.scale(row, column, values);
         };
-        convolve_into(parts, &self.kernel, self.shape(), region, read, write);
+        convolve_into(rows, &self.kernel, self.shape(), region, read, write);
     }
 
     fn shape(&self) -> Shape {
@@ -99,6 +90,25 @@ impl Blur {
 
     fn scale(&self, row: usize, column: usize, values: &mut [f32]) {
         scale(values, &self.scales[column * self.channels..], self.norms[row]);
+    }
+}
+
+/// Rows of a blurred texture, which are asked for downwards.
+pub struct BlurredRows<'a> {
+    blur: &'a Blur,
+    rows: Downwards<'a>,
+}
+
+impl BlurredRows<'_> {
+    /// A row of the blurred texture: the first column of the region, in whole tiles, and values from there on.
+    pub fn row(&mut self, row: usize, texture: &[f32]) -> (usize, &[f32]) {
+        let Self { blur: Blur { size, channels, .. }, rows } = self;
+        let read = |row: usize, column: usize, values: &mut [f32]| {
+            values.copy_from_slice(&texture[(row * size + column) * channels..][..values.len()]);
+        };
+        let (first, values) = rows.row(row, read);
+        self.blur.scale(row, first, values);
+        (first, values)
     }
 }
 

@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::bend::{Bend, Texel};
-use super::blur::Blur;
+use super::blur::{Blur, BlurredRows};
 use super::normals::{DIRECTIONS, DirectionScale};
 use crate::backend::cpu::exp;
 use crate::config::Config;
-use crate::convolution::{COLUMNS, Place, parts};
+use crate::convolution::Place;
 use crate::parallel::from_parts;
 use crate::region::Region;
-use crate::simd::{prefetch_like, widened};
+use crate::simd::widened;
 
 /// Of the deviation texture.
 const CHANNELS: usize = 3;
@@ -77,21 +77,14 @@ impl Deviation {
         Bend { blurred: self.blur.apply(&sharp), sharp }
     }
 
-    /// d ([`Self::squashed`]), its blur and the specular albedo in a region; elsewhere the texels may stay as
-    /// they are.
-    pub fn texels_in(&self, region: &Region, d: &[f32], specular: &[f32], texels: &mut [Texel]) {
-        let read = |row: usize, column: usize, values: &mut [f32]| {
-            let d = &d[CHANNELS * (row * self.size + column)..][..values.len()];
-            prefetch_like(d, CHANNELS * self.size);
-            values.copy_from_slice(d);
-        };
-        let write = |place: &Place, blurred: &mut [f32], texels: &mut &mut [Texel]| {
-            let first = place.row * self.size + place.columns.start;
-            let texels = &mut texels[place.within(1)];
-            prefetch_like(texels, self.size);
-            side_by_side(texels, &d[CHANNELS * first..], blurred, &specular[first..]);
-        };
-        self.blur.apply_in(region, read, write, parts(texels, self.size, 1));
+    /// Rows of the blur of d.
+    pub fn blurred_rows<'a>(&'a self, region: &'a Region) -> BlurredRows<'a> {
+        self.blur.rows(region)
+    }
+
+    /// Side of the textures, texels.
+    pub fn size(&self) -> usize {
+        self.size
     }
 
     /// The region on which texels of another depend: where [`Self::adjoint_in`] is not zero if the
@@ -116,28 +109,25 @@ impl Deviation {
     }
 
     /// Carries gradients of texels, zero outside of a region, through the blur: `write` is given those by
-    /// d and by the specular albedo in what the region [reaches](Self::reaches), for each of the
-    /// [`parts`] of a texture.
+    /// d and by the specular albedo in what the region [reaches](Self::reaches), for each of the `rows`.
     pub fn adjoint_in<O: Send>(
         &self,
         reached: &Region,
         gradient: &[Texel],
-        parts: Vec<O>,
+        rows: Vec<O>,
         write: impl Fn(&Place, &mut [f32], &[f32], &mut O) + Sync,
     ) {
         let read = |row: usize, column: usize, values: &mut [f32]| {
             let gradient = &gradient[row * self.size + column..][..values.len() / CHANNELS];
-            prefetch_like(gradient, self.size);
             by_blur(values.as_chunks_mut().0, gradient);
         };
-        let write = |place: &Place, values: &mut [f32], part: &mut O| {
+        let write = |place: &Place, values: &mut [f32], row: &mut O| {
             let texels = &gradient[place.row * self.size + place.columns.start..];
-            let mut specular = [0.0; COLUMNS];
-            let specular = &mut specular[..place.columns.len()];
-            others(values.as_chunks_mut().0, specular, texels);
-            write(place, values, specular, part);
+            let mut specular = vec![0.0; place.columns.len()];
+            others(values.as_chunks_mut().0, &mut specular, texels);
+            write(place, values, &specular, row);
         };
-        self.blur.adjoint_in(reached, read, write, parts);
+        self.blur.adjoint_in(reached, read, write, rows);
     }
 
     /// Multiplies gradients by d with its derivatives by B t: range (1 - tanh(B t)^2).
@@ -176,16 +166,6 @@ impl Deviation {
             band.to_mut().par_iter_mut().zip(&coarse).for_each(|(band, coarse)| *band -= coarse);
         }
         band
-    }
-}
-
-widened! {
-    fn side_by_side(texels: &mut [Texel], sharp: &[f32], blurred: &[f32], specular: &[f32]) {
-        let (sharp, _) = sharp.as_chunks::<CHANNELS>();
-        let (blurred, _) = blurred.as_chunks::<CHANNELS>();
-        for (((texel, d), b), s) in texels.iter_mut().zip(sharp).zip(blurred).zip(specular) {
-            *texel = [d[0], d[1], d[2], b[0], b[1], b[2], *s, 0.0];
-        }
     }
 }
 

@@ -13,6 +13,8 @@ use crate::simd::widened;
 
 /// A gather is cut into about this many strips, whatever the number of threads.
 const STRIPS: usize = 64;
+/// Tasks per thread, where these have several strips each.
+const TASKS: usize = 2;
 /// Rows of a strip, at least.
 const LEAST_ROWS: usize = 4;
 
@@ -40,7 +42,7 @@ impl Taps {
     }
 
     /// The same of whole blocks, a block in the strip that its first sample is in; in texels that are zero but
-    /// in the samples' `region`, whatever they are there; and with scratch of the threads.
+    /// in the samples' `region`, whatever they are there. What a task needs goes down with it from strip to strip.
     pub fn by_strip_in<const D: usize, S, T: Send>(
         &self,
         region: &Region,
@@ -49,7 +51,7 @@ impl Taps {
         work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
     ) -> Vec<T> {
         let texels = texels.as_flattened_mut();
-        let task = |scratch: &mut S, (number, texels): (usize, &mut [f32])| {
+        let strip = |scratch: &mut S, number: usize, texels: &mut [f32]| {
             let rows = texels.chunks_exact_mut(self.size() * D);
             for (row, columns) in rows.zip(&region.0[number * self.strip()..]) {
                 row[columns.start * D..columns.end * D].fill(0.0);
@@ -58,8 +60,16 @@ impl Taps {
             let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
             self.in_strip(number, texels, whole(start)..whole(end), |strip| work(scratch, strip))
         };
-        let strips = texels.par_chunks_mut(self.strip() * self.size() * D).enumerate();
-        let results = strips.map_init(scratch, task).collect();
+        // How many strips a task has does not matter to the result.
+        let length = self.strip() * self.size() * D;
+        let count = texels.len().div_ceil(length).div_ceil(TASKS * rayon::current_num_threads());
+        let task = |(number, texels): (usize, &mut [f32])| {
+            let mut scratch = scratch();
+            let strips = (number * count..).zip(texels.chunks_mut(length));
+            strips.map(|(number, texels)| strip(&mut scratch, number, texels)).collect::<Vec<_>>()
+        };
+        let tasks = texels.par_chunks_mut(count * length).enumerate();
+        let results = tasks.flat_map_iter(task).collect();
         self.join::<D, T>(texels, results)
     }
 

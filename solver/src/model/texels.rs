@@ -33,7 +33,9 @@ impl Taps {
         let first = block * BLOCK;
         let samples = first..(first + BLOCK).min(self.cells().len());
         let mut values = [[Vec4::ZERO; H]; BLOCK];
-        interpolate(texture, self, samples, &mut values);
+        let filled = samples.len();
+        let below = &texture[self.size() * FOUR * H..];
+        interpolate([texture, below], 0, self, samples, &mut values[..filled]);
         apart(&values, rows);
     }
 
@@ -61,28 +63,30 @@ impl<const D: usize> Strip<'_, D> {
 }
 
 widened! {
-    /// What samples see of the texels of their cells. A cell's stay in registers while its samples pass.
-    fn interpolate<const H: usize>(
-        texture: &[f32],
+    /// What samples see of the texels of their cells, of which those in `texels` are the upper ones from `first`
+    /// on, and those below them. A cell's stay in registers while its samples pass.
+    pub(super) fn interpolate<const H: usize>(
+        texels: [&[f32]; 2],
+        first: usize,
         taps: &Taps,
         samples: Range<usize>,
-        values: &mut [[Vec4; H]; BLOCK],
+        values: &mut [[Vec4; H]],
     ) {
-        let (texels, size) = (texture.as_chunks::<FOUR>().0.as_chunks::<H>().0, taps.size());
+        let [above, below] = texels.map(|texels| texels.as_chunks::<FOUR>().0.as_chunks::<H>().0);
         let later = taps.cells().get(samples.start + AHEAD..).unwrap_or_default();
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
-        assert!(cells.len() <= BLOCK && fractions.len() == cells.len());
+        assert!(values.len() == cells.len() && fractions.len() == cells.len());
         let mut sample = 0;
         while sample < cells.len() {
             let cell = cells[sample];
-            let at = cell as usize;
+            let at = cell as usize - first;
             if let Some(next) = later.get(sample) {
-                let next = texels.as_ptr().wrapping_add(*next as usize);
-                prefetch(next);
-                prefetch(next.wrapping_add(size));
+                for texels in [above, below] {
+                    prefetch(texels.as_ptr().wrapping_add(*next as usize - first));
+                }
             }
-            let upper = pair(&texels[at..at + 2]);
-            let mut down = pair(&texels[at + size..at + size + 2]);
+            let upper = pair(&above[at..at + 2]);
+            let mut down = pair(&below[at..at + 2]);
             for side in 0..2 {
                 for half in 0..H {
                     down[side][half] -= upper[side][half];
@@ -114,7 +118,7 @@ fn pair<const H: usize>(texels: &[[[f32; FOUR]; H]]) -> [[Vec4; H]; 2] {
 
 widened! {
     /// The samples' values, row by row.
-    fn apart<const H: usize>(values: &[[Vec4; H]; BLOCK], rows: &mut [Row]) {
+    pub(super) fn apart<const H: usize>(values: &[[Vec4; H]; BLOCK], rows: &mut [Row]) {
         for (half, rows) in rows.chunks_mut(FOUR).enumerate() {
             for (at, values) in values.as_chunks::<FOUR>().0.iter().enumerate() {
                 let [a, b, c, d] = values;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::config::AdamConfig;
-use crate::simd::{prefetch_like, widened};
+use crate::simd::widened;
 
 /// Elements that one task works through.
 const CHUNK: usize = 1 << 14;
@@ -95,21 +95,19 @@ impl Adam {
             });
     }
 
-    /// The same, in parts that `cut` makes of an array of lines. Where a gradient is zero, and was zero before,
-    /// nothing would move.
-    pub fn parts<'a>(
+    /// The same, in rows of so many parameters. Where a gradient is zero, and was zero before, nothing would
+    /// move.
+    pub fn rows<'a>(
         &'a mut self,
         parameters: &'a mut [f32],
-        cut: impl Fn(&'a mut [f32]) -> Vec<&'a mut [f32]>,
-        line: usize,
+        length: usize,
         share: f32,
         least: f32,
-    ) -> Vec<Part<'a>> {
+    ) -> impl Iterator<Item = Part<'a>> {
         let factors = self.next(share, least);
-        let moments = cut(&mut self.first).into_iter().zip(cut(&mut self.second));
-        let part =
-            |(parameters, (first, second))| Part { parameters, first, second, line, factors };
-        cut(parameters).into_iter().zip(moments).map(part).collect()
+        let moments = self.first.chunks_mut(length).zip(self.second.chunks_mut(length));
+        let part = move |(parameters, (first, second))| Part { parameters, first, second, factors };
+        parameters.chunks_mut(length).zip(moments).map(part)
     }
 
     /// Counts a step; its factors.
@@ -127,18 +125,15 @@ pub struct Part<'a> {
     pub parameters: &'a mut [f32],
     first: &'a mut [f32],
     second: &'a mut [f32],
-    /// As far on lies what is moved next.
-    line: usize,
     factors: Factors,
 }
 
 impl Part<'_> {
     /// Moves some of them.
     pub fn step(&mut self, range: Range<usize>, gradient: &[f32]) {
-        let Self { parameters, first, second, line, factors } = self;
+        let Self { parameters, first, second, factors } = self;
         let [parameters, first, second] =
             [parameters, first, second].map(|values| &mut values[range.clone()]);
-        [&*parameters, first, second].into_iter().for_each(|values| prefetch_like(values, *line));
         step(parameters, gradient, first, second, factors);
     }
 }

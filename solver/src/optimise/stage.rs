@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::adam::{Adam, Part};
 use crate::backend::resident::{Job, ReliefJob, Variable};
-use crate::backend::{ALBEDOS, BENT, Backend, TexturedRelief};
+use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
-use crate::convolution::{Place, parts};
-use crate::model::bend::{TEXEL, Texel, VECTORS};
+use crate::convolution::Place;
+use crate::model::bend::{BentTextures, TEXEL, Texel};
 use crate::model::deviation::Deviation;
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
@@ -18,7 +18,6 @@ use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::region::Region;
-use crate::simd::prefetch_like;
 
 /// Everything that is being solved for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -192,9 +191,8 @@ pub struct Relief<'a> {
     /// Texels that samples see, and those on which these depend.
     sampled: Region,
     reached: Region,
-    /// Of a step, kept for the next one's: what normals are bent with, and gradients by it. What a region
-    /// leaves out stays zero.
-    texels: Vec<Texel>,
+    /// Of a step, kept for the next one's: gradients by what normals are bent with. What the region leaves out
+    /// stays zero.
     by_texel: Vec<Texel>,
     /// The deviation d, and how many steps led to it.
     d: (usize, Vec<f32>),
@@ -220,7 +218,6 @@ impl<'a> Relief<'a> {
             deviation,
             reached: deviation.reaches(&sampled),
             sampled,
-            texels: vec![[0.0; TEXEL]; state.specular.len()],
             by_texel: vec![[0.0; TEXEL]; state.specular.len()],
             d: (0, vec![]),
             name: format!("normals and specular {round}"),
@@ -234,16 +231,13 @@ impl<'a> Relief<'a> {
 
     /// Loss; its gradients by the texels are kept.
     fn differentiate(&mut self, state: &State, backend: &dyn Backend) -> f64 {
-        let Self { deviation, sampled, texels, by_texel, d: (_, d), .. } = self;
-        deviation.texels_in(sampled, d, &state.specular, texels);
+        let Self { deviation, sampled, by_texel, d: (_, d), .. } = self;
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
-            region: sampled,
             light: &self.light,
             albedo: &self.albedo,
-            texels,
-            scale: &deviation.scale,
+            textures: BentTextures { deviation, d, specular: &state.specular, region: sampled },
         };
         backend.bend_textures(&relief, by_texel)
     }
@@ -254,19 +248,19 @@ impl<'a> Relief<'a> {
         let loss = self.differentiate(state, backend);
         let (deviation, size, (_, d)) = (self.deviation, state.size, &self.d);
         let [mut by_band, mut specular] = [3, 1].map(|channels| vec![0.0; channels * size * size]);
-        let all = parts(&mut by_band, size, 3).into_iter().zip(parts(&mut specular, size, 1));
-        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Parts| {
+        let rows = by_band.chunks_mut(3 * size).zip(specular.chunks_mut(size)).collect();
+        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Rows| {
             deviation.unsquash(by_d, &d[3 * (place.row * size + place.columns.start)..]);
             a[place.within(3)].copy_from_slice(by_d);
             b[place.within(1)].copy_from_slice(by_specular);
         };
-        deviation.adjoint_in(&self.reached, &self.by_texel, all.collect(), write);
+        deviation.adjoint_in(&self.reached, &self.by_texel, rows, write);
         ReliefGradient { loss, deviation: deviation.band_adjoint(by_band), specular }
     }
 }
 
 /// Of both textures.
-type Parts<'a> = (&'a mut [f32], &'a mut [f32]);
+type Rows<'a> = (&'a mut [f32], &'a mut [f32]);
 
 /// Gradients of the loss.
 pub(super) struct ReliefGradient {
@@ -305,22 +299,19 @@ impl Stage for Relief<'_> {
         self.d.0 = done + 1;
         let Self { deviation, by_deviation, by_specular, d: (_, d), .. } = self;
         let free = f32::NEG_INFINITY;
-        let cut = |texture| parts(texture, size, 3);
-        let both = by_deviation.parts(&mut state.deviation, cut, 3 * size, share, free).into_iter();
-        let cut = |texture| parts(texture, size, 1);
-        let both = both.zip(by_specular.parts(&mut state.specular, cut, size, share, least));
-        let all = both.zip(parts(d, size, 3));
+        let rows = by_deviation.rows(&mut state.deviation, 3 * size, share, free);
+        let rows = rows.zip(by_specular.rows(&mut state.specular, size, share, least));
+        let rows = rows.zip(d.chunks_mut(3 * size)).collect();
         let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], moved: &mut Moved| {
             let ((a, b), d) = moved;
             let within = place.within(3);
             let d = &mut d[within.clone()];
-            prefetch_like(d, 3 * size);
             deviation.unsquash(by_d, d);
             a.step(within.clone(), by_d);
             deviation.squash(d, &a.parameters[within]);
             b.step(place.within(1), by_specular);
         };
-        deviation.adjoint_in(&self.reached, &self.by_texel, all.collect(), write);
+        deviation.adjoint_in(&self.reached, &self.by_texel, rows, write);
         loss
     }
 
@@ -449,10 +440,10 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let mut texels = vec![[0.0; TEXEL]; state.specular.len()];
-    let d = deviation.squashed(&deviation.band(&state.deviation));
-    deviation.texels_in(&samples.taps.region(), &d, &state.specular, &mut texels);
-    let bent = samples.taps.sample_vectors::<VECTORS>(texels.as_flattened(), BENT);
+    let d = &deviation.squashed(&deviation.band(&state.deviation));
+    let region = &samples.taps.region();
+    let textures = BentTextures { deviation, d, specular: &state.specular, region };
+    let bent = textures.sample(&samples.taps);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);

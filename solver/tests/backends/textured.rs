@@ -2,7 +2,7 @@
 
 use solver::Config;
 use solver::backend::{Backend, JointGradient, TexturedRelief};
-use solver::model::bend::{TEXEL, Texel};
+use solver::model::bend::{BentTextures, TEXEL, Texel};
 use solver::model::deviation::Deviation;
 use solver::model::networks::Networks;
 use solver::model::normals::DirectionScale;
@@ -64,16 +64,13 @@ pub fn relief(backend: &dyn Backend) {
     let deviation = Deviation::new(&config, state.size);
     let t: Vec<f32> = (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
     let empty = vec![[0.0; TEXEL]; state.specular.len()];
-    let (mut texels, region) = (empty.clone(), samples.taps.region());
-    deviation.texels_in(&region, &deviation.squashed(&t), &state.specular, &mut texels);
+    let (d, region) = (&deviation.squashed(&t), &samples.taps.region());
     let relief = TexturedRelief {
         networks: &state.networks,
         samples: &samples,
-        region: &region,
         light: &backend.light(&state.networks, &samples.position),
         albedo: &state.albedo(&samples),
-        texels: &texels,
-        scale: &deviation.scale,
+        textures: BentTextures { deviation: &deviation, d, specular: &state.specular, region },
     };
     let [fused, split] = [backend, &ByPlanes(backend)].map(|backend| {
         // What an earlier step has left.

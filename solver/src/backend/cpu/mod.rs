@@ -38,7 +38,7 @@ use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
-use crate::model::bend::{TEXEL, Texel};
+use crate::model::bend::{TEXEL, Texel, TexelRows};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
@@ -243,11 +243,12 @@ impl Backend for Cpu {
 
     fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
         let packed = &pack(relief.networks);
-        let scratch = || Scratch::new(relief.networks);
-        let work = |scratch: &mut Scratch, strip: &mut Strip<TEXEL>| {
-            kernels::textured(self.level, packed, relief, scratch, strip)
+        let scratch = || (Scratch::new(relief.networks), relief.textures.rows());
+        let work = |(scratch, rows): &mut (Scratch, TexelRows), strip: &mut Strip<TEXEL>| {
+            kernels::textured(self.level, packed, relief, rows, scratch, strip)
         };
-        let losses = relief.samples.taps.by_strip_in(relief.region, gradient, scratch, work);
+        let taps = &relief.samples.taps;
+        let losses = taps.by_strip_in(relief.textures.region, gradient, scratch, work);
         losses.iter().sum()
     }
 
