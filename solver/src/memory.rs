@@ -14,8 +14,8 @@
 //! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
 //!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
-//!   keeps) and 142 bytes a texel (7 values of the state, 8 moments, 3 of the deviation, the 8 values that
-//!   samples see of it and of the specular albedo, their 8 gradients); 170 where heights have been before.
+//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, 3 of the deviation, 8 gradients; the
+//!   rest again the allocator's); 170 where heights have been before.
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
@@ -23,18 +23,18 @@
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
-//! | `unshade` | 251 thousand | 512² | 258 MB | 251 MB |
-//! | `unshade` | 251 thousand | 1024² | 299 MB | 309 MB |
-//! | `unshade` | 251 thousand | 2048² | 833 MB | 862 MB |
-//! | `unshade` | 1.0 million | 512² | 645 MB | 656 MB |
-//! | `unshade` | 1.0 million | 1024² | 687 MB | 679 MB |
-//! | `unshade` | 1.0 million | 2048² | 1043 MB | 1011 MB |
-//! | `paper` | 251 thousand | 512² | 158 MB | 154 MB |
-//! | `paper` | 251 thousand | 1024² | 269 MB | 260 MB |
-//! | `paper` | 251 thousand | 2048² | 716 MB | 697 MB |
-//! | `paper` | 1.0 million | 512² | 406 MB | 384 MB |
-//! | `paper` | 1.0 million | 1024² | 479 MB | 459 MB |
-//! | `paper` | 1.0 million | 2048² | 926 MB | 896 MB |
+//! | `unshade` | 251 thousand | 512² | 258 MB | 257 MB |
+//! | `unshade` | 251 thousand | 1024² | 299 MB | 304 MB |
+//! | `unshade` | 251 thousand | 2048² | 833 MB | 824 MB |
+//! | `unshade` | 1.0 million | 512² | 645 MB | 648 MB |
+//! | `unshade` | 1.0 million | 1024² | 687 MB | 675 MB |
+//! | `unshade` | 1.0 million | 2048² | 1043 MB | 1060 MB |
+//! | `paper` | 251 thousand | 512² | 154 MB | 156 MB |
+//! | `paper` | 251 thousand | 1024² | 257 MB | 265 MB |
+//! | `paper` | 251 thousand | 2048² | 666 MB | 637 MB |
+//! | `paper` | 1.0 million | 512² | 406 MB | 382 MB |
+//! | `paper` | 1.0 million | 1024² | 466 MB | 441 MB |
+//! | `paper` | 1.0 million | 2048² | 875 MB | 827 MB |
 
 use std::fmt;
 use std::fs;
@@ -57,7 +57,7 @@ const TRANSPORT_SAMPLE: f64 = 280.0;
 const HEIGHT_SAMPLE: f64 = 490.0;
 const HEIGHT_TEXEL: f64 = 100.0;
 const FINE_SAMPLE: f64 = 190.0;
-const FINE_TEXEL: f64 = 142.0;
+const FINE_TEXEL: f64 = 130.0;
 const FINE_TEXEL_AFTER_HEIGHTS: f64 = 170.0;
 const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
