@@ -1,5 +1,7 @@
-//! The textures that bend the normals, and the specular albedo; as samples see them, rows of texels are made when
-//! they are asked for, and do not pass through memory.
+//! The textures that bend the normals, and the specular albedo; as samples see them, rows of the blurred one are
+//! made when they are asked for, and do not pass through memory.
+
+use std::ops::Range;
 
 use glam::Vec4;
 
@@ -7,7 +9,7 @@ use super::blur::BlurredRows;
 use super::deviation::Deviation;
 use super::planes::{BLOCK, CHUNK_BLOCKS, Planes, Row};
 use super::taps::Taps;
-use super::texels::{apart, interpolate};
+use super::texels::{apart, within};
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -58,17 +60,20 @@ impl<'a> BentTextures<'a> {
     /// The same block by block, downwards.
     pub fn rows(&self) -> TexelRows<'a> {
         let blurred = self.deviation.blurred_rows(self.region);
-        let rows = [(); 2].map(|()| vec![[0.0; TEXEL]; self.deviation.size()]);
+        let rows = [(); 2].map(|()| vec![0.0; CHANNELS * self.deviation.size()]);
         TexelRows { textures: *self, blurred, rows, made: [None; 2] }
     }
 }
+
+/// Of the deviation.
+const CHANNELS: usize = 3;
 
 /// Two rows of texels, which move downwards.
 pub struct TexelRows<'a> {
     textures: BentTextures<'a>,
     blurred: BlurredRows<'a>,
-    /// An even one and an odd one; and their numbers.
-    rows: [Vec<Texel>; 2],
+    /// An even one and an odd one of the blur; and their numbers.
+    rows: [Vec<f32>; 2],
     made: [Option<usize>; 2],
 }
 
@@ -76,41 +81,70 @@ impl TexelRows<'_> {
     /// What the samples of a block see, which comes after those that were asked for before.
     pub fn sample(&mut self, taps: &Taps, block: usize, out: &mut [Row]) {
         let first = block * BLOCK;
-        let end = (first + BLOCK).min(taps.cells().len());
+        let (end, size) = ((first + BLOCK).min(taps.cells().len()), taps.size());
         let mut values = [[Vec4::ZERO; VECTORS]; BLOCK];
         let mut at = first;
         while at < end {
-            let row = taps.cells()[at] as usize / taps.size();
+            let row = taps.cells()[at] as usize / size;
             let here = at..taps.samples_in(row..row + 1).end.min(end);
             (row..row + 2).for_each(|row| self.make(row));
-            let texels = [row, row + 1].map(|row| self.rows[row % 2].as_flattened());
-            let values = &mut values[here.start - first..here.end - first];
+            let rows = [row, row + 1].map(|row| {
+                let BentTextures { d, specular, .. } = self.textures;
+                let d = &d[CHANNELS * row * size..][..CHANNELS * size];
+                Bent { d, blurred: &self.rows[row % 2], specular: &specular[row * size..][..size] }
+            });
             at = here.end;
-            interpolate(texels, row * taps.size(), taps, here, values);
+            let values = &mut values[here.start - first..];
+            interpolate(rows.each_ref(), row * size, taps, here, values);
         }
         apart(&values, out);
     }
 
     /// Brings a row, if it is not there.
     fn make(&mut self, row: usize) {
-        let Self { textures: BentTextures { d, specular, .. }, blurred, rows, made } = self;
-        if made[row % 2].replace(row) == Some(row) {
-            return;
+        let Self { textures, blurred, rows, made } = self;
+        if made[row % 2].replace(row) != Some(row) {
+            blurred.row(row, textures.d, &mut rows[row % 2]);
         }
-        let texels = &mut rows[row % 2];
-        let first = row * texels.len();
-        let (column, blurred) = blurred.row(row, d);
-        let first = first + column;
-        side_by_side(&mut texels[column..], &d[3 * first..], blurred, &specular[first..]);
+    }
+}
+
+/// A row of the textures.
+struct Bent<'a> {
+    d: &'a [f32],
+    blurred: &'a [f32],
+    specular: &'a [f32],
+}
+
+impl Bent<'_> {
+    /// A texel and the next one.
+    #[inline(always)]
+    fn pair(&self, at: usize) -> [[Vec4; VECTORS]; 2] {
+        let [d, b] = [self.d, self.blurred].map(|values| &values[CHANNELS * at..][..2 * CHANNELS]);
+        let s = &self.specular[at..at + 2];
+        [
+            [Vec4::new(d[0], d[1], d[2], b[0]), Vec4::new(b[1], b[2], s[0], 0.0)],
+            [Vec4::new(d[3], d[4], d[5], b[3]), Vec4::new(b[4], b[5], s[1], 0.0)],
+        ]
     }
 }
 
 widened! {
-    fn side_by_side(texels: &mut [Texel], sharp: &[f32], blurred: &[f32], specular: &[f32]) {
-        let (sharp, _) = sharp.as_chunks::<3>();
-        let (blurred, _) = blurred.as_chunks::<3>();
-        for (((texel, d), b), s) in texels.iter_mut().zip(sharp).zip(blurred).zip(specular) {
-            *texel = [d[0], d[1], d[2], b[0], b[1], b[2], *s, 0.0];
+    /// What samples of a row of cells, of which the first has number `first`, see of the rows of texels on
+    /// either side.
+    fn interpolate(
+        rows: [&Bent; 2],
+        first: usize,
+        taps: &Taps,
+        samples: Range<usize>,
+        values: &mut [[Vec4; VECTORS]],
+    ) {
+        let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
+        let mut sample = 0;
+        while sample < cells.len() {
+            let at = cells[sample] as usize - first;
+            let four = [rows[0].pair(at), rows[1].pair(at)];
+            sample = within(four, sample, cells, fractions, values);
         }
     }
 }

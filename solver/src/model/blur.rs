@@ -100,15 +100,23 @@ pub struct BlurredRows<'a> {
 }
 
 impl BlurredRows<'_> {
-    /// A row of the blurred texture: the first column of the region, in whole tiles, and values from there on.
-    pub fn row(&mut self, row: usize, texture: &[f32]) -> (usize, &[f32]) {
-        let Self { blur: Blur { size, channels, .. }, rows } = self;
+    /// A row of the blurred texture, where it is in the region.
+    pub fn row(&mut self, row: usize, texture: &[f32], out: &mut [f32]) {
+        let Self { blur: Blur { size, channels, norms, scales, .. }, rows } = self;
         let read = |row: usize, column: usize, values: &mut [f32]| {
             values.copy_from_slice(&texture[(row * size + column) * channels..][..values.len()]);
         };
         let (first, values) = rows.row(row, read);
-        self.blur.scale(row, first, values);
-        (first, values)
+        let inside = first * *channels..first * *channels + values.len();
+        scale_to(&mut out[inside.clone()], values, &scales[inside], norms[row]);
+    }
+}
+
+widened! {
+    fn scale_to(out: &mut [f32], values: &[f32], columns: &[f32], row: f32) {
+        for ((out, value), column) in out.iter_mut().zip(values).zip(columns) {
+            *out = value * (row * column);
+        }
     }
 }
 

@@ -33,9 +33,7 @@ impl Taps {
         let first = block * BLOCK;
         let samples = first..(first + BLOCK).min(self.cells().len());
         let mut values = [[Vec4::ZERO; H]; BLOCK];
-        let filled = samples.len();
-        let below = &texture[self.size() * FOUR * H..];
-        interpolate([texture, below], 0, self, samples, &mut values[..filled]);
+        interpolate(texture, self, samples, &mut values);
         apart(&values, rows);
     }
 
@@ -63,46 +61,57 @@ impl<const D: usize> Strip<'_, D> {
 }
 
 widened! {
-    /// What samples see of the texels of their cells, of which those in `texels` are the upper ones from `first`
-    /// on, and those below them. A cell's stay in registers while its samples pass.
-    pub(super) fn interpolate<const H: usize>(
-        texels: [&[f32]; 2],
-        first: usize,
+    /// What samples see of the texels of their cells.
+    fn interpolate<const H: usize>(
+        texture: &[f32],
         taps: &Taps,
         samples: Range<usize>,
         values: &mut [[Vec4; H]],
     ) {
-        let [above, below] = texels.map(|texels| texels.as_chunks::<FOUR>().0.as_chunks::<H>().0);
+        let (texels, size) = (texture.as_chunks::<FOUR>().0.as_chunks::<H>().0, taps.size());
         let later = taps.cells().get(samples.start + AHEAD..).unwrap_or_default();
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
-        assert!(values.len() == cells.len() && fractions.len() == cells.len());
         let mut sample = 0;
         while sample < cells.len() {
-            let cell = cells[sample];
-            let at = cell as usize - first;
+            let at = cells[sample] as usize;
             if let Some(next) = later.get(sample) {
-                for texels in [above, below] {
-                    prefetch(texels.as_ptr().wrapping_add(*next as usize - first));
-                }
+                let next = texels.as_ptr().wrapping_add(*next as usize);
+                prefetch(next);
+                prefetch(next.wrapping_add(size));
             }
-            let upper = pair(&above[at..at + 2]);
-            let mut down = pair(&below[at..at + 2]);
-            for side in 0..2 {
-                for half in 0..H {
-                    down[side][half] -= upper[side][half];
-                }
-            }
-            while sample < cells.len() && cells[sample] == cell {
-                let [fx, fy] = fractions[sample];
-                for half in 0..H {
-                    let left = upper[0][half] + fy * down[0][half];
-                    let right = upper[1][half] + fy * down[1][half];
-                    values[sample][half] = left + fx * (right - left);
-                }
-                sample += 1;
-            }
+            let four = [at, at + size].map(|at| pair(&texels[at..at + 2]));
+            sample = within(four, sample, cells, fractions, values);
         }
     }
+}
+
+/// What the samples of a cell from `first` on see of its four texels, which stay in registers while they
+/// pass; where the next cell's begin.
+#[inline(always)]
+pub(super) fn within<const H: usize>(
+    [upper, mut down]: [[[Vec4; H]; 2]; 2],
+    first: usize,
+    cells: &[u32],
+    fractions: &[[f32; 2]],
+    values: &mut [[Vec4; H]],
+) -> usize {
+    assert!(values.len() >= cells.len() && fractions.len() == cells.len());
+    for side in 0..2 {
+        for half in 0..H {
+            down[side][half] -= upper[side][half];
+        }
+    }
+    let mut sample = first;
+    while sample < cells.len() && cells[sample] == cells[first] {
+        let [fx, fy] = fractions[sample];
+        for half in 0..H {
+            let left = upper[0][half] + fy * down[0][half];
+            let right = upper[1][half] + fy * down[1][half];
+            values[sample][half] = left + fx * (right - left);
+        }
+        sample += 1;
+    }
+    sample
 }
 
 #[inline(always)]
