@@ -15,12 +15,13 @@ pub mod resident;
 
 pub use choice::{BackendError, Choice};
 
-use crate::model::bend::{BentTextures, TEXEL, Texel, VECTORS};
+use crate::model::bend::{BentTextures, ROWS};
+use crate::model::bend_gradient::{BendGradient, RowSums};
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{Planes, Row};
 use crate::model::samples::Samples;
-use crate::model::strips::{Strip, blocks};
+use crate::model::strips::blocks;
 use crate::transport::Glints;
 use resident::{Descent, Job, NormalEquations, Resident};
 
@@ -79,7 +80,7 @@ pub trait Backend: Send + Sync {
 
     /// The same with the directions and the specular albedo of textures; gradients go to texels, which are
     /// zero outside of what the samples see. The albedo's last row is not read.
-    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
+    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut BendGradient) -> f64 {
         let TexturedRelief { networks, samples, light, albedo, textures } = *relief;
         let (bent, scale) = (textures.sample(&samples.taps), &textures.deviation.scale);
         let directions = scale.directions(samples, Some(&bent));
@@ -87,14 +88,14 @@ pub trait Backend: Send + Sync {
         albedo.copy_row(3, &bent, 6);
         let (loss, by_sample) = self.bend(networks, samples, light, &directions, &albedo);
         let by_deviation = scale.adjoint(samples, &bent, &by_sample);
-        let add = |rows: &mut [Row; BENT], strip: &mut Strip<TEXEL>| {
-            for (block, lanes) in blocks(strip.samples.clone()) {
+        let add = |rows: &mut [Row; ROWS], sums: &mut RowSums| {
+            for (block, _) in blocks(sums.samples.clone()) {
                 rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
                 rows[DIRECTIONS] = by_sample.block(block)[DIRECTIONS];
-                strip.add_vectors::<VECTORS>(block, lanes, rows);
+                sums.add(block, rows);
             }
         };
-        samples.taps.by_strip_in(textures.region, gradient, || [Row::ZERO; BENT], add);
+        gradient.fill((&samples.taps, textures.deviation.blur(), textures.region), || [Row::ZERO; ROWS], add);
         loss
     }
 

@@ -1,25 +1,23 @@
-//! The textures that bend the normals, and the specular albedo; as samples see them, rows of the blurred one are
-//! made when they are asked for, and do not pass through memory.
+//! The textures that bend the normals, and the specular albedo, as samples see them.
 
 use std::ops::Range;
 
 use glam::Vec4;
 
-use super::blur::BlurredRows;
 use super::deviation::Deviation;
-use super::planes::{BLOCK, CHUNK_BLOCKS, Planes, Row};
+use super::planes::{BLOCK, CHUNK_BLOCKS, Planes, Row, first_rows, first_rows_mut};
+use super::pyramid::{CHANNELS, Lines, Texel};
 use super::taps::Taps;
-use super::texels::{apart, within};
+use super::texels::turned;
 use crate::region::Region;
 use crate::simd::widened;
 
-/// d (3 values), its blur (3), the specular albedo, and one that fills up two vectors; or gradients by
-/// them.
-pub type Texel = [f32; TEXEL];
-/// Values of a texel.
-pub const TEXEL: usize = 4 * VECTORS;
-/// Vectors of a texel.
-pub const VECTORS: usize = 2;
+/// What a sample sees of a texel: d (3 values), the specular albedo, blur(d) (3), and one that fills up two
+/// vectors; or gradients by them.
+pub type Bent = [f32; BENT];
+const BENT: usize = 2 * CHANNELS;
+/// Rows at a sample: d, blur(d), specular albedo.
+pub const ROWS: usize = BENT - 1;
 
 /// The textures d and blur(d), 3 channels each.
 pub struct Bend {
@@ -29,24 +27,21 @@ pub struct Bend {
     pub blurred: Vec<f32>,
 }
 
-/// Rows at a sample: all of a [`Texel`] but what fills it up.
-const ROWS: usize = TEXEL - 1;
-
-/// The deviation d ([`Deviation::squashed`]), its blur and the specular albedo.
+/// The deviation d ([`Deviation::texels`]), its blur and the specular albedo.
 #[derive(Clone, Copy)]
 pub struct BentTextures<'a> {
     /// Blurs d.
     pub deviation: &'a Deviation,
-    /// 3 values a texel.
-    pub d: &'a [f32],
-    /// One.
-    pub specular: &'a [f32],
+    /// d, and the specular albedo.
+    pub texels: &'a [Texel],
+    /// The base of the blur ([`Deviation::base`]).
+    pub base: &'a [f32],
     /// The texels that samples see ([`Taps::region`]).
     pub region: &'a Region,
 }
 
 impl<'a> BentTextures<'a> {
-    /// d, its blur and the specular albedo at every sample (7 rows).
+    /// d, blur(d) and the specular albedo at every sample (7 rows).
     pub fn sample(&self, taps: &Taps) -> Planes {
         let task = |(): &mut (), first: usize, out: &mut [Row]| {
             let mut rows = self.rows();
@@ -57,94 +52,180 @@ impl<'a> BentTextures<'a> {
         Planes::from_tasks(ROWS, taps.cells().len(), CHUNK_BLOCKS, || (), task).0
     }
 
-    /// The same block by block, downwards.
+    /// The same block by block, best downwards.
     pub fn rows(&self) -> TexelRows<'a> {
-        let blurred = self.deviation.blurred_rows(self.region);
-        let rows = [(); 2].map(|()| vec![0.0; CHANNELS * self.deviation.size()]);
-        TexelRows { textures: *self, blurred, rows, made: [None; 2] }
+        let size = self.deviation.size();
+        let rows = [(); 2].map(|()| vec![[0.0; BENT]; size]);
+        TexelRows { textures: *self, rows, made: [None; 2], lines: Lines::new(size) }
     }
 }
 
-/// Of the deviation.
-const CHANNELS: usize = 3;
-
-/// Two rows of texels, which move downwards.
+/// Two rows of texels.
 pub struct TexelRows<'a> {
     textures: BentTextures<'a>,
-    blurred: BlurredRows<'a>,
-    /// An even one and an odd one of the blur; and their numbers.
-    rows: [Vec<f32>; 2],
+    /// An even one and an odd one; and their numbers.
+    rows: [Vec<Bent>; 2],
     made: [Option<usize>; 2],
+    lines: Lines,
 }
 
 impl TexelRows<'_> {
-    /// What the samples of a block see, which comes after those that were asked for before.
+    /// What the samples of a block see.
     pub fn sample(&mut self, taps: &Taps, block: usize, out: &mut [Row]) {
         let first = block * BLOCK;
         let (end, size) = ((first + BLOCK).min(taps.cells().len()), taps.size());
-        let mut values = [[Vec4::ZERO; VECTORS]; BLOCK];
+        let mut values = [[0.0; BENT]; BLOCK];
         let mut at = first;
         while at < end {
             let row = taps.cells()[at] as usize / size;
             let here = at..taps.samples_in(row..row + 1).end.min(end);
             (row..row + 2).for_each(|row| self.make(row));
-            let rows = [row, row + 1].map(|row| {
-                let BentTextures { d, specular, .. } = self.textures;
-                let d = &d[CHANNELS * row * size..][..CHANNELS * size];
-                Bent { d, blurred: &self.rows[row % 2], specular: &specular[row * size..][..size] }
-            });
             at = here.end;
             let values = &mut values[here.start - first..];
-            interpolate(rows.each_ref(), row * size, taps, here, values);
+            let [upper, lower] = [row, row + 1].map(|row| &*self.rows[row % 2]);
+            interpolate(upper, lower, row * size, taps, here, values);
         }
-        apart(&values, out);
+        apart(&values, first_rows_mut(out));
     }
 
     /// Brings a row, if it is not there.
     fn make(&mut self, row: usize) {
-        let Self { textures, blurred, rows, made } = self;
+        let Self { textures: BentTextures { deviation, texels, base, region }, rows, made, lines } = self;
         if made[row % 2].replace(row) != Some(row) {
-            blurred.row(row, textures.d, &mut rows[row % 2]);
+            let columns = &region.0[row];
+            let blurred = deviation.blur().blurred_row(base, row, columns, lines);
+            let own = &texels[row * deviation.size()..][columns.clone()];
+            side_by_side(&mut rows[row % 2][columns.clone()], own, blurred);
         }
     }
 }
 
-/// A row of the textures.
-struct Bent<'a> {
-    d: &'a [f32],
-    blurred: &'a [f32],
-    specular: &'a [f32],
+widened! {
+    fn side_by_side(out: &mut [Bent], own: &[Texel], blurred: &[Texel]) {
+        for (out, (own, blurred)) in out.iter_mut().zip(own.iter().zip(blurred)) {
+            out[..CHANNELS].copy_from_slice(own);
+            out[CHANNELS..].copy_from_slice(blurred);
+        }
+    }
 }
 
-impl Bent<'_> {
-    /// A texel and the next one.
-    #[inline(always)]
-    fn pair(&self, at: usize) -> [[Vec4; VECTORS]; 2] {
-        let [d, b] = [self.d, self.blurred].map(|values| &values[CHANNELS * at..][..2 * CHANNELS]);
-        let s = &self.specular[at..at + 2];
-        [
-            [Vec4::new(d[0], d[1], d[2], b[0]), Vec4::new(b[1], b[2], s[0], 0.0)],
-            [Vec4::new(d[3], d[4], d[5], b[3]), Vec4::new(b[4], b[5], s[1], 0.0)],
-        ]
-    }
+/// A texel and the next one: one vector, or two or four narrower ones.
+type Pair = [f32; 2 * BENT];
+
+#[inline(always)]
+fn pair(row: &[Bent], at: usize) -> Pair {
+    let mut pair = [0.0; 2 * BENT];
+    pair.copy_from_slice(row[at..at + 2].as_flattened());
+    pair
 }
 
 widened! {
     /// What samples of a row of cells, of which the first has number `first`, see of the rows of texels on
-    /// either side.
+    /// either side. A cell's texels stay in registers while its samples pass.
     fn interpolate(
-        rows: [&Bent; 2],
+        upper: &[Bent],
+        lower: &[Bent],
         first: usize,
         taps: &Taps,
         samples: Range<usize>,
-        values: &mut [[Vec4; VECTORS]],
+        values: &mut [Bent],
     ) {
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
+        assert!(fractions.len() == cells.len() && values.len() >= cells.len());
         let mut sample = 0;
         while sample < cells.len() {
-            let at = cells[sample] as usize - first;
-            let four = [rows[0].pair(at), rows[1].pair(at)];
-            sample = within(four, sample, cells, fractions, values);
+            let cell = cells[sample];
+            let at = cell as usize - first;
+            let (upper, mut down) = (pair(upper, at), pair(lower, at));
+            for lane in 0..2 * BENT {
+                down[lane] -= upper[lane];
+            }
+            while sample < cells.len() && cells[sample] == cell {
+                let [fx, fy] = fractions[sample];
+                let mut both = upper;
+                for lane in 0..2 * BENT {
+                    both[lane] += fy * down[lane];
+                }
+                for lane in 0..BENT {
+                    values[sample][lane] = both[lane] + fx * (both[BENT + lane] - both[lane]);
+                }
+                sample += 1;
+            }
+        }
+    }
+}
+
+widened! {
+    /// The adjoint of [`interpolate`]: adds what samples have to the rows on either side. The sums of a cell
+    /// stay in registers while its samples pass.
+    pub(super) fn gather(
+        upper: &mut [Bent],
+        lower: &mut [Bent],
+        first: usize,
+        taps: &Taps,
+        samples: Range<usize>,
+        values: &[Bent],
+    ) {
+        let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
+        assert!(fractions.len() == cells.len() && values.len() >= cells.len());
+        let mut sample = 0;
+        while sample < cells.len() {
+            let cell = cells[sample];
+            let (mut above, mut below) = ([0.0; 2 * BENT], [0.0; 2 * BENT]);
+            while sample < cells.len() && cells[sample] == cell {
+                let [fx, fy] = fractions[sample];
+                let mut both = [0.0; 2 * BENT];
+                for lane in 0..BENT {
+                    both[lane] = (1.0 - fx) * values[sample][lane];
+                    both[BENT + lane] = fx * values[sample][lane];
+                }
+                for lane in 0..2 * BENT {
+                    above[lane] += (1.0 - fy) * both[lane];
+                    below[lane] += fy * both[lane];
+                }
+                sample += 1;
+            }
+            let at = cell as usize - first;
+            for (row, sums) in [(&mut *upper, above), (&mut *lower, below)] {
+                for (value, sum) in row[at..at + 2].as_flattened_mut().iter_mut().zip(sums) {
+                    *value += sum;
+                }
+            }
+        }
+    }
+}
+
+widened! {
+    /// Samples' values as rows.
+    fn apart(values: &[Bent; BLOCK], rows: &mut [Row; ROWS]) {
+        let [a, b, c, d, e, f, g] = rows;
+        for (at, values) in values.as_chunks::<CHANNELS>().0.iter().enumerate() {
+            let at = CHANNELS * at;
+            let own = turned(std::array::from_fn(|i| Vec4::from_slice(&values[i])));
+            let blurred = turned(std::array::from_fn(|i| Vec4::from_slice(&values[i][CHANNELS..])));
+            for (row, values) in [(&mut *a, own[0]), (b, own[1]), (c, own[2]), (g, own[3])] {
+                row.0[at..at + CHANNELS].copy_from_slice(&values.to_array());
+            }
+            for (row, values) in [(&mut *d, blurred[0]), (e, blurred[1]), (f, blurred[2])] {
+                row.0[at..at + CHANNELS].copy_from_slice(&values.to_array());
+            }
+        }
+    }
+}
+
+widened! {
+    /// The reverse.
+    pub(super) fn together(rows: &[Row], values: &mut [Bent; BLOCK]) {
+        let [a, b, c, d, e, f, g] = first_rows::<ROWS>(rows);
+        let zero = Row::ZERO;
+        for (at, values) in values.as_chunks_mut::<CHANNELS>().0.iter_mut().enumerate() {
+            let at = CHANNELS * at;
+            for (half, rows) in [[a, b, c, g], [d, e, f, &zero]].into_iter().enumerate() {
+                let lanes = turned(rows.map(|row| Vec4::from_slice(&row.0[at..])));
+                for (values, lanes) in values.iter_mut().zip(lanes) {
+                    values[half * CHANNELS..][..CHANNELS].copy_from_slice(&lanes.to_array());
+                }
+            }
         }
     }
 }
@@ -156,23 +237,26 @@ mod tests {
     use super::*;
     use crate::config::Config;
 
-    /// On samples so sparse that blocks leave out rows, and on dense ones, of several tasks.
+    /// On samples so sparse that blocks leave out rows, and on dense ones, of several tasks; with blurs of
+    /// several levels.
     #[test]
     fn samples_see_the_textures() {
         let (size, mut config) = (300, Config::preset("paper").unwrap());
-        config.fine_tuning.deviation_blur = 0.01;
-        let deviation = Deviation::new(&config, size);
         let noise = |i: usize, k: f32| ((i as f32 + 1.0) * k).sin().abs();
         let t: Vec<f32> = (0..3 * size * size).map(|i| noise(i, 0.37) - 0.5).collect();
         let specular: Vec<f32> = (0..size * size).map(|i| noise(i, 0.11)).collect();
-        let (bend, d) = (deviation.textures(&t), deviation.squashed(&t));
-        for (count, low, high) in [(300, 0.1, 0.9), (20_000, 0.0, 1.0), (9000, 0.7, 0.75)] {
+        for (blur, count, low, high) in
+            [(0.01, 300, 0.1, 0.9), (0.02, 20_000, 0.0, 1.0), (0.03, 9000, 0.7, 0.75)]
+        {
+            config.fine_tuning.deviation_blur = blur;
+            let deviation = Deviation::new(&config, size);
+            let (bend, texels) = (deviation.textures(&t), deviation.texels(&t, &specular));
             let place =
                 |i: usize| Vec2::new(noise(i, 12.9898), low + (high - low) * noise(i, 78.233));
             let taps = Taps::sorted(size, &(0..count).map(place).collect::<Vec<_>>()).0;
             let region = &taps.region();
-            let textures =
-                BentTextures { deviation: &deviation, d: &d, specular: &specular, region };
+            let base = &deviation.base(&texels, &deviation.reach(region));
+            let textures = BentTextures { deviation: &deviation, texels: &texels, base, region };
             let seen = textures.sample(&taps);
             let [sharp, blurred] = [&bend.sharp, &bend.blurred].map(|t| taps.sample::<3>(t));
             let specular = taps.sample::<1>(&specular);

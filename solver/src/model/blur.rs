@@ -1,6 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
-use crate::convolution::{Downwards, Place, Shape, convolve, convolve_into, gaussian};
+use crate::convolution::{Shape, convolve, gaussian};
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -54,12 +54,6 @@ impl Blur {
         convolve(texture, &self.kernel, self.shape(), &self.whole, |_, _, _| {}, after)
     }
 
-    /// Rows of [`Blur::apply`], downwards, with what they have of a region.
-    pub fn rows<'a>(&'a self, region: &'a Region) -> BlurredRows<'a> {
-        let rows = Downwards::new(&self.kernel, self.shape(), region);
-        BlurredRows { blur: self, rows }
-    }
-
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
     pub fn adjoint(&self, gradient: &[f32]) -> Vec<f32> {
         // apply = N K with K symmetric and N diagonal, so the transpose is K N.
@@ -68,55 +62,12 @@ impl Blur {
         convolve(gradient, &self.kernel, self.shape(), &self.whole, before, |_, _, _| {})
     }
 
-    /// [`Blur::adjoint`] in a region, from what `read` fills in (told the row and the first column) to what
-    /// `write` does with it for each of the `rows`.
-    pub fn adjoint_in<O: Send>(
-        &self,
-        region: &Region,
-        read: impl Fn(usize, usize, &mut [f32]) + Sync,
-        write: impl Fn(&Place, &mut [f32], &mut O) + Sync,
-        rows: Vec<O>,
-    ) {
-        let read = |row: usize, column: usize, values: &mut [f32]| {
-            read(row, column, values);
-            self.scale(row, column, values);
-        };
-        convolve_into(rows, &self.kernel, self.shape(), region, read, write);
-    }
-
     fn shape(&self) -> Shape {
         Shape { width: self.size, height: self.size, channels: self.channels }
     }
 
     fn scale(&self, row: usize, column: usize, values: &mut [f32]) {
         scale(values, &self.scales[column * self.channels..], self.norms[row]);
-    }
-}
-
-/// Rows of a blurred texture, which are asked for downwards.
-pub struct BlurredRows<'a> {
-    blur: &'a Blur,
-    rows: Downwards<'a>,
-}
-
-impl BlurredRows<'_> {
-    /// A row of the blurred texture, where it is in the region.
-    pub fn row(&mut self, row: usize, texture: &[f32], out: &mut [f32]) {
-        let Self { blur: Blur { size, channels, norms, scales, .. }, rows } = self;
-        let read = |row: usize, column: usize, values: &mut [f32]| {
-            values.copy_from_slice(&texture[(row * size + column) * channels..][..values.len()]);
-        };
-        let (first, values) = rows.row(row, read);
-        let inside = first * *channels..first * *channels + values.len();
-        scale_to(&mut out[inside.clone()], values, &scales[inside], norms[row]);
-    }
-}
-
-widened! {
-    fn scale_to(out: &mut [f32], values: &[f32], columns: &[f32], row: f32) {
-        for ((out, value), column) in out.iter_mut().zip(values).zip(columns) {
-            *out = value * (row * column);
-        }
     }
 }
 

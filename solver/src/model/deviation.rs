@@ -4,9 +4,12 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::bend::{Bend, Texel};
-use super::blur::{Blur, BlurredRows};
-use super::normals::{DIRECTIONS, DirectionScale};
+use super::bend::Bend;
+use super::bend_gradient::BendGradient;
+use super::blur::Blur;
+use super::normals::DirectionScale;
+use super::pyramid::{Lines, Pyramid, Texel};
+use super::texture::{interleave, part};
 use crate::backend::cpu::exp;
 use crate::config::Config;
 use crate::convolution::Place;
@@ -16,6 +19,8 @@ use crate::simd::widened;
 
 /// Of the deviation texture.
 const CHANNELS: usize = 3;
+/// Rows that one task works through, at least.
+const TASK_ROWS: usize = 4;
 
 /// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
 /// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
@@ -27,7 +32,7 @@ pub struct Deviation {
     size: usize,
     narrow: Blur,
     wide: Option<Blur>,
-    blur: Blur,
+    blur: Pyramid,
     /// How directions are scaled.
     pub scale: DirectionScale,
 }
@@ -37,7 +42,7 @@ pub(crate) struct Parts<'a> {
     pub range: Option<f32>,
     pub narrow: &'a Blur,
     pub wide: Option<&'a Blur>,
-    pub blur: &'a Blur,
+    pub blur: &'a Pyramid,
 }
 
 impl Deviation {
@@ -51,13 +56,14 @@ impl Deviation {
     pub fn new(config: &Config, size: usize) -> Self {
         let fine = &config.fine_tuning;
         let blur = |sigma: f32| Blur::new(size, CHANNELS, sigma * size as f32);
+        let pyramid = |sigma: f32| Pyramid::new(size, sigma * size as f32);
         if config.height.enabled {
             return Self {
                 range: None,
                 size,
                 narrow: blur(0.0),
                 wide: None,
-                blur: blur(config.height.blur),
+                blur: pyramid(config.height.blur),
                 scale: DirectionScale::from(&config.networks),
             };
         }
@@ -66,7 +72,7 @@ impl Deviation {
             size,
             narrow: blur(fine.deviation_smoothing),
             wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
-            blur: blur(fine.deviation_blur),
+            blur: pyramid(fine.deviation_blur),
             scale: DirectionScale::from(&config.networks),
         }
     }
@@ -74,12 +80,10 @@ impl Deviation {
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
         let sharp = self.squashed(&self.band(deviation));
-        Bend { blurred: self.blur.apply(&sharp), sharp }
-    }
-
-    /// Rows of the blur of d.
-    pub fn blurred_rows<'a>(&'a self, region: &'a Region) -> BlurredRows<'a> {
-        self.blur.rows(region)
+        let padding = vec![0.0; self.size * self.size];
+        let texels = interleave::<4>(&[(&sharp, CHANNELS), (&padding, 1)]);
+        let blurred = self.blur.apply(texels.as_chunks().0);
+        Bend { blurred: part::<4, CHANNELS>(blurred.as_flattened(), 0), sharp }
     }
 
     /// Side of the textures, texels.
@@ -87,10 +91,9 @@ impl Deviation {
         self.size
     }
 
-    /// The region on which texels of another depend: where [`Self::adjoint_in`] is not zero if the
-    /// gradients are zero outside of the other.
-    pub fn reaches(&self, region: &Region) -> Region {
-        region.dilated(self.blur.reach(), self.size)
+    /// The texels on which what is seen of a region depends, and which depend on it.
+    pub fn reach(&self, region: &Region) -> Vec<Region> {
+        self.blur.reach(region)
     }
 
     /// Whether B is anything but the identity.
@@ -108,33 +111,56 @@ impl Deviation {
         self.pass(Cow::Owned(gradient), Blur::adjoint).into_owned()
     }
 
-    /// Carries gradients of texels, zero outside of a region, through the blur: `write` is given those by
-    /// d and by the specular albedo in what the region [reaches](Self::reaches), for each of the `rows`.
-    pub fn adjoint_in<O: Send>(
+    /// Carries gradients to B t: `write` is given those by it and by the specular albedo in what the samples
+    /// [reach](Self::reach), row by row, with the row of d and specular albedo, and what belongs to it.
+    pub fn adjoint<R: AsRef<[Texel]> + Send, O: Send>(
         &self,
-        reached: &Region,
-        gradient: &[Texel],
-        rows: Vec<O>,
-        write: impl Fn(&Place, &mut [f32], &[f32], &mut O) + Sync,
+        gradient: &BendGradient,
+        reach: &[Region],
+        mut rows: Vec<(R, O)>,
+        write: impl Fn(&Place, Gradients, &mut R, &mut O) + Sync,
     ) {
-        let read = |row: usize, column: usize, values: &mut [f32]| {
-            let gradient = &gradient[row * self.size + column..][..values.len() / CHANNELS];
-            by_blur(values.as_chunks_mut().0, gradient);
-        };
-        let write = |place: &Place, values: &mut [f32], row: &mut O| {
-            let texels = &gradient[place.row * self.size + place.columns.start..];
-            let mut specular = vec![0.0; place.columns.len()];
-            others(values.as_chunks_mut().0, &mut specular, texels);
-            write(place, values, &specular, row);
-        };
-        self.blur.adjoint_in(reached, read, write, rows);
+        let base = self.blur.convolved(&gradient.base, reach);
+        let size = self.size;
+        let scratch = || (Lines::new(size), vec![0.0; CHANNELS * size], vec![0.0; size]);
+        let rows = rows.par_iter_mut().enumerate().with_min_len(TASK_ROWS);
+        rows.for_each_init(scratch, |(lines, by_band, by_specular), (row, (texels, out))| {
+            let columns = reach[0].0[row].clone();
+            let (blurred, place) = (self.blur.row(&base, row, &columns, lines), Place { row, columns });
+            let own = &gradient.own[row * size..][place.within(1)];
+            let (d, range) = (&texels.as_ref()[place.within(1)], self.range);
+            let by_band = &mut by_band[..place.within(CHANNELS).len()];
+            let by_specular = &mut by_specular[..place.columns.len()];
+            unsquash(by_band.as_chunks_mut().0, by_specular, own, blurred, d, range);
+            write(&place, Gradients { by_band, by_specular }, texels, out);
+        });
     }
 
-    /// Multiplies gradients by d with its derivatives by B t: range (1 - tanh(B t)^2).
-    pub fn unsquash(&self, by_d: &mut [f32], d: &[f32]) {
-        if let Some(range) = self.range {
-            unsquash(by_d, d, range);
-        }
+    /// d of a deviation texture, with the specular albedo.
+    pub fn texels(&self, deviation: &[f32], specular: &[f32]) -> Vec<Texel> {
+        let band = self.band(deviation);
+        let mut texels = vec![Texel::default(); specular.len()];
+        let rows = texels.par_chunks_mut(self.size).enumerate();
+        rows.for_each(|(row, texels)| {
+            let first = row * self.size;
+            self.put(texels, &band[CHANNELS * first..], &specular[first..]);
+        });
+        texels
+    }
+
+    /// Makes d of as many values of B t, and puts the specular albedo beside.
+    pub fn put(&self, texels: &mut [Texel], band: &[f32], specular: &[f32]) {
+        put(texels, band.as_chunks().0, specular, self.range);
+    }
+
+    /// The base of the blur of d.
+    pub fn base(&self, texels: &[Texel], reach: &[Region]) -> Vec<f32> {
+        self.blur.halved(texels, reach)
+    }
+
+    /// The blur of d.
+    pub fn blur(&self) -> &Pyramid {
+        &self.blur
     }
 
     /// d of a texture's B t ([`Self::band`]).
@@ -143,8 +169,7 @@ impl Deviation {
         from_parts(band.len(), line, |row, out| self.squash(out, &band[row * line..])).0
     }
 
-    /// d of so many values of B t.
-    pub fn squash(&self, out: &mut [f32], band: &[f32]) {
+    fn squash(&self, out: &mut [f32], band: &[f32]) {
         match self.range {
             Some(range) => squash(out, band, range),
             None => out.copy_from_slice(&band[..out.len()]),
@@ -169,33 +194,44 @@ impl Deviation {
     }
 }
 
-widened! {
-    /// Of the gradients of texels, those by blur(d).
-    fn by_blur(out: &mut [[f32; CHANNELS]], texels: &[Texel]) {
-        for (out, [_, _, _, x, y, z, _, _]) in out.iter_mut().zip(texels) {
-            *out = [*x, *y, *z];
-        }
-    }
+/// Gradients of some texels of a row.
+pub struct Gradients<'a> {
+    /// By B t, three values each.
+    pub by_band: &'a [f32],
+    /// By the specular albedo.
+    pub by_specular: &'a [f32],
 }
 
 widened! {
-    /// Adds those by d to those that came through the blur; and those by the specular albedo.
-    fn others(by_d: &mut [[f32; CHANNELS]], by_specular: &mut [f32], texels: &[Texel]) {
-        for ((out, specular), texel) in by_d.iter_mut().zip(by_specular).zip(texels) {
-            for c in 0..CHANNELS {
-                out[c] += texel[c];
-            }
-            *specular = texel[DIRECTIONS];
-        }
-    }
-}
-
-widened! {
-    fn unsquash(by_d: &mut [f32], d: &[f32], range: f32) {
+    /// Gradients by d, its own and those through the blur, times its derivatives by B t: range (1 - tanh(B t)^2);
+    /// and those by the specular albedo.
+    fn unsquash(
+        by_band: &mut [[f32; CHANNELS]],
+        by_specular: &mut [f32],
+        own: &[Texel],
+        blurred: &[Texel],
+        d: &[Texel],
+        range: Option<f32>,
+    ) {
         // A range of zero leaves no deviation, and no gradient.
-        let inverse = 1.0 / range.max(f32::MIN_POSITIVE);
-        for (g, d) in by_d.iter_mut().zip(d) {
-            *g *= range - inverse * d * d;
+        let (range, inverse) = range.map_or((1.0, 0.0), |range| (range, 1.0 / range.max(f32::MIN_POSITIVE)));
+        let texels = own.iter().zip(blurred).zip(d);
+        for ((by_band, by_specular), ((own, blurred), d)) in by_band.iter_mut().zip(by_specular).zip(texels) {
+            for c in 0..CHANNELS {
+                by_band[c] = (blurred[c] + own[c]) * (range - inverse * d[c] * d[c]);
+            }
+            *by_specular = own[CHANNELS];
+        }
+    }
+}
+
+widened! {
+    fn put(texels: &mut [Texel], band: &[[f32; CHANNELS]], specular: &[f32], range: Option<f32>) {
+        for (texel, (band, specular)) in texels.iter_mut().zip(band.iter().zip(specular)) {
+            for c in 0..CHANNELS {
+                texel[c] = range.map_or(band[c], |range| range * tanh(band[c]));
+            }
+            texel[CHANNELS] = *specular;
         }
     }
 }
@@ -225,16 +261,18 @@ mod tests {
         for range in [0.0, 1e-40, 0.5] {
             config.fine_tuning.deviation_range = range;
             let deviation = Deviation::new(&config, 4);
-            let squashed = |step: f32| {
-                let mut d = [0.0; 6];
-                deviation.squash(&mut d, &t.map(|t| t + step));
-                d
+            let texels = |step: f32| {
+                let mut texels = [Texel::default(); 2];
+                deviation.put(&mut texels, &t.map(|t| t + step), &[0.1, 0.2]);
+                texels
             };
-            let mut by_t = [1.0; 6];
-            deviation.unsquash(&mut by_t, &squashed(0.0));
-            let (ahead, behind) = (squashed(1e-2), squashed(-1e-2));
-            for (i, by_t) in by_t.into_iter().enumerate() {
-                let expected = (ahead[i] - behind[i]) / 2e-2;
+            let d = |step: f32, i: usize| texels(step)[i / 3][i % 3];
+            let (mut by_t, mut by_specular) = ([[0.0; 3]; 2], [0.0; 2]);
+            let (own, blurred) = ([[0.25, 0.25, 0.25, 0.5]; 2], [[0.75; 4]; 2]);
+            unsquash(&mut by_t, &mut by_specular, &own, &blurred, &texels(0.0), deviation.range);
+            assert_eq!((by_specular, texels(0.0)[1][3]), ([0.5; 2], 0.2));
+            for (i, by_t) in by_t.as_flattened().iter().enumerate() {
+                let expected = (d(1e-2, i) - d(-1e-2, i)) / 2e-2;
                 assert!((by_t - expected).abs() < 1e-4, "{range} {i}: {by_t} not {expected}");
             }
         }

@@ -1,6 +1,7 @@
 //! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
 pub mod bend;
+pub mod bend_gradient;
 pub mod blur;
 pub mod deviation;
 pub mod height;
@@ -9,6 +10,7 @@ pub mod networks;
 pub mod normals;
 pub mod planes;
 pub mod prior;
+pub mod pyramid;
 mod rows;
 pub mod samples;
 pub mod strips;

@@ -8,19 +8,16 @@ use rayon::prelude::*;
 use super::planes::{BLOCK, CHUNK_BLOCKS, Row};
 use super::taps::Taps;
 use crate::parallel::from_parts;
-use crate::region::Region;
 use crate::simd::widened;
 
 /// A gather is cut into about this many strips, whatever the number of threads.
 const STRIPS: usize = 64;
-/// Tasks per thread, where these have several strips each.
-const TASKS: usize = 2;
 /// Rows of a strip, at least.
 const LEAST_ROWS: usize = 4;
 
 impl Taps {
     /// Rows of a strip.
-    fn strip(&self) -> usize {
+    pub(super) fn strip(&self) -> usize {
         self.size().div_ceil(STRIPS).max(LEAST_ROWS)
     }
 
@@ -39,38 +36,6 @@ impl Taps {
         let (mut texels, results) = from_parts(self.size() * line, self.strip() * line, task);
         let results = self.join::<D, T>(&mut texels, results);
         (texels, results)
-    }
-
-    /// The same of whole blocks, a block in the strip that its first sample is in; in texels that are zero but
-    /// in the samples' `region`, whatever they are there. What a task needs goes down with it from strip to strip.
-    pub fn by_strip_in<const D: usize, S, T: Send>(
-        &self,
-        region: &Region,
-        texels: &mut [[f32; D]],
-        scratch: impl Fn() -> S + Send + Sync,
-        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
-    ) -> Vec<T> {
-        let texels = texels.as_flattened_mut();
-        let strip = |scratch: &mut S, number: usize, texels: &mut [f32]| {
-            let rows = texels.chunks_exact_mut(self.size() * D);
-            for (row, columns) in rows.zip(&region.0[number * self.strip()..]) {
-                row[columns.start * D..columns.end * D].fill(0.0);
-            }
-            let Range { start, end } = self.samples_of(number, texels.len() / (self.size() * D));
-            let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
-            self.in_strip(number, texels, whole(start)..whole(end), |strip| work(scratch, strip))
-        };
-        // How many strips a task has does not matter to the result.
-        let length = self.strip() * self.size() * D;
-        let count = texels.len().div_ceil(length).div_ceil(TASKS * rayon::current_num_threads());
-        let task = |(number, texels): (usize, &mut [f32])| {
-            let mut scratch = scratch();
-            let strips = (number * count..).zip(texels.chunks_mut(length));
-            strips.map(|(number, texels)| strip(&mut scratch, number, texels)).collect::<Vec<_>>()
-        };
-        let tasks = texels.par_chunks_mut(count * length).enumerate();
-        let results = tasks.flat_map_iter(task).collect();
-        self.join::<D, T>(texels, results)
     }
 
     /// Texels of `D` channels that `work` adds to, chunk by chunk of whole blocks of samples; and its
@@ -94,9 +59,16 @@ impl Taps {
         let chunks = (0..count.div_ceil(chunk)).into_par_iter();
         let (parts, results): (Vec<_>, Vec<_>) = chunks.map_init(scratch, task).unzip();
         let add = |number: usize, texels: &mut [f32]| {
-            add_parts(number * self.strip() * line, texels, &parts);
+            add_parts(number * self.strip() * line, texels, slices(&parts));
         };
         (from_parts(self.size() * line, self.strip() * line, add).0, results)
+    }
+
+    /// The blocks of samples whose first one's upper texels are in some rows.
+    pub(super) fn blocks_of(&self, rows: Range<usize>) -> Range<usize> {
+        let Range { start, end } = self.samples_in(rows);
+        let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
+        whole(start)..whole(end)
     }
 
     /// The samples whose upper texels are in a strip of so many rows.
@@ -136,17 +108,25 @@ impl Taps {
         let (below, results): (Vec<_>, Vec<_>) = results.into_iter().unzip();
         let strip = self.strip() * self.size() * D;
         let strips = texels.par_chunks_mut(strip).enumerate();
-        strips.for_each(|(number, texels)| add_parts(number * strip, texels, &below));
+        strips.for_each(|(number, texels)| add_parts(number * strip, texels, slices(&below)));
         results
     }
 }
 
+fn slices(parts: &[(usize, Vec<f32>)]) -> impl Iterator<Item = (usize, &[f32])> {
+    parts.iter().map(|(first, part)| (*first, part.as_slice()))
+}
+
 /// Adds to values, of which the first has number `start`, what parts have of them: the first one's number, and
 /// values.
-fn add_parts(start: usize, values: &mut [f32], parts: &[(usize, Vec<f32>)]) {
+pub(super) fn add_parts<'a>(
+    start: usize,
+    values: &mut [f32],
+    parts: impl IntoIterator<Item = (usize, &'a [f32])>,
+) {
     let end = start + values.len();
     for (first, part) in parts {
-        let (from, to) = (start.max(*first), end.min(first + part.len()));
+        let (from, to) = (start.max(first), end.min(first + part.len()));
         if from < to {
             let sums = values[from - start..to - start].iter_mut();
             sums.zip(&part[from - first..]).for_each(|(sum, value)| *sum += value);

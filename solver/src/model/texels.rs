@@ -88,7 +88,7 @@ widened! {
 /// What the samples of a cell from `first` on see of its four texels, which stay in registers while they
 /// pass; where the next cell's begin.
 #[inline(always)]
-pub(super) fn within<const H: usize>(
+fn within<const H: usize>(
     [upper, mut down]: [[[Vec4; H]; 2]; 2],
     first: usize,
     cells: &[u32],
@@ -127,7 +127,7 @@ fn pair<const H: usize>(texels: &[[[f32; FOUR]; H]]) -> [[Vec4; H]; 2] {
 
 widened! {
     /// The samples' values, row by row.
-    pub(super) fn apart<const H: usize>(values: &[[Vec4; H]; BLOCK], rows: &mut [Row]) {
+    fn apart<const H: usize>(values: &[[Vec4; H]; BLOCK], rows: &mut [Row]) {
         for (half, rows) in rows.chunks_mut(FOUR).enumerate() {
             for (at, values) in values.as_chunks::<FOUR>().0.iter().enumerate() {
                 let [a, b, c, d] = values;
@@ -157,7 +157,7 @@ widened! {
 }
 
 #[inline(always)]
-fn turned([x, y, z, w]: [Vec4; FOUR]) -> [Vec4; FOUR] {
+pub(super) fn turned([x, y, z, w]: [Vec4; FOUR]) -> [Vec4; FOUR] {
     let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
     [x_axis, y_axis, z_axis, w_axis]
 }
@@ -238,31 +238,5 @@ mod tests {
         let (mut sums, others) = (taps.gather::<8>(&planes, 0), taps.gather_vectors::<2, 8>(&part));
         sums.iter_mut().skip(7).step_by(8).for_each(|sum| *sum = 0.0);
         assert_eq!(sums, others);
-    }
-
-    /// Of samples so sparse that a block reaches over several strips, and only in the upper half.
-    #[test]
-    fn every_block_is_worked_on_once_and_reaches_all_its_texels() {
-        let (size, count) = (300, 1000);
-        let noise = |i: usize, k: f32| ((i as f32 + 1.0) * k).sin().abs();
-        let uvs: Vec<_> = (0..count)
-            .map(|i| Vec2::new(noise(i, 12.9898), 0.5 + 0.5 * noise(i, 78.233)))
-            .collect();
-        let taps = Taps::sorted(size, &uvs).0;
-        let planes =
-            Planes::from_fn(count, |i| std::array::from_fn::<_, 8, _>(|k| noise(i + k, 0.7)));
-        let work = |_: &mut (), strip: &mut Strip<8>| {
-            let blocks = blocks(strip.samples.clone());
-            blocks
-                .map(|(block, lanes)| strip.add_vectors::<2>(block, lanes, planes.block(block)))
-                .count()
-        };
-        let mut sums = vec![[1.0; 8]; size * size];
-        let counts = taps.by_strip_in(&Region::whole(size, size), &mut sums, || (), work);
-        assert_eq!(counts.iter().sum::<usize>(), count.div_ceil(BLOCK));
-        let expected = taps.gather_vectors::<2, 8>(&planes);
-        for (sum, expected) in sums.as_flattened().iter().zip(&expected) {
-            assert!((sum - expected).abs() < 1e-5, "{sum} {expected}");
-        }
     }
 }

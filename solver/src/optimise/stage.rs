@@ -8,13 +8,15 @@ use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
 use crate::convolution::Place;
-use crate::model::bend::{BentTextures, TEXEL, Texel};
-use crate::model::deviation::Deviation;
+use crate::model::bend::BentTextures;
+use crate::model::bend_gradient::BendGradient;
+use crate::model::deviation::{Deviation, Gradients};
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
+use crate::model::pyramid::Texel;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::region::Region;
@@ -190,12 +192,11 @@ pub struct Relief<'a> {
     albedo: Planes,
     /// Texels that samples see, and those on which these depend.
     sampled: Region,
-    reached: Region,
-    /// Of a step, kept for the next one's: gradients by what normals are bent with. What the region leaves out
-    /// stays zero.
-    by_texel: Vec<Texel>,
-    /// The deviation d, and how many steps led to it.
-    d: (usize, Vec<f32>),
+    reach: Vec<Region>,
+    /// Of a step, kept for the next one's. What the region leaves out stays zero.
+    by_texel: BendGradient,
+    /// The deviation d and the specular albedo, and how many steps led to them.
+    texels: (usize, Vec<Texel>),
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -216,10 +217,10 @@ impl<'a> Relief<'a> {
             config,
             samples,
             deviation,
-            reached: deviation.reaches(&sampled),
+            reach: deviation.reach(&sampled),
             sampled,
-            by_texel: vec![[0.0; TEXEL]; state.specular.len()],
-            d: (0, vec![]),
+            by_texel: BendGradient::new(deviation.blur()),
+            texels: (0, vec![]),
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -231,30 +232,31 @@ impl<'a> Relief<'a> {
 
     /// Loss; its gradients by the texels are kept.
     fn differentiate(&mut self, state: &State, backend: &dyn Backend) -> f64 {
-        let Self { deviation, sampled, by_texel, d: (_, d), .. } = self;
+        let Self { deviation, sampled, by_texel, texels: (_, texels), reach, .. } = self;
+        let base = &deviation.base(texels, reach);
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
             light: &self.light,
             albedo: &self.albedo,
-            textures: BentTextures { deviation, d, specular: &state.specular, region: sampled },
+            textures: BentTextures { deviation, texels, base, region: sampled },
         };
         backend.bend_textures(&relief, by_texel)
     }
 
     /// Loss, and its gradients by deviation and specular albedo.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> ReliefGradient {
-        self.d.1 = self.deviation.squashed(&self.deviation.band(&state.deviation));
+        self.texels.1 = self.deviation.texels(&state.deviation, &state.specular);
         let loss = self.differentiate(state, backend);
-        let (deviation, size, (_, d)) = (self.deviation, state.size, &self.d);
+        let (deviation, size) = (self.deviation, state.size);
         let [mut by_band, mut specular] = [3, 1].map(|channels| vec![0.0; channels * size * size]);
-        let rows = by_band.chunks_mut(3 * size).zip(specular.chunks_mut(size)).collect();
-        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], (a, b): &mut Rows| {
-            deviation.unsquash(by_d, &d[3 * (place.row * size + place.columns.start)..]);
-            a[place.within(3)].copy_from_slice(by_d);
-            b[place.within(1)].copy_from_slice(by_specular);
+        let rows = by_band.chunks_mut(3 * size).zip(specular.chunks_mut(size));
+        let rows = self.texels.1.chunks(size).zip(rows).collect();
+        let write = |place: &Place, found: Gradients, _: &mut &[Texel], (a, b): &mut Rows| {
+            a[place.within(3)].copy_from_slice(found.by_band);
+            b[place.within(1)].copy_from_slice(found.by_specular);
         };
-        deviation.adjoint_in(&self.reached, &self.by_texel, rows, write);
+        deviation.adjoint(&self.by_texel, &self.reach, rows, write);
         ReliefGradient { loss, deviation: deviation.band_adjoint(by_band), specular }
     }
 }
@@ -269,8 +271,8 @@ pub(super) struct ReliefGradient {
     pub specular: Vec<f32>,
 }
 
-/// The same of the textures with what moves them, and of d.
-type Moved<'a> = ((Part<'a>, Part<'a>), &'a mut [f32]);
+/// The same of the textures with what moves them.
+type Moved<'a> = (Part<'a>, Part<'a>);
 
 impl Stage for Relief<'_> {
     fn name(&self) -> String {
@@ -291,27 +293,24 @@ impl Stage for Relief<'_> {
         }
         // Without gradients of whole textures between the blur and the step.
         let done = self.by_deviation.steps();
-        if self.d.1.is_empty() || self.d.0 != done {
+        if self.texels.1.is_empty() || self.texels.0 != done {
             // The last step was not taken here.
-            self.d.1 = self.deviation.squashed(&state.deviation);
+            self.texels.1 = self.deviation.texels(&state.deviation, &state.specular);
         }
         let loss = self.differentiate(state, backend);
-        self.d.0 = done + 1;
-        let Self { deviation, by_deviation, by_specular, d: (_, d), .. } = self;
+        self.texels.0 = done + 1;
+        let Self { deviation, by_deviation, by_specular, texels: (_, texels), .. } = self;
         let free = f32::NEG_INFINITY;
         let rows = by_deviation.rows(&mut state.deviation, 3 * size, share, free);
         let rows = rows.zip(by_specular.rows(&mut state.specular, size, share, least));
-        let rows = rows.zip(d.chunks_mut(3 * size)).collect();
-        let write = |place: &Place, by_d: &mut [f32], by_specular: &[f32], moved: &mut Moved| {
-            let ((a, b), d) = moved;
-            let within = place.within(3);
-            let d = &mut d[within.clone()];
-            deviation.unsquash(by_d, d);
-            a.step(within.clone(), by_d);
-            deviation.squash(d, &a.parameters[within]);
-            b.step(place.within(1), by_specular);
+        let rows = texels.chunks_mut(size).zip(rows).collect();
+        let write = |place: &Place, found: Gradients, texels: &mut &mut [Texel], (a, b): &mut Moved| {
+            let (three, one) = (place.within(3), place.within(1));
+            a.step(three.clone(), found.by_band);
+            b.step(one.clone(), found.by_specular);
+            deviation.put(&mut texels[one.clone()], &a.parameters[three], &b.parameters[one]);
         };
-        deviation.adjoint_in(&self.reached, &self.by_texel, rows, write);
+        deviation.adjoint(&self.by_texel, &self.reach, rows, write);
         loss
     }
 
@@ -440,9 +439,10 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let d = &deviation.squashed(&deviation.band(&state.deviation));
+    let texels = &deviation.texels(&state.deviation, &state.specular);
     let region = &samples.taps.region();
-    let textures = BentTextures { deviation, d, specular: &state.specular, region };
+    let base = &deviation.base(texels, &deviation.reach(region));
+    let textures = BentTextures { deviation, texels, base, region };
     let bent = textures.sample(&samples.taps);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);

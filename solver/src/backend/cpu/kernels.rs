@@ -8,7 +8,8 @@ use super::lanes::{Lanes, Portable};
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};
-use crate::model::bend::{TEXEL, TexelRows, VECTORS};
+use crate::model::bend::TexelRows;
+use crate::model::bend_gradient::RowSums;
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
@@ -180,7 +181,7 @@ fn textured_body<S: Lanes, const C: usize>(
     relief: &TexturedRelief,
     rows: &mut TexelRows,
     s: &mut Scratch,
-    strip: &mut Strip<TEXEL>,
+    sums: &mut RowSums,
 ) -> f64 {
     let TexturedRelief { samples, light, albedo, textures, .. } = *relief;
     let scale = &textures.deviation.scale;
@@ -189,7 +190,7 @@ fn textured_body<S: Lanes, const C: usize>(
     let (mut bent, mut directions) = ([Row::ZERO; BENT], [Row::ZERO; DIRECTIONS]);
     let (mut gradient, mut by_texture) = ([Row::ZERO; BENT], [Row::ZERO; BENT]);
     let mut lengths = [Row::ZERO; 2];
-    for (block, lanes) in blocks(strip.samples.clone()) {
+    for (block, _) in blocks(sums.samples.clone()) {
         rows.sample(&samples.taps, block, &mut bent);
         let known = [samples.normal.block(block), samples.view.block(block)];
         bend_directions::<S>(scale, known, &bent, &mut lengths, &mut directions);
@@ -206,7 +207,7 @@ fn textured_body<S: Lanes, const C: usize>(
         loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
         adjoint::<S>(scale, known, &bent, &lengths, &gradient, &mut by_texture);
         by_texture[DIRECTIONS] = gradient[DIRECTIONS];
-        strip.add_vectors::<VECTORS>(block, lanes, &by_texture);
+        sums.add(block, &by_texture);
     }
     loss
 }
@@ -324,7 +325,7 @@ macro_rules! entry {
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(joint_textured, joint_textured_body(inputs: &Inputs, texture: &[f32], s: &mut Scratch, strip: &mut Strip<ALBEDOS>) -> f64);
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
-entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, rows: &mut TexelRows, s: &mut Scratch, strip: &mut Strip<TEXEL>) -> f64);
+entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, rows: &mut TexelRows, s: &mut Scratch, sums: &mut RowSums) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(peak, peak_body(rounds: usize) -> f32);

@@ -37,7 +37,8 @@ use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
-use crate::model::bend::{TEXEL, Texel, TexelRows};
+use crate::model::bend::{BentTextures, TexelRows};
+use crate::model::bend_gradient::{BendGradient, RowSums};
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
@@ -240,14 +241,14 @@ impl Backend for Cpu {
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut [Texel]) -> f64 {
+    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut BendGradient) -> f64 {
         let packed = &pack(relief.networks);
         let scratch = || (Scratch::new(relief.networks), relief.textures.rows());
-        let work = |(scratch, rows): &mut (Scratch, TexelRows), strip: &mut Strip<TEXEL>| {
-            kernels::textured(self.level, packed, relief, rows, scratch, strip)
+        let work = |(scratch, rows): &mut (Scratch, TexelRows), sums: &mut RowSums| {
+            kernels::textured(self.level, packed, relief, rows, scratch, sums)
         };
-        let taps = &relief.samples.taps;
-        let losses = taps.by_strip_in(relief.textures.region, gradient, scratch, work);
+        let BentTextures { deviation, region, .. } = relief.textures;
+        let losses = gradient.fill((&relief.samples.taps, deviation.blur(), region), scratch, work);
         losses.iter().sum()
     }
 

@@ -6,7 +6,7 @@ use super::Gpu;
 use super::device::Device;
 use super::kernel::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
-use super::relief::blurring;
+use super::blurs::blurring;
 use crate::backend::resident::{Descent, DeviceError, NormalEquations};
 
 /// Rows of the sampled unknowns, and of slopes and weight.

@@ -30,6 +30,7 @@
 
 mod adapter;
 mod bending;
+mod blurs;
 mod ceilings;
 mod device;
 mod glints;

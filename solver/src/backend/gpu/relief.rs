@@ -2,6 +2,7 @@
 
 use super::Gpu;
 use super::bending::Bending;
+use super::blurs::{blurring, pyramid};
 use super::device::Device;
 use super::kernel::Pass;
 use super::layout::Layout;
@@ -9,7 +10,6 @@ use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program};
 use crate::backend::BENT;
 use crate::backend::resident::ReliefJob;
-use crate::model::blur::Blur;
 use crate::model::deviation::Deviation;
 
 /// Rows of sampled deviations, and of directions.
@@ -38,7 +38,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
 
     let chart = Chart { device, deviation, count };
     let mut passes = chart.forth(&by_deviation.values, &sharp);
-    passes.extend(blurring(device, deviation.parts().blur, &sharp, &blurred, false));
+    passes.extend(pyramid(device, deviation.parts().blur, &sharp, &blurred, false));
     passes.extend(taps.sample(device, &sharp, 3, &bent, [0, DIRECTIONS]));
     passes.extend(taps.sample(device, &blurred, 3, &bent, [3, DIRECTIONS]));
     passes.extend(taps.sample(device, &by_specular.values, 1, &albedo, [3, 4]));
@@ -103,7 +103,7 @@ impl Chart<'_> {
         let texture = |name| self.device.floats(name, self.count);
         let [unblurred, by_band, narrow, coarse] =
             ["unblurred", "by band", "by narrow blur", "by wide blur"].map(texture);
-        let mut passes = Vec::from(blurring(self.device, parts.blur, by_blur, &unblurred, true));
+        let mut passes = pyramid(self.device, parts.blur, by_blur, &unblurred, true);
         passes.push(self.value_by_value(1, [&unblurred, by_d, d], &by_band));
         passes.extend(blurring(self.device, parts.narrow, &by_band, &narrow, true));
         if let Some(wide) = parts.wide {
@@ -127,31 +127,5 @@ impl Chart<'_> {
         let [a, b, d] = inputs;
         let pass = Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count);
         pass.doing(self.count, 10, 3)
-    }
-}
-
-/// A blur of a texture of 3 channels, or its adjoint.
-pub(super) fn blurring(
-    device: &Device,
-    blur: &Blur,
-    from: &wgpu::Buffer,
-    to: &wgpu::Buffer,
-    adjoint: bool,
-) -> [Pass; 2] {
-    let size = blur.norms().len();
-    let count = 3 * size * size;
-    let between = device.floats("half blurred", count);
-    let weights = device.filled("blur", blur.kernel());
-    let norms = device.filled("blur's sums", blur.norms());
-    let axis = |vertical: bool, scaled: u32, from: &wgpu::Buffer, to: &wgpu::Buffer| {
-        let constants = [("VERTICAL", u32::from(vertical)), ("SCALED", scaled)];
-        let kernel = device.kernel("blur", include_str!("wgsl/blur.wgsl"), &constants, "urrrw");
-        let parameters = device.uniform(&[size as u32, blur.kernel().len() as u32 - 1]);
-        let pass = Pass::over(device, &kernel, &[&parameters, &weights, &norms, from, to], count);
-        pass.doing(count, 2 * (2 * blur.kernel().len() - 1), 2)
-    };
-    match adjoint {
-        false => [axis(false, 0, from, &between), axis(true, 2, &between, to)],
-        true => [axis(true, 1, from, &between), axis(false, 0, &between, to)],
     }
 }
