@@ -95,7 +95,11 @@ pub trait Backend: Send + Sync {
                 sums.add(block, rows);
             }
         };
-        gradient.fill((&samples.taps, textures.deviation.blur(), textures.region), || [Row::ZERO; ROWS], add);
+        gradient.fill(
+            (&samples.taps, textures.deviation.blur(), textures.region),
+            || [Row::ZERO; ROWS],
+            add,
+        );
         loss
     }
 

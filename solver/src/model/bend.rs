@@ -27,7 +27,7 @@ pub struct Bend {
     pub blurred: Vec<f32>,
 }
 
-/// The deviation d ([`Deviation::texels`]), its blur and the specular albedo.
+/// The deviation d ([`Deviation::seen`]), its blur and the specular albedo.
 #[derive(Clone, Copy)]
 pub struct BentTextures<'a> {
     /// Blurs d.
@@ -56,7 +56,8 @@ impl<'a> BentTextures<'a> {
     pub fn rows(&self) -> TexelRows<'a> {
         let size = self.deviation.size();
         let rows = [(); 2].map(|()| vec![[0.0; BENT]; size]);
-        TexelRows { textures: *self, rows, made: [None; 2], lines: Lines::new(size) }
+        let values = vec![Bent::default(); BLOCK];
+        TexelRows { textures: *self, rows, made: [None; 2], lines: Lines::new(size), values }
     }
 }
 
@@ -67,6 +68,8 @@ pub struct TexelRows<'a> {
     rows: [Vec<Bent>; 2],
     made: [Option<usize>; 2],
     lines: Lines,
+    /// Of a block's samples, and whatever the last one's left where there are fewer.
+    values: Vec<Bent>,
 }
 
 impl TexelRows<'_> {
@@ -74,23 +77,23 @@ impl TexelRows<'_> {
     pub fn sample(&mut self, taps: &Taps, block: usize, out: &mut [Row]) {
         let first = block * BLOCK;
         let (end, size) = ((first + BLOCK).min(taps.cells().len()), taps.size());
-        let mut values = [[0.0; BENT]; BLOCK];
         let mut at = first;
         while at < end {
             let row = taps.cells()[at] as usize / size;
             let here = at..taps.samples_in(row..row + 1).end.min(end);
             (row..row + 2).for_each(|row| self.make(row));
             at = here.end;
-            let values = &mut values[here.start - first..];
+            let values = &mut self.values[here.start - first..here.end - first];
             let [upper, lower] = [row, row + 1].map(|row| &*self.rows[row % 2]);
             interpolate(upper, lower, row * size, taps, here, values);
         }
-        apart(&values, first_rows_mut(out));
+        apart(&self.values, first_rows_mut(out));
     }
 
     /// Brings a row, if it is not there.
     fn make(&mut self, row: usize) {
-        let Self { textures: BentTextures { deviation, texels, base, region }, rows, made, lines } = self;
+        let Self { textures, rows, made, lines, .. } = self;
+        let BentTextures { deviation, texels, base, region } = textures;
         if made[row % 2].replace(row) != Some(row) {
             let columns = &region.0[row];
             let blurred = deviation.blur().blurred_row(base, row, columns, lines);
@@ -121,7 +124,8 @@ fn pair(row: &[Bent], at: usize) -> Pair {
 
 widened! {
     /// What samples of a row of cells, of which the first has number `first`, see of the rows of texels on
-    /// either side. A cell's texels stay in registers while its samples pass.
+    /// either side. (To read a cell's texels for each of its samples is faster than to find out whether they are
+    /// the last one's, which no processor foresees.)
     fn interpolate(
         upper: &[Bent],
         lower: &[Bent],
@@ -130,26 +134,15 @@ widened! {
         samples: Range<usize>,
         values: &mut [Bent],
     ) {
-        let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
-        assert!(fractions.len() == cells.len() && values.len() >= cells.len());
-        let mut sample = 0;
-        while sample < cells.len() {
-            let cell = cells[sample];
-            let at = cell as usize - first;
-            let (upper, mut down) = (pair(upper, at), pair(lower, at));
+        let places = taps.cells()[samples.clone()].iter().zip(&taps.fractions()[samples]);
+        for (value, (cell, [fx, fy])) in values.iter_mut().zip(places) {
+            let at = *cell as usize - first;
+            let (mut both, lower) = (pair(upper, at), pair(lower, at));
             for lane in 0..2 * BENT {
-                down[lane] -= upper[lane];
+                both[lane] += fy * (lower[lane] - both[lane]);
             }
-            while sample < cells.len() && cells[sample] == cell {
-                let [fx, fy] = fractions[sample];
-                let mut both = upper;
-                for lane in 0..2 * BENT {
-                    both[lane] += fy * down[lane];
-                }
-                for lane in 0..BENT {
-                    values[sample][lane] = both[lane] + fx * (both[BENT + lane] - both[lane]);
-                }
-                sample += 1;
+            for lane in 0..BENT {
+                value[lane] = both[lane] + fx * (both[BENT + lane] - both[lane]);
             }
         }
     }
@@ -197,7 +190,7 @@ widened! {
 
 widened! {
     /// Samples' values as rows.
-    fn apart(values: &[Bent; BLOCK], rows: &mut [Row; ROWS]) {
+    fn apart(values: &[Bent], rows: &mut [Row; ROWS]) {
         let [a, b, c, d, e, f, g] = rows;
         for (at, values) in values.as_chunks::<CHANNELS>().0.iter().enumerate() {
             let at = CHANNELS * at;
@@ -215,7 +208,7 @@ widened! {
 
 widened! {
     /// The reverse.
-    pub(super) fn together(rows: &[Row], values: &mut [Bent; BLOCK]) {
+    pub(super) fn together(rows: &[Row], values: &mut [Bent]) {
         let [a, b, c, d, e, f, g] = first_rows::<ROWS>(rows);
         let zero = Row::ZERO;
         for (at, values) in values.as_chunks_mut::<CHANNELS>().0.iter_mut().enumerate() {
@@ -250,13 +243,16 @@ mod tests {
         {
             config.fine_tuning.deviation_blur = blur;
             let deviation = Deviation::new(&config, size);
-            let (bend, texels) = (deviation.textures(&t), deviation.texels(&t, &specular));
+            let bend = deviation.textures(&t);
             let place =
                 |i: usize| Vec2::new(noise(i, 12.9898), low + (high - low) * noise(i, 78.233));
             let taps = Taps::sorted(size, &(0..count).map(place).collect::<Vec<_>>()).0;
             let region = &taps.region();
-            let base = &deviation.base(&texels, &deviation.reach(region));
-            let textures = BentTextures { deviation: &deviation, texels: &texels, base, region };
+            let reach = deviation.reach(region);
+            let seen = deviation.seen(&t, &specular, &reach);
+            let base = &deviation.base(&seen, &reach);
+            let textures =
+                BentTextures { deviation: &deviation, texels: &seen.texels, base, region };
             let seen = textures.sample(&taps);
             let [sharp, blurred] = [&bend.sharp, &bend.blurred].map(|t| taps.sample::<3>(t));
             let specular = taps.sample::<1>(&specular);

@@ -9,10 +9,8 @@ use rayon::prelude::*;
 
 use super::bend::{Bent, gather, together};
 use super::planes::{BLOCK, Row};
-use super::pyramid::{CHANNELS, Lines, Pyramid, Sums, Texel};
-use super::strips::add_parts;
+use super::pyramid::{CHANNELS, Lines, Pyramid, Sums, Texel, add_edges};
 use super::taps::Taps;
-use crate::parallel::from_parts;
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -21,14 +19,15 @@ use crate::simd::widened;
 pub struct BendGradient {
     /// By texel.
     pub own: Vec<Texel>,
-    /// By texel of the base ([`Pyramid::base`]), four values each.
-    pub base: Vec<f32>,
+    /// By texel of the base ([`Pyramid::base`]).
+    pub base: Vec<Texel>,
 }
 
 impl BendGradient {
     /// Zeros.
     pub fn new(blur: &Pyramid) -> Self {
-        Self { own: vec![[0.0; CHANNELS]; blur.size() * blur.size()], base: vec![] }
+        let [own, base] = [blur.size(), blur.base()].map(|side| vec![[0.0; CHANNELS]; side * side]);
+        Self { own, base }
     }
 
     /// Made anew by `work` on strips, of which blocks go to the one that their first sample is in; and its
@@ -39,16 +38,15 @@ impl BendGradient {
         scratch: impl Fn() -> S + Send + Sync,
         work: impl Fn(&mut S, &mut RowSums) -> T + Sync,
     ) -> Vec<T> {
-        let (size, rows) = (taps.size(), taps.strip());
-        let scratch = || {
-            let ring = [(); 2].map(|()| vec![Bent::default(); size]);
-            (scratch(), ring, Lines::new(size))
-        };
-        type Scratch<S> = (S, [Vec<Bent>; 2], Lines);
-        let strip = |(scratch, ring, lines): &mut Scratch<S>, (number, own): (usize, &mut [Texel])| {
+        let (size, width, rows) = (taps.size(), blur.base(), taps.strip().next_multiple_of(2));
+        let scratch = || (scratch(), Buffers::new(size));
+        let strip = |(scratch, buffers): &mut (S, Buffers),
+                     (number, (own, base)): (usize, Strip)| {
             let first = number * rows;
             let samples = taps.blocks_of(first..first + own.len() / size);
             let at = taps.cells().get(samples.start).map_or(first, |cell| *cell as usize / size);
+            let base = Sums::new(size, width, first, base);
+            let below = vec![];
             let mut sums = RowSums {
                 taps,
                 blur,
@@ -57,38 +55,29 @@ impl BendGradient {
                 first,
                 own,
                 written: first,
-                below: vec![],
-                base: Sums::new(blur, first),
+                below,
+                base,
                 at,
-                ring,
-                lines,
+                buffers,
             };
             let result = work(scratch, &mut sums);
             sums.finish();
             let RowSums { below, base, own, .. } = sums;
-            let below = (first * size + own.len(), below);
-            (below, (base.first * blur.base(), base.texels), result)
+            ((first * size + own.len(), below), (base.edges(), result))
         };
-        let strips = self.own.par_chunks_mut(rows * size).enumerate();
-        let parts: Vec<_> = strips.map_init(scratch, strip).collect();
-        let (mut below, mut base, mut results) = (vec![], vec![], vec![]);
-        for (rows, sums, result) in parts {
-            below.push(rows);
-            base.push(sums);
-            results.push(result);
-        }
-        let length = rows * size * CHANNELS;
-        let add = |parts: &[(usize, Vec<Texel>)], number: usize, texels: &mut [f32]| {
-            let parts = parts.iter().map(|(first, part)| (CHANNELS * first, part.as_flattened()));
-            add_parts(number * length, texels, parts);
-        };
-        let strips = self.own.as_flattened_mut().par_chunks_mut(length).enumerate();
-        strips.for_each(|(number, texels)| add(&below, number, texels));
-        let base_of = |number: usize, texels: &mut [f32]| add(&base, number, texels);
-        self.base = from_parts(CHANNELS * blur.base() * blur.base(), length, base_of).0;
+        let own = self.own.par_chunks_mut(rows * size);
+        let strips = own.zip(self.base.par_chunks_mut(rows * width / size * width));
+        let parts: Vec<_> = strips.enumerate().map_init(scratch, strip).collect();
+        let (below, parts): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        let (base, results): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        add_edges(&mut self.own, &below);
+        add_edges(&mut self.base, base.as_flattened());
         results
     }
 }
+
+/// Rows of the texture, and of the base.
+type Strip<'a> = (&'a mut [Texel], &'a mut [Texel]);
 
 /// What samples add to the rows of a strip, downwards.
 pub struct RowSums<'a> {
@@ -103,19 +92,33 @@ pub struct RowSums<'a> {
     written: usize,
     /// Rows below the strip.
     below: Vec<Texel>,
-    base: Sums,
-    /// The row that is at hand, and the next; zero where there is nothing yet.
+    base: Sums<'a>,
+    /// The row that is at hand.
     at: usize,
-    ring: &'a mut [Vec<Bent>; 2],
-    lines: &'a mut Lines,
+    buffers: &'a mut Buffers,
+}
+
+/// What goes down with a task from strip to strip.
+struct Buffers {
+    /// An even row and an odd one, zero where there is nothing yet.
+    ring: [Vec<Bent>; 2],
+    lines: Lines,
+    /// Of a block's samples.
+    values: Vec<Bent>,
+}
+
+impl Buffers {
+    fn new(size: usize) -> Self {
+        let [even, odd, values] = [size, size, BLOCK].map(|length| vec![Bent::default(); length]);
+        Self { ring: [even, odd], lines: Lines::new(size), values }
+    }
 }
 
 impl RowSums<'_> {
     /// Adds a block's gradients by what its samples see, 7 rows as of
     /// [`BentTextures::sample`](super::bend::BentTextures::sample).
     pub fn add(&mut self, block: usize, rows: &[Row]) {
-        let mut values = [Bent::default(); BLOCK];
-        together(rows, &mut values);
+        together(rows, &mut self.buffers.values);
         let size = self.taps.size();
         let first = block * BLOCK;
         let end = (first + BLOCK).min(self.taps.cells().len());
@@ -125,9 +128,16 @@ impl RowSums<'_> {
             self.advance(row);
             let here = at..self.taps.samples_in(row..row + 1).end.min(end);
             at = here.end;
-            let [even, odd] = &mut *self.ring;
+            let Buffers { ring: [even, odd], values, .. } = &mut *self.buffers;
             let [upper, lower] = if row.is_multiple_of(2) { [even, odd] } else { [odd, even] };
-            gather(upper, lower, row * size, self.taps, here.clone(), &values[here.start - first..]);
+            gather(
+                upper,
+                lower,
+                row * size,
+                self.taps,
+                here.clone(),
+                &values[here.start - first..],
+            );
         }
     }
 
@@ -159,8 +169,13 @@ impl RowSums<'_> {
             self.below.resize(self.below.len().max(start + size), [0.0; CHANNELS]);
             &mut self.below[start..][columns.clone()]
         };
-        let bent = &mut self.ring[row % 2][columns.clone()];
-        self.base.add(self.blur, row, &columns, self.lines, |blurred| take(bent, out, blurred));
+        let Buffers { ring, lines, .. } = &mut *self.buffers;
+        let bent = &mut ring[row % 2][columns.clone()];
+        let fill = |blurred: &mut [Texel]| {
+            take(bent, out, blurred);
+            self.blur.scale(row, &columns, blurred);
+        };
+        self.base.add(row, &columns, lines, fill);
     }
 
     /// Zeros to the rows that are passed over, up to one.

@@ -8,7 +8,7 @@ use super::bend::Bend;
 use super::bend_gradient::BendGradient;
 use super::blur::Blur;
 use super::normals::DirectionScale;
-use super::pyramid::{Lines, Pyramid, Texel};
+use super::pyramid::{Lines, Pyramid, ROWS, Sums, Texel, add_edges};
 use super::texture::{interleave, part};
 use crate::backend::cpu::exp;
 use crate::config::Config;
@@ -19,8 +19,6 @@ use crate::simd::widened;
 
 /// Of the deviation texture.
 const CHANNELS: usize = 3;
-/// Rows that one task works through, at least.
-const TASK_ROWS: usize = 4;
 
 /// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
 /// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
@@ -112,40 +110,84 @@ impl Deviation {
     }
 
     /// Carries gradients to B t: `write` is given those by it and by the specular albedo in what the samples
-    /// [reach](Self::reach), row by row, with the row of d and specular albedo, and what belongs to it.
-    pub fn adjoint<R: AsRef<[Texel]> + Send, O: Send>(
+    /// [reach](Self::reach), row by row, with the texels, which it may change, and what belongs to the row.
+    pub fn adjoint<O: Send>(
         &self,
         gradient: &BendGradient,
         reach: &[Region],
-        mut rows: Vec<(R, O)>,
-        write: impl Fn(&Place, Gradients, &mut R, &mut O) + Sync,
+        seen: &mut Seen,
+        mut rows: Vec<O>,
+        write: impl Fn(&Place, Gradients, &mut [Texel], &mut O) + Sync,
     ) {
         let base = self.blur.convolved(&gradient.base, reach);
         let size = self.size;
-        let scratch = || (Lines::new(size), vec![0.0; CHANNELS * size], vec![0.0; size]);
-        let rows = rows.par_iter_mut().enumerate().with_min_len(TASK_ROWS);
-        rows.for_each_init(scratch, |(lines, by_band, by_specular), (row, (texels, out))| {
-            let columns = reach[0].0[row].clone();
-            let (blurred, place) = (self.blur.row(&base, row, &columns, lines), Place { row, columns });
-            let own = &gradient.own[row * size..][place.within(1)];
-            let (d, range) = (&texels.as_ref()[place.within(1)], self.range);
-            let by_band = &mut by_band[..place.within(CHANNELS).len()];
-            let by_specular = &mut by_specular[..place.columns.len()];
-            unsquash(by_band.as_chunks_mut().0, by_specular, own, blurred, d, range);
-            write(&place, Gradients { by_band, by_specular }, texels, out);
-        });
+        let scratch = || (vec![0.0; CHANNELS * size], vec![0.0; size], Lines::new(size));
+        self.remake(
+            seen,
+            reach,
+            &mut rows,
+            scratch,
+            |(by_band, by_specular, lines), place, texels, out| {
+                let by_band = &mut by_band[..CHANNELS * texels.len()];
+                let by_specular = &mut by_specular[..texels.len()];
+                let own = &gradient.own[place.row * size..][place.within(1)];
+                let blurred = self.blur.row(&base, place.row, &place.columns, lines);
+                unsquash(by_band.as_chunks_mut().0, by_specular, own, blurred, texels, self.range);
+                write(place, Gradients { by_band, by_specular }, texels, out);
+            },
+        );
     }
 
     /// d of a deviation texture, with the specular albedo.
-    pub fn texels(&self, deviation: &[f32], specular: &[f32]) -> Vec<Texel> {
-        let band = self.band(deviation);
-        let mut texels = vec![Texel::default(); specular.len()];
-        let rows = texels.par_chunks_mut(self.size).enumerate();
+    pub fn seen(&self, deviation: &[f32], specular: &[f32], reach: &[Region]) -> Seen {
+        let (band, size) = (self.band(deviation), self.size);
+        let side = if self.blur.levels() > 0 { self.blur.base() } else { 0 };
+        let [texels, halved] = [size, side].map(|side| vec![Texel::default(); side * side]);
+        let mut seen = Seen { texels, halved };
+        let rows = seen.texels.par_chunks_mut(size).enumerate();
         rows.for_each(|(row, texels)| {
-            let first = row * self.size;
-            self.put(texels, &band[CHANNELS * first..], &specular[first..]);
+            self.put(texels, &band[CHANNELS * row * size..], &specular[row * size..]);
         });
-        texels
+        self.remake(&mut seen, reach, &mut vec![(); size], || (), |(), _, _, ()| {});
+        seen
+    }
+
+    /// Has texels changed row by row in what is reached, and halves them.
+    fn remake<S, O: Send>(
+        &self,
+        Seen { texels, halved }: &mut Seen,
+        reach: &[Region],
+        rows: &mut [O],
+        scratch: impl Fn() -> S + Send + Sync,
+        change: impl Fn(&mut S, &Place, &mut [Texel], &mut O) + Sync,
+    ) {
+        let (size, width) = (self.size, self.blur.base());
+        let empty = halved.is_empty();
+        let count = size.div_ceil(ROWS);
+        let length = if empty { 0 } else { ROWS / 2 * width };
+        let mut halves: Vec<&mut [Texel]> = halved.chunks_mut(length.max(1)).collect();
+        halves.resize_with(count, Default::default);
+        let task = |(scratch, lines): &mut (S, Lines),
+                    (number, ((texels, out), half)): (usize, Task<O>)| {
+            let first = number * ROWS;
+            let mut sums = (!empty).then(|| Sums::new(size, width, first, half));
+            for (row, (texels, out)) in (first..).zip(texels.chunks_mut(size).zip(out)) {
+                let place = Place { row, columns: reach[0].0[row].clone() };
+                let texels = &mut texels[place.columns.clone()];
+                change(scratch, &place, texels, out);
+                if let Some(sums) = &mut sums {
+                    sums.add(row, &place.columns, lines, |out| out.copy_from_slice(texels));
+                }
+            }
+            sums.map(Sums::edges)
+        };
+        let tasks = texels.par_chunks_mut(ROWS * size).zip(rows.par_chunks_mut(ROWS)).zip(halves);
+        let edges: Vec<_> = tasks
+            .enumerate()
+            .map_init(|| (scratch(), Lines::new(size)), task)
+            .flatten_iter()
+            .collect();
+        add_edges(halved, edges.as_flattened());
     }
 
     /// Makes d of as many values of B t, and puts the specular albedo beside.
@@ -154,8 +196,8 @@ impl Deviation {
     }
 
     /// The base of the blur of d.
-    pub fn base(&self, texels: &[Texel], reach: &[Region]) -> Vec<f32> {
-        self.blur.halved(texels, reach)
+    pub fn base(&self, Seen { texels, halved }: &Seen, reach: &[Region]) -> Vec<f32> {
+        self.blur.convolved(if halved.is_empty() { texels } else { halved }, reach)
     }
 
     /// The blur of d.
@@ -193,6 +235,18 @@ impl Deviation {
         band
     }
 }
+
+/// What samples see of the textures.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    /// d and the specular albedo.
+    pub texels: Vec<Texel>,
+    /// The same as the blur's pyramid halves it, in what is reached; if it does.
+    halved: Vec<Texel>,
+}
+
+/// Rows of texels, what belongs to them, and halved rows.
+type Task<'a, O> = ((&'a mut [Texel], &'a mut [O]), &'a mut [Texel]);
 
 /// Gradients of some texels of a row.
 pub struct Gradients<'a> {

@@ -10,7 +10,7 @@ use crate::config::Config;
 use crate::convolution::Place;
 use crate::model::bend::BentTextures;
 use crate::model::bend_gradient::BendGradient;
-use crate::model::deviation::{Deviation, Gradients};
+use crate::model::deviation::{Deviation, Gradients, Seen};
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
@@ -196,7 +196,7 @@ pub struct Relief<'a> {
     /// Of a step, kept for the next one's. What the region leaves out stays zero.
     by_texel: BendGradient,
     /// The deviation d and the specular albedo, and how many steps led to them.
-    texels: (usize, Vec<Texel>),
+    seen: (usize, Seen),
     by_deviation: Adam,
     by_specular: Adam,
 }
@@ -220,7 +220,7 @@ impl<'a> Relief<'a> {
             reach: deviation.reach(&sampled),
             sampled,
             by_texel: BendGradient::new(deviation.blur()),
-            texels: (0, vec![]),
+            seen: (0, Seen::default()),
             name: format!("normals and specular {round}"),
             networks: state.networks.clone(),
             light: backend.light(&state.networks, &samples.position),
@@ -232,31 +232,30 @@ impl<'a> Relief<'a> {
 
     /// Loss; its gradients by the texels are kept.
     fn differentiate(&mut self, state: &State, backend: &dyn Backend) -> f64 {
-        let Self { deviation, sampled, by_texel, texels: (_, texels), reach, .. } = self;
-        let base = &deviation.base(texels, reach);
+        let Self { deviation, sampled, by_texel, seen: (_, seen), reach, .. } = self;
+        let base = &deviation.base(seen, reach);
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: self.samples,
             light: &self.light,
             albedo: &self.albedo,
-            textures: BentTextures { deviation, texels, base, region: sampled },
+            textures: BentTextures { deviation, texels: &seen.texels, base, region: sampled },
         };
         backend.bend_textures(&relief, by_texel)
     }
 
     /// Loss, and its gradients by deviation and specular albedo.
     pub(super) fn gradient(&mut self, state: &State, backend: &dyn Backend) -> ReliefGradient {
-        self.texels.1 = self.deviation.texels(&state.deviation, &state.specular);
+        self.seen.1 = self.deviation.seen(&state.deviation, &state.specular, &self.reach);
         let loss = self.differentiate(state, backend);
         let (deviation, size) = (self.deviation, state.size);
         let [mut by_band, mut specular] = [3, 1].map(|channels| vec![0.0; channels * size * size]);
-        let rows = by_band.chunks_mut(3 * size).zip(specular.chunks_mut(size));
-        let rows = self.texels.1.chunks(size).zip(rows).collect();
-        let write = |place: &Place, found: Gradients, _: &mut &[Texel], (a, b): &mut Rows| {
+        let rows = by_band.chunks_mut(3 * size).zip(specular.chunks_mut(size)).collect();
+        let write = |place: &Place, found: Gradients, _: &mut [Texel], (a, b): &mut Rows| {
             a[place.within(3)].copy_from_slice(found.by_band);
             b[place.within(1)].copy_from_slice(found.by_specular);
         };
-        deviation.adjoint(&self.by_texel, &self.reach, rows, write);
+        deviation.adjoint(&self.by_texel, &self.reach, &mut self.seen.1, rows, write);
         ReliefGradient { loss, deviation: deviation.band_adjoint(by_band), specular }
     }
 }
@@ -293,24 +292,24 @@ impl Stage for Relief<'_> {
         }
         // Without gradients of whole textures between the blur and the step.
         let done = self.by_deviation.steps();
-        if self.texels.1.is_empty() || self.texels.0 != done {
+        if self.seen.1.texels.is_empty() || self.seen.0 != done {
             // The last step was not taken here.
-            self.texels.1 = self.deviation.texels(&state.deviation, &state.specular);
+            self.seen.1 = self.deviation.seen(&state.deviation, &state.specular, &self.reach);
         }
         let loss = self.differentiate(state, backend);
-        self.texels.0 = done + 1;
-        let Self { deviation, by_deviation, by_specular, texels: (_, texels), .. } = self;
+        self.seen.0 = done + 1;
+        let Self { deviation, by_deviation, by_specular, seen: (_, seen), .. } = self;
         let free = f32::NEG_INFINITY;
         let rows = by_deviation.rows(&mut state.deviation, 3 * size, share, free);
         let rows = rows.zip(by_specular.rows(&mut state.specular, size, share, least));
-        let rows = texels.chunks_mut(size).zip(rows).collect();
-        let write = |place: &Place, found: Gradients, texels: &mut &mut [Texel], (a, b): &mut Moved| {
+        let rows = rows.collect();
+        let write = |place: &Place, found: Gradients, texels: &mut [Texel], (a, b): &mut Moved| {
             let (three, one) = (place.within(3), place.within(1));
             a.step(three.clone(), found.by_band);
             b.step(one.clone(), found.by_specular);
-            deviation.put(&mut texels[one.clone()], &a.parameters[three], &b.parameters[one]);
+            deviation.put(texels, &a.parameters[three], &b.parameters[one]);
         };
-        deviation.adjoint(&self.by_texel, &self.reach, rows, write);
+        deviation.adjoint(&self.by_texel, &self.reach, seen, rows, write);
         loss
     }
 
@@ -439,10 +438,11 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let texels = &deviation.texels(&state.deviation, &state.specular);
     let region = &samples.taps.region();
-    let base = &deviation.base(texels, &deviation.reach(region));
-    let textures = BentTextures { deviation, texels, base, region };
+    let reach = deviation.reach(region);
+    let seen = deviation.seen(&state.deviation, &state.specular, &reach);
+    let base = &deviation.base(&seen, &reach);
+    let textures = BentTextures { deviation, texels: &seen.texels, base, region };
     let bent = textures.sample(&samples.taps);
     let directions = deviation.scale.directions(samples, Some(&bent));
     let light = backend.light(&state.networks, &samples.position);

@@ -27,7 +27,6 @@ pub struct Scratch {
     slopes: [Vec<Row>; 2],
     shading: [Row; 2],
     gradient: PixelGradient,
-    by_direction: [Row; 4],
     /// Gradients by the networks' parameters.
     pub sums: Vec<f32>,
 }
@@ -42,7 +41,6 @@ impl Scratch {
             slopes: [slopes.clone(), slopes],
             shading: [Row::ZERO; 2],
             gradient: PixelGradient { shading: [Row::ZERO; 2], albedo: [Row::ZERO; 4] },
-            by_direction: [Row::ZERO; 4],
             sums: vec![0.0; networks.parameters.len()],
         }
     }
@@ -230,11 +228,11 @@ fn bend_block<S: Lanes, const C: usize>(
     let [by_diffuse, by_specular] = &s.gradient.shading;
     shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
     shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
-    let by_input = &mut s.by_direction;
-    backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, Some(by_input), ahead);
-    out[..3].copy_from_slice(&by_input[..3]);
-    backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, Some(by_input), ahead);
-    out[3..6].copy_from_slice(&by_input[..3]);
+    // The row of padding is overwritten by what comes next.
+    let by_input = Some(&mut out[..4]);
+    backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, by_input, ahead);
+    let by_input = Some(&mut out[3..BENT]);
+    backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, by_input, ahead);
     out[6] = s.gradient.albedo[3];
     loss
 }

@@ -38,7 +38,8 @@ pub(super) fn pyramid(
     let step = |level: usize, double: bool, from: &wgpu::Buffer, to: &wgpu::Buffer| {
         let scaled = level == 0 && double != adjoint;
         let constants = [("DOUBLE", u32::from(double)), ("SCALED", u32::from(scaled))];
-        let kernel = device.kernel("pyramid", include_str!("wgsl/pyramid.wgsl"), &constants, "urrw");
+        let kernel =
+            device.kernel("pyramid", include_str!("wgsl/pyramid.wgsl"), &constants, "urrw");
         let (fine, coarse) = (3 * (size >> level).pow(2), 3 * (size >> (level + 1)).pow(2));
         let count = if double { fine } else { coarse };
         let parameters = device.uniform(&[(size >> level) as u32]);
@@ -47,12 +48,22 @@ pub(super) fn pyramid(
     };
     let mut passes = vec![];
     for level in 0..levels {
-        passes.push(step(level, false, if level == 0 { from } else { &halves[level - 1] }, &halves[level]));
+        passes.push(step(
+            level,
+            false,
+            if level == 0 { from } else { &halves[level - 1] },
+            &halves[level],
+        ));
     }
     let (coarse, side) = (levels - 1, size >> levels);
     passes.extend(convolution(device, weights, side, [0, 0], &halves[coarse], &doubles[coarse]));
     for level in (0..levels).rev() {
-        passes.push(step(level, true, &doubles[level], if level == 0 { to } else { &doubles[level - 1] }));
+        passes.push(step(
+            level,
+            true,
+            &doubles[level],
+            if level == 0 { to } else { &doubles[level - 1] },
+        ));
     }
     passes
 }

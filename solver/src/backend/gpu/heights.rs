@@ -3,10 +3,10 @@
 use glam::Vec3;
 
 use super::Gpu;
+use super::blurs::blurring;
 use super::device::Device;
 use super::kernel::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
-use super::blurs::blurring;
 use crate::backend::resident::{Descent, DeviceError, NormalEquations};
 
 /// Rows of the sampled unknowns, and of slopes and weight.

@@ -12,9 +12,13 @@ struct Parameters {
 @group(0) @binding(2) var<storage, read> texels: array<f32>;
 @group(0) @binding(3) var<storage, read_write> result: array<f32>;
 
-// Weight of a fine texel in a coarse one that is `coarse` texels from the one it lies in.
-fn weight(fine: u32, coarse: u32) -> f32 {
-    return select(0.25, 0.75, fine / 2u == coarse);
+// Weight of a fine texel in a coarse one: three quarters in the one that it lies in, the rest in its nearest
+// neighbour; beyond the border, in the last one.
+fn weight(fine: u32, coarse: u32, size: u32) -> f32 {
+    if fine / 2u != coarse {
+        return 0.25;
+    }
+    return select(0.75, 1.0, fine == 0u || fine == size - 1u);
 }
 
 @compute @workgroup_size(256)
@@ -50,9 +54,9 @@ fn main(
         for (var u = first.x; u <= last.x; u++) {
             var value = texels[3u * (v * other + u) + channel];
             if DOUBLE == 1u {
-                value *= weight(x, u);
+                value *= weight(x, u, size);
             } else {
-                value *= weight(u, x);
+                value *= weight(u, x, size);
                 if SCALED == 1u {
                     value *= norms[u];
                 }
@@ -60,9 +64,9 @@ fn main(
             line += value;
         }
         if DOUBLE == 1u {
-            line *= weight(y, v);
+            line *= weight(y, v, size);
         } else {
-            line *= weight(v, y);
+            line *= weight(v, y, size);
             if SCALED == 1u {
                 line *= norms[v];
             }
