@@ -9,7 +9,7 @@ const PLANES: usize = 7;
 const LINE: usize = 16;
 /// Values asked for at a time, two lines: a block of a joint pass has 224 lines and 300 tiles, of the others up
 /// to 368 and from 40 to 150.
-const PACE: usize = 2 * LINE;
+const PACE: usize = 3 * LINE;
 
 /// Rows asked for a few lines at a time, between tiles of products: a core waits for some ten lines at most,
 /// and whatever it reads besides would have to wait as well. It has no influence on results.
@@ -39,6 +39,7 @@ impl<'a> Ahead<'a> {
         if self.left > 0 {
             prefetch(self.next);
             prefetch(self.next.wrapping_add(LINE));
+            prefetch(self.next.wrapping_add(2 * LINE));
             self.next = self.next.wrapping_add(PACE);
             self.left -= 1;
             if self.left == 0 {
@@ -54,7 +55,7 @@ impl<'a> Ahead<'a> {
         while let (0, Some(rows)) = (self.left, self.planes.get(self.plane)) {
             self.plane += 1;
             self.next = rows.as_ptr().cast();
-            self.left = rows.len() * BLOCK / PACE;
+            self.left = (rows.len() * BLOCK).div_ceil(PACE);
         }
     }
 }

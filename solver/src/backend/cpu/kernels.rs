@@ -220,19 +220,20 @@ fn bend_block<S: Lanes, const C: usize>(
     out: &mut [Row],
     ahead: &mut Ahead,
 ) -> f64 {
-    kernels::<S, C>(packed, directions, s, ahead);
-    let (diffuse, specular) = (s.diffuse.outputs(), s.specular.outputs());
-    shade::dot::<S>(light, diffuse, &mut s.shading[0]);
-    shade::dot::<S>(light, specular, &mut s.shading[1]);
+    forward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, ahead);
+    shade::kernel::<S>(light, s.diffuse.outputs(), &mut s.shading[0]);
+    forward::<S, C>(&packed[2], &directions[3..DIRECTIONS], &mut s.specular, ahead);
+    shade::kernel::<S>(light, s.specular.outputs(), &mut s.shading[1]);
     let loss = shade::compose::<S>(pixels, &s.shading, &mut s.gradient);
-    let [by_diffuse, by_specular] = &s.gradient.shading;
-    shade::kernel_gradient::<S>(by_diffuse, light, &s.slopes[0], diffuse);
-    shade::kernel_gradient::<S>(by_specular, light, &s.slopes[1], specular);
     // The row of padding is overwritten by what comes next.
     let by_input = Some(&mut out[..4]);
     backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, by_input, ahead);
     let by_input = Some(&mut out[3..BENT]);
     backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, by_input, ahead);
+    // Gradients by the shading are factors of all that was carried back.
+    let [by_diffuse, by_specular] = &s.gradient.shading;
+    shade::times::<S>(&mut out[..3], by_diffuse);
+    shade::times::<S>(&mut out[3..DIRECTIONS], by_specular);
     out[6] = s.gradient.albedo[3];
     loss
 }

@@ -60,19 +60,34 @@ pub fn dot<S: Lanes>(a: &[Row], b: &[Row], out: &mut Row) {
     }
 }
 
-/// Gradients of a kernel before its softplus: kernel = by_shading x light x slope.
+/// A kernel's shading = sum of light x softplus(z) over rows; z becomes its gradient by z.
 #[inline(always)]
-pub fn kernel_gradient<S: Lanes>(
-    by_shading: &Row,
-    light: &[Row],
-    slopes: &[Row],
-    kernel: &mut [Row],
-) {
-    for ((kernel, light), slopes) in kernel.iter_mut().zip(light).zip(slopes) {
+pub fn kernel<S: Lanes>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
+    let mut at = 0;
+    while at < BLOCK {
+        let mut sums = [S::splat(0.0); TURNS];
+        for (light, z) in light.iter().zip(&mut *kernel) {
+            let (values, slopes) = lanes::softplus(load::<S>(z, at));
+            for (k, (value, slope)) in values.into_iter().zip(slopes).enumerate() {
+                let light = S::load(light, at + k * S::WIDTH);
+                sums[k] = light.mul_add(value, sums[k]);
+                light.mul(slope).store(z, at + k * S::WIDTH);
+            }
+        }
+        for (k, sum) in sums.into_iter().enumerate() {
+            sum.store(shading, at + k * S::WIDTH);
+        }
+        at += TURNS * S::WIDTH;
+    }
+}
+
+/// Rows times a factor.
+#[inline(always)]
+pub fn times<S: Lanes>(rows: &mut [Row], factor: &Row) {
+    for row in rows {
         let mut at = 0;
         while at < BLOCK {
-            let by_kernel = S::load(by_shading, at).mul(S::load(light, at));
-            by_kernel.mul(S::load(slopes, at)).store(kernel, at);
+            S::load(row, at).mul(S::load(factor, at)).store(row, at);
             at += S::WIDTH;
         }
     }
