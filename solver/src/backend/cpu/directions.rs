@@ -72,7 +72,8 @@ pub fn bend<S: Lanes>(
     }
 }
 
-/// Carries the gradients by the directions (the first six rows of `gradient`) to both deviations.
+/// Carries gradients by the directions (the first six rows of `gradient`, times the diffuse and the specular one
+/// of `factors`) to both deviations.
 #[inline(always)]
 pub fn adjoint<S: Lanes>(
     scale: &DirectionScale,
@@ -80,6 +81,7 @@ pub fn adjoint<S: Lanes>(
     deviation: &[Row],
     lengths: &Lengths,
     gradient: &[Row],
+    [to_diffuse, to_specular]: &[Row; 2],
     out: &mut [Row],
 ) {
     let mut at = 0;
@@ -88,10 +90,12 @@ pub fn adjoint<S: Lanes>(
         let [by_specular, by_diffuse] = [S::load(&lengths[0], at), S::load(&lengths[1], at)];
         let specular = times(sum(normal, load(deviation, 0, at)), by_specular);
         let diffuse = times(sum(normal, load(deviation, 3, at)), by_diffuse);
-        let twice = times(load(gradient, 3, at), S::splat(2.0 * scale.reflection));
+        let factor = S::load(to_specular, at).mul(S::splat(2.0 * scale.reflection));
+        let twice = times(load(gradient, 3, at), factor);
         let by_normal = times_plus(view, dot(specular, twice), times(twice, dot(specular, view)));
         store(across(specular, by_normal, by_specular), out, 0, at);
-        let by_normal = times(load(gradient, 0, at), S::splat(scale.normal));
+        let factor = S::load(to_diffuse, at).mul(S::splat(scale.normal));
+        let by_normal = times(load(gradient, 0, at), factor);
         store(across(diffuse, by_normal, by_diffuse), out, 3, at);
         at += S::WIDTH;
     }

@@ -168,6 +168,9 @@ fn bend_body<S: Lanes, const C: usize>(
         let ahead = &mut Ahead::new(&ahead, block + 1);
         let light = light.block(block);
         loss += bend_block::<S, C>(inputs.packed, &pixels, light, directions, s, out, ahead);
+        let [by_diffuse, by_specular] = &s.gradient.shading;
+        shade::times::<S>(&mut out[..3], by_diffuse);
+        shade::times::<S>(&mut out[3..DIRECTIONS], by_specular);
     }
     loss
 }
@@ -203,13 +206,16 @@ fn textured_body<S: Lanes, const C: usize>(
         let ahead = &mut Ahead::new(&ahead, block + 1);
         let light = light.block(block);
         loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
-        adjoint::<S>(scale, known, &bent, &lengths, &gradient, &mut by_texture);
+        let factors = &s.gradient.shading;
+        adjoint::<S>(scale, known, &bent, &lengths, &gradient, factors, &mut by_texture);
         by_texture[DIRECTIONS] = gradient[DIRECTIONS];
         sums.add(block, &by_texture);
     }
     loss
 }
 
+/// Loss; gradients by the specular albedo, and by the directions: those by the diffuse normal and by the
+/// reflected direction have the gradients by their shadings as a factor, which is left out.
 #[inline(always)]
 fn bend_block<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
@@ -230,10 +236,6 @@ fn bend_block<S: Lanes, const C: usize>(
     backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, by_input, ahead);
     let by_input = Some(&mut out[3..BENT]);
     backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, by_input, ahead);
-    // Gradients by the shading are factors of all that was carried back.
-    let [by_diffuse, by_specular] = &s.gradient.shading;
-    shade::times::<S>(&mut out[..3], by_diffuse);
-    shade::times::<S>(&mut out[3..DIRECTIONS], by_specular);
     out[6] = s.gradient.albedo[3];
     loss
 }

@@ -10,7 +10,7 @@ pub fn exponentials<S: Lanes>(rows: &mut [Row]) {
     for row in rows {
         let mut at = 0;
         while at < BLOCK {
-            for (k, value) in lanes::exp(load::<S>(row, at)).into_iter().enumerate() {
+            for (k, value) in lanes::exp(load::<S, TURNS>(row, at)).into_iter().enumerate() {
                 value.store(row, at + k * S::WIDTH);
             }
             at += TURNS * S::WIDTH;
@@ -24,7 +24,7 @@ pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
     for (row, slopes) in rows.iter_mut().zip(slopes) {
         let mut at = 0;
         while at < BLOCK {
-            let (values, derivatives) = lanes::softplus(load::<S>(row, at));
+            let (values, derivatives) = lanes::softplus(load::<S, TURNS>(row, at));
             for (k, (value, slope)) in values.into_iter().zip(derivatives).enumerate() {
                 value.store(row, at + k * S::WIDTH);
                 slope.store(slopes, at + k * S::WIDTH);
@@ -38,8 +38,8 @@ pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
 const TURNS: usize = 4;
 
 #[inline(always)]
-fn load<S: Lanes>(row: &Row, at: usize) -> [S; TURNS] {
-    let mut values = [S::splat(0.0); TURNS];
+fn load<S: Lanes, const T: usize>(row: &Row, at: usize) -> [S; T] {
+    let mut values = [S::splat(0.0); T];
     for (k, value) in values.iter_mut().enumerate() {
         *value = S::load(row, at + k * S::WIDTH);
     }
@@ -63,11 +63,21 @@ pub fn dot<S: Lanes>(a: &[Row], b: &[Row], out: &mut Row) {
 /// A kernel's shading = sum of light x softplus(z) over rows; z becomes its gradient by z.
 #[inline(always)]
 pub fn kernel<S: Lanes>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
+    // Of wide vectors there are registers for more.
+    if S::WIDTH == 16 {
+        kernel_in_turns::<S, 8>(light, kernel, shading);
+    } else {
+        kernel_in_turns::<S, TURNS>(light, kernel, shading);
+    }
+}
+
+#[inline(always)]
+fn kernel_in_turns<S: Lanes, const T: usize>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
     let mut at = 0;
     while at < BLOCK {
-        let mut sums = [S::splat(0.0); TURNS];
+        let mut sums = [S::splat(0.0); T];
         for (light, z) in light.iter().zip(&mut *kernel) {
-            let (values, slopes) = lanes::softplus(load::<S>(z, at));
+            let (values, slopes) = lanes::softplus(load::<S, T>(z, at));
             for (k, (value, slope)) in values.into_iter().zip(slopes).enumerate() {
                 let light = S::load(light, at + k * S::WIDTH);
                 sums[k] = light.mul_add(value, sums[k]);
@@ -77,7 +87,7 @@ pub fn kernel<S: Lanes>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
         for (k, sum) in sums.into_iter().enumerate() {
             sum.store(shading, at + k * S::WIDTH);
         }
-        at += TURNS * S::WIDTH;
+        at += T * S::WIDTH;
     }
 }
 
