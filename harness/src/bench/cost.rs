@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 use solver::Config;
+use solver::model::pyramid::Pyramid;
 
 /// Bytes of a value, of a sample's place in the textures, and of a value that Adam moves: it, its two
 /// moments, each read and written.
@@ -29,6 +30,11 @@ const SAMPLED: f64 = 4.0 + 6.0;
 const ADAM: f64 = 11.0;
 /// A value's part in the prior: two roots, and their gradients by three texels.
 const PRIOR: f64 = 20.0;
+/// A value that a pyramid halves and interpolates back: two and a half and three operations along a row, one
+/// along a column.
+const PYRAMID: f64 = 6.5;
+/// A value that is scaled by what the weights inside the texture sum to.
+const SCALED: f64 = 1.0;
 /// tanh of a deviation, and its derivative.
 const TANH: f64 = EXP + 4.0 + 3.0;
 
@@ -73,16 +79,19 @@ pub fn warm_up(config: &Config, pixels: usize, size: usize) -> Cost {
 
 /// A step on normals and specular albedo: two networks and their gradients by the inputs; light
 /// vector, normal, view, Fresnel factor, colour, weight, diffuse albedo (22 values); four values per
-/// texel, of which three pass through a blur and its transpose.
+/// texel, of which three pass through a blur and its transpose, as the blur's pyramid takes them.
 pub fn normals(config: &Config, pixels: usize, size: usize) -> Cost {
     let [forward, ..] = products(config);
     let [hidden, outputs] = neurons(config);
     let shading = outputs * (2.0 * SOFTPLUS + 2.0 + 4.0);
     let sample = 2.0 * 2.0 * hidden + shading + COMPOSE + DIRECTIONS + 7.0 * SAMPLED;
-    let texel = 4.0 * ADAM + 3.0 * TANH;
-    let taps = 2.0 * (3.0 * config.fine_tuning.deviation_blur * size as f32).ceil() + 1.0;
-    let blurs = 3.0 * 2.0 * 2.0 * f64::from(taps);
-    cost([2.0 * 2.0 * forward, sample, 22.0], pixels, [blurs, texel, 4.0], size)
+    let pyramid = Pyramid::new(size, config.fine_tuning.deviation_blur * size as f32);
+    // Values of the levels, of which each has a quarter of the last one's.
+    let coarse = 0.25f64.powi(pyramid.levels() as i32);
+    let halved = (1.0 - coarse) / 0.75;
+    let blurs = 2.0 * 2.0 * pyramid.taps() as f64 * coarse;
+    let texel = 4.0 * ADAM + 3.0 * (TANH + 2.0 * (PYRAMID * halved + SCALED));
+    cost([2.0 * 2.0 * forward, sample, 22.0], pixels, [3.0 * blurs, texel, 4.0], size)
 }
 
 /// A step on the diffuse albedo: S_d, specular layer, colour and weight (8 values if S_d has colours).

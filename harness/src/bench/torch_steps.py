@@ -55,15 +55,29 @@ def main() -> None:
         steps = albedo[..., 1:, :] - albedo[..., :-1, :], albedo[..., 1:] - albedo[..., :-1]
         return given["prior"] * sum(((1 + step.abs()).sqrt() - 1).sum() for step in steps) / albedo.numel()
 
+    # A wide blur on a coarser texture, as the solver's.
     sigma = given["blur"] * size
+    levels = 0
+    while sigma >= 4 * 2**levels and size % 2 ** (levels + 1) == 0:
+        levels += 1
+    sigma = (sigma**2 - (4**levels - 1) / 2) ** 0.5 / 2**levels
     reach = int(np.ceil(3 * sigma))
     tap = torch.exp(-0.5 * (torch.arange(-reach, reach + 1) / sigma) ** 2)
+    half = torch.tensor([0.25, 0.75, 0.75, 0.25])
+
+    def separable(texture: torch.Tensor, weights: torch.Tensor, stride: int) -> torch.Tensor:
+        channels, reach = texture.shape[1], (len(weights) - 1) // 2 if stride == 1 else 0
+        across, down = weights.expand(channels, 1, 1, -1), weights[:, None].expand(channels, 1, -1, 1)
+        texture = functional.conv2d(texture, across, stride=(1, stride), padding=(0, reach), groups=channels)
+        return functional.conv2d(texture, down, stride=(stride, 1), padding=(reach, 0), groups=channels)
 
     def smooth(texture: torch.Tensor) -> torch.Tensor:
-        channels = texture.shape[1]
-        across, down = tap.expand(channels, 1, 1, -1), tap[:, None].expand(channels, 1, -1, 1)
-        texture = functional.conv2d(texture, across, padding=(0, reach), groups=channels)
-        return functional.conv2d(texture, down, padding=(reach, 0), groups=channels)
+        for _ in range(levels):
+            texture = separable(functional.pad(texture, (1, 1, 1, 1), mode="replicate"), half, 2)
+        texture = separable(texture, tap, 1)
+        for _ in range(levels):
+            texture = functional.interpolate(texture, scale_factor=2, mode="bilinear", align_corners=False)
+        return texture
 
     norm = smooth(torch.ones(1, 3, size, size))
 

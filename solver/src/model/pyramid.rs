@@ -102,6 +102,11 @@ impl Pyramid {
         self.levels
     }
 
+    /// Weights of the convolution along a row.
+    pub fn taps(&self) -> usize {
+        2 * self.kernel.len() - 1
+    }
+
     /// Weights of the coarsest level from the centre outwards, before they are scaled.
     pub(crate) fn kernel(&self) -> &[f32] {
         &self.kernel

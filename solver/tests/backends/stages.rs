@@ -111,8 +111,11 @@ pub fn diffuse(backend: &dyn Backend) {
 
 pub fn relief(backend: &dyn Backend) {
     let mut config = Config::preset("paper").unwrap();
-    config.fine_tuning.deviation_blur = 0.03;
-    check_relief(backend, &config);
+    // Convolved on the texture, on a coarser one, and on the next.
+    for blur in [0.03, 0.14, 0.27] {
+        config.fine_tuning.deviation_blur = blur;
+        check_relief(backend, &config);
+    }
     config.fine_tuning.deviation_smoothing = 0.03;
     config.fine_tuning.deviation_extent = 0.1;
     check_relief(backend, &config);

@@ -2,7 +2,8 @@
 
 use solver::Config;
 use solver::backend::{Backend, JointGradient, TexturedRelief};
-use solver::model::bend::{BentTextures, TEXEL, Texel};
+use solver::model::bend::BentTextures;
+use solver::model::bend_gradient::BendGradient;
 use solver::model::deviation::Deviation;
 use solver::model::networks::Networks;
 use solver::model::normals::DirectionScale;
@@ -56,39 +57,48 @@ pub fn joint(backend: &dyn Backend) {
     }
 }
 
-/// Loss and gradients of a bent dome; the texels that nothing sees have none.
+/// Loss and gradients of a bent dome; the texels that nothing sees have none. With narrow and wide blurs.
 pub fn relief(backend: &dyn Backend) {
-    let mut config = Config::preset("paper").unwrap();
-    config.fine_tuning.deviation_blur = 0.05;
-    let (samples, state) = problem(&config);
-    let deviation = Deviation::new(&config, state.size);
-    let t: Vec<f32> = (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
-    let empty = vec![[0.0; TEXEL]; state.specular.len()];
-    let (d, region) = (&deviation.squashed(&t), &samples.taps.region());
-    let relief = TexturedRelief {
-        networks: &state.networks,
-        samples: &samples,
-        light: &backend.light(&state.networks, &samples.position),
-        albedo: &state.albedo(&samples),
-        textures: BentTextures { deviation: &deviation, d, specular: &state.specular, region },
-    };
-    let [fused, split] = [backend, &ByPlanes(backend)].map(|backend| {
-        // What an earlier step has left.
-        let mut gradient = empty.clone();
-        for (row, columns) in gradient.chunks_mut(state.size).zip(&region.0) {
-            row[columns.clone()].fill([1.0; TEXEL]);
+    for blur in [0.05, 0.14] {
+        let mut config = Config::preset("paper").unwrap();
+        config.fine_tuning.deviation_blur = blur;
+        let (samples, state) = problem(&config);
+        let deviation = Deviation::new(&config, state.size);
+        assert_eq!(deviation.blur().levels(), usize::from(blur > 0.1));
+        let t: Vec<f32> =
+            (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
+        let region = &samples.taps.region();
+        let reach = deviation.reach(region);
+        let seen = deviation.seen(&t, &state.specular, &reach);
+        let base = &deviation.base(&seen, &reach);
+        let relief = TexturedRelief {
+            networks: &state.networks,
+            samples: &samples,
+            light: &backend.light(&state.networks, &samples.position),
+            albedo: &state.albedo(&samples),
+            textures: BentTextures { deviation: &deviation, texels: &seen.texels, base, region },
+        };
+        let [fused, split] = [backend, &ByPlanes(backend)].map(|backend| {
+            // What an earlier step has left.
+            let mut gradient = BendGradient::new(deviation.blur());
+            for (row, columns) in gradient.own.chunks_mut(state.size).zip(&region.0) {
+                row[columns.clone()].fill([1.0; 4]);
+            }
+            gradient.base.fill([1.0; 4]);
+            (backend.bend_textures(&relief, &mut gradient), gradient)
+        });
+        assert!((fused.0 / split.0 - 1.0).abs() < 1e-6, "{} {}", fused.0, split.0);
+        for (fused, split) in [(&fused.1.own, &split.1.own), (&fused.1.base, &split.1.base)] {
+            let size = split.as_flattened().iter().fold(0.0f32, |m, g| m.max(g.abs()));
+            assert!(size > 0.0 && size < 1.0);
+            let pairs = fused.as_flattened().iter().zip(split.as_flattened());
+            for (at, (got, expected)) in pairs.enumerate() {
+                assert!((got - expected).abs() < 1e-5 * size, "{at}: {got} {expected}");
+            }
         }
-        (backend.bend_textures(&relief, &mut gradient), gradient)
-    });
-    assert!((fused.0 / split.0 - 1.0).abs() < 1e-6, "{} {}", fused.0, split.0);
-    let size = |texels: &[Texel]| texels.as_flattened().iter().fold(0.0f32, |m, g| m.max(g.abs()));
-    assert!(size(&split.1) > 0.0);
-    for (at, (got, expected)) in fused.1.iter().zip(&split.1).enumerate() {
-        for (got, expected) in got.iter().zip(expected) {
-            let error = (got - expected).abs();
-            assert!(error < 1e-5 * size(&split.1), "{at}: {got} {expected}");
+        for (at, own) in fused.1.own.iter().enumerate() {
+            let (row, column) = (at / state.size, at % state.size);
+            assert!(region.0[row].contains(&column) || *own == [0.0; 4], "{at}");
         }
-        let (row, column) = (at / state.size, at % state.size);
-        assert!(region.0[row].contains(&column) || *got == [0.0; TEXEL], "{at}");
     }
 }
