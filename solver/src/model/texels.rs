@@ -71,7 +71,9 @@ widened! {
         let (texels, size) = (texture.as_chunks::<FOUR>().0.as_chunks::<H>().0, taps.size());
         let later = taps.cells().get(samples.start + AHEAD..).unwrap_or_default();
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
+        assert!(values.len() >= cells.len() && fractions.len() == cells.len());
         let mut sample = 0;
+        // A cell's texels stay in registers while its samples pass.
         while sample < cells.len() {
             let at = cells[sample] as usize;
             if let Some(next) = later.get(sample) {
@@ -79,39 +81,24 @@ widened! {
                 prefetch(next);
                 prefetch(next.wrapping_add(size));
             }
-            let four = [at, at + size].map(|at| pair(&texels[at..at + 2]));
-            sample = within(four, sample, cells, fractions, values);
+            let (upper, mut down) = (pair(&texels[at..at + 2]), pair(&texels[at + size..at + size + 2]));
+            for side in 0..2 {
+                for half in 0..H {
+                    down[side][half] -= upper[side][half];
+                }
+            }
+            let cell = cells[sample];
+            while sample < cells.len() && cells[sample] == cell {
+                let [fx, fy] = fractions[sample];
+                for half in 0..H {
+                    let left = upper[0][half] + fy * down[0][half];
+                    let right = upper[1][half] + fy * down[1][half];
+                    values[sample][half] = left + fx * (right - left);
+                }
+                sample += 1;
+            }
         }
     }
-}
-
-/// What the samples of a cell from `first` on see of its four texels, which stay in registers while they
-/// pass; where the next cell's begin.
-#[inline(always)]
-fn within<const H: usize>(
-    [upper, mut down]: [[[Vec4; H]; 2]; 2],
-    first: usize,
-    cells: &[u32],
-    fractions: &[[f32; 2]],
-    values: &mut [[Vec4; H]],
-) -> usize {
-    assert!(values.len() >= cells.len() && fractions.len() == cells.len());
-    for side in 0..2 {
-        for half in 0..H {
-            down[side][half] -= upper[side][half];
-        }
-    }
-    let mut sample = first;
-    while sample < cells.len() && cells[sample] == cells[first] {
-        let [fx, fy] = fractions[sample];
-        for half in 0..H {
-            let left = upper[0][half] + fy * down[0][half];
-            let right = upper[1][half] + fy * down[1][half];
-            values[sample][half] = left + fx * (right - left);
-        }
-        sample += 1;
-    }
-    sample
 }
 
 #[inline(always)]
