@@ -231,10 +231,9 @@ fn bend_block<S: Lanes, const C: usize>(
     forward::<S, C>(&packed[2], &directions[3..DIRECTIONS], &mut s.specular, ahead);
     shade::kernel::<S>(light, s.specular.outputs(), &mut s.shading[1]);
     let loss = shade::compose::<S>(pixels, &s.shading, &mut s.gradient);
-    // The row of padding is overwritten by what comes next.
-    let by_input = Some(&mut out[..4]);
+    let by_input = Some(&mut out[..3]);
     backward::<S, C>(&packed[1], &directions[..3], &mut s.diffuse, None, by_input, ahead);
-    let by_input = Some(&mut out[3..BENT]);
+    let by_input = Some(&mut out[3..DIRECTIONS]);
     backward::<S, C>(&packed[2], &directions[3..], &mut s.specular, None, by_input, ahead);
     out[6] = s.gradient.albedo[3];
     loss

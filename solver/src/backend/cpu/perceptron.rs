@@ -17,13 +17,15 @@ const INPUTS: usize = 3;
 /// A network's weights in the order of the tiles.
 pub struct Packed {
     layers: Vec<PackedLayer>,
+    /// The transposed matrix of the first layer.
+    to_inputs: Vec<[f32; INPUTS]>,
 }
 
 struct PackedLayer {
     /// Tile by tile, input by input: weights to the tile's outputs.
     forward: Vec<[f32; TILE]>,
     bias: Vec<[f32; TILE]>,
-    /// The same of the transposed matrix, padded to whole tiles.
+    /// The same of the transposed matrix; nothing in the first layer.
     backward: Vec<[f32; TILE]>,
 }
 
@@ -33,23 +35,26 @@ impl Packed {
             let (inputs, outputs) = (networks.shape[layer], networks.shape[layer + 1]);
             let (weights, biases) = networks.place(network, layer);
             let (weights, biases) = (&networks.parameters[weights], &networks.parameters[biases]);
-            let at = |output: usize, input: usize| {
-                if input < inputs { weights[output * inputs + input] } else { 0.0 }
-            };
-            let tiles = |rows: usize, columns: usize, value: &dyn Fn(usize, usize) -> f32| {
-                (0..rows.div_ceil(TILE))
-                    .flat_map(|tile| (0..columns).map(move |column| (tile * TILE, column)))
-                    .map(|(row, column)| std::array::from_fn(|i| value(row + i, column)))
-                    .collect()
-            };
+            let at = |output: usize, input: usize| weights[output * inputs + input];
+            let transposed = |input: usize, output: usize| at(output, input);
             PackedLayer {
-                forward: tiles(outputs, inputs, &|output, input| at(output, input)),
+                forward: tiles(outputs, inputs, &at),
                 bias: biases.as_chunks().0.to_vec(),
-                backward: tiles(inputs, outputs, &|input, output| at(output, input)),
+                backward: if layer > 0 { tiles(inputs, outputs, &transposed) } else { vec![] },
             }
         };
-        Self { layers: (0..networks.layers()).map(pack).collect() }
+        let (weights, _) = networks.place(network, 0);
+        let weights = networks.parameters[weights].as_chunks().0.to_vec();
+        Self { layers: (0..networks.layers()).map(pack).collect(), to_inputs: weights }
     }
+}
+
+/// A matrix, tile of rows by tile of rows, column by column.
+fn tiles(rows: usize, columns: usize, at: &dyn Fn(usize, usize) -> f32) -> Vec<[f32; TILE]> {
+    (0..rows / TILE)
+        .flat_map(|tile| (0..columns).map(move |column| (tile * TILE, column)))
+        .map(|(row, column)| std::array::from_fn(|i| at(row + i, column)))
+        .collect()
 }
 
 /// Activations of a block, and room for gradients.
@@ -95,7 +100,7 @@ pub fn forward<S: Lanes, const C: usize>(
 }
 
 /// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, in the
-/// order of the parameters) and, if asked, to the inputs (3 rows and one of padding).
+/// order of the parameters) and, if asked, to the inputs (3 rows).
 #[inline(always)]
 pub fn backward<S: Lanes, const C: usize>(
     packed: &Packed,
@@ -116,19 +121,14 @@ pub fn backward<S: Lanes, const C: usize>(
             let sums = &mut sums[before..before + layer.parameters()];
             S::apart(WeightGradient::<C> { delta: by_output, input, sums, ahead });
         }
-        let (weights, bias, gate) = (&layer.backward, &[], input);
         if index > 0 {
+            let (weights, bias, gate) = (&layer.backward, &[], input);
             let (input, output) = (by_output, &mut next[..gate.len()]);
             S::apart(Product::<C, GATED> { weights, bias, input, gate, output, ahead });
         } else if let Some(output) = by_input.as_deref_mut() {
-            S::apart(Product::<C, PLAIN> {
-                weights,
-                bias,
-                input: by_output,
-                gate: &[],
-                output,
-                ahead,
-            });
+            let (weights, input) = (&packed.to_inputs, by_output);
+            let bias = &[];
+            S::apart(Product::<C, PLAIN, INPUTS> { weights, bias, input, gate: &[], output, ahead });
         }
         std::mem::swap(&mut delta, &mut next);
     }
@@ -148,26 +148,26 @@ const RELU: u8 = 1;
 const GATED: u8 = 2;
 
 /// output = matrix x input (+ bias), through `THEN`; `gate` has the activations that close gates.
-struct Product<'a, 'b, const C: usize, const THEN: u8> {
-    weights: &'a [[f32; TILE]],
-    bias: &'a [[f32; TILE]],
+struct Product<'a, 'b, const C: usize, const THEN: u8, const R: usize = TILE> {
+    weights: &'a [[f32; R]],
+    bias: &'a [[f32; R]],
     input: &'a [Row],
     gate: &'a [Row],
     output: &'a mut [Row],
     ahead: &'a mut Ahead<'b>,
 }
 
-impl<const C: usize, const THEN: u8> Task for Product<'_, '_, C, THEN> {
+impl<const C: usize, const THEN: u8, const R: usize> Task for Product<'_, '_, C, THEN, R> {
     #[inline(always)]
     fn run<S: Lanes>(self) {
         let Self { weights, bias, input, gate, output, ahead } = self;
-        for (tile, output) in output.chunks_exact_mut(TILE).enumerate() {
+        for (tile, output) in output.chunks_exact_mut(R).enumerate() {
             let weights = &weights[tile * input.len()..][..input.len()];
-            let bias = bias.get(tile).copied().unwrap_or_default();
+            let bias = bias.get(tile).copied().unwrap_or([0.0; R]);
             let mut at = 0;
             while at < BLOCK {
                 ahead.ask();
-                let mut sums = [[S::splat(0.0); C]; TILE];
+                let mut sums = [[S::splat(0.0); C]; R];
                 for (weights, row) in weights.iter().zip(input) {
                     let mut x = [S::splat(0.0); C];
                     for (c, x) in x.iter_mut().enumerate() {
@@ -186,7 +186,7 @@ impl<const C: usize, const THEN: u8> Task for Product<'_, '_, C, THEN> {
                         let at = at + c * S::WIDTH;
                         let value = match THEN {
                             RELU => S::splat(0.0).max(sum.add(bias)),
-                            GATED => sum.where_positive(S::load(&gate[tile * TILE + index], at)),
+                            GATED => sum.where_positive(S::load(&gate[tile * R + index], at)),
                             _ => sum.add(bias),
                         };
                         value.store(row, at);
