@@ -14,8 +14,8 @@
 //! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
 //!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
-//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, 3 of the deviation, 8 gradients; the
-//!   rest again the allocator's); 170 where heights have been before.
+//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, 4 as samples see them, 4 gradients, 3 of
+//!   the blur; the rest again the allocator's); 170 where heights have been before.
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!

@@ -205,3 +205,46 @@ widened! {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+
+    use super::super::bend::ROWS;
+    use super::super::planes::Planes;
+    use super::super::strips::blocks;
+    use super::*;
+
+    /// Of samples so sparse that a block reaches over several strips, and only in the upper half.
+    #[test]
+    fn every_block_is_worked_on_once_and_reaches_all_its_texels() {
+        let (size, count) = (300, 1000);
+        let noise = |i: usize, k: f32| ((i as f32 + 1.0) * k).sin().abs();
+        let uvs: Vec<_> = (0..count)
+            .map(|i| Vec2::new(noise(i, 12.9898), 0.5 + 0.5 * noise(i, 78.233)))
+            .collect();
+        let taps = Taps::sorted(size, &uvs).0;
+        let planes = Planes::from_fn(count, |i| {
+            std::array::from_fn::<_, ROWS, _>(|row| noise(i + 10 * row, 0.7))
+        });
+        let work = |(): &mut (), sums: &mut RowSums| {
+            let blocks = blocks(sums.samples.clone());
+            blocks.map(|(block, _)| sums.add(block, planes.block(block))).count()
+        };
+        let (blur, region) = (Pyramid::new(size, 0.0), taps.region());
+        let mut gradient = BendGradient::new(&blur);
+        // What an earlier step has left.
+        for (row, columns) in gradient.own.chunks_mut(size).zip(&region.0) {
+            row[columns.clone()].fill([1.0; CHANNELS]);
+        }
+        let counts = gradient.fill((&taps, &blur, &region), || (), work);
+        assert_eq!(counts.iter().sum::<usize>(), count.div_ceil(BLOCK));
+        let expected = taps.gather::<ROWS>(&planes, 0);
+        for (at, expected) in expected.as_chunks::<ROWS>().0.iter().enumerate() {
+            let ([a, b, c, g], [d, e, f, _]) = (gradient.own[at], gradient.base[at]);
+            for (sum, expected) in [a, b, c, d, e, f, g].into_iter().zip(expected) {
+                assert!((sum - expected).abs() < 1e-5, "{at}: {sum} {expected}");
+            }
+        }
+    }
+}

@@ -64,32 +64,27 @@ impl Pyramid {
         let rest = (sigma * sigma - VARIANCE * halvings).sqrt() / (1 << levels) as f32;
         let mut pyramid =
             Self { size, levels, kernel: gaussian(rest), norms: vec![], scales: vec![] };
-        let line = pyramid.line(&vec![[1.0; CHANNELS]; size], 0);
-        pyramid.norms = line.iter().map(|[sum, ..]| 1.0 / sum).collect();
-        pyramid.scales = line.as_flattened().iter().map(|sum| 1.0 / sum).collect();
+        let sums = pyramid.line(&vec![1.0; size], 0);
+        pyramid.norms = sums.into_iter().map(|sum| 1.0 / sum).collect();
+        pyramid.scales = pyramid.norms.iter().flat_map(|norm| [*norm; CHANNELS]).collect();
         pyramid
     }
 
-    /// K of one row, from a level on.
-    fn line(&self, line: &[Texel], level: usize) -> Vec<Texel> {
+    /// K of one row of one channel, from a level on.
+    fn line(&self, line: &[f32], level: usize) -> Vec<f32> {
         if level < self.levels {
-            let half = line.len() / 2;
-            let mut coarse = vec![[0.0; CHANNELS]; half];
-            for (at, texel) in line.iter().enumerate() {
-                for (near, weight) in neighbours(at, half).into_iter().zip([NEAR, FAR]) {
-                    coarse[near][0] += weight * texel[0];
-                }
+            let mut coarse = vec![0.0; line.len() / 2];
+            let near = |at: usize| neighbours(at, line.len() / 2).into_iter().zip([NEAR, FAR]);
+            for (at, value) in line.iter().enumerate() {
+                near(at).for_each(|(near, weight)| coarse[near] += weight * value);
             }
             let coarse = self.line(&coarse, level + 1);
-            let value = |at: usize| {
-                let [near, far] = neighbours(at, half).map(|near| coarse[near][0]);
-                NEAR * near + FAR * far
-            };
-            return (0..line.len()).map(|at| [value(at); CHANNELS]).collect();
+            let value = |at: usize| near(at).map(|(near, weight)| weight * coarse[near]).sum();
+            return (0..line.len()).map(value).collect();
         }
         let weight = |a: usize, b: usize| self.kernel.get(a.abs_diff(b)).copied().unwrap_or(0.0);
-        let sum = |at: usize| (0..line.len()).map(|other| weight(at, other) * line[other][0]).sum();
-        (0..line.len()).map(|at| [sum(at); CHANNELS]).collect()
+        let sum = |at: usize| (0..line.len()).map(|other| weight(at, other) * line[other]).sum();
+        (0..line.len()).map(sum).collect()
     }
 
     /// Side of the textures, texels.
@@ -176,23 +171,13 @@ impl Pyramid {
         columns: &Range<usize>,
         lines: &'a mut Lines,
     ) -> &'a [Texel] {
-        let texels = self.fine_row(base, row, columns, lines);
+        let texels = self.row(base, row, columns, lines);
         self.scale(row, columns, texels);
         texels
     }
 
     /// Columns of a row of a texture, from its base.
     pub fn row<'a>(
-        &self,
-        base: &[f32],
-        row: usize,
-        columns: &Range<usize>,
-        lines: &'a mut Lines,
-    ) -> &'a [Texel] {
-        self.fine_row(base, row, columns, lines)
-    }
-
-    fn fine_row<'a>(
         &self,
         base: &[f32],
         row: usize,
@@ -269,6 +254,9 @@ impl<'a> Sums<'a> {
         Lines { fine, coarse, padded }: &mut Lines,
         fill: impl FnOnce(&mut [Texel]),
     ) {
+        if columns.is_empty() {
+            return;
+        }
         let wide = even(columns, fine.len());
         let padded = &mut padded[..wide.len() + 2 * PAD];
         let first = PAD + columns.start - wide.start;
@@ -280,14 +268,14 @@ impl<'a> Sums<'a> {
             add(self.row(row, columns), texels, 1.0);
             return;
         }
-        // Two more than half of them. What is beyond the border belongs to the last one inside.
+        // Two more than half of them.
         let (first, count) = (wide.start / 2, wide.len() / 2 + 2);
         halve_row(&mut coarse[..count], padded);
         if first == 0 {
-            add_one(coarse, 0, 1);
+            fold(coarse, 0, 1);
         }
         if first + count - 1 > self.width {
-            add_one(coarse, count - 1, count - 2);
+            fold(coarse, count - 1, count - 2);
         }
         let inside = first.saturating_sub(1)..(first + count - 1).min(self.width);
         let coarse = &coarse[inside.start + 1 - first..][..inside.len()];
@@ -316,10 +304,10 @@ impl<'a> Sums<'a> {
     }
 }
 
-fn add_one(texels: &mut [Texel], from: usize, to: usize) {
-    for c in 0..CHANNELS {
-        texels[to][c] += texels[from][c];
-    }
+/// What lies beyond the border belongs to the last texel inside.
+fn fold(texels: &mut [Texel], outer: usize, inner: usize) {
+    let beyond = texels[outer];
+    texels[inner].iter_mut().zip(beyond).for_each(|(value, beyond)| *value += beyond);
 }
 
 /// Texels to be added, and the number of the first.

@@ -206,7 +206,6 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
-    use crate::region::Region;
 
     /// Bit for bit what any texture's sums are, on more rows than a strip has.
     #[test]

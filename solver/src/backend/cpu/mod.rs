@@ -20,9 +20,11 @@
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
 //! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures bent in
-//! normals costs a texel 104 bytes more: 16 of deviation and specular albedo are read, 32 of gradients are
-//! written and read, and the deviation is read and written with what Adam moves. A joint step is 7488 FLOP a sample, so that it is bound by arithmetic on every machine
-//! with more than 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps are bound by memory.
+//! normals costs a texel 80 bytes more: deviation and specular albedo as samples see them, 16, are read twice and
+//! written once, their gradients are written (and fetched before) and read; what goes through the blur is 16 in
+//! each of a quarter as many texels, ten times. A joint step is 7488 FLOP a sample, so that it is bound by
+//! arithmetic on every machine with more than 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps
+//! are bound by memory.
 
 mod ahead;
 mod directions;

@@ -128,7 +128,14 @@ pub fn backward<S: Lanes, const C: usize>(
         } else if let Some(output) = by_input.as_deref_mut() {
             let (weights, input) = (&packed.to_inputs, by_output);
             let bias = &[];
-            S::apart(Product::<C, PLAIN, INPUTS> { weights, bias, input, gate: &[], output, ahead });
+            S::apart(Product::<C, PLAIN, INPUTS> {
+                weights,
+                bias,
+                input,
+                gate: &[],
+                output,
+                ahead,
+            });
         }
         std::mem::swap(&mut delta, &mut next);
     }
