@@ -175,7 +175,9 @@ impl<const C: usize, const THEN: u8, const R: usize> Task for Product<'_, '_, C,
             while at < BLOCK {
                 ahead.ask();
                 let mut sums = [[S::splat(0.0); C]; R];
-                for (weights, row) in weights.iter().zip(input) {
+                // Of what is gated, the last products are masked.
+                let open = if THEN == GATED { input.len() - 1 } else { input.len() };
+                for (weights, row) in weights.iter().zip(&input[..open]) {
                     let mut x = [S::splat(0.0); C];
                     for (c, x) in x.iter_mut().enumerate() {
                         *x = S::load(row, at + c * S::WIDTH);
@@ -187,13 +189,24 @@ impl<const C: usize, const THEN: u8, const R: usize> Task for Product<'_, '_, C,
                         }
                     }
                 }
+                if THEN == GATED {
+                    let (weights, x) = (&weights[open], &input[open]);
+                    for (index, (sums, weight)) in sums.iter_mut().zip(weights).enumerate() {
+                        let weight = S::splat(*weight);
+                        for (c, sum) in sums.iter_mut().enumerate() {
+                            let at = at + c * S::WIDTH;
+                            let gate = S::load(&gate[tile * R + index], at);
+                            *sum = weight.mul_add_where(S::load(x, at), *sum, gate);
+                        }
+                    }
+                }
                 for (index, (row, sums)) in output.iter_mut().zip(sums).enumerate() {
                     let bias = S::splat(bias[index]);
                     for (c, sum) in sums.into_iter().enumerate() {
                         let at = at + c * S::WIDTH;
                         let value = match THEN {
                             RELU => S::splat(0.0).max(sum.add(bias)),
-                            GATED => sum.where_positive(S::load(&gate[tile * R + index], at)),
+                            GATED => sum,
                             _ => sum.add(bias),
                         };
                         value.store(row, at);

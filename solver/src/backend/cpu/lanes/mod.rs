@@ -50,6 +50,11 @@ pub trait Lanes: Copy {
     fn reciprocal_root(self) -> Self;
     /// self * b + c, rounded once where the hardware can.
     fn mul_add(self, b: Self, c: Self) -> Self;
+    /// self * b + c where `gate` > 0, else 0.
+    #[inline(always)]
+    fn mul_add_where(self, b: Self, c: Self, gate: Self) -> Self {
+        self.mul_add(b, c).where_positive(gate)
+    }
     /// The larger one; `b` if either is NaN.
     fn max(self, b: Self) -> Self;
     /// The smaller one; `b` if either is NaN.

@@ -61,6 +61,8 @@ impl Lanes for Avx512 {
         scale(a, n) = _mm512_scalef_ps(a, n);
         where_positive(a, gate) = _mm512_maskz_mov_ps(
             _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), a);
+        mul_add_where(a, b, c, gate) = _mm512_maskz_fmadd_ps(
+            _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), a, b, c);
         where_positive_else(a, gate, other) = _mm512_mask_blend_ps(
             _mm512_cmp_ps_mask::<_CMP_GT_OQ>(gate, _mm512_setzero_ps()), other, a);
     }
