@@ -83,7 +83,7 @@ impl Deviation {
         let padding = vec![0.0; self.size * self.size];
         let texels = interleave::<4>(&[(&sharp, CHANNELS), (&padding, 1)]);
         let blurred = self.blur.apply(texels.as_chunks().0);
-        Bend { blurred: part::<4, CHANNELS>(blurred.as_flattened(), 0), sharp }
+        Bend { blurred: part::<4, CHANNELS>(&blurred, 0), sharp }
     }
 
     /// Side of the textures, texels.

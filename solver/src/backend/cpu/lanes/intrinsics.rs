@@ -57,9 +57,10 @@ macro_rules! values {
         #[inline(always)] fn $name(self, b: Self) -> Self { let ($a, $b) = (self.0, b.0); Self(unsafe { $body }) }
     };
     (@ $name:ident, ($a:ident, $b:ident, $c:ident, $d:ident), $body:expr) => {
-        // SAFETY: as of `splat`.
-        #[inline(always)] fn $name(self, b: Self, c: Self, d: Self) -> Self {
+        #[inline(always)]
+        fn $name(self, b: Self, c: Self, d: Self) -> Self {
             let ($a, $b, $c, $d) = (self.0, b.0, c.0, d.0);
+            // SAFETY: as of `splat`.
             Self(unsafe { $body })
         }
     };
