@@ -3,9 +3,10 @@
 //! A texture is halved (each coarse texel is the mean of 4 x 4 fine ones by 1, 3, 3, 1) until the blur's
 //! standard deviation is less than four texels, convolved there, and interpolated back: the pyramid of Burt
 //! and Adelson ("The Laplacian Pyramid as a Compact Image Code", 1983). Halving and interpolation blur by three
-//! quarters of a squared texel each, by which the convolution is narrower. What comes out is within .5 % of the
-//! Gaussian that is not cut off (root mean square, white noise), as a convolution to three standard deviations
-//! is, for 9 operations a value and a coarse convolution in place of 12 standard deviations.
+//! quarters of a squared texel each, by which the convolution is narrower. What comes out is within .6 % of the
+//! Gaussian that is not cut off (root mean square, white noise; 2 % with the borders), as a convolution to three
+//! standard deviations is within .4 %. A value costs 8 operations and its share of a coarse convolution, instead
+//! of 12 multiply-adds for every texel of the standard deviation.
 
 use std::ops::Range;
 
