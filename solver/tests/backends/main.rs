@@ -103,6 +103,13 @@ fn main() {
         sizes::textures();
         Ok(())
     }));
+    trials.push(Trial::test(
+        "steps of the relief are the same on all threads and after a stop",
+        || {
+            textured::steps();
+            Ok(())
+        },
+    ));
     let gpu = match &*ADAPTER {
         Some(adapter) => format!("gpu ({}, {}, {})", adapter.name, adapter.api, adapter.driver),
         None => "gpu (no adapter)".to_owned(),

@@ -1,6 +1,7 @@
 //! Passes through textures, against planes between their parts.
 
 use solver::Config;
+use solver::backend::cpu::Cpu;
 use solver::backend::{Backend, JointGradient, TexturedRelief};
 use solver::model::bend::BentTextures;
 use solver::model::bend_gradient::BendGradient;
@@ -10,9 +11,10 @@ use solver::model::normals::DirectionScale;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
 use solver::model::texture::interleave;
-use solver::optimise::stage::State;
+use solver::optimise::stage::{Relief, Stage, State};
 
 use super::scene::problem;
+use super::testing;
 
 /// A backend without passes of its own over textures.
 struct ByPlanes<'a>(&'a dyn Backend);
@@ -99,6 +101,35 @@ pub fn relief(backend: &dyn Backend) {
         for (at, own) in fused.1.own.iter().enumerate() {
             let (row, column) = (at / state.size, at % state.size);
             assert!(region.0[row].contains(&column) || *own == [0.0; 4], "{at}");
+        }
+    }
+}
+
+/// Steps of the relief on any number of threads, and after a stop, to the same bits.
+pub fn steps() {
+    for blur in [0.05, 0.14, 0.27] {
+        let mut config = Config::preset("paper").unwrap();
+        config.fine_tuning.deviation_blur = blur;
+        let (samples, start) = problem(&config);
+        let deviation = Deviation::new(&config, start.size);
+        let run = |stop: usize| {
+            let (cpu, mut state) = (Cpu::new(), start.clone());
+            let stage = || Relief::new(&config, &samples, &deviation, &start, &cpu, 1);
+            let mut first = stage();
+            let mut losses: Vec<_> = (0..stop).map(|_| first.step(&mut state, &cpu, 1.0)).collect();
+            // What another process would read.
+            let mut second = stage();
+            for (to, from) in second.memory().optimisers.into_iter().zip(first.memory().optimisers)
+            {
+                to.clone_from(from);
+            }
+            losses.extend((stop..6).map(|_| second.step(&mut state, &cpu, 1.0)));
+            (losses, state)
+        };
+        let once = testing::on_threads(1, || run(6));
+        assert!(once.0[5] < once.0[0]);
+        for (threads, stop) in [(2, 6), (3, 2)] {
+            assert!(testing::on_threads(threads, || run(stop)) == once, "{blur} {threads}");
         }
     }
 }
