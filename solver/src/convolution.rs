@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::region::Region;
+use crate::region::{Place, Region};
 use crate::simd::widened;
 
 /// Rows that are summed up together, in registers; and one after the other, with lines that stay in the
@@ -69,22 +69,9 @@ pub fn convolve(
     out
 }
 
-/// Values of a row of the result.
-pub struct Place {
-    pub row: usize,
-    pub columns: Range<usize>,
-}
-
-impl Place {
-    /// Where they lie in the row.
-    pub fn within(&self, channels: usize) -> Range<usize> {
-        self.columns.start * channels..self.columns.end * channels
-    }
-}
-
 /// The same from what `read` fills in (the row, the first column, values) to what `write` does with it
 /// for each of the `rows`, whether or not there are values.
-pub fn convolve_into<O: Send>(
+fn convolve_into<O: Send>(
     mut rows: Vec<O>,
     kernel: &[f32],
     shape: Shape,
@@ -106,7 +93,7 @@ pub fn convolve_into<O: Send>(
 }
 
 /// Rows of the result, asked for downwards.
-pub struct Downwards<'a> {
+struct Downwards<'a> {
     kernel: &'a [f32],
     shape: Shape,
     region: &'a Region,
@@ -131,7 +118,7 @@ pub struct Downwards<'a> {
 
 impl<'a> Downwards<'a> {
     /// With a kernel as [`convolve`] takes it.
-    pub fn new(kernel: &'a [f32], shape: Shape, region: &'a Region) -> Self {
+    fn new(kernel: &'a [f32], shape: Shape, region: &'a Region) -> Self {
         let (reach, length) = (kernel.len() - 1, shape.width * shape.channels);
         let (stride, lines) = (length.next_multiple_of(TILE) + HALF, 2 * reach + GROUP);
         Self {
@@ -162,11 +149,7 @@ impl<'a> Downwards<'a> {
 
     /// A row of the result: the first column, and values from there on. They may be changed, once: what is
     /// asked for again is what was left.
-    pub fn row(
-        &mut self,
-        row: usize,
-        read: impl Fn(usize, usize, &mut [f32]),
-    ) -> (usize, &mut [f32]) {
+    fn row(&mut self, row: usize, read: impl Fn(usize, usize, &mut [f32])) -> (usize, &mut [f32]) {
         if !self.summed.contains(&row) {
             self.sum(row / GROUP * GROUP, read);
         }

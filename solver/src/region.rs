@@ -32,6 +32,21 @@ impl Region {
     }
 }
 
+/// Columns of a row.
+pub struct Place {
+    /// Its number.
+    pub row: usize,
+    /// Which.
+    pub columns: Range<usize>,
+}
+
+impl Place {
+    /// Where their values lie in the row.
+    pub fn within(&self, channels: usize) -> Range<usize> {
+        self.columns.start * channels..self.columns.end * channels
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

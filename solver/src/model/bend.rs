@@ -5,8 +5,8 @@ use std::ops::Range;
 use glam::Vec4;
 
 use super::deviation::Deviation;
+use super::halving::{CHANNELS, Lines, Texel};
 use super::planes::{BLOCK, CHUNK_BLOCKS, Planes, Row, first_rows, first_rows_mut};
-use super::pyramid::{CHANNELS, Lines, Texel};
 use super::taps::Taps;
 use super::texels::turned;
 use crate::region::Region;

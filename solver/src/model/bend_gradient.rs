@@ -8,8 +8,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::bend::{Bent, gather, together};
+use super::halving::{CHANNELS, Lines, Sums, Texel, add_edges};
 use super::planes::{BLOCK, Row};
-use super::pyramid::{CHANNELS, Lines, Pyramid, Sums, Texel, add_edges};
+use super::pyramid::Pyramid;
 use super::taps::Taps;
 use crate::region::Region;
 use crate::simd::widened;
@@ -19,14 +20,15 @@ use crate::simd::widened;
 pub struct BendGradient {
     /// By texel.
     pub own: Vec<Texel>,
-    /// By texel of the base ([`Pyramid::base`]).
+    /// By texel of the base ([`Pyramid::base_size`]).
     pub base: Vec<Texel>,
 }
 
 impl BendGradient {
     /// Zeros.
     pub fn new(blur: &Pyramid) -> Self {
-        let [own, base] = [blur.size(), blur.base()].map(|side| vec![[0.0; CHANNELS]; side * side]);
+        let [own, base] =
+            [blur.size(), blur.base_size()].map(|side| vec![[0.0; CHANNELS]; side * side]);
         Self { own, base }
     }
 
@@ -38,10 +40,10 @@ impl BendGradient {
         scratch: impl Fn() -> S + Send + Sync,
         work: impl Fn(&mut S, &mut RowSums) -> T + Sync,
     ) -> Vec<T> {
-        let (size, width, rows) = (taps.size(), blur.base(), taps.strip().next_multiple_of(2));
+        let (size, width, rows) = (taps.size(), blur.base_size(), taps.strip().next_multiple_of(2));
         let scratch = || (scratch(), Buffers::new(size));
         let strip = |(scratch, buffers): &mut (S, Buffers),
-                     (number, (own, base)): (usize, Strip)| {
+                     (number, (own, base)): (usize, Rows)| {
             let first = number * rows;
             let samples = taps.blocks_of(first..first + own.len() / size);
             let at = taps.cells().get(samples.start).map_or(first, |cell| *cell as usize / size);
@@ -77,7 +79,7 @@ impl BendGradient {
 }
 
 /// Rows of the texture, and of the base.
-type Strip<'a> = (&'a mut [Texel], &'a mut [Texel]);
+type Rows<'a> = (&'a mut [Texel], &'a mut [Texel]);
 
 /// What samples add to the rows of a strip, downwards.
 pub struct RowSums<'a> {

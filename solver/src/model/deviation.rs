@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use super::bend::Bend;
 use super::bend_gradient::BendGradient;
 use super::blur::Blur;
+use super::halving::{Lines, ROWS, Sums, Texel, add_edges};
 use super::normals::DirectionScale;
-use super::pyramid::{Lines, Pyramid, ROWS, Sums, Texel, add_edges};
-use super::texture::{interleave, part};
+use super::pyramid::Pyramid;
+use super::texture::part;
 use crate::backend::cpu::exp;
 use crate::config::Config;
-use crate::convolution::Place;
-use crate::parallel::from_parts;
+use crate::region::Place;
 use crate::region::Region;
 use crate::simd::widened;
 
@@ -79,11 +79,11 @@ impl Deviation {
 
     /// d and its blur.
     pub fn textures(&self, deviation: &[f32]) -> Bend {
-        let sharp = self.squashed(&self.band(deviation));
-        let padding = vec![0.0; self.size * self.size];
-        let texels = interleave::<4>(&[(&sharp, CHANNELS), (&padding, 1)]);
-        let blurred = self.blur.apply(texels.as_chunks().0);
-        Bend { blurred: part::<4, CHANNELS>(&blurred, 0), sharp }
+        let texels = self.texels(deviation, &vec![0.0; self.size * self.size]);
+        let blurred = self.blur.apply(&texels);
+        let [sharp, blurred] =
+            [texels.as_flattened(), &blurred].map(|texture| part::<4, CHANNELS>(texture, 0));
+        Bend { sharp, blurred }
     }
 
     /// Side of the textures, texels.
@@ -142,16 +142,21 @@ impl Deviation {
 
     /// d of a deviation texture, with the specular albedo.
     pub fn seen(&self, deviation: &[f32], specular: &[f32], reach: &[Region]) -> Seen {
+        let side = if self.blur.levels() > 0 { self.blur.base_size() } else { 0 };
+        let halved = vec![Texel::default(); side * side];
+        let mut seen = Seen { texels: self.texels(deviation, specular), halved };
+        self.remake(&mut seen, reach, &mut vec![(); self.size], || (), |(), _, _, ()| {});
+        seen
+    }
+
+    fn texels(&self, deviation: &[f32], specular: &[f32]) -> Vec<Texel> {
         let (band, size) = (self.band(deviation), self.size);
-        let side = if self.blur.levels() > 0 { self.blur.base() } else { 0 };
-        let [texels, halved] = [size, side].map(|side| vec![Texel::default(); side * side]);
-        let mut seen = Seen { texels, halved };
-        let rows = seen.texels.par_chunks_mut(size).enumerate();
+        let mut texels = vec![Texel::default(); specular.len()];
+        let rows = texels.par_chunks_mut(size).enumerate();
         rows.for_each(|(row, texels)| {
             self.put(texels, &band[CHANNELS * row * size..], &specular[row * size..]);
         });
-        self.remake(&mut seen, reach, &mut vec![(); size], || (), |(), _, _, ()| {});
-        seen
+        texels
     }
 
     /// Has texels changed row by row in what is reached, and halves them.
@@ -163,7 +168,7 @@ impl Deviation {
         scratch: impl Fn() -> S + Send + Sync,
         change: impl Fn(&mut S, &Place, &mut [Texel], &mut O) + Sync,
     ) {
-        let (size, width) = (self.size, self.blur.base());
+        let (size, width) = (self.size, self.blur.base_size());
         let empty = halved.is_empty();
         let count = size.div_ceil(ROWS);
         let length = if empty { 0 } else { ROWS / 2 * width };
@@ -207,19 +212,6 @@ impl Deviation {
     /// The blur of d.
     pub fn blur(&self) -> &Pyramid {
         &self.blur
-    }
-
-    /// d of a texture's B t ([`Self::band`]).
-    pub fn squashed(&self, band: &[f32]) -> Vec<f32> {
-        let line = CHANNELS * self.size;
-        from_parts(band.len(), line, |row, out| self.squash(out, &band[row * line..])).0
-    }
-
-    fn squash(&self, out: &mut [f32], band: &[f32]) {
-        match self.range {
-            Some(range) => squash(out, band, range),
-            None => out.copy_from_slice(&band[..out.len()]),
-        }
     }
 
     /// B or its transpose.
@@ -290,14 +282,6 @@ widened! {
                 texel[c] = range.map_or(band[c], |range| range * tanh(band[c]));
             }
             texel[CHANNELS] = *specular;
-        }
-    }
-}
-
-widened! {
-    fn squash(out: &mut [f32], t: &[f32], range: f32) {
-        for (out, t) in out.iter_mut().zip(t) {
-            *out = range * tanh(*t);
         }
     }
 }

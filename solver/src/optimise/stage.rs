@@ -7,18 +7,18 @@ use super::adam::{Adam, Part};
 use crate::backend::resident::{Job, ReliefJob, Variable};
 use crate::backend::{ALBEDOS, Backend, TexturedRelief};
 use crate::config::Config;
-use crate::convolution::Place;
 use crate::model::bend::BentTextures;
 use crate::model::bend_gradient::BendGradient;
 use crate::model::deviation::{Deviation, Gradients, Seen};
+use crate::model::halving::Texel;
 use crate::model::layer::Layer;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
-use crate::model::pyramid::Texel;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
+use crate::region::Place;
 use crate::region::Region;
 
 /// Everything that is being solved for.
