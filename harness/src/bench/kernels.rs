@@ -76,10 +76,10 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     });
     let four = vec![0.5f32; 4 * size.texture * size.texture];
     time("texture sampling, 4 channels", 48.0 * pixels, 7.0 * pixels + 4.0 * texels, &mut || {
-        taps.sample_vectors::<1>(&four, 4);
+        taps.sample_vectors(&four);
     });
     time("gather, 4 channels", 48.0 * pixels, 7.0 * pixels + 4.0 * texels, &mut || {
-        taps.gather_vectors::<1, 4>(&albedo);
+        taps.gather_vectors(&albedo);
     });
     let mut gradient = vec![0.0f32; state.diffuse.len()];
     time("prior", 40.0 * 3.0 * texels, 3.0 * 3.0 * texels, &mut || {

@@ -57,10 +57,10 @@ pub trait Backend: Send + Sync {
         albedo: &[f32],
     ) -> TexturedJointGradient {
         let taps = &samples.taps;
-        let sampled = taps.sample_vectors::<1>(albedo, ALBEDOS);
+        let sampled = taps.sample_vectors(albedo);
         let JointGradient { loss, networks, albedo } =
             self.joint(networks, samples, directions, &sampled);
-        let albedo = taps.gather_vectors::<1, ALBEDOS>(&albedo);
+        let albedo = taps.gather_vectors(&albedo);
         TexturedJointGradient { loss, networks, albedo }
     }
 

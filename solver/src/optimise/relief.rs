@@ -94,7 +94,7 @@ impl<'a> ReliefSolve<'a> {
         let diffuse = resample(&diffuse, state.size, 3, size);
         let specular = resample(&state.specular, state.size, 1, size);
         let albedo = interleave::<ALBEDOS>(&[(&diffuse, 3), (&specular, 1)]);
-        let albedo = samples.taps.sample_vectors::<1>(&albedo, ALBEDOS);
+        let albedo = samples.taps.sample_vectors(&albedo);
         Self {
             config: height,
             backend,

@@ -50,7 +50,7 @@ impl State {
 
     /// Diffuse and specular albedo at every sample.
     pub fn albedo(&self, samples: &Samples) -> Planes {
-        samples.taps.sample_vectors::<1>(&self.albedo_texture(), ALBEDOS)
+        samples.taps.sample_vectors(&self.albedo_texture())
     }
 
     /// Diffuse and specular albedo, texel by texel.

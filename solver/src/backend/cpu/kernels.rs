@@ -112,9 +112,9 @@ fn joint_textured_body<S: Lanes, const C: usize>(
     let mut loss = 0.0;
     let mut albedo = [Row::ZERO; ALBEDOS];
     for (block, lanes) in blocks(strip.samples.clone()) {
-        inputs.samples.taps.sample_vectors_of::<1>(texture, block, &mut albedo);
+        inputs.samples.taps.sample_vectors_of(texture, block, &mut albedo);
         loss += joint_block::<S, C>(inputs, block, &albedo, s);
-        strip.add_vectors::<1>(block, lanes, &s.gradient.albedo);
+        strip.add_vectors(block, lanes, &s.gradient.albedo);
     }
     loss
 }
