@@ -122,14 +122,17 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
         "Ten views, 12 million pixels in half resolution for 2000 steps, 48 million in full for 1000, \
          2048² textures; the paper reports under 30 minutes on an RTX 3080.\n"
     )?;
-    let PaperSize { share, steps, seconds } = &report.paper;
-    let backend = steps.first().map_or("", |step| &step.backend);
-    writeln!(page, "- {backend}: {seconds:.0} s, on one pixel of {share}, multiplied by {share}.")?;
+    let PaperSize { shares: [more, less], steps, seconds } = &report.paper;
+    let backend = steps.first().map_or("", |[step, _]| &step.backend);
+    writeln!(
+        page,
+        "- {backend}: {seconds:.0} s, from steps on one pixel of {more} and of {less}, on the line through their times."
+    )?;
     match &report.gpu {
         Some(gpu) => writeln!(page, "- {}: below.\n", gpu.name)?,
         None => writeln!(page, "- gpu: not yet measured.\n")?,
     }
-    write_steps(page, steps.iter())?;
+    write_steps(page, steps.as_flattened().iter())?;
     write_gpu(page, report.gpu.as_ref())
 }
 

@@ -47,8 +47,8 @@ const FINE: usize = 1024;
 const PAPER_PIXELS: [usize; 2] = [12_000_000, 48_000_000];
 const PAPER_TEXTURE: usize = 2048;
 const PAPER_STEPS: [usize; 3] = [2000, 500, 500];
-/// A processor does this share of its pixels.
-const PAPER_SHARE: usize = 16;
+/// A processor does these shares of its pixels; a step's time is linear in them, but for its textures.
+const PAPER_SHARES: [usize; 2] = [16, 64];
 /// Bytes of each array of the bandwidth measurement: far more than any cache.
 const ARRAY: usize = 128 << 20;
 /// Steps whose losses are compared with PyTorch's.
@@ -92,11 +92,11 @@ pub struct Report {
 /// The paper's capture on the processor.
 #[derive(Debug, Serialize)]
 pub struct PaperSize {
-    /// One over the share of the pixels that was really there.
-    pub share: usize,
-    /// One step of each kind.
-    pub steps: Vec<Step>,
-    /// Seconds of all 3000 steps on all pixels: the measured ones times `share`.
+    /// One over the shares of the pixels that were really there, the larger share first.
+    pub shares: [usize; 2],
+    /// One step of each kind on each share.
+    pub steps: Vec<[Step; 2]>,
+    /// Seconds of all 3000 steps on all pixels, on the line through the measured ones.
     pub seconds: f64,
 }
 
@@ -252,23 +252,26 @@ impl Bench {
     }
 
     fn paper(&self) -> Paper {
-        Paper { quick: self.quick, share: if self.quick { 10_000 } else { PAPER_SHARE } }
+        Paper {
+            quick: self.quick,
+            shares: if self.quick { [10_000, 40_000] } else { PAPER_SHARES },
+        }
     }
 
     fn paper_size(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> PaperSize {
         let paper = self.paper();
-        let share = paper.share;
-        let mut steps = vec![];
-        for kind in Kind::ALL {
-            progress(&format!("the paper's capture, {}, {}", kind.name(), device.name()));
-            let size = paper.size(kind, share);
-            steps.push(steps::measure(kind, device, reach, size, self.budget()));
-        }
-        let seconds = steps
-            .iter()
-            .zip(PAPER_STEPS)
-            .map(|(step, steps)| 1e-3 * step.milliseconds * steps as f64 * share as f64);
-        PaperSize { share, seconds: seconds.sum(), steps }
+        let steps = Kind::ALL.map(|kind| {
+            paper.shares.map(|share| {
+                let size = paper.size(kind, share);
+                progress(&format!("{} of the paper, {} pixels", kind.name(), size.0));
+                steps::measure(kind, device, reach, size, self.budget())
+            })
+        });
+        let seconds = steps.iter().zip(PAPER_STEPS).map(|([more, less], steps)| {
+            let times = [more, less].map(|step| (step.pixels, step.milliseconds));
+            1e-3 * steps as f64 * on_a_line(times, paper.size(more.kind, 1).0)
+        });
+        PaperSize { shares: paper.shares, seconds: seconds.sum(), steps: steps.to_vec() }
     }
 
     /// Steps, whole solves and the paper's capture on a GPU; `cpu` says what the losses should be.
@@ -301,8 +304,8 @@ impl Bench {
 /// The size of the paper's capture.
 struct Paper {
     quick: bool,
-    /// One over the share that a processor does.
-    share: usize,
+    /// One over the shares that a processor does.
+    shares: [usize; 2],
 }
 
 impl Paper {
@@ -314,6 +317,12 @@ impl Paper {
             _ => (full, if self.quick { 32 } else { PAPER_TEXTURE }),
         }
     }
+}
+
+/// The time on so many pixels, from two times on fewer.
+fn on_a_line([(more, later), (less, sooner)]: [(usize, f64); 2], pixels: usize) -> f64 {
+    let slope = (later - sooner) / (more as f64 - less as f64);
+    later + slope * (pixels as f64 - more as f64)
 }
 
 fn torch_row(
@@ -396,6 +405,13 @@ mod tests {
             panic!("{:?}", report.paper)
         };
         assert!(steps.len() == 3 && *seconds > 0.0);
+    }
+
+    #[test]
+    fn what_a_step_takes_without_pixels_is_counted_once() {
+        let time = |pixels: usize| 7.0 + 0.25 * pixels as f64;
+        let times = [120, 30].map(|pixels| (pixels, time(pixels)));
+        assert_eq!(on_a_line(times, 1920), time(1920));
     }
 
     #[test]

@@ -145,7 +145,7 @@ impl Device {
     /// The paper's capture: on a GPU all steps on all pixels, if the host can hold them.
     pub fn paper(&self, paper: &Paper, progress: &mut dyn FnMut(&str)) -> GpuPaper {
         let share = match (paper.quick, self.software) {
-            (true, _) => paper.share,
+            (true, _) => paper.shares[0],
             (_, true) => SOFTWARE_SHARE,
             _ if available().is_some_and(|bytes| bytes < PAPER_MEMORY) => 4,
             _ => 1,
