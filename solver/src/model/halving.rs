@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::quads::{double_row, halve_row};
 use super::strips::add_parts;
 use crate::parallel::from_parts;
 use crate::region::Region;
@@ -224,31 +225,6 @@ pub(super) fn doubled_row(
         line[count - 1] = line[count - 2];
     }
     double_row(&mut lines.fine[columns.clone()], line);
-}
-
-widened! {
-    /// The transpose of [`double_row`]. The line begins a texel before the first two that become one.
-    fn halve_row(out: &mut [Texel], line: &[Texel]) {
-        for (k, out) in out.iter_mut().enumerate() {
-            let Some([a, b, c, d]) = line[2 * k..].first_chunk() else { return };
-            for k in 0..CHANNELS {
-                out[k] = FAR * (a[k] + d[k]) + NEAR * (b[k] + c[k]);
-            }
-        }
-    }
-}
-
-widened! {
-    /// Interpolates pairs of texels of a line which begins a texel before that of the first pair.
-    fn double_row(out: &mut [Texel], line: &[Texel]) {
-        for (k, out) in out.as_chunks_mut::<2>().0.iter_mut().enumerate() {
-            let Some([a, b, c]) = line[k..].first_chunk() else { return };
-            for k in 0..CHANNELS {
-                out[0][k] = FAR * a[k] + NEAR * b[k];
-                out[1][k] = NEAR * b[k] + FAR * c[k];
-            }
-        }
-    }
 }
 
 widened! {

@@ -12,6 +12,7 @@ pub mod normals;
 pub mod planes;
 pub mod prior;
 pub mod pyramid;
+mod quads;
 mod rows;
 pub mod samples;
 pub mod strips;
