@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::quads::{double_row, halve_row};
+use super::pairs::{double_row, halve_row};
 use super::strips::add_parts;
 use crate::parallel::from_parts;
 use crate::region::Region;
