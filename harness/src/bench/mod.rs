@@ -263,7 +263,11 @@ impl Bench {
         let steps = Kind::ALL.map(|kind| {
             paper.shares.map(|share| {
                 let size = paper.size(kind, share);
-                progress(&format!("{} of the paper, {} pixels", kind.name(), size.0));
+                let (pixels, name) = (size.0, kind.name());
+                progress(&format!(
+                    "the paper's capture, {name}, {pixels} pixels, {}",
+                    device.name()
+                ));
                 steps::measure(kind, device, reach, size, self.budget())
             })
         });
