@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::atomic::FolderError;
 use crate::memory::{Estimate, bytes};
 use crate::picture::PictureError;
 
@@ -82,6 +83,9 @@ pub enum ConfigError {
 /// A maps folder that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum MapsError {
+    /// The folder must not be written where it was to be.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// A file or the folder itself cannot be read or written.
     #[error("{path}: {source}")]
     Io {

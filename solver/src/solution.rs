@@ -146,10 +146,9 @@ impl Solution {
     /// Writes the maps folder with `views/`, `solve.json` and `timing.json`, completely or not at
     /// all.
     pub fn write(&self, folder: &Path) -> Result<(), MapsError> {
-        let io = |source| MapsError::Io { path: folder.to_path_buf(), source };
-        let partial = Folder::begin(folder).map_err(io)?;
+        let partial = Folder::begin(folder)?;
         self.write_into(partial.path())?;
-        partial.commit().map_err(io)
+        Ok(partial.commit()?)
     }
 
     /// Writes the files into a folder that exists, for callers that add files of their own.

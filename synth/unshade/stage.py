@@ -56,6 +56,10 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--seed-offset", type=int, default=0)
     relight.set_defaults(stage=_relight)
 
+    check = verbs.add_parser("check", help="read a scene and render nothing")
+    check.add_argument("--scene", type=Path, required=True)
+    check.set_defaults(stage=_check)
+
     describe = verbs.add_parser("describe", help="say what a scene stands for")
     describe.add_argument("--scene", type=Path, required=True)
     describe.set_defaults(stage=_describe)
@@ -70,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, describe, sheet, doctor, physics):
+    for verb in (synth, relight, check, describe, sheet, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -111,6 +115,12 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _check(options: argparse.Namespace) -> dict[str, Any]:
+    from .scene_file import read_scene
+
+    return {"name": read_scene(options.scene).name}
 
 
 def _describe(options: argparse.Namespace) -> dict[str, Any]:

@@ -65,7 +65,7 @@ pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
     match out {
         Some(out) => fs::create_dir_all(out.parent().unwrap_or(out.as_path()))
             .and_then(|()| atomic::write_file(out, text.as_bytes()))?,
-        None => print!("{text}"),
+        None => say!("{}", text.trim_end()),
     }
     Ok(())
 }

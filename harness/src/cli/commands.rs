@@ -15,7 +15,7 @@ use super::{
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report::{self, ReportError};
 use crate::score;
-use crate::suite::{self, BaselineMethod, Observer, RunError, Suite, Tools};
+use crate::suite::{self, BaselineMethod, Observer, RunError, RunOptions, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
@@ -28,12 +28,14 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             })?;
         }
         Verb::Score { capture, maps, relit, out } => {
+            let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
+            atomic::apart(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
             score::score(&capture, &maps, relit.as_deref())?.write(&out)?;
         }
-        Verb::Run { suite, out } => return run_suite(&suite, &out),
+        Verb::Run { suite, out, redo } => return run_suite(&suite, &out, RunOptions { redo }),
         Verb::Report { run, out } => {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
-            println!("{}", out.join("index.html").display());
+            say!("{}", out.join("index.html").display());
         }
         Verb::Table { runs, out } => {
             let mut words = vec!["unshade table".to_owned()];
@@ -84,7 +86,7 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
             alone("synth", |tools, step| suite::synth(&scene, &out, tools, step))
         }
         (Some(scene), ..) => {
-            println!("{}", suite::describe(&scene, &tools())?);
+            say!("{}", suite::describe(&scene, &tools())?);
             Ok(())
         }
         _ => Ok(()),
@@ -93,7 +95,9 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let mut config = if arguments.config.ends_with(".toml") {
-        solver::Config::from_toml(&fs::read_to_string(&arguments.config)?)?
+        let path = std::path::PathBuf::from(&arguments.config);
+        let text = fs::read_to_string(&path);
+        solver::Config::from_toml(&text.map_err(|reason| RunError::File { path, reason })?)?
     } else {
         solver::Config::preset(&arguments.config)?
     };
@@ -139,18 +143,21 @@ fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunErro
     method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
 }
 
-fn run_suite(suite: &Path, out: &Path) -> Result<u8, RunError> {
+fn run_suite(suite: &Path, out: &Path, options: RunOptions) -> Result<u8, RunError> {
     let suite = Suite::open(suite)?;
     let mut progress = Progress::new();
     let start = Instant::now();
-    let summary = suite::run(&suite, out, &tools(), &mut progress);
+    let summary = suite::run(&suite, out, &options, &tools(), &mut progress);
     progress.finish();
     let summary = summary?;
     let seconds = start.elapsed().as_secs_f64();
     let (ran, skipped) = (summary.ran, summary.skipped);
     eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
-    println!("{}", summary.report.display());
-    Ok(DONE)
+    say!("{}", summary.report.display());
+    for (name, reason) in &summary.failed {
+        eprintln!("unshade: {name} failed: {reason}");
+    }
+    Ok(if summary.failed.is_empty() { DONE } else { CHECK_FAILED })
 }
 
 fn compare_run(arguments: &CompareArgs) -> Result<u8, RunError> {
@@ -161,8 +168,9 @@ fn compare_run(arguments: &CompareArgs) -> Result<u8, RunError> {
     let current = Baseline::of_run(&arguments.run)?;
     let comparison = compare(&current, &Baseline::read(&arguments.baseline)?, &tolerances)?;
     if let Some(path) = &arguments.junit {
-        atomic::write_file(path, comparison.junit()?.as_bytes())?;
+        let written = atomic::write_file(path, comparison.junit()?.as_bytes());
+        written.map_err(|reason| RunError::File { path: path.clone(), reason })?;
     }
-    print!("{}", comparison.table());
+    say!("{}", comparison.table().trim_end());
     Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
 }

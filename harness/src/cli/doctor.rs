@@ -11,21 +11,21 @@ use crate::synth::{StageError, run_stage};
 
 /// Prints one line a part; exit code 1 if something that a run needs is missing.
 pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
-    println!("unshade      {}", env!("CARGO_PKG_VERSION"));
-    println!("python       {}", tools.interpreter.path().display());
-    println!("cpu          {} threads, {}", rayon::current_num_threads(), solver::simd_level());
+    say!("unshade      {}", env!("CARGO_PKG_VERSION"));
+    say!("python       {}", tools.interpreter.path().display());
+    say!("cpu          {} threads, {}", rayon::current_num_threads(), solver::simd_level());
     let adapters = adapters();
     if adapters.is_empty() {
-        println!("gpu          none");
+        say!("gpu          none");
     }
     for adapter in adapters {
         let kind = match adapter.software {
             true => format!("software: only if {VARIABLE} names it"),
             false => "GPU".to_owned(),
         };
-        println!("gpu          {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
+        say!("gpu          {} ({}, {}, {kind})", adapter.name, adapter.api, adapter.driver);
     }
-    println!("backend auto {}", Choice::Auto.open().map_or_else(|e| e.to_string(), |b| b.name()));
+    say!("backend auto {}", Choice::Auto.open().map_or_else(|e| e.to_string(), |b| b.name()));
     let mut complete = checks(tools, "doctor", &mut |_, _, _| {})?;
     if complete && physics {
         let mut progress = Progress::new();
@@ -49,7 +49,7 @@ fn checks(
         Ok(found) => found,
         Err(StageError::Interrupted) => return Err(RunError::Interrupted),
         Err(error) => {
-            println!("renderer     FAILED: {error}");
+            say!("renderer     FAILED: {error}");
             return Ok(false);
         }
     };
@@ -57,10 +57,10 @@ fn checks(
     for part in found["checks"].as_array().into_iter().flatten() {
         let text = |key: &str| part.get(key).and_then(Value::as_str).unwrap_or_default();
         if part["ok"].as_bool().unwrap_or(false) {
-            println!("{:<12} {}", text("name"), text("found"));
+            say!("{:<12} {}", text("name"), text("found"));
         } else {
             complete = false;
-            println!("{:<12} FAILED: {}; {}", text("name"), text("found"), text("mend"));
+            say!("{:<12} FAILED: {}; {}", text("name"), text("found"), text("mend"));
         }
     }
     Ok(complete)

@@ -1,6 +1,15 @@
 //! The `unshade` command. Exit codes: 0 done, 1 a check failed, 2 bad input or usage,
 //! 3 interrupted.
 
+/// Prints a line for a reader who may have gone: of `... | head` nobody hears the rest.
+macro_rules! say {
+    ($($words:tt)*) => {{
+        use std::io::Write;
+        let mut out = std::io::stdout().lock();
+        let _ = writeln!(out, $($words)*).and_then(|()| out.flush());
+    }};
+}
+
 mod bench;
 mod commands;
 mod doctor;
@@ -58,6 +67,9 @@ enum Verb {
         /// The run's folder.
         #[arg(short, long)]
         out: PathBuf,
+        /// Make the maps of this method anew, whatever was kept; may be given again.
+        #[arg(long, value_name = "NAME")]
+        redo: Vec<String>,
     },
     /// Write a run's report: one folder that opens offline.
     Report {

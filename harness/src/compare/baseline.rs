@@ -55,7 +55,8 @@ struct Case {
 #[derive(Deserialize)]
 struct Entrant {
     id: String,
-    scores: String,
+    /// None of a method that failed.
+    scores: Option<String>,
 }
 
 impl Baseline {
@@ -76,7 +77,8 @@ impl Baseline {
         let mut baseline = Self { versions, ..Self::new(&suite) };
         for case in &cases {
             for entrant in &case.solvers {
-                let scores = Scores::read(&run.join(&entrant.scores))?;
+                let Some(scores) = &entrant.scores else { continue };
+                let scores = Scores::read(&run.join(scores))?;
                 baseline.add(&format!("{}/{}", case.id, entrant.id), &scores);
             }
         }

@@ -28,6 +28,17 @@ pub enum CompareError {
     /// A baseline or a run without scores would pass whatever happens.
     #[error("{0}: has no scores to compare; run the suite to its end")]
     Empty(PathBuf),
+    /// Nothing of the two is the same.
+    #[error(
+        "the run is of the suite {run:?}, the baseline of {baseline:?}; compare with a baseline of the \
+         run's suite (every report has one)"
+    )]
+    Suites {
+        /// The run's suite.
+        run: String,
+        /// The baseline's.
+        baseline: String,
+    },
     /// A row has no tolerance.
     #[error("no rule of the tolerances matches {0}; add one, rows = \"*\" matches everything")]
     NoRule(String),

@@ -75,6 +75,10 @@ pub fn compare(
     baseline: &Baseline,
     tolerances: &Tolerances,
 ) -> Result<Comparison, CompareError> {
+    if current.suite != baseline.suite {
+        let (run, baseline) = (current.suite.clone(), baseline.suite.clone());
+        return Err(CompareError::Suites { run, baseline });
+    }
     let mut rows = Vec::new();
     for (id, old) in &baseline.rows {
         rows.push(judge(id, Some(old), current.rows.get(id), tolerances)?);

@@ -23,6 +23,7 @@ macro_rules! named {
 }
 
 named! {
+    solver::atomic::FolderError => "StorageError",
     BackendError => "BackendError",
     CaptureError => "CaptureError",
     MapsError => "MapsError",

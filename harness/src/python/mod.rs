@@ -4,6 +4,7 @@ mod arrays;
 mod calls;
 mod capture;
 mod errors;
+mod folders;
 mod maps;
 mod metrics;
 mod stages;
@@ -24,6 +25,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::synth, module)?)?;
     module.add_function(wrap_pyfunction!(stages::relight, module)?)?;
     module.add_function(wrap_pyfunction!(stages::run, module)?)?;
+    module.add_function(wrap_pyfunction!(folders::begin_folder, module)?)?;
+    module.add_function(wrap_pyfunction!(folders::commit_folder, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
     Ok(())

@@ -34,7 +34,16 @@ pub(super) fn relight(
 /// Runs a suite, resuming it, and returns its report's page.
 #[pyfunction]
 pub(super) fn run(py: Python<'_>, suite: PathBuf, out: PathBuf) -> PyResult<PathBuf> {
-    watched(py, |tools| Ok(suite::run(&Suite::open(&suite)?, &out, tools, &mut Silent)?.report))
+    watched(py, |tools| {
+        Ok(suite::run(
+            &Suite::open(&suite)?,
+            &out,
+            &suite::RunOptions::default(),
+            tools,
+            &mut Silent,
+        )?
+        .report)
+    })
 }
 
 struct Silent;

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::ReportError;
+use super::methods::{self as made, MethodRow};
 use super::plates::{self, Input, Method, Plate, Studio};
-use super::run::{Case, Frames};
+use super::run::{Case, Frames, Timing};
 use super::solve::Solve;
 use super::table::{self, Column, Table};
 use crate::score::RegionSize;
@@ -23,6 +24,7 @@ pub(super) struct CaseView {
     train: usize,
     test: usize,
     inputs: Vec<Input>,
+    methods: Vec<MethodRow>,
     table: Table,
     complete: Table,
     regions: Vec<Region>,
@@ -80,6 +82,7 @@ impl CaseView {
         run: &Path,
         case: &Case,
         columns: &[Column],
+        timing: &Timing,
         root: &Path,
     ) -> Result<Self, ReportError> {
         let capture = run.join(&case.capture);
@@ -125,6 +128,7 @@ impl CaseView {
             train: frames.train.len(),
             test: frames.test.len(),
             inputs: studio.inputs()?,
+            methods: made::rows(run, case, columns, timing, root)?,
             table: table::chosen(columns, &case.light),
             complete: table::complete(columns, &case.light),
             regions: regions(columns),

@@ -16,6 +16,7 @@ mod live;
 mod live;
 mod maps;
 mod matrix;
+mod methods;
 mod metric;
 mod page;
 mod plates;
@@ -37,7 +38,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use solver::atomic::Folder;
+use solver::atomic::{self, Folder, FolderError};
 use solver::picture::PictureError;
 
 pub use live::Live;
@@ -92,9 +93,9 @@ pub enum ReportError {
         /// What the system said.
         reason: io::Error,
     },
-    /// The target holds something else, which would be lost.
-    #[error("{0}: exists and is not a report; choose a new folder")]
-    NotAReport(PathBuf),
+    /// The report must not be written where it was to be.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// The user interrupted.
     #[error("interrupted; the same command makes the report anew")]
     Interrupted,
@@ -136,7 +137,7 @@ const FORMAT: u32 = 1;
 /// The file that `unshade compare` reads.
 const BASELINE: &str = "baseline.json";
 
-/// Stands in every page, and tells a folder that may be replaced from one that may not.
+/// Stands in every page.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
 /// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
@@ -146,14 +147,17 @@ pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 /// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report. If
 /// `hearer` ends it, the earlier report stays.
 pub fn write(run: &Path, out: &Path, hearer: &mut Hearer) -> Result<ReportSummary, ReportError> {
-    check_target(out)?;
     let manifest = RunFile::open(run)?;
-    let folder = Folder::begin(out).map_err(|error| ReportError::write(out, error))?;
-    let page = fill(run, &manifest, folder.path(), hearer).inspect_err(|_| {
-        // The report's own fault is what matters, not that its remains could not be removed.
-        let _ = fs::remove_dir_all(folder.path());
-    })?;
-    folder.commit().map_err(|error| ReportError::write(out, error))?;
+    check_place(run, out)?;
+    let folder = Folder::begin(out)?;
+    let page = match fill(run, &manifest, folder.path(), hearer) {
+        Ok(page) => page,
+        Err(error) => {
+            folder.abandon();
+            return Err(error);
+        }
+    };
+    folder.commit()?;
     Ok(ReportSummary {
         index: out.join("index.html"),
         cases: manifest.cases.len(),
@@ -177,13 +181,11 @@ fn fill(
     Ok(page)
 }
 
-/// Refuses to replace a folder that is neither empty nor an earlier report.
-fn check_target(out: &Path) -> Result<(), ReportError> {
-    let refused = || Err(ReportError::NotAReport(out.to_path_buf()));
-    if out.file_name().is_none() || out.is_file() {
-        return refused();
+/// A report may lie in its run, as `report`, and nowhere else in it.
+fn check_place(run: &Path, out: &Path) -> Result<(), FolderError> {
+    let own = std::path::absolute(run.join("report")).ok();
+    if own.is_some() && own == std::path::absolute(out).ok() {
+        return Ok(());
     }
-    let occupied = fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some());
-    let page = fs::read_to_string(out.join("index.html")).unwrap_or_default();
-    if occupied && !page.contains(MARK) { refused() } else { Ok(()) }
+    atomic::apart(out, &[run])
 }

@@ -75,13 +75,15 @@ impl Page {
         let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
         let pairs = manifest.cases.iter().zip(&scores);
         let columns: Vec<Vec<Column>> = pairs.map(|(case, scores)| columns(case, scores)).collect();
+        let timing: Timing =
+            run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
         let (mut summaries, mut cases) = (Vec::new(), Vec::new());
         for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
             if !hearer(done as u64, manifest.cases.len() as u64, &case.id) {
                 return Err(ReportError::Interrupted);
             }
             summaries.push(summary(case, columns));
-            cases.push(CaseView::make(run, case, columns, root)?);
+            cases.push(CaseView::make(run, case, columns, &timing, root)?);
         }
         let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
         let sources = pairs.map(|((case, view), columns)| matrix::Source {
@@ -105,7 +107,7 @@ impl Page {
             protocols: protocols(scores.iter().flatten().flatten()),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
-            times: Times::read(run, manifest)?,
+            times: Times::of(run, manifest, timing)?,
             has_every_score: scores.iter().flatten().all(Option::is_some),
         })
     }
@@ -183,9 +185,7 @@ impl Definition {
 
 impl Times {
     /// The stages of the run, each solve followed by its own stages.
-    fn read(run: &Path, manifest: &RunFile) -> Result<Self, ReportError> {
-        let path = run.join("timing.json");
-        let timing: Timing = run::read_json_if_present(&path)?.unwrap_or_default();
+    fn of(run: &Path, manifest: &RunFile, timing: Timing) -> Result<Self, ReportError> {
         let total: f64 = timing.stages.iter().map(|stage| stage.seconds).sum();
         let longest = timing.stages.iter().map(|stage| stage.seconds).fold(0.0, f64::max);
         let row = |id: String, seconds: f64, cached: bool, part: bool| TimeRow {

@@ -56,6 +56,8 @@ pub(super) struct Entrant {
     pub maps: Option<PathBuf>,
     pub relit: Option<PathBuf>,
     pub scores: Option<PathBuf>,
+    /// Why there is nothing of it.
+    pub failed: Option<String>,
 }
 
 impl Entrant {
@@ -99,6 +101,21 @@ pub(super) struct StageTime {
     pub seconds: f64,
     #[serde(default)]
     pub cached: bool,
+    #[serde(default)]
+    pub made: Made,
+}
+
+/// How a stage's output came about.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Made {
+    #[serde(default)]
+    pub at: String,
+    #[serde(default)]
+    pub from: String,
+    /// Of a program that is not ours: the most memory it had, bytes.
+    pub peak_bytes: Option<u64>,
+    /// Whether the kernel kept it to its own files.
+    pub confined: Option<bool>,
 }
 
 /// `maps/timing.json`: what the stages of a solver took, by their names, in their order.

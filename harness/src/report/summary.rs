@@ -60,7 +60,10 @@ pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
         title: column.entrant.title().to_owned(),
         kind: column.entrant.kind.name(),
-        cells: KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
+        cells: match column.entrant.failed {
+            Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
+            None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
+        },
     });
     SummaryCase { id: case.id.clone(), anchor: plates::file_name(&case.id), rows: rows.collect() }
 }

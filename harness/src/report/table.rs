@@ -13,6 +13,9 @@ use crate::score::{Row, Scores};
 /// What stands in a cell without a value.
 pub(super) const EMPTY: &str = "–";
 
+/// What stands in the cells of a method that did not come to its end.
+pub(super) const FAILED: &str = "failed";
+
 /// One method in one case.
 pub(super) struct Column<'a> {
     pub entrant: &'a Entrant,
@@ -163,7 +166,10 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
         .iter()
         .zip(&rows)
         .map(|(column, row)| Cell {
-            value: shown(value(row), decimals),
+            value: match column.entrant.failed {
+                Some(_) => FAILED.to_owned(),
+                None => shown(value(row), decimals),
+            },
             interval: interval(row.and_then(|row| row.ci95), decimals),
             best: column.entrant.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
             kind: column.entrant.kind.name(),

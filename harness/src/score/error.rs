@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use solver::atomic::FolderError;
 use solver::picture::PictureError;
 
 use crate::metrics::MetricError;
@@ -44,6 +45,9 @@ pub enum ScoreError {
         /// Rows expected.
         height: usize,
     },
+    /// A folder must not be written where it was to be.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// A picture is broken.
     #[error(transparent)]
     Picture(#[from] PictureError),

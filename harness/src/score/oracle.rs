@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use solver::atomic::Folder;
+use solver::atomic::{self, Folder};
 
 use super::ScoreError;
 use super::truth::{self, present};
@@ -22,11 +22,12 @@ const FILES: [&str; 6] = [
 pub fn oracle_maps(capture: &Path, out: &Path) -> Result<(), ScoreError> {
     let truth = truth::folder(capture)?;
     let io = |error| ScoreError::io(out, error);
-    let folder = Folder::begin(out).map_err(io)?;
+    atomic::apart(out, &[capture])?;
+    let folder = Folder::begin(out)?;
     for name in FILES {
         let from = present(truth.join(name), truth::AGAIN)?;
         fs::copy(&from, folder.path().join(name)).map_err(|error| ScoreError::io(&from, error))?;
     }
     fs::write(folder.path().join("solve.json"), "{\n  \"solver\": \"oracle\"\n}\n").map_err(io)?;
-    folder.commit().map_err(io)
+    Ok(folder.commit()?)
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use solver::baselines;
 
-use super::run::RunError;
+use super::error::RunError;
 
 /// A method that every solver has to beat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +40,7 @@ impl BaselineMethod {
 
     /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
     pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
+        solver::atomic::apart(maps, &[capture]).map_err(solver::MapsError::from)?;
         let capture = solver::Capture::open(capture)?;
         let made = match self {
             Self::MeanTexture => baselines::mean_texture(&capture, size)?,

@@ -4,8 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Wall times differ from run to run and are no content.
-const NOT_CONTENT: &str = "timing.json";
+/// Wall times differ from run to run, and the mark of a folder says nothing that its files do not.
+const NOT_CONTENT: [&str; 2] = ["timing.json", solver::atomic::MARK];
 
 /// The BLAKE3 hash of a file, or of every path and file below a folder in sorted order.
 pub fn hash_path(path: &Path) -> io::Result<String> {
@@ -40,7 +40,10 @@ fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
             let path = entry?.path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.file_name().is_some_and(|name| name != NOT_CONTENT) {
+            } else if path
+                .file_name()
+                .is_some_and(|name| !NOT_CONTENT.iter().any(|known| name == *known))
+            {
                 files.push(path);
             }
         }

@@ -1,6 +1,6 @@
 //! Suite files: which faces, lights, variants and solvers are run against each other.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
@@ -20,6 +20,8 @@ pub const SCALES: [&str; 2] = ["none", "global"];
 /// A suite with its cases spelt out.
 #[derive(Clone, Debug)]
 pub struct Suite {
+    /// The file.
+    pub path: PathBuf,
     /// Short name.
     pub name: String,
     /// Shown in the report.
@@ -58,7 +60,7 @@ impl Suite {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Ok(Self { name, title, cases, entrants, scales, text })
+        Ok(Self { path: path.to_path_buf(), name, title, cases, entrants, scales, text })
     }
 }
 
@@ -84,10 +86,9 @@ fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> 
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
-
     use super::super::baseline::BaselineMethod;
     use super::super::method::Method;
+    use super::super::program::Start;
     use super::*;
 
     fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
@@ -138,10 +139,10 @@ mod tests {
         assert_eq!(suite.cases[0].scene.table["render"]["width"].as_integer(), Some(16));
         let Method::Fields { config, .. } = &suite.entrants[0].method else { panic!() };
         assert_eq!(config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
-        assert_eq!(
-            suite.entrants[1].method,
-            Method::Command(vec!["run".into(), "{capture}".into(), "{maps}".into()])
-        );
+        let Method::Program(program) = &suite.entrants[1].method else { panic!() };
+        let words = ["run", "{capture}", "{maps}"].map(str::to_owned).to_vec();
+        assert_eq!(program.start, Start::Command(words));
+        assert_eq!(program.folder, root.path());
         // The resolved text stands alone: it parses back to the same scene.
         let text = suite.cases[0].scene.to_toml().unwrap();
         assert_eq!(text.parse::<Table>().unwrap(), suite.cases[0].scene.table);
@@ -235,7 +236,24 @@ mod tests {
             (&*format!("{head}solvers = 1\n"), "solvers: is unknown; there are"),
             (head, "solver: is missing; write [[solver]] tables"),
             (&*format!("{head}[[solver]]\nname = \"a b\"\n"), "cannot name a folder"),
-            (&*format!("{head}[[solver]]\nname = \"a\"\nthreads = 2\n"), "unknown field `threads`"),
+            (
+                &*format!("{head}[[solver]]\nname = \"a\"\nthread = 2\n"),
+                "suite.toml:6: solver: unknown field `thread`",
+            ),
+            (&*format!("{head}[[solver]]\nname = \"a\"\n"), "no configuration is named \"a\""),
+            (
+                &*format!("{head}[[solver]]\nname = \"fast\"\n[solver.set]\nseed = \"x\"\n"),
+                "suite.toml:5: name: configuration: ",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"a\"\ncommand = \"x\"\ntimeout_s = -1\n"),
+                "suite.toml:7: timeout_s: must be seconds above 0",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"oracle\"\nversion = \"2\"\n"),
+                "has no use for version; leave it out",
+            ),
+            ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
             (
                 &*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"),
                 "no.toml: cannot be read",

@@ -1,5 +1,6 @@
 //! The `[[solver]]` tables of a suite: who is run, and how each is started.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -7,6 +8,7 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
+use super::program::{Limits, Program, Start};
 use super::scene::{self, SceneError};
 
 /// How a solver is started.
@@ -19,10 +21,8 @@ pub enum Method {
         /// What it runs on.
         backend: Choice,
     },
-    /// Any program: arguments with `{capture}` and `{maps}` replaced.
-    Command(Vec<String>),
-    /// A Python function `module:function(capture, maps)`.
-    Python(String),
+    /// A program that is not ours.
+    Program(Program),
     /// The true maps: the floor that rendering noise and the pipeline set.
     Oracle,
     /// An answer that needs no optimisation.
@@ -71,6 +71,13 @@ struct SolverTable {
     python: Option<String>,
     /// Of a baseline.
     texture_size: Option<usize>,
+    /// Of a program.
+    timeout_s: Option<f64>,
+    memory_gib: Option<f64>,
+    threads: Option<usize>,
+    version: Option<String>,
+    inputs: Option<Vec<String>>,
+    environment: Option<BTreeMap<String, String>>,
 }
 
 #[derive(Deserialize)]
@@ -88,10 +95,10 @@ pub(super) fn entrants_of(path: &Path, table: &Table) -> Result<Vec<Entrant>, Sc
     };
     let mut entrants: Vec<Entrant> = Vec::new();
     for value in list {
-        let solver: SolverTable = value
-            .clone()
-            .try_into()
-            .map_err(|error: toml::de::Error| SceneError::value(path, "solver", error.message()))?;
+        let solver: SolverTable = value.clone().try_into().map_err(|error: toml::de::Error| {
+            let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
+            SceneError::in_table(path, name, "solver", error.message())
+        })?;
         let entrant = entrant_of(path, solver)?;
         if entrants.iter().any(|other| other.id == entrant.id) {
             let reason = format!("{:?} occurs twice; rename one", entrant.id);
@@ -105,27 +112,26 @@ pub(super) fn entrants_of(path: &Path, table: &Table) -> Result<Vec<Entrant>, Sc
 fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     scene::check_id(path, &solver.name)?;
     solver.check_keys(path)?;
+    let program = solver.program(path)?;
     let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == solver.name);
-    let method = match (solver.command, solver.python, solver.name.as_str()) {
-        (Some(CommandLine::Words(words)), ..) => Method::Command(words),
-        (Some(CommandLine::Line(line)), ..) => {
-            Method::Command(line.split_whitespace().map(str::to_owned).collect())
-        }
-        (None, Some(function), _) => Method::Python(function),
-        (None, None, "oracle") => Method::Oracle,
-        (None, None, name) => match baseline {
+    let method = match (program, solver.name.as_str()) {
+        (Some(program), _) => Method::Program(program),
+        (None, "oracle") => Method::Oracle,
+        (None, name) => match baseline {
             Some(method) => {
                 let texture_size = solver.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
                 if !(16..=8192).contains(&texture_size) {
                     let reason = format!("{texture_size} of {name:?} is not from 16 to 8192");
-                    return Err(SceneError::value(path, "texture_size", reason));
+                    return Err(SceneError::in_table(path, name, "texture_size", reason));
                 }
                 Method::Baseline { method, texture_size }
             }
             None => Method::Fields {
-                config: config_text(path, solver.config.as_deref().unwrap_or(name), &solver.set)?,
+                config: config_text(path, name, solver.config.as_deref(), &solver.set)?,
                 backend: solver.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
-                    |error: BackendError| SceneError::value(path, "backend", error.to_string()),
+                    |error: BackendError| {
+                        SceneError::in_table(path, name, "backend", error.to_string())
+                    },
                 )?,
             },
         },
@@ -139,10 +145,46 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
 }
 
 impl SolverTable {
+    /// The program of the table, if it names one.
+    fn program(&self, path: &Path) -> Result<Option<Program>, SceneError> {
+        let start = match (&self.command, &self.python) {
+            (Some(CommandLine::Words(words)), _) => Start::Command(words.clone()),
+            (Some(CommandLine::Line(line)), _) => {
+                Start::Command(line.split_whitespace().map(str::to_owned).collect())
+            }
+            (None, Some(function)) => Start::Python(function.clone()),
+            (None, None) => return Ok(None),
+        };
+        let wrong = |key: &str, reason: &str| {
+            Err(SceneError::in_table(path, &self.name, key, reason.to_owned()))
+        };
+        let positive = |value: Option<f64>| value.is_none_or(|v| v > 0.0 && v.is_finite());
+        if !positive(self.timeout_s) {
+            return wrong("timeout_s", "must be seconds above 0");
+        }
+        if !positive(self.memory_gib) {
+            return wrong("memory_gib", "must be GiB above 0");
+        }
+        if self.threads == Some(0) {
+            return wrong("threads", "must be 1 or more");
+        }
+        let Self { timeout_s, memory_gib, threads, .. } = *self;
+        let folder = scene::beside(path, "");
+        Ok(Some(Program {
+            start,
+            inputs: self.inputs.iter().flatten().map(|input| folder.join(input)).collect(),
+            folder: std::path::absolute(&folder).unwrap_or(folder),
+            limits: Limits { timeout_s, memory_gib, threads },
+            environment: self.environment.clone().unwrap_or_default(),
+            version: self.version.clone(),
+        }))
+    }
+
     /// Refuses keys that would do nothing.
     fn check_keys(&self, path: &Path) -> Result<(), SceneError> {
         let refused = |reason: String| {
-            Err(SceneError::value(path, "solver", format!("{:?} {reason}", self.name)))
+            let reason = format!("{:?} {reason}", self.name);
+            Err(SceneError::in_table(path, &self.name, "solver", reason))
         };
         let foreign = self.command.is_some() || self.python.is_some();
         if self.command.is_some() && self.python.is_some() {
@@ -155,6 +197,12 @@ impl SolverTable {
             ("set", !self.set.is_empty(), fields),
             ("backend", self.backend.is_some(), fields),
             ("texture_size", self.texture_size.is_some(), baseline && !foreign),
+            ("timeout_s", self.timeout_s.is_some(), foreign),
+            ("memory_gib", self.memory_gib.is_some(), foreign),
+            ("threads", self.threads.is_some(), foreign),
+            ("version", self.version.is_some(), foreign),
+            ("inputs", self.inputs.is_some(), foreign),
+            ("environment", self.environment.is_some(), foreign),
         ] {
             if given && !means {
                 let mend = match key {
@@ -168,13 +216,26 @@ impl SolverTable {
     }
 }
 
-/// The configuration as TOML text: a file's, or one that names a preset, with `set` on top.
-fn config_text(path: &Path, config: &str, set: &Table) -> Result<String, SceneError> {
+/// The configuration as TOML text: a file's, or one that names a preset, with `set` on top. Checked
+/// here, so that a wrong key is told with its place and before anything is rendered.
+fn config_text(
+    path: &Path,
+    name: &str,
+    config: Option<&str>,
+    set: &Table,
+) -> Result<String, SceneError> {
+    let key = if config.is_some() { "config" } else { "name" };
+    let config = config.unwrap_or(name);
     let mut table = if config.ends_with(".toml") {
         scene::read_toml(&scene::beside(path, config))?
     } else {
         Table::from_iter([("base".to_owned(), Value::String(config.to_owned()))])
     };
     scene::overlay(&mut table, set);
-    toml::to_string(&table).map_err(|error| SceneError::value(path, "solver", error.to_string()))
+    let wrong = |reason: String| SceneError::in_table(path, name, key, reason);
+    let text = toml::to_string(&table).map_err(|error| wrong(error.to_string()))?;
+    match solver::Config::from_toml(&text) {
+        Ok(_) => Ok(text),
+        Err(error) => Err(wrong(error.to_string())),
+    }
 }

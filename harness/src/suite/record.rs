@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 use solver::atomic;
 
 use super::content::hash_path;
+use super::program::Usage;
 
 /// A finished stage: what went in, what came out.
 #[derive(Serialize, Deserialize)]
@@ -17,12 +19,28 @@ struct Finished {
     content: String,
 }
 
+/// How an output came about, beside what it was made from. It is no content: two runs differ in it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Made {
+    /// When, in UTC.
+    #[serde(default)]
+    pub at: String,
+    /// By what, in words.
+    #[serde(default)]
+    pub from: String,
+    /// What a program took.
+    #[serde(flatten)]
+    pub usage: Option<Usage>,
+}
+
 /// Seconds that a stage took when it last ran, and whether this run could skip it.
 #[derive(Clone, Serialize, Deserialize)]
 struct Time {
     id: String,
     seconds: f64,
     cached: bool,
+    #[serde(default)]
+    made: Made,
 }
 
 #[derive(Default, Serialize, Deserialize)]
@@ -33,7 +51,7 @@ struct Times {
 /// The records below `RUN/stages` and the wall times in `RUN/timing.json`.
 pub(super) struct Records {
     run: PathBuf,
-    earlier: BTreeMap<String, f64>,
+    earlier: BTreeMap<String, Time>,
     times: Times,
 }
 
@@ -44,7 +62,7 @@ impl Records {
             .ok()
             .and_then(|bytes| serde_json::from_slice(&bytes).ok())
             .unwrap_or_default();
-        let earlier = earlier.stages.into_iter().map(|time| (time.id, time.seconds)).collect();
+        let earlier = earlier.stages.into_iter().map(|time| (time.id.clone(), time)).collect();
         Ok(Self { run: run.to_path_buf(), earlier, times: Times::default() })
     }
 
@@ -67,14 +85,23 @@ impl Records {
         Ok(content)
     }
 
-    /// Notes the time of a stage; `None` keeps that of the run which did the work.
-    pub(super) fn note_time(&mut self, id: &str, seconds: Option<f64>) -> io::Result<()> {
-        let earlier = self.earlier.get(id).copied().unwrap_or(0.0);
-        self.times.stages.push(Time {
-            id: id.to_owned(),
-            seconds: seconds.unwrap_or(earlier),
-            cached: seconds.is_none(),
-        });
+    /// Keeps the time of the run that did the work of a stage.
+    pub(super) fn keep_time(&mut self, id: &str) -> io::Result<()> {
+        let made = Made::default();
+        let unknown = Time { id: id.to_owned(), seconds: 0.0, cached: true, made };
+        let earlier = self.earlier.get(id).cloned().unwrap_or(unknown);
+        self.add(Time { cached: true, ..earlier })
+    }
+
+    /// Notes the time of a stage that ran just now.
+    pub(super) fn note_time(&mut self, id: &str, seconds: f64, made: Made) -> io::Result<()> {
+        let now = chrono::DateTime::<chrono::Utc>::from(SystemTime::now());
+        let at = now.format("%Y-%m-%d %H:%M UTC").to_string();
+        self.add(Time { id: id.to_owned(), seconds, cached: false, made: Made { at, ..made } })
+    }
+
+    fn add(&mut self, time: Time) -> io::Result<()> {
+        self.times.stages.push(time);
         let bytes = serde_json::to_vec_pretty(&self.times)?;
         atomic::write_file(&self.run.join("timing.json"), &bytes)
     }

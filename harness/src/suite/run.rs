@@ -3,118 +3,40 @@
 //! A stage whose inputs have not changed is skipped; every output appears complete or not at
 //! all, so a run that was killed goes on where it stopped and ends with the same bytes.
 
-use std::ffi::OsString;
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use serde_json::{Value, json};
 use solver::atomic;
 
 use super::cases::Case;
 use super::content::{hash_parts, hash_path};
 use super::entrant;
+use super::error::RunError;
 use super::file::Suite;
-use super::method::{Entrant, Method};
-use super::record::Records;
+use super::manifest::manifest;
+use super::method::Method;
+use super::preflight::{self, Ready};
+use super::record::{Made, Records};
 use super::scene::{Scene, SceneError};
-use crate::compare::CompareError;
-use crate::report::{self, ReportError};
-use crate::score::{self, ScoreError};
-use crate::synth::{Interpreter, InterpreterError, Interrupt, StageError, run_stage};
+use super::stages::{relight, words};
+use super::tools::{Observer, Tools};
+use super::{SCORE_SOURCES, SOLVER_SOURCES};
+use crate::report;
+use crate::score;
+use crate::synth::run_stage;
 
-/// What the solver's and the scoring's code was when this program was built.
-pub(crate) const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
-const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
 /// The stage that comes last.
 const REPORT: &str = "report";
 
-/// How a run can end badly; each message is one line.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs)]
-pub enum RunError {
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    #[error(transparent)]
-    Interpreter(#[from] InterpreterError),
-    #[error(transparent)]
-    Stage(StageError),
-    #[error(transparent)]
-    Capture(#[from] solver::CaptureError),
-    #[error(transparent)]
-    Config(#[from] solver::ConfigError),
-    #[error(transparent)]
-    Backend(#[from] solver::BackendError),
-    #[error(transparent)]
-    Solve(#[from] solver::SolveError),
-    #[error(transparent)]
-    Maps(#[from] solver::MapsError),
-    #[error(transparent)]
-    Score(#[from] ScoreError),
-    #[error(transparent)]
-    Report(ReportError),
-    #[error(transparent)]
-    Compare(#[from] CompareError),
-    #[error(transparent)]
-    Torch(#[from] crate::bench::TorchError),
-    #[error("solver {name}: {reason}")]
-    Program { name: String, reason: String },
-    #[error("{0}: another run is using this folder; wait for it or choose another")]
-    Busy(PathBuf),
-    #[error("the run folder cannot be used: {0}")]
-    Folder(#[from] io::Error),
-    #[error("interrupted; the same command goes on from here")]
-    Interrupted,
-    #[error(
-        "interrupted in {place}; {} holds what there was, the same command goes on from here",
-        maps.display()
-    )]
-    Stopped { place: String, maps: PathBuf },
-}
-
-impl RunError {
-    /// Whether the user wanted it.
-    pub fn is_interrupt(&self) -> bool {
-        matches!(self, Self::Interrupted | Self::Stopped { .. })
-    }
-}
-
-impl From<StageError> for RunError {
-    fn from(error: StageError) -> Self {
-        match error {
-            StageError::Interrupted => Self::Interrupted,
-            error => Self::Stage(error),
-        }
-    }
-}
-
-impl From<ReportError> for RunError {
-    fn from(error: ReportError) -> Self {
-        match error {
-            ReportError::Interrupted => Self::Interrupted,
-            error => Self::Report(error),
-        }
-    }
-}
-
-/// What every stage needs at hand.
-pub struct Tools {
-    /// Runs the path tracer.
-    pub interpreter: Interpreter,
-    /// Raised by Ctrl-C.
-    pub interrupt: Interrupt,
-}
-
-/// Hears how a run gets on.
-pub trait Observer {
-    /// `done` of `total` stages are finished and `id` begins.
-    fn stage_begins(&mut self, id: &str, done: usize, total: usize);
-    /// The stage has done `done` of `total` steps.
-    fn step(&mut self, done: u64, total: u64, what: &str);
-    /// The stage is finished; `seconds` is absent if its earlier result was still valid.
-    fn stage_ends(&mut self, id: &str, seconds: Option<f64>);
+/// What a run is told beside its suite.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Methods whose maps are made anew, whatever was kept.
+    pub redo: Vec<String>,
 }
 
 /// What a run left behind.
@@ -126,16 +48,23 @@ pub struct RunSummary {
     pub ran: usize,
     /// See `ran`.
     pub skipped: usize,
+    /// Methods that failed: `<case>/<method>` and why.
+    pub failed: BTreeMap<String, String>,
 }
 
-/// Runs `suite` in the folder `out`.
+/// Runs `suite` in the folder `out`. A method that fails leaves its cells empty and the others run.
 pub fn run(
     suite: &Suite,
     out: &Path,
+    options: &RunOptions,
     tools: &Tools,
     observer: &mut dyn Observer,
 ) -> Result<RunSummary, RunError> {
-    fs::create_dir_all(out)?;
+    check_redo(suite, options)?;
+    preflight::files(suite)?;
+    let ready = preflight::methods(suite, tools)?;
+    atomic::apart(out, &[&suite.path])?;
+    atomic::claim(out)?;
     let lock = File::create(out.join(".lock"))?;
     match lock.try_lock() {
         Ok(()) => {}
@@ -145,25 +74,36 @@ pub fn run(
     let renderer = tools.interpreter.fingerprint()?;
     let total = suite.cases.len() * (1 + 3 * suite.entrants.len()) + 1;
     let records = Records::open(out)?;
-    let mut stages = Stages { out, tools, observer, records, ran: 0, skipped: 0, total };
-    let manifest = manifest(suite, &renderer);
-    atomic::write_file(
-        &out.join("run.json"),
-        &serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?,
-    )?;
+    let failed = BTreeMap::new();
+    let mut stages =
+        Stages { suite, out, options, tools, observer, records, failed, ran: 0, skipped: 0, total };
+    stages.write_manifest(&renderer)?;
+    stages.prepare(&renderer)?;
     for case in &suite.cases {
         let capture = stages.capture(case, &renderer)?;
-        for entrant in &suite.entrants {
-            stages.entrant(case, entrant, &capture, &suite.scales, &renderer)?;
+        for ready in &ready {
+            stages.entrant(case, ready, &capture, &renderer)?;
         }
     }
-    let (ran, skipped) = (stages.ran, stages.skipped);
+    stages.write_manifest(&renderer)?;
+    let Stages { ran, skipped, failed, .. } = stages;
     let folder = out.join("report");
     let start = Instant::now();
     observer.stage_begins(REPORT, ran + skipped, total);
     report(out, &folder, tools, &mut |done, total, what| observer.step(done, total, what))?;
     observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
-    Ok(RunSummary { report: folder.join("index.html"), ran, skipped })
+    Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
+}
+
+fn check_redo(suite: &Suite, options: &RunOptions) -> Result<(), RunError> {
+    let known = |name: &String| suite.entrants.iter().any(|entrant| entrant.id == *name);
+    match options.redo.iter().find(|name| !known(name)) {
+        None => Ok(()),
+        Some(name) => {
+            let ids: Vec<_> = suite.entrants.iter().map(|entrant| entrant.id.as_str()).collect();
+            Err(RunError::Redo { name: name.clone(), known: ids.join(", ") })
+        }
+    }
 }
 
 /// Writes the report of the run folder `run` to the folder `out`.
@@ -180,45 +120,14 @@ pub fn report(
     Ok(())
 }
 
-fn manifest(suite: &Suite, renderer: &str) -> Value {
-    let cases: Vec<Value> = suite
-        .cases
-        .iter()
-        .map(|case| {
-            let solvers: Vec<Value> = suite
-                .entrants
-                .iter()
-                .map(|entrant| {
-                    let below = |folder| format!("{folder}/{}/{}", case.id, entrant.id);
-                    json!({
-                        "id": entrant.id, "kind": entrant.kind(), "title": entrant.title,
-                        "maps": below("maps"), "relit": below("relit"),
-                        "scores": format!("{}.json", below("scores")),
-                    })
-                })
-                .collect();
-            json!({
-                "id": case.id, "face": case.scene.name_of("face"),
-                "light": case.scene.name_of("light"), "variant": case.variant,
-                "capture": format!("captures/{}", case.id), "solvers": solvers,
-            })
-        })
-        .collect();
-    json!({
-        "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
-        "versions": {
-            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
-            "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
-        },
-        "suite_toml": suite.text,
-    })
-}
-
 struct Stages<'a> {
+    suite: &'a Suite,
     out: &'a Path,
+    options: &'a RunOptions,
     tools: &'a Tools,
     observer: &'a mut dyn Observer,
     records: Records,
+    failed: BTreeMap<String, String>,
     ran: usize,
     skipped: usize,
     total: usize,
@@ -230,20 +139,61 @@ struct Output {
     content: String,
 }
 
+/// What decides whether a stage's earlier output is still valid.
+struct Key<'k> {
+    inputs: &'k [&'k str],
+    /// Valid or not, it is made anew.
+    redo: bool,
+    /// What made it, in words.
+    made_from: String,
+}
+
+impl<'k> From<&'k [&'k str]> for Key<'k> {
+    fn from(inputs: &'k [&'k str]) -> Self {
+        Self { inputs, redo: false, made_from: String::new() }
+    }
+}
+
 impl Stages<'_> {
+    fn write_manifest(&self, renderer: &str) -> Result<(), RunError> {
+        let manifest = manifest(self.suite, renderer, &self.failed);
+        let text = serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?;
+        Ok(atomic::write_file(&self.out.join("run.json"), &text)?)
+    }
+
+    /// Writes the scenes of all cases, and checks those that are still to be rendered.
+    fn prepare(&mut self, renderer: &str) -> Result<(), RunError> {
+        let captures = self.out.join("captures");
+        fs::create_dir_all(&captures)?;
+        let mut pending = Vec::new();
+        for case in &self.suite.cases {
+            let scene = case.scene.to_toml().map_err(io::Error::other)?;
+            atomic::write_file(&captures.join(format!("{}.toml", case.id)), scene.as_bytes())?;
+            let (id, path) = (format!("capture/{}", case.id), captures.join(&case.id));
+            let key = hash_parts(&["capture", renderer, &scene, &file_contents(&case.scene)?]);
+            if self.records.finished(&id, &key, &path).is_none() {
+                pending.push(case);
+            }
+        }
+        preflight::space(self.suite, &pending, self.out)?;
+        preflight::scenes(self.suite, &pending, &captures, self.tools)
+    }
+
     /// Does `work` unless its output is there, intact, and made from the same inputs.
-    fn stage(
+    fn stage<'k>(
         &mut self,
         id: &str,
-        inputs: &[&str],
+        key: impl Into<Key<'k>>,
         path: PathBuf,
-        work: impl FnOnce(&Path, &Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
+        work: impl FnOnce(&Path, &Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<Made, RunError>,
     ) -> Result<Output, RunError> {
-        let key = hash_parts(inputs);
+        let key = key.into();
+        let hash = hash_parts(key.inputs);
         self.observer.stage_begins(id, self.ran + self.skipped, self.total);
-        if let Some(content) = self.records.finished(id, &key, &path) {
+        let kept = self.records.finished(id, &hash, &path).filter(|_| !key.redo);
+        if let Some(content) = kept {
             self.skipped += 1;
-            self.records.note_time(id, None)?;
+            self.records.keep_time(id)?;
             self.observer.stage_ends(id, None);
             return Ok(Output { path, content });
         }
@@ -252,11 +202,12 @@ impl Stages<'_> {
         }
         let start = Instant::now();
         let observer = &mut *self.observer;
-        work(&path, self.tools, &mut |done, total, what| observer.step(done, total, what))?;
-        let content = self.records.note(id, &key, &path)?;
+        let made =
+            work(&path, self.tools, &mut |done, total, what| observer.step(done, total, what))?;
+        let content = self.records.note(id, &hash, &path)?;
         let seconds = start.elapsed().as_secs_f64();
         self.ran += 1;
-        self.records.note_time(id, Some(seconds))?;
+        self.records.note_time(id, seconds, Made { from: key.made_from, ..made })?;
         self.observer.stage_ends(id, Some(seconds));
         Ok(Output { path, content })
     }
@@ -265,133 +216,118 @@ impl Stages<'_> {
         let scene = case.scene.to_toml().map_err(io::Error::other)?;
         let files = file_contents(&case.scene)?;
         let scene_file = self.out.join("captures").join(format!("{}.toml", case.id));
-        fs::create_dir_all(self.out.join("captures"))?;
-        atomic::write_file(&scene_file, scene.as_bytes())?;
         let path = self.out.join("captures").join(&case.id);
         let id = format!("capture/{}", case.id);
-        self.stage(&id, &["capture", renderer, &scene, &files], path, |path, tools, step| {
+        let inputs: &[&str] = &["capture", renderer, &scene, &files];
+        self.stage(&id, inputs, path, |path, tools, step| {
             let arguments =
                 words(&[("--scene", scene_file.as_os_str()), ("--out", path.as_os_str())]);
             run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
-            Ok(())
+            Ok(Made::default())
         })
     }
 
+    /// One method on one case; what it does wrong is kept as its failure.
     fn entrant(
         &mut self,
         case: &Case,
-        entrant: &Entrant,
+        ready: &Ready,
         capture: &Output,
-        scales: &[&str],
         renderer: &str,
     ) -> Result<(), RunError> {
-        let name = format!("{}/{}", case.id, entrant.id);
-        let method = match &entrant.method {
-            Method::Fields { config, backend } => {
-                // The resolved values, so that a preset that changed is solved again; and what
-                // computes here, since no two devices give the same bytes.
-                let config = solver::Config::from_toml(config)?.to_toml();
-                hash_parts(&["fields", &config, &backend.open()?.name(), SOLVER_SOURCES])
+        let name = format!("{}/{}", case.id, ready.entrant.id);
+        match self.make_and_score(case, ready, capture, renderer, &name) {
+            Err(error) if error.is_of_method() => {
+                tracing::warn!("{name}: failed: {error}");
+                // Scores of an earlier state of the method must not pass for this one's.
+                match fs::remove_file(self.out.join("scores").join(format!("{name}.json"))) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                        return Err(error.into());
+                    }
+                    _ => {}
+                }
+                self.failed.insert(name, error.to_string());
+                Ok(())
             }
-            Method::Oracle => hash_parts(&["oracle", SCORE_SOURCES]),
-            Method::Baseline { method, texture_size } => {
-                let size = texture_size.to_string();
-                hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES])
-            }
-            Method::Command(words) => hash_parts(&["command", &words.join("\0")]),
-            Method::Python(function) => hash_parts(&["python", function]),
-        };
+            result => result,
+        }
+    }
+
+    fn make_and_score(
+        &mut self,
+        case: &Case,
+        ready: &Ready,
+        capture: &Output,
+        renderer: &str,
+        name: &str,
+    ) -> Result<(), RunError> {
+        let entrant = ready.entrant;
+        let (method, made_from) = self.method_key(ready)?;
+        let secret = case.scene.files().into_iter().chain([self.out.to_path_buf()]).collect();
+        let log = self.out.join("logs").join(format!("{name}.txt"));
+        let scales = &self.suite.scales;
+        let redo = self.options.redo.contains(&entrant.id);
+        let inputs = ["maps", &capture.content, &method];
         let maps = self.stage(
             &format!("maps/{name}"),
-            &["maps", &capture.content, &method],
-            self.out.join("maps").join(&name),
-            |path, tools, step| entrant::make_maps(entrant, &capture.path, path, tools, step),
+            Key { inputs: &inputs, redo, made_from },
+            self.out.join("maps").join(name),
+            |path, tools, step| {
+                let usage =
+                    entrant::make_maps(ready, &capture.path, path, &log, secret, tools, step)?;
+                Ok(Made { usage, ..Made::default() })
+            },
         )?;
+        let inputs: &[&str] =
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")];
         let relit = self.stage(
             &format!("relit/{name}"),
-            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")],
-            self.out.join("relit").join(&name),
-            |path, tools, step| relight(&capture.path, &maps.path, path, scales, tools, step),
+            inputs,
+            self.out.join("relit").join(name),
+            |path, tools, step| {
+                relight(&capture.path, &maps.path, path, scales, tools, step)?;
+                Ok(Made::default())
+            },
         )?;
+        let inputs: &[&str] =
+            &["scores", &capture.content, &maps.content, &relit.content, SCORE_SOURCES];
         self.stage(
             &format!("scores/{name}"),
-            &["scores", &capture.content, &maps.content, &relit.content, SCORE_SOURCES],
+            inputs,
             self.out.join("scores").join(format!("{name}.json")),
             |path, _, _| {
                 let mut scores = score::score(&capture.path, &maps.path, Some(&relit.path))?;
                 scores.solver.clone_from(&entrant.id);
-                Ok(scores.write(path)?)
+                scores.write(path)?;
+                Ok(Made::default())
             },
         )?;
         Ok(())
     }
-}
 
-/// Renders the scene file `scene` into the capture folder `out`.
-pub fn synth(
-    scene: &Path,
-    out: &Path,
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let scene = resolved(scene)?;
-    let arguments = words(&[("--scene", scene.path().as_os_str()), ("--out", out.as_os_str())]);
-    run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
-    Ok(())
-}
-
-/// What the scene file `scene` stands for, in words: face, cameras, and each light in numbers.
-pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
-    let scene = resolved(scene)?;
-    let arguments = words(&[("--scene", scene.path().as_os_str())]);
-    let silent = &mut |_, _, _: &str| {};
-    let said = run_stage(&tools.interpreter, "describe", &arguments, &tools.interrupt, silent)?;
-    Ok(said["text"].as_str().unwrap_or_default().to_owned())
-}
-
-/// Renders `count` sampled identities into one PNG.
-pub fn contact_sheet(
-    count: u32,
-    seed: u64,
-    out: &Path,
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let (count, seed) = (OsString::from(count.to_string()), OsString::from(seed.to_string()));
-    let arguments = words(&[("--count", &count), ("--seed", &seed), ("--out", out.as_os_str())]);
-    run_stage(&tools.interpreter, "contact-sheet", &arguments, &tools.interrupt, step)?;
-    Ok(())
-}
-
-/// The scene file with all that it refers to, in a file that lives as long as the result.
-fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
-    let text = Scene::open(scene)?.to_toml().map_err(io::Error::other)?;
-    let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".toml").tempfile()?;
-    file.write_all(text.as_bytes())?;
-    Ok(file)
-}
-
-/// Renders `maps` in the capture's lights, under each of `scales` (of [`super::SCALES`]).
-pub fn relight(
-    capture: &Path,
-    maps: &Path,
-    out: &Path,
-    scales: &[&str],
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    let scale = score::fit_scale(capture, maps)?;
-    let mut arguments = words(&[
-        ("--capture", capture.as_os_str()),
-        ("--maps", maps.as_os_str()),
-        ("--out", out.as_os_str()),
-    ]);
-    for name in scales {
-        let factor = if *name == "global" { scale.global } else { 1.0 };
-        arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
+    /// What decides a method's maps beside the capture, as a key and in words.
+    fn method_key(&self, ready: &Ready) -> Result<(String, String), RunError> {
+        Ok(match (&ready.entrant.method, &ready.files) {
+            (Method::Fields { config, backend }, _) => {
+                // The resolved values, so that a preset that changed is solved again; and what
+                // computes here, since no two devices give the same bytes.
+                let config = solver::Config::from_toml(config)?.to_toml();
+                let backend = backend.open()?.name();
+                let from = format!("this program's sources of the solver, on {backend}");
+                (hash_parts(&["fields", &config, &backend, SOLVER_SOURCES]), from)
+            }
+            (Method::Program(program), Some(files)) => {
+                (hash_parts(&["program", &files.key(program)?]), files.in_words(program))
+            }
+            (Method::Baseline { method, texture_size }, _) => {
+                let size = texture_size.to_string();
+                (hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES]), String::new())
+            }
+            (Method::Oracle | Method::Program(_), _) => {
+                (hash_parts(&["oracle", SCORE_SOURCES]), String::new())
+            }
+        })
     }
-    run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
-    Ok(())
 }
 
 /// The content of every file that the scene names.
@@ -404,8 +340,4 @@ fn file_contents(scene: &Scene) -> Result<String, SceneError> {
         })
         .collect();
     Ok(hashes?.join(" "))
-}
-
-fn words(pairs: &[(&str, &std::ffi::OsStr)]) -> Vec<OsString> {
-    pairs.iter().flat_map(|(flag, value)| [OsString::from(flag), value.to_os_string()]).collect()
 }

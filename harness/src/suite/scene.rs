@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use super::place;
+
 /// What can be wrong with a scene or suite file.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
@@ -17,18 +19,22 @@ pub enum SceneError {
         reason: String,
     },
     /// A file is not TOML.
-    #[error("{path}: is not valid TOML: {reason}")]
+    #[error("{path}:{line}: is not valid TOML: {reason}")]
     Syntax {
         /// The file.
         path: PathBuf,
+        /// From 1.
+        line: usize,
         /// What the parser said, on one line.
         reason: String,
     },
     /// A value is missing or of the wrong kind.
-    #[error("{path}: {key}: {reason}")]
+    #[error("{path}{}: {key}: {reason}", line.map_or(String::new(), |line| format!(":{line}")))]
     Value {
         /// The file.
         path: PathBuf,
+        /// From 1; none where the key is not in the file.
+        line: Option<usize>,
         /// The key in question.
         key: String,
         /// What is wrong and the mend.
@@ -38,7 +44,14 @@ pub enum SceneError {
 
 impl SceneError {
     pub(super) fn value(path: &Path, key: &str, reason: impl Into<String>) -> Self {
-        Self::Value { path: path.to_path_buf(), key: key.to_owned(), reason: reason.into() }
+        let line = place::line_of(path, None, key);
+        Self::Value { path: path.to_path_buf(), line, key: key.to_owned(), reason: reason.into() }
+    }
+
+    /// A fault of the table of a list whose `name` is given.
+    pub(super) fn in_table(path: &Path, name: &str, key: &str, reason: impl Into<String>) -> Self {
+        let line = place::line_of(path, Some(name), key);
+        Self::Value { path: path.to_path_buf(), line, key: key.to_owned(), reason: reason.into() }
     }
 }
 
@@ -239,6 +252,7 @@ pub(super) fn read_toml(path: &Path) -> Result<Table, SceneError> {
     })?;
     text.parse::<Table>().map_err(|error| SceneError::Syntax {
         path: path.to_path_buf(),
+        line: error.span().map_or(1, |span| place::line_at(&text, span.start)),
         reason: error.message().replace('\n', " "),
     })
 }

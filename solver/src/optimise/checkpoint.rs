@@ -62,8 +62,16 @@ impl Checkpoint {
 
     /// Takes the checkpoint away. One that stays does no harm, so a failure is only logged.
     pub fn remove(folder: &Path) {
-        if let Err(error) = atomic::remove_folder(folder) {
-            tracing::warn!("{}: cannot be removed: {error}", folder.display());
+        for file in [SOLVE, STAGE] {
+            let _ = fs::remove_file(folder.join(file));
+            let _ = fs::remove_file(atomic::partial_path(&folder.join(file)));
+        }
+        // What else may lie there is not ours.
+        match fs::remove_dir(folder) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                tracing::warn!("{}: cannot be removed: {error}", folder.display());
+            }
+            _ => {}
         }
     }
 

@@ -13,15 +13,15 @@ use super::heights;
 use super::highlights::{MOST_SAMPLES, distance, highlights};
 use super::lit::Lit;
 use super::run::Run;
-use super::site::Site;
+use super::site::{Site, map_size, texture_size};
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use super::transported::{Physical, Probed, light, light_and_albedo, refined};
 use super::veil;
-use crate::atomic::Folder;
+use crate::atomic::{self, Folder};
 use crate::backend::Backend;
-use crate::capture::Capture;
+use crate::capture::{Camera, Capture};
 use crate::config::Config;
 use crate::error::{CaptureError, MapsError, SolveError};
 use crate::memory::{self, Estimate};
@@ -73,29 +73,39 @@ pub fn solve_into(
     config: &Config,
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
+    // Now, so that what cannot be written is known before the work.
+    atomic::apart(maps, &[&capture.folder]).map_err(MapsError::from)?;
+    atomic::require_space(maps, bytes_on_disk(capture, config)).map_err(MapsError::from)?;
+    let folder = Folder::begin(maps).map_err(MapsError::from)?;
     let checkpoint = Checkpoint::beside(maps, program);
     let kept = checkpoint.folder().to_path_buf();
-    let mut partial: Option<Folder> = None;
-    let io = |source| MapsError::Io { path: maps.to_path_buf(), source };
-    let mut layers = |view: &ViewLayers| {
-        let folder = match &mut partial {
-            Some(folder) => folder,
-            none => none.insert(Folder::begin(maps).map_err(io)?),
-        };
-        view.write_layers(folder.path())
-    };
+    let mut layers = |view: &ViewLayers| view.write_layers(folder.path());
     let options = Options { checkpoint: Some(checkpoint), layers: Some(&mut layers) };
-    let solution = solve_on(backend, capture, config, options, progress)?;
-    let folder = match partial {
-        Some(folder) => folder,
-        None => Folder::begin(maps).map_err(io)?,
+    let solution = match solve_on(backend, capture, config, options, progress) {
+        Ok(solution) => solution,
+        Err(error) => {
+            folder.abandon();
+            return Err(error);
+        }
     };
     solution.write_into(folder.path())?;
-    folder.commit().map_err(io)?;
+    folder.commit().map_err(MapsError::from)?;
     if solution.record.interrupted.is_none() {
         Checkpoint::remove(&kept);
     }
     Ok(solution)
+}
+
+/// About what a maps folder takes on the disk, uncompressed: maps of 11 channels, and nine for every
+/// withheld view; of every training view as well, in halves, if its layers are kept.
+fn bytes_on_disk(capture: &Capture, config: &Config) -> u64 {
+    let pixels = |camera: &Camera| (camera.width * camera.height) as u64;
+    let withheld: u64 = capture.withheld.iter().map(pixels).sum();
+    let train: u64 = capture.train.iter().map(|view| pixels(&view.camera)).sum();
+    let solved = texture_size(config.fine_tuning.texture_size, train as usize);
+    let layers = if config.records.layers { train * 9 * 2 } else { 0 };
+    let side = map_size(config.fine_tuning.texture_size, solved) as u64;
+    side * side * 11 * 4 + withheld * 9 * 4 + layers
 }
 
 /// Decomposes a capture into maps. `progress` is called after every step (a device that takes in whole

@@ -2,18 +2,16 @@
 
 Work goes into ``X.partial``, which carries a key of everything that decides its content.
 A later attempt with the same key keeps what is finished; with another key it starts anew.
+A folder that unshade did not write is never replaced.
 """
 
 from __future__ import annotations
 
 import hashlib
-import os
-import shutil
 from pathlib import Path
 
+from .. import _native
 from ..errors import StorageError
-
-_KEY_FILE = "key.txt"
 
 
 def content_hash(path: Path) -> str:
@@ -22,37 +20,20 @@ def content_hash(path: Path) -> str:
 
 
 class ResumableFolder:
-    """``target`` under construction in ``path``."""
+    """``target`` under construction in ``path``. Raises `StorageError` where it may not be written."""
 
     def __init__(self, target: Path, key: str) -> None:
         self.target = target
-        self.path = target.with_name(f"{target.name}.partial")
-        digest = hashlib.blake2b(key.encode(), digest_size=16).hexdigest()
-        try:
-            if not self._continues(digest):
-                if self.path.exists():
-                    shutil.rmtree(self.path)
-                self.path.mkdir(parents=True)
-                (self.path / _KEY_FILE).write_text(digest)
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
-
-    def _continues(self, digest: str) -> bool:
-        key_file = self.path / _KEY_FILE
-        return key_file.is_file() and key_file.read_text() == digest
+        self._key = hashlib.blake2b(key.encode(), digest_size=16).hexdigest()
+        self.path = Path(_native.begin_folder(target, self._key))
 
     def commit(self) -> None:
         """Puts the complete folder in the target's place, replacing what was there."""
         try:
             for left in self.path.rglob("*.partial"):
                 left.unlink()
-            if self.target.exists():
-                shutil.rmtree(self.target)
-            (self.path / _KEY_FILE).unlink()
-            os.replace(self.path, self.target)
         except OSError as error:
-            raise _unwritable(self.target, error) from error
-
-
-def _unwritable(path: Path, error: OSError) -> StorageError:
-    return StorageError(f"{path}: cannot be written: {error.strerror}; make room or choose another folder")
+            raise StorageError(
+                f"{self.target}: cannot be written: {error.strerror}; make room or choose another folder"
+            ) from error
+        _native.commit_folder(self.target, self._key)

@@ -1,0 +1,99 @@
+//! How a suite or one of its stages can end badly.
+
+use std::io;
+use std::path::PathBuf;
+
+use solver::atomic::FolderError;
+
+use super::scene::SceneError;
+use crate::compare::CompareError;
+use crate::report::ReportError;
+use crate::score::ScoreError;
+use crate::synth::{InterpreterError, StageError};
+
+/// How a run can end badly; each message is one line.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs)]
+pub enum RunError {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Interpreter(#[from] InterpreterError),
+    #[error(transparent)]
+    Stage(StageError),
+    #[error(transparent)]
+    Capture(#[from] solver::CaptureError),
+    #[error(transparent)]
+    Config(#[from] solver::ConfigError),
+    #[error(transparent)]
+    Backend(#[from] solver::BackendError),
+    #[error(transparent)]
+    Solve(#[from] solver::SolveError),
+    #[error(transparent)]
+    Maps(#[from] solver::MapsError),
+    #[error(transparent)]
+    Score(#[from] ScoreError),
+    #[error(transparent)]
+    Report(ReportError),
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    #[error(transparent)]
+    Torch(#[from] crate::bench::TorchError),
+    #[error("solver {name}: {reason}")]
+    Program { name: String, reason: String },
+    #[error("{0}: another run is using this folder; wait for it or choose another")]
+    Busy(PathBuf),
+    #[error(transparent)]
+    Output(#[from] FolderError),
+    #[error("{path}: {reason}", path = path.display())]
+    File { path: PathBuf, reason: io::Error },
+    #[error("the run folder cannot be used: {0}; make room or choose another")]
+    Folder(#[from] io::Error),
+    #[error("--redo: the suite has no solver {name:?}; there are {known}")]
+    Redo { name: String, known: String },
+    #[error("interrupted; the same command goes on from here")]
+    Interrupted,
+    #[error(
+        "interrupted in {place}; {} holds what there was, the same command goes on from here",
+        maps.display()
+    )]
+    Stopped { place: String, maps: PathBuf },
+}
+
+impl RunError {
+    /// Whether the user wanted it.
+    pub fn is_interrupt(&self) -> bool {
+        matches!(self, Self::Interrupted | Self::Stopped { .. })
+    }
+
+    /// Whether it is the fault of one method, so that the others can go on: not so for what the user
+    /// wanted, and what a disk or a folder does to all.
+    pub(super) fn is_of_method(&self) -> bool {
+        let storage = |kind: &str| kind == "StorageError";
+        match self {
+            Self::Interrupted | Self::Stopped { .. } | Self::Folder(_) | Self::Busy(_) => false,
+            Self::Output(FolderError::Io { .. } | FolderError::Space { .. }) => false,
+            Self::Stage(StageError::Input { kind, .. }) => !storage(kind),
+            Self::Stage(StageError::Interpreter(_)) | Self::Interpreter(_) => false,
+            _ => true,
+        }
+    }
+}
+
+impl From<StageError> for RunError {
+    fn from(error: StageError) -> Self {
+        match error {
+            StageError::Interrupted => Self::Interrupted,
+            error => Self::Stage(error),
+        }
+    }
+}
+
+impl From<ReportError> for RunError {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Interrupted => Self::Interrupted,
+            error => Self::Report(error),
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! `run.json`: what a run consists of, where everything lies, and which methods failed.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use super::file::Suite;
+
+/// The content of `run.json`. `failed` says why, by `<case>/<method>`: what an earlier run left of such
+/// a method is not named.
+pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, String>) -> Value {
+    let cases: Vec<Value> = suite
+        .cases
+        .iter()
+        .map(|case| {
+            let solvers: Vec<Value> = suite
+                .entrants
+                .iter()
+                .map(|entrant| {
+                    let name = format!("{}/{}", case.id, entrant.id);
+                    let below = |folder| format!("{folder}/{name}");
+                    let mut solver = json!({
+                        "id": entrant.id, "kind": entrant.kind(), "title": entrant.title,
+                    });
+                    if let Some(reason) = failed.get(&name) {
+                        solver["failed"] = json!(reason);
+                    } else {
+                        solver["maps"] = json!(below("maps"));
+                        solver["relit"] = json!(below("relit"));
+                        solver["scores"] = json!(format!("{}.json", below("scores")));
+                    }
+                    solver
+                })
+                .collect();
+            json!({
+                "id": case.id, "face": case.scene.name_of("face"),
+                "light": case.scene.name_of("light"), "variant": case.variant,
+                "capture": format!("captures/{}", case.id), "solvers": solvers,
+            })
+        })
+        .collect();
+    json!({
+        "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
+        "versions": {
+            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
+            "solver sources": super::SOLVER_SOURCES, "scoring sources": super::SCORE_SOURCES,
+        },
+        "suite_toml": suite.text,
+    })
+}

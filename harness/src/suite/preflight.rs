@@ -1,0 +1,101 @@
+//! What can be known before the first picture is rendered, which may be hours before it would show.
+
+use std::path::Path;
+
+use solver::atomic;
+
+use super::cases::Case;
+use super::error::RunError;
+use super::file::Suite;
+use super::method::{Entrant, Method};
+use super::place;
+use super::program::ProgramFiles;
+use super::scene::SceneError;
+use super::stages::words;
+use super::tools::Tools;
+use crate::synth::run_stage;
+
+/// Cameras of a rig that does not say how many it has.
+const CAMERAS: i64 = 16;
+
+/// A method with what was found of its program.
+pub(super) struct Ready<'a> {
+    pub entrant: &'a Entrant,
+    /// Of a program that is not ours.
+    pub files: Option<ProgramFiles>,
+}
+
+/// Finds every program and opens every backend; a fault names the table of the suite.
+pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'a>>, RunError> {
+    let ready = |entrant: &'a Entrant| {
+        let wrong =
+            |key: &str, reason: String| SceneError::in_table(&suite.path, &entrant.id, key, reason);
+        let files = match &entrant.method {
+            Method::Program(program) => {
+                let key = program.key();
+                Some(program.find(&tools.interpreter).map_err(|reason| wrong(key, reason))?)
+            }
+            Method::Fields { backend, .. } => {
+                backend.open().map_err(|error| wrong("backend", error.to_string()))?;
+                None
+            }
+            _ => None,
+        };
+        Ok(Ready { entrant, files })
+    };
+    suite.entrants.iter().map(ready).collect()
+}
+
+/// Every file that the scenes name is there.
+pub(super) fn files(suite: &Suite) -> Result<(), RunError> {
+    for case in &suite.cases {
+        for file in case.scene.files() {
+            if !file.is_file() {
+                let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let place = place::only(&place::sources(&suite.path), |line| line.contains(&name));
+                let place = place.map_or(String::new(), |place| format!(" (named in {place})"));
+                let reason = format!("there is no such file{place}");
+                return Err(SceneError::Read { path: file, reason }.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Lets the renderer read the scenes of `cases`, which lie in `captures`, before it renders one.
+pub(super) fn scenes(
+    suite: &Suite,
+    cases: &[&Case],
+    captures: &Path,
+    tools: &Tools,
+) -> Result<(), RunError> {
+    for case in cases {
+        let file = captures.join(format!("{}.toml", case.id));
+        let arguments = words(&[("--scene", file.as_os_str())]);
+        let silent = &mut |_, _, _: &str| {};
+        run_stage(&tools.interpreter, "check", &arguments, &tools.interrupt, silent)
+            .map_err(|error| place::blamed(error, &file, &suite.path))?;
+    }
+    Ok(())
+}
+
+/// There is room for what the cases leave: about half of it uncompressed.
+pub(super) fn space(suite: &Suite, cases: &[&Case], out: &Path) -> Result<(), RunError> {
+    let bytes: u64 = cases.iter().map(|case| case_bytes(case, suite.entrants.len() as u64)).sum();
+    Ok(atomic::require_space(out, bytes / 2)?)
+}
+
+/// Uncompressed: 25 floats for a view with its layers, nine for every relit one, and 13 for a texel.
+fn case_bytes(case: &Case, entrants: u64) -> u64 {
+    let number = |section: &str, key: &str, default: i64| -> u64 {
+        let value = case.scene.table.get(section).and_then(|table| table.get(key)?.as_integer());
+        value.unwrap_or(default).max(1).unsigned_abs()
+    };
+    let pixels = number("render", "width", 512) * number("render", "height", 512);
+    let texels = number("face", "texture_size", 512).pow(2);
+    let (train, test) = (number("rig", "train", CAMERAS), number("rig", "test", CAMERAS / 4));
+    let lights = case.scene.relight().len() as u64 + 1;
+    let capture = pixels * ((train + test) * 25 + test * lights * 9) + texels * 13;
+    let method = texels * 13 + pixels * test * lights * 2 * 9;
+    4 * (capture + entrants * method)
+}

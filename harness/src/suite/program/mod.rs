@@ -1,0 +1,206 @@
+//! Programs that are not ours, as methods of a suite.
+//!
+//! A program is handed a capture without anything of its withheld views but their cameras, in a
+//! folder of its own, and leaves a maps folder there. What it may read of the user's is what decides
+//! whether its earlier result is still valid: its own files and `inputs`.
+
+mod blind;
+mod confine;
+mod files;
+mod watch;
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+
+use solver::atomic::Folder;
+
+use super::error::RunError;
+use crate::synth::Interrupt;
+use confine::Permissions;
+pub use files::ProgramFiles;
+use watch::{End, watch};
+pub use watch::{Limits, Usage};
+
+/// Environment variables that libraries take their number of threads from.
+const THREADS: [&str; 6] = [
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "NUMEXPR_NUM_THREADS",
+    "RAYON_NUM_THREADS",
+    "NUMBA_NUM_THREADS",
+];
+
+/// How a program is started.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Start {
+    /// Arguments with `{capture}` and `{maps}` replaced.
+    Command(Vec<String>),
+    /// A Python function `module:function`.
+    Python(String),
+}
+
+/// A `[[solver]]` that names a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// What is started.
+    pub start: Start,
+    /// Where it is started, and what relative paths start from: the suite's folder.
+    pub folder: PathBuf,
+    /// What it may take.
+    pub limits: Limits,
+    /// Variables of its environment, replacing those of unshade's own.
+    pub environment: BTreeMap<String, String>,
+    /// What the user calls this state of it.
+    pub version: Option<String>,
+    /// Files and folders that it reads, beside its own.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// Where a program works.
+pub(super) struct Place<'a> {
+    pub capture: &'a Path,
+    pub maps: &'a Path,
+    pub log: &'a Path,
+    /// What it must not see: the run, and the files of the truth.
+    pub secret: Vec<PathBuf>,
+}
+
+impl Program {
+    /// The key of its table that names it.
+    pub fn key(&self) -> &'static str {
+        match self.start {
+            Start::Command(_) => "command",
+            Start::Python(_) => "python",
+        }
+    }
+
+    /// Runs it, checks what it left, and keeps that as the maps folder.
+    pub(super) fn run(
+        &self,
+        name: &str,
+        files: &ProgramFiles,
+        place: &Place,
+        interrupt: &Interrupt,
+    ) -> Result<Usage, RunError> {
+        let failed = |reason: String| RunError::Program { name: name.to_owned(), reason };
+        let output = Folder::begin(place.maps)?;
+        // Elsewhere than the run, whose truth a program has no business with.
+        let scratch = tempfile::Builder::new().prefix("unshade-").tempdir()?;
+        let [capture, maps, own] = ["capture", "maps", "tmp"].map(|name| scratch.path().join(name));
+        blind::copy_blind(place.capture, &capture)?;
+        fs::create_dir(&maps)?;
+        fs::create_dir(&own)?;
+        if let Some(folder) = place.log.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let log = File::create(place.log)?;
+        let command = self.command(files, [&capture, &maps, &own], &log)?;
+        let mut permissions = Permissions {
+            read: files.readable().chain(&self.inputs).cloned().collect(),
+            list: vec![self.folder.clone()],
+            write: vec![maps.clone(), own],
+            secret: place.secret.clone(),
+        };
+        permissions.read.push(capture);
+        let mut usage = Usage::default();
+        // A thread of its own: the kernel restricts threads, for good, and what they start.
+        let end = thread::scope(|scope| {
+            let watched = scope.spawn(|| -> Result<End, String> {
+                usage.confined = confine::restrict(&permissions)?;
+                watch(command, &self.limits, place.log, interrupt, &mut usage)
+                    .map_err(|error| format!("cannot start: {error}"))
+            });
+            watched.join().unwrap_or_else(|_| Err("its watch ended".to_owned()))
+        });
+        let what = match end.map_err(&failed)? {
+            End::Interrupted => {
+                output.abandon();
+                return Err(RunError::Interrupted);
+            }
+            End::Limit(reason) => Some(reason),
+            End::Exited(status) if status.success() => None,
+            End::Exited(status) => Some(format!("ended with {status}")),
+        };
+        let left = match what {
+            Some(what) => Err(failed(format!("{what}{}", self.last_words(place.log, &usage)))),
+            None => check(&maps).map_err(failed),
+        };
+        if let Err(error) = left.and_then(|()| Ok(move_below(&maps, output.path())?)) {
+            output.abandon();
+            return Err(error);
+        }
+        output.commit()?;
+        Ok(usage)
+    }
+
+    fn command(
+        &self,
+        files: &ProgramFiles,
+        [capture, maps, own]: [&Path; 3],
+        log: &File,
+    ) -> io::Result<Command> {
+        let fill = |word: &String| {
+            word.replace("{capture}", &capture.to_string_lossy())
+                .replace("{maps}", &maps.to_string_lossy())
+        };
+        let mut command = Command::new(&files.executable);
+        command
+            .args(files.arguments.iter().map(fill))
+            .current_dir(&self.folder)
+            .env("PYTHONUNBUFFERED", "1")
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env("TMPDIR", own)
+            .env("XDG_CACHE_HOME", own)
+            .stdin(Stdio::null())
+            .stdout(log.try_clone()?)
+            .stderr(log.try_clone()?);
+        if let Some(threads) = self.limits.threads {
+            command.envs(THREADS.map(|name| (name, threads.to_string())));
+        }
+        command.envs(&self.environment);
+        Ok(command)
+    }
+
+    /// What a failed program said last, and where the rest stands.
+    fn last_words(&self, log: &Path, usage: &Usage) -> String {
+        let text = fs::read(log).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text[text.len().saturating_sub(4096)..]).into_owned();
+        let last = text.lines().rev().find(|line| !line.trim().is_empty());
+        let mut said = last.map_or(String::new(), |line| format!(": {}", line.trim()));
+        if usage.confined && text.contains("Permission denied") {
+            said.push_str("; name what else it reads in inputs = [...]");
+        }
+        format!("{said} (log: {})", log.display())
+    }
+}
+
+/// Refuses a maps folder that nothing could be done with, before it takes an earlier one's place.
+fn check(maps: &Path) -> Result<(), String> {
+    if !maps.join("diffuse_albedo.exr").is_file() {
+        return Err("left no diffuse_albedo.exr in its maps folder".to_owned());
+    }
+    solver::Maps::read(maps)
+        .map(drop)
+        .map_err(|error| error.to_string().replace(&*maps.to_string_lossy(), "its maps folder"))
+}
+
+/// Moves what is in one folder into another, perhaps on another disk. Links are not followed.
+fn move_below(from: &Path, to: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        let target = to.join(entry.file_name());
+        let kind = entry.file_type()?;
+        if kind.is_dir() {
+            fs::create_dir_all(&target)?;
+            move_below(&entry.path(), &target)?;
+        } else if kind.is_file() {
+            fs::copy(entry.path(), &target)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,202 @@
+//! A running program with its limits: a process group that is ended as a whole.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus};
+use std::sync::atomic::Ordering;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use crate::synth::Interrupt;
+
+/// Between two looks at the program.
+const LOOK: Duration = Duration::from_millis(25);
+/// A log that grows past this ends the program before it fills the disk, bytes.
+const LARGEST_LOG: u64 = 256 << 20;
+const GIB: f64 = (1u64 << 30) as f64;
+
+/// What a program may take; nothing said is no limit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Wall time, seconds.
+    pub timeout_s: Option<f64>,
+    /// Resident memory of all its processes, GiB.
+    pub memory_gib: Option<f64>,
+    /// Processors that it may use.
+    pub threads: Option<usize>,
+}
+
+/// What a program took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Usage {
+    /// Wall time, seconds.
+    pub seconds: f64,
+    /// Largest resident memory of all its processes together, bytes.
+    pub peak_bytes: u64,
+    /// Whether the kernel kept it to its own files.
+    pub confined: bool,
+}
+
+/// How the watch ended.
+pub(super) enum End {
+    /// By itself.
+    Exited(ExitStatus),
+    /// It took more than it may.
+    Limit(String),
+    /// The user interrupted.
+    Interrupted,
+}
+
+/// Starts `command` in a process group of its own, which dies with this thread, and waits for it.
+/// Nothing of the group is left when this returns.
+pub(super) fn watch(
+    mut command: Command,
+    limits: &Limits,
+    log: &Path,
+    interrupt: &Interrupt,
+    usage: &mut Usage,
+) -> io::Result<End> {
+    group(&mut command);
+    if let Some(threads) = limits.threads {
+        keep_to_processors(threads)?;
+    }
+    let start = Instant::now();
+    let mut child = command.spawn()?;
+    let end = loop {
+        let members = members(child.id());
+        usage.peak_bytes = usage.peak_bytes.max(memory(&members));
+        usage.seconds = start.elapsed().as_secs_f64();
+        if interrupt.load(Ordering::Relaxed) {
+            break End::Interrupted;
+        }
+        if let Some(status) = child.try_wait()? {
+            break End::Exited(status);
+        }
+        if let Some(reason) = exceeded(limits, usage, log) {
+            break End::Limit(reason);
+        }
+        thread::sleep(LOOK);
+    };
+    end_group(&mut child);
+    Ok(end)
+}
+
+fn exceeded(limits: &Limits, usage: &Usage, log: &Path) -> Option<String> {
+    if let Some(most) = limits.timeout_s.filter(|most| usage.seconds > *most) {
+        return Some(format!("took longer than timeout_s = {most}"));
+    }
+    if let Some(most) = limits.memory_gib.filter(|most| usage.peak_bytes as f64 > most * GIB) {
+        let taken = usage.peak_bytes as f64 / GIB;
+        return Some(format!("took {taken:.2} GiB of memory, more than memory_gib = {most}"));
+    }
+    let written = fs::metadata(log).map_or(0, |log| log.len());
+    (written > LARGEST_LOG).then(|| format!("wrote more than {} MiB to its log", LARGEST_LOG >> 20))
+}
+
+/// Processes of the group `leader`, and all that they started.
+fn members(leader: u32) -> Vec<u32> {
+    let mut processes: Vec<(u32, u32, u32)> = Vec::new();
+    for entry in fs::read_dir("/proc").into_iter().flatten().flatten() {
+        let id = entry.file_name().to_str().and_then(|name| name.parse().ok());
+        let Some(id) = id else { continue };
+        let Ok(stat) = fs::read_to_string(entry.path().join("stat")) else { continue };
+        // The name, in parentheses, may hold anything.
+        let Some((_, rest)) = stat.rsplit_once(')') else { continue };
+        let mut fields = rest.split_whitespace().skip(1).map_while(|field| field.parse().ok());
+        if let (Some(parent), Some(group)) = (fields.next(), fields.next()) {
+            processes.push((id, parent, group));
+        }
+    }
+    let mut members = vec![leader];
+    loop {
+        let more: Vec<u32> = processes
+            .iter()
+            .filter(|(id, parent, group)| {
+                !members.contains(id) && (*group == leader || members.contains(parent))
+            })
+            .map(|(id, ..)| *id)
+            .collect();
+        if more.is_empty() {
+            return members;
+        }
+        members.extend(more);
+    }
+}
+
+/// Bytes that the processes have in memory; what several share counts once.
+fn memory(processes: &[u32]) -> u64 {
+    let kilobytes = |process: &u32, file: &str, key: &str| -> Option<u64> {
+        let text = fs::read_to_string(format!("/proc/{process}/{file}")).ok()?;
+        let line = text.lines().find_map(|line| line.strip_prefix(key))?;
+        line.split_whitespace().next()?.parse().ok()
+    };
+    let resident = |process: &u32| kilobytes(process, "status", "VmRSS:").unwrap_or(0);
+    let shared = |process: &u32| {
+        kilobytes(process, "smaps_rollup", "Pss:").unwrap_or_else(|| resident(process))
+    };
+    let total: u64 = match processes {
+        [alone] => resident(alone),
+        many => many.iter().map(shared).sum(),
+    };
+    total * 1024
+}
+
+#[cfg(unix)]
+fn end_group(child: &mut Child) {
+    use rustix::process::{Pid, Signal, kill_process, kill_process_group};
+    // Those first that left the group, as long as it is known whose they are.
+    for process in members(child.id()) {
+        if let Some(pid) = i32::try_from(process).ok().and_then(Pid::from_raw) {
+            let _ = kill_process(pid, Signal::KILL);
+        }
+    }
+    if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+        let _ = kill_process_group(pid, Signal::KILL);
+    }
+    let _ = child.wait();
+}
+
+#[cfg(not(unix))]
+fn end_group(child: &mut Child) {
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+#[cfg(target_os = "linux")]
+fn group(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+
+    use rustix::process::{Signal, set_parent_process_death_signal};
+    command.process_group(0);
+    // SAFETY: between fork and exec only one system call is made, which allocates nothing.
+    unsafe {
+        command.pre_exec(|| Ok(set_parent_process_death_signal(Some(Signal::KILL))?));
+    }
+}
+
+#[cfg(all(unix, not(target_os = "linux")))]
+fn group(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    command.process_group(0);
+}
+
+#[cfg(not(unix))]
+fn group(_: &mut Command) {}
+
+/// This thread, and so what it starts, runs on at most so many of its processors.
+#[cfg(target_os = "linux")]
+fn keep_to_processors(threads: usize) -> io::Result<()> {
+    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
+    let all = sched_getaffinity(None)?;
+    let mut some = CpuSet::new();
+    (0..CpuSet::MAX_CPU).filter(|cpu| all.is_set(*cpu)).take(threads).for_each(|cpu| some.set(cpu));
+    Ok(sched_setaffinity(None, &some)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn keep_to_processors(_: usize) -> io::Result<()> {
+    Ok(())
+}

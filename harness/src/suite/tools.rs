@@ -1,0 +1,21 @@
+//! What every stage needs, and who hears of it.
+
+use crate::synth::{Interpreter, Interrupt};
+
+/// What every stage needs at hand.
+pub struct Tools {
+    /// Runs the path tracer.
+    pub interpreter: Interpreter,
+    /// Raised by Ctrl-C.
+    pub interrupt: Interrupt,
+}
+
+/// Hears how a run gets on.
+pub trait Observer {
+    /// `done` of `total` stages are finished and `id` begins.
+    fn stage_begins(&mut self, id: &str, done: usize, total: usize);
+    /// The stage has done `done` of `total` steps.
+    fn step(&mut self, done: u64, total: u64, what: &str);
+    /// The stage is finished; `seconds` is absent if its earlier result was still valid.
+    fn stage_ends(&mut self, id: &str, seconds: Option<f64>);
+}
