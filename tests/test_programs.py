@@ -120,7 +120,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write(folder, "shade.py", "def colour():\n    return 0.25\n")
     write(folder, "spy.py", SPY)
     write(folder, "broken.sh", "echo about to fail\necho 'no such lens' >&2\nexit 7\n")
-    write(folder, "slow.sh", f"sleep 60 & echo $! > {folder}/child; sleep 60\n")
+    write(folder, "slow.sh", "sleep 60 & echo child $!; sleep 60\n")
     write(folder, "greedy.py", "import time\nkept = bytearray(600 << 20)\nkept[::4096] = b'x' * len(kept[::4096])\ntime.sleep(60)\n")
     write(folder, "nothing.py", "import numpy, unshade\ndef solve(capture):\n    return unshade.Maps(specular_albedo=numpy.zeros((4, 4), 'float32'))\n")
     done = go(folder)
@@ -171,7 +171,7 @@ def test_one_failing_method_leaves_the_others_alone(programs: Path) -> None:
 
 
 def test_a_program_that_is_ended_leaves_no_process(programs: Path) -> None:
-    child = int((programs / "child").read_text())
+    child = int(log(programs, "slow").split()[1])
     for _ in range(50):
         if not Path(f"/proc/{child}").exists() or ") Z " in Path(f"/proc/{child}/stat").read_text():
             return

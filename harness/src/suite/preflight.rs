@@ -32,6 +32,11 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
             |key: &str, reason: String| SceneError::in_table(&suite.path, &entrant.id, key, reason);
         let files = match &entrant.method {
             Method::Program(program) => {
+                if let Some(missing) = program.inputs.iter().find(|input| !input.exists()) {
+                    let reason =
+                        format!("there is no {}; name a file or folder", missing.display());
+                    return Err(wrong("inputs", reason).into());
+                }
                 let key = program.key();
                 Some(program.find(&tools.interpreter).map_err(|reason| wrong(key, reason))?)
             }

@@ -37,12 +37,6 @@ struct Answer {
 impl Program {
     /// Finds the program and its files; the error is the reason alone.
     pub fn find(&self, ours: &Interpreter) -> Result<ProgramFiles, String> {
-        if let Some(missing) = self.inputs.iter().find(|input| !input.exists()) {
-            return Err(format!(
-                "inputs: there is no {}; name a file or folder",
-                missing.display()
-            ));
-        }
         match &self.start {
             Start::Python(function) => {
                 if !function.contains(':') {

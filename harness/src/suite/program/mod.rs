@@ -91,9 +91,12 @@ impl Program {
         let output = Folder::begin(place.maps)?;
         // Elsewhere than the run, whose truth a program has no business with.
         let scratch = tempfile::Builder::new().prefix("unshade-").tempdir()?;
-        let [capture, maps, own] = ["capture", "maps", "tmp"].map(|name| scratch.path().join(name));
+        let [capture, results, own] =
+            ["capture", "results", "tmp"].map(|name| scratch.path().join(name));
+        // Beside the maps there is room for what is renamed into their place.
+        let maps = results.join("maps");
         blind::copy_blind(place.capture, &capture)?;
-        fs::create_dir(&maps)?;
+        fs::create_dir_all(&maps)?;
         fs::create_dir(&own)?;
         if let Some(folder) = place.log.parent() {
             fs::create_dir_all(folder)?;
@@ -103,7 +106,7 @@ impl Program {
         let mut permissions = Permissions {
             read: files.readable().chain(&self.inputs).cloned().collect(),
             list: vec![self.folder.clone()],
-            write: vec![maps.clone(), own],
+            write: vec![results, own],
             secret: place.secret.clone(),
         };
         permissions.read.push(capture);
@@ -173,7 +176,9 @@ impl Program {
         let last = text.lines().rev().find(|line| !line.trim().is_empty());
         let mut said = last.map_or(String::new(), |line| format!(": {}", line.trim()));
         if usage.confined && text.contains("Permission denied") {
-            said.push_str("; name what else it reads in inputs = [...]");
+            said.push_str(
+                "; it may read its own files and inputs = [...], and write {maps} and TMPDIR",
+            );
         }
         format!("{said} (log: {})", log.display())
     }
