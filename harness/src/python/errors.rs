@@ -28,7 +28,6 @@ named! {
     MapsError => "MapsError",
     ConfigError => "ConfigError",
     ScoreError => "ScoreError",
-    RunError => "UnshadeError",
     crate::compare::CompareError => "CompareError",
     crate::metrics::MetricError => "MetricError",
     crate::report::ReportError => "ReportError",
@@ -41,7 +40,30 @@ impl Named for SolveError {
             Self::Config(error) => error.class(),
             Self::Capture(error) => error.class(),
             Self::Maps(error) => error.class(),
-            Self::NotFinite { .. } | Self::Interrupted | Self::Memory { .. } => "SolveError",
+            Self::Interrupted => "Stopped",
+            Self::NotFinite { .. } | Self::Memory { .. } => "SolveError",
+        }
+    }
+}
+
+/// What a stage met with has the name that it has elsewhere, the renderer's own exceptions too.
+impl Named for RunError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Scene(_) => "SceneError",
+            Self::Interpreter(_) | Self::Stage(_) => "RendererError",
+            Self::Capture(error) => error.class(),
+            Self::Config(error) => error.class(),
+            Self::Backend(error) => error.class(),
+            Self::Solve(error) => error.class(),
+            Self::Maps(error) => error.class(),
+            Self::Score(error) => error.class(),
+            Self::Report(error) => error.class(),
+            Self::Compare(error) => error.class(),
+            Self::Program { .. } => "SolveError",
+            Self::Busy(_) | Self::Folder(_) => "StorageError",
+            Self::Interrupted | Self::Stopped { .. } => "Stopped",
+            _ => "UnshadeError",
         }
     }
 }
