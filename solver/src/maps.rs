@@ -122,4 +122,17 @@ mod tests {
         assert!(error.contains("specular_albedo.exr: is 8x8, expected 4x4"), "{error}");
         assert!(Maps::read(&root.path().join("absent")).is_err());
     }
+
+    #[test]
+    fn a_roughness_map_keeps_its_channels_apart() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("maps");
+        let mut roughness = Picture::new(2, 2, 3);
+        roughness.pixel_mut(1, 0).copy_from_slice(&[0.1, 0.4, 0.7]);
+        let maps = Maps { roughness: Some(roughness), ..Maps::default() };
+        maps.write(&folder).unwrap();
+        let file = folder.join("roughness.exr");
+        assert_eq!(picture::read_exr(&file, &["share1"]).unwrap().pixel(1, 0), [0.7]);
+        assert_eq!(Maps::read(&folder).unwrap(), maps);
+    }
 }

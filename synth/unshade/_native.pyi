@@ -3,10 +3,28 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import ClassVar, TypedDict
+from typing import ClassVar, TypedDict, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Capture",
+    "Maps",
+    "__version__",
+    "compare",
+    "measure",
+    "metric_definitions",
+    "read_scores",
+    "relight",
+    "report",
+    "run",
+    "run_command_line",
+    "score_json",
+    "solve",
+    "synth",
+    "write_scores",
+]
 
 _Path = str | os.PathLike[str]
 _Float = NDArray[np.float32]
@@ -33,6 +51,7 @@ class _Mesh(TypedDict):
     uvs: _Float
     triangles: NDArray[np.uint32]
 
+@final
 class Capture:
     """A capture folder, opened and checked; raises ``errors.CaptureError``. A pickle holds the path."""
 
@@ -75,6 +94,7 @@ class Capture:
     def truth(self) -> Maps:
         """The true maps of a synthetic capture."""
 
+@final
 class Maps:
     """Square reflectance maps of one size; what a solver does not recover is None.
 
@@ -134,7 +154,7 @@ class Maps:
     @property
     def size(self) -> int | None:
         """Texels along a side; None without any map."""
-    def __eq__(self, other: object) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
     @property
     def interrupted(self) -> str | None:

@@ -12,9 +12,6 @@ from . import _native
 from .errors import ScoreError
 
 _Path = str | os.PathLike[str]
-_Key = Literal[
-    "format", "capture", "face", "light", "solver", "protocol", "inputs", "scale", "regions"
-]
 
 
 class _Any:
@@ -165,9 +162,7 @@ class Scores:
     @overload
     def __getitem__(self, key: Literal["rows"]) -> list[dict[str, Any]]: ...
     @overload
-    def __getitem__(self, key: _Key) -> Any: ...
-    @overload
-    def __getitem__(self, key: str) -> Score: ...
+    def __getitem__(self, key: str) -> Any: ...
     def __getitem__(self, key: str) -> Any:
         if key in self._document:
             return self._document[key]

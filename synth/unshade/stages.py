@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -74,7 +74,7 @@ def _path_of(capture: Capture | _Path) -> _Path:
 
 
 @contextmanager
-def _folder_of(maps: Maps | _Path) -> Iterator[_Path]:
+def _folder_of(maps: Maps | _Path) -> Generator[_Path]:
     """A folder with the maps; a temporary one goes when the stage is over."""
     if not isinstance(maps, Maps):
         yield maps

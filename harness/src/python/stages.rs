@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::{self, RecvTimeoutError, SyncSender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
 use std::thread;
 use std::time::Duration;
 
@@ -15,6 +15,9 @@ use pyo3::types::PyBool;
 use super::errors::{named_error, raise};
 use crate::suite::{self, Observer, RunError, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt, StageError};
+
+/// How often Ctrl-C is looked out for.
+const TICK: Duration = Duration::from_millis(20);
 
 type Heard<'py> = Option<&'py Bound<'py, PyAny>>;
 
@@ -68,14 +71,18 @@ pub(super) fn report(py: Python<'_>, run: PathBuf, out: PathBuf, progress: Heard
     })
 }
 
-/// The worker's end of what the callback hears.
-struct Said(Option<SyncSender<(u64, u64, String)>>);
+/// What the callback hears: done, total, and what.
+type Step = (u64, u64, String);
+
+/// The worker's end of the line to the callback.
+struct Said(Option<(SyncSender<Step>, Receiver<()>)>);
 
 impl Said {
+    /// Returns when it was heard, so that no more is done once the callback asks to stop.
     fn say(&self, done: u64, total: u64, what: &str) {
-        if let Some(sender) = &self.0 {
-            // Nobody listens any more once the callback has asked to stop.
-            let _ = sender.send((done, total, what.to_owned()));
+        if let Some((steps, heard)) = &self.0 {
+            // After a stop nobody listens any more.
+            let _ = steps.send((done, total, what.to_owned())).map(|()| heard.recv());
         }
     }
 }
@@ -115,43 +122,35 @@ fn watched<T: Send>(
     let python: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
     let tools =
         Tools { interpreter: Interpreter::at(Path::new(&python)), interrupt: Interrupt::default() };
-    // Each step waits until it was heard, so that a stop is one at once.
     let (sender, steps) = mpsc::sync_channel(0);
-    let said = Said(progress.map(|_| sender));
+    let (answer, heard) = mpsc::sync_channel(1);
+    let said = Said(progress.map(|_| (sender, heard)));
     let progress = progress.map(|progress| progress.clone().unbind());
     let mut stopped: PyResult<bool> = Ok(true);
     let result = py.detach(|| {
         thread::scope(|scope| {
-            let worker = scope.spawn(|| {
-                let result = work(&tools, &said);
-                drop(said);
-                result
-            });
+            let tools = &tools;
+            let worker = scope.spawn(move || work(tools, &said));
             let mut steps = Some(steps);
             while !worker.is_finished() {
                 let step = match &steps {
-                    Some(steps) => steps.recv_timeout(Duration::from_millis(20)),
+                    Some(steps) => steps.recv_timeout(TICK),
                     None => Err(RecvTimeoutError::Disconnected),
                 };
                 if let Err(RecvTimeoutError::Disconnected) = step {
-                    thread::sleep(Duration::from_millis(20));
+                    thread::sleep(TICK);
                 }
-                if matches!(stopped, Ok(true)) {
-                    stopped = Python::attach(|py| {
-                        py.check_signals()?;
-                        match (&progress, step) {
-                            (Some(progress), Ok((done, total, what))) => {
-                                let answer = progress.call1(py, (done, total, what))?;
-                                // None, as of a function that returns nothing, goes on.
-                                Ok(!answer.bind(py).is(PyBool::new(py, false)))
-                            }
-                            _ => Ok(true),
-                        }
-                    });
-                    if !matches!(stopped, Ok(true)) {
-                        tools.interrupt.store(true, Ordering::Relaxed);
-                        steps = None;
-                    }
+                if !matches!(stopped, Ok(true)) {
+                    continue;
+                }
+                let spoke = step.is_ok();
+                stopped = Python::attach(|py| hear(py, progress.as_ref(), step.ok()));
+                if !matches!(stopped, Ok(true)) {
+                    tools.interrupt.store(true, Ordering::Relaxed);
+                    steps = None;
+                }
+                if spoke {
+                    let _ = answer.send(());
                 }
             }
             worker.join()
@@ -167,4 +166,15 @@ fn watched<T: Send>(
         Ok(Err(error)) => Err(raise(error)),
         Err(panic) => std::panic::resume_unwind(panic),
     }
+}
+
+/// Whether to go on, after Python has seen to its signals and the callback has heard the step.
+fn hear(py: Python<'_>, progress: Option<&Py<PyAny>>, step: Option<Step>) -> PyResult<bool> {
+    py.check_signals()?;
+    let (Some(progress), Some(step)) = (progress, step) else { return Ok(true) };
+    let answer = progress.call1(py, step)?;
+    // A signal that came meanwhile is no news of the next step.
+    py.check_signals()?;
+    // None, as of a function that returns nothing, goes on.
+    Ok(!answer.bind(py).is(PyBool::new(py, false)))
 }
