@@ -55,7 +55,7 @@ class _Mesh(TypedDict):
 class Capture:
     """A capture folder, opened and checked; raises ``errors.CaptureError``. A pickle holds the path."""
 
-    def __init__(self, path: _Path) -> None: ...
+    def __new__(cls, path: _Path) -> Capture: ...
     @property
     def path(self) -> Path:
         """The folder."""
@@ -105,8 +105,8 @@ class Maps:
     equal, wherever a solve was stopped.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         *,
         diffuse_albedo: ArrayLike | None = None,
         specular_albedo: ArrayLike | None = None,
@@ -115,7 +115,7 @@ class Maps:
         confidence: ArrayLike | None = None,
         roughness: ArrayLike | None = None,
         coverage: ArrayLike | None = None,
-    ) -> None: ...
+    ) -> Maps: ...
     @property
     def diffuse_albedo(self) -> _Float | None:
         """(size, size, 3) linear Rec.709 reflectance."""
