@@ -16,26 +16,18 @@ CASE = "tiny-studio"
 SUITE = Path(__file__).parent / "scenes" / "tiny.toml"
 
 
-def test_a_stage_tells_its_progress_on_the_callers_thread(tiny_run: Path, tmp_path: Path) -> None:
-    heard: list[tuple[int, int, str]] = []
-    threads = set()
-
-    def progress(done: int, total: int, what: str) -> None:
-        heard.append((done, total, what))
-        threads.add(threading.current_thread())
-
-    maps = tiny_run / "maps" / CASE / "mean_texture"
-    unshade.relight(tiny_run / "captures" / CASE, maps, tmp_path / "relit", progress=progress)
-    assert threads == {threading.current_thread()}
-    assert all(0 <= done <= total for done, total, _ in heard)
-    assert heard[-1][0] == heard[-1][1] > 0 and any("view" in what for _, _, what in heard)
-
-
 def test_a_finished_run_tells_every_stage(tiny_run: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     shutil.copytree(tiny_run, run)
     heard: list[tuple[int, int, str]] = []
-    page = unshade.run(SUITE, run, progress=lambda *step: heard.append(step))
+    threads = set()
+
+    def progress(*step) -> None:
+        heard.append(step)
+        threads.add(threading.current_thread())
+
+    page = unshade.run(SUITE, run, progress=progress)
+    assert threads == {threading.current_thread()}
     assert page == run / "report" / "index.html"
     stages = {what.split(":")[0] for _, _, what in heard}
     assert f"capture/{CASE}" in stages and f"scores/{CASE}/oracle" in stages and "report" in stages

@@ -111,8 +111,11 @@ def test_stages_take_paths_and_objects(
     by_path = unshade.score(str(capture.path), folder)
     by_object = unshade.score(capture, maps)
     assert by_object["rows"] == by_path["rows"]
-    relit = unshade.relight(capture, maps, tmp_path / "relit")
+    heard: list[tuple[int, int, str]] = []
+    relit = unshade.relight(capture, maps, tmp_path / "relit", progress=lambda *step: heard.append(step))
     assert relit == tmp_path / "relit"
+    assert all(0 <= done <= total for done, total, _ in heard)
+    assert heard[-1][0] == heard[-1][1] > 0 and any("view" in what for _, _, what in heard)
     for picture in sorted((tiny_run / "relit" / CASE / "mean_texture").rglob("*.exr")):
         name = picture.relative_to(tiny_run / "relit" / CASE / "mean_texture")
         assert (relit / name).read_bytes() == picture.read_bytes(), name
