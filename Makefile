@@ -55,9 +55,15 @@ bench: build
 	$(BIN)/unshade bench --json -o runs/bench/performance.json --markdown docs/performance.md
 	$(BIN)/python synth/bench/subsurface.py -o runs/bench/subsurface
 
-lint: build
+lint: build .venv/lint
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
+	$(BIN)/python tests/check_types.py
+
+# The checkers of types, apart from what running and testing need.
+.venv/lint: .venv/complete
+	$(UV) pip install --quiet --python .venv --group lint
+	@touch $@
 
 # Planes and taps under Miri, minutes; needs `rustup component add miri rust-src
 # --toolchain nightly` (written against nightly 2026-05-19).

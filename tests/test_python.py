@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
-import re
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 import unshade
 from skimage.metrics import peak_signal_noise_ratio
+
+from doc_examples import examples
 
 README = Path(__file__).parents[1] / "README.md"
 CASE = "tiny-studio"
@@ -118,12 +120,16 @@ def test_errors_have_names_and_one_line(tiny_run: Path, tmp_path: Path) -> None:
             np.zeros((2, 2), np.float32), np.zeros((3, 3), np.float32)
         ),
         unshade.errors.ScoreError: lambda: unshade.score(capture.path, tmp_path),
+        unshade.errors.ReportError: lambda: unshade.report(tmp_path, tmp_path / "report"),
+        unshade.errors.CompareError: lambda: unshade.compare(tmp_path, tmp_path / "baseline.json"),
+        unshade.errors.SceneError: lambda: unshade.run(tmp_path / "suite.toml", tmp_path / "run"),
+        unshade.errors.BackendError: lambda: unshade.solve(capture, backend="abacus"),
     }
     for kind, call in wrong.items():
         with pytest.raises(kind) as caught:
             call()
-        assert isinstance(caught.value, unshade.errors.UnshadeError)
-        assert "\n" not in str(caught.value)
+        assert type(caught.value) is kind and issubclass(kind, unshade.errors.UnshadeError)
+        assert "\n" not in str(caught.value) and kind.__doc__
 
 
 def test_the_renderers_exception_keeps_its_name(tmp_path: Path) -> None:
@@ -149,8 +155,6 @@ def test_a_python_function_joins_a_suite(tiny_run: Path, tmp_path: Path) -> None
     from unshade import plugin
 
     maps = tmp_path / "maps"
-    import shutil
-
     blind = tmp_path / "blind"
     shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
     with pytest.MonkeyPatch.context() as patch:
@@ -162,16 +166,20 @@ def test_a_python_function_joins_a_suite(tiny_run: Path, tmp_path: Path) -> None
     assert "diffuse_albedo" in subjects and "specular_albedo" not in subjects
 
 
-def test_the_readmes_python_runs(tiny_run: Path, tmp_path: Path) -> None:
-    """The snippet of the README, on the tiny capture in place of the demo's."""
-    (snippet,) = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
-    capture = tiny_run / "captures" / CASE
-    snippet = snippet.replace(
-        'unshade.synth("scenes/demo.toml", "capture")', f"unshade.Capture({str(capture)!r})"
-    )
-    assert str(capture) in snippet
-    snippet = snippet.replace('"capture"', repr(str(capture)))
-    for folder in ("maps", "relit"):
-        snippet = snippet.replace(f'"{folder}"', repr(str(tmp_path / folder)))
-    snippet = snippet.replace('config="unshade"', 'config="fast"')
-    exec(compile(snippet, "README.md", "exec"), {})
+@pytest.mark.parametrize("place", examples())
+def test_the_documentations_examples_run(
+    place: str, tiny_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As they stand, but for the size: the tiny scene is rendered already, and solved fast."""
+
+    def synth(scene: str, out: str, **_: object) -> unshade.Capture:
+        assert (README.parent / scene).is_file()
+        shutil.copytree(tiny_run / "captures" / CASE, out)
+        return unshade.Capture(out)
+
+    solve = unshade.solve
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(unshade, "synth", synth, raising=False)
+    monkeypatch.setattr(unshade, "solve", lambda *given, **named: solve(*given, **{**named, "config": "fast"}), raising=False)
+    code = examples()[place]
+    exec(compile(code, place, "exec"), {"__name__": "example"})

@@ -61,6 +61,7 @@ fn maps(
         diffuse_normal: Some(atlas.normal_map()),
         specular_normal: Some(atlas.normal_map()),
         confidence: None,
+        roughness: None,
         coverage: Some(GrayImage { width: size, height: size, data }),
     })
 }

@@ -19,6 +19,9 @@ pub struct Maps {
     pub specular_normal: Option<Picture>,
     /// One channel, 0 to 1: the solver's own trust in the diffuse albedo.
     pub confidence: Option<Picture>,
+    /// GGX alphas of the two lobes, and the share of the first. The truth has it, and whoever solves
+    /// for it; without it maps are relit with the standard lobes of skin.
+    pub roughness: Option<Picture>,
     /// 255 where the map had data.
     pub coverage: Option<GrayImage>,
 }
@@ -26,12 +29,13 @@ pub struct Maps {
 type Field = fn(&mut Maps) -> &mut Option<Picture>;
 
 /// File, channel names, and the place of each float map.
-const FILES: [(&str, &[&str], Field); 5] = [
+const FILES: [(&str, &[&str], Field); 6] = [
     ("diffuse_albedo.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_albedo),
     ("specular_albedo.exr", &["Y"], |maps| &mut maps.specular_albedo),
     ("diffuse_normal.exr", &["R", "G", "B"], |maps| &mut maps.diffuse_normal),
     ("specular_normal.exr", &["R", "G", "B"], |maps| &mut maps.specular_normal),
     ("confidence.exr", &["Y"], |maps| &mut maps.confidence),
+    ("roughness.exr", &["alpha1", "alpha2", "share1"], |maps| &mut maps.roughness),
 ];
 const COVERAGE: &str = "coverage.png";
 
@@ -116,5 +120,18 @@ mod tests {
         let error = Maps::read(&folder).unwrap_err().to_string();
         assert!(error.contains("specular_albedo.exr: is 8x8, expected 4x4"), "{error}");
         assert!(Maps::read(&root.path().join("absent")).is_err());
+    }
+
+    #[test]
+    fn a_roughness_map_keeps_its_channels_apart() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("maps");
+        let mut roughness = Picture::new(2, 2, 3);
+        roughness.pixel_mut(1, 0).copy_from_slice(&[0.1, 0.4, 0.7]);
+        let maps = Maps { roughness: Some(roughness), ..Maps::default() };
+        maps.write(&folder).unwrap();
+        let file = folder.join("roughness.exr");
+        assert_eq!(picture::read_exr(&file, &["share1"]).unwrap().pixel(1, 0), [0.7]);
+        assert_eq!(Maps::read(&folder).unwrap(), maps);
     }
 }

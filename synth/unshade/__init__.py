@@ -6,6 +6,7 @@ The stages hand folders to each other, on disk::
     maps = unshade.solve(capture, out="maps")
     unshade.relight("capture", "maps", "relit")
     scores = unshade.score("capture", "maps", relit="relit")
+    scores.value(subject="relit", light="studio", metric="psnr_srgb", scale="global")
 
 Every fault is an exception of :mod:`unshade.errors` whose message says what is wrong, where,
 and the mend.
@@ -20,6 +21,8 @@ os.environ.setdefault("NODEVICE_SELECT", "1")
 _HOMES = {
     "Capture": "_native",
     "Maps": "_native",
+    "Score": "scores",
+    "Scores": "scores",
     "__version__": "_native",
     "solve": "_native",
     "compare": "stages",

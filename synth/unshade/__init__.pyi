@@ -4,6 +4,8 @@ from unshade._native import Capture as Capture
 from unshade._native import Maps as Maps
 from unshade._native import __version__ as __version__
 from unshade._native import solve as solve
+from unshade.scores import Score as Score
+from unshade.scores import Scores as Scores
 from unshade.stages import compare as compare
 from unshade.stages import relight as relight
 from unshade.stages import report as report

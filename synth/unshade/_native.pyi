@@ -3,14 +3,33 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypedDict
+from typing import ClassVar, TypedDict, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Capture",
+    "Maps",
+    "__version__",
+    "compare",
+    "measure",
+    "metric_definitions",
+    "read_scores",
+    "relight",
+    "report",
+    "run",
+    "run_command_line",
+    "score_json",
+    "solve",
+    "synth",
+    "write_scores",
+]
 
 _Path = str | os.PathLike[str]
 _Float = NDArray[np.float32]
 _Byte = NDArray[np.uint8]
+_Progress = Callable[[int, int, str], object]
 
 __version__: str
 
@@ -32,10 +51,11 @@ class _Mesh(TypedDict):
     uvs: _Float
     triangles: NDArray[np.uint32]
 
+@final
 class Capture:
-    """A capture folder, opened and checked; raises ``errors.CaptureError``."""
+    """A capture folder, opened and checked; raises ``errors.CaptureError``. A pickle holds the path."""
 
-    def __init__(self, path: _Path) -> None: ...
+    def __new__(cls, path: _Path) -> Capture: ...
     @property
     def path(self) -> Path:
         """The folder."""
@@ -61,7 +81,7 @@ class Capture:
         (height, width, 3), uvs (height, width, 2); NaN where it sees nothing of it."""
     def shading(
         self,
-        light: _Float,
+        light: ArrayLike,
         *,
         texture_size: int = 128,
         nearness: float = 0.0,
@@ -74,25 +94,68 @@ class Capture:
     def truth(self) -> Maps:
         """The true maps of a synthetic capture."""
 
+@final
 class Maps:
-    """Square reflectance maps; what a solver does not recover is None."""
+    """Square reflectance maps of one size; what a solver does not recover is None.
 
-    diffuse_albedo: _Float | None
-    specular_albedo: _Float | None
-    diffuse_normal: _Float | None
-    specular_normal: _Float | None
-    confidence: _Float | None
-    coverage: _Byte | None
-    def __init__(
-        self,
+    A map may be given as anything numpy makes a float array of; it is kept as float32. Reading one
+    gives a view that cannot be written to, without a copy; assign a new array to change a map. A
+    map of another size than the others, with other channels, or with NaN where there is coverage
+    (anywhere without one) raises ``errors.MapsError``, which names it. Maps with equal values are
+    equal, wherever a solve was stopped.
+    """
+
+    def __new__(
+        cls,
         *,
-        diffuse_albedo: _Float | None = None,
-        specular_albedo: _Float | None = None,
-        diffuse_normal: _Float | None = None,
-        specular_normal: _Float | None = None,
-        confidence: _Float | None = None,
-        coverage: _Byte | None = None,
-    ) -> None: ...
+        diffuse_albedo: ArrayLike | None = None,
+        specular_albedo: ArrayLike | None = None,
+        diffuse_normal: ArrayLike | None = None,
+        specular_normal: ArrayLike | None = None,
+        confidence: ArrayLike | None = None,
+        roughness: ArrayLike | None = None,
+        coverage: ArrayLike | None = None,
+    ) -> Maps: ...
+    @property
+    def diffuse_albedo(self) -> _Float | None:
+        """(size, size, 3) linear Rec.709 reflectance."""
+    @diffuse_albedo.setter
+    def diffuse_albedo(self, array: ArrayLike | None) -> None: ...
+    @property
+    def specular_albedo(self) -> _Float | None:
+        """(size, size) reflectance at normal incidence, 0 to 0.05."""
+    @specular_albedo.setter
+    def specular_albedo(self, array: ArrayLike | None) -> None: ...
+    @property
+    def diffuse_normal(self) -> _Float | None:
+        """(size, size, 3) unit vectors in object space."""
+    @diffuse_normal.setter
+    def diffuse_normal(self, array: ArrayLike | None) -> None: ...
+    @property
+    def specular_normal(self) -> _Float | None:
+        """(size, size, 3) unit vectors in object space."""
+    @specular_normal.setter
+    def specular_normal(self, array: ArrayLike | None) -> None: ...
+    @property
+    def confidence(self) -> _Float | None:
+        """(size, size) 0 to 1: the solver's own trust in the diffuse albedo."""
+    @confidence.setter
+    def confidence(self, array: ArrayLike | None) -> None: ...
+    @property
+    def roughness(self) -> _Float | None:
+        """(size, size, 3) GGX alphas of the two lobes, and the share of the first."""
+    @roughness.setter
+    def roughness(self, array: ArrayLike | None) -> None: ...
+    @property
+    def coverage(self) -> _Byte | None:
+        """(size, size) 255 where a map had data; booleans become 0 and 255."""
+    @coverage.setter
+    def coverage(self, array: ArrayLike | None) -> None: ...
+    @property
+    def size(self) -> int | None:
+        """Texels along a side; None without any map."""
+    def __eq__(self, value: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
     @property
     def interrupted(self) -> str | None:
         """Where the solve was stopped; None if it came to its end."""
@@ -100,17 +163,18 @@ class Maps:
     def read(path: _Path) -> Maps:
         """Read whatever maps the folder has."""
     def write(self, path: _Path) -> None:
-        """Write the folder, completely or not at all."""
+        """Write the folder, completely or not at all. Texels without coverage that hold no number
+        are written as 0."""
 
 def solve(
-    capture: Capture,
+    capture: Capture | _Path,
     *,
     config: str = "unshade",
     out: _Path | None = None,
     progress: Callable[[str, int, int, float], object] | None = None,
     backend: str = "auto",
 ) -> Maps:
-    """Recover maps; ``config`` is a preset's name or the text of a configuration.
+    """Recover maps from a capture or its folder; ``config`` is a preset's name or the text of a configuration.
 
     ``progress(stage, iteration, total, loss)`` hears how it goes. What it raises stops the solve
     and is raised here, as is Ctrl-C; returning ``False`` stops it and returns the maps so far,
@@ -121,18 +185,27 @@ def solve(
 
 def run_command_line(arguments: list[str]) -> int: ...
 def score_json(capture: _Path, maps: _Path, relit: _Path | None = None) -> str: ...
-def synth(scene: _Path, out: _Path) -> None: ...
-def relight(capture: _Path, maps: _Path, out: _Path) -> Path: ...
-def run(suite: _Path, out: _Path) -> Path: ...
+def read_scores(path: _Path) -> str: ...
+def write_scores(text: str, path: _Path) -> None: ...
+def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
+def relight(
+    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None
+) -> Path: ...
+def run(
+    suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None
+) -> Path: ...
+def begin_folder(target: _Path, key: str) -> Path: ...
+def commit_folder(target: _Path, key: str) -> None: ...
+def report(run: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
 def compare(run: _Path, baseline: _Path, tolerances: _Path | None = None) -> bool: ...
-def write_report(run: _Path, out: _Path) -> None: ...
-def metric_definitions() -> list[tuple[str, str, str, str, str, str]]: ...
+def metric_definitions() -> list[tuple[str, str, str, str, str, str, str]]: ...
 def measure(
     metric: str,
-    prediction: _Float,
-    truth: _Float,
-    mask: NDArray[np.bool_] | None = None,
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
     *,
     erode: bool = False,
     scale: str = "none",
+    beside: dict[str, ArrayLike] | None = None,
 ) -> float | None: ...

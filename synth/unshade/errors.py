@@ -22,7 +22,7 @@ class CaptureError(UnshadeError):
 
 
 class MapsError(UnshadeError):
-    """A maps folder cannot be rendered."""
+    """Maps cannot be read, made or rendered."""
 
 
 class PictureError(UnshadeError):
@@ -37,6 +37,16 @@ class StorageError(UnshadeError):
     """A file or folder cannot be written."""
 
 
+class RendererError(UnshadeError):
+    """The renderer's process cannot be started, or died without saying why."""
+
+
+class Stopped(UnshadeError):
+    """A stage was stopped by its ``progress``, which returned False; the same call goes on from there."""
+
+    exit_code = 3
+
+
 class ConfigError(UnshadeError):
     """A solver's configuration has an unknown key or a value out of range."""
 
@@ -46,11 +56,11 @@ class BackendError(UnshadeError):
 
 
 class SolveError(UnshadeError):
-    """A capture cannot be solved."""
+    """A capture cannot be solved, by our solver or by a suite's program."""
 
 
 class MetricError(UnshadeError):
-    """Two pictures cannot be compared."""
+    """Arrays cannot be compared: shape, type, a number that is none, or an argument that is missing."""
 
 
 class ScoreError(UnshadeError):

@@ -1,14 +1,23 @@
 """Every metric as a function: ``unshade.metrics.psnr_srgb(prediction, truth, mask)``.
 
-``prediction`` and ``truth`` are float32 (height, width, channels) or (height, width), linear;
-``mask`` is boolean. ``erode=True`` shrinks the mask once by 5 x 5. ``scale`` fits a factor on the
-prediction first: ``none``, ``global``, ``channel`` or ``median``. The result is None where a
-metric is not defined, such as a correlation with a constant.
+``prediction`` and ``truth`` are linear, (height, width, channels) or (height, width), of float or
+nested lists; they are compared as float32. ``mask`` says which pixels count: booleans, zeros and
+ones, or 0 to 255 of which those above 127 do. What lies beside the mask may be anything, NaN too.
+``erode=True`` shrinks the mask (without one, the whole picture) once by 5 x 5. ``scale`` fits a
+factor on the prediction first: ``none``, ``global``, ``channel`` or ``median``.
+
+Some metrics compare with more, a keyword each: ``labels`` (height, width), region ids from 0 to 255;
+``shading`` and ``specular``, the true diffuse shading and specular layer, as pictures; ``confidence``
+(height, width), larger for more trust.
+
+The result is None where a metric is not defined, such as a correlation with a constant. Arrays that
+cannot be meant raise :class:`unshade.errors.MetricError`, which names the argument.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import Parameter, Signature
 from typing import NamedTuple
 
 from unshade._native import measure as _measure
@@ -16,7 +25,7 @@ from unshade._native import metric_definitions as _metric_definitions
 
 
 class Definition(NamedTuple):
-    """What a metric is."""
+    """What a metric is; ``needs`` names the argument that it takes beside the mask, or is empty."""
 
     id: str
     name: str
@@ -24,19 +33,35 @@ class Definition(NamedTuple):
     direction: str
     definition: str
     link: str
+    needs: str
 
 
-DEFINITIONS: dict[str, Definition] = {
-    row[0]: Definition(*row) for row in _metric_definitions()
-}
+DEFINITIONS: dict[str, Definition] = {row[0]: Definition(*row) for row in _metric_definitions()}
 
 
 def _function(definition: Definition) -> Callable[..., float | None]:
-    def metric(prediction, truth, mask=None, *, erode=False, scale="none"):
-        return _measure(definition.id, prediction, truth, mask, erode=erode, scale=scale)
+    needs = definition.needs
 
+    def metric(prediction, truth, mask=None, *, erode=False, scale="none", **beside):
+        for name in beside:
+            if name != needs:
+                raise TypeError(f"{definition.id}() got an unexpected keyword argument {name!r}")
+        return _measure(
+            definition.id, prediction, truth, mask, erode=erode, scale=scale, beside=beside
+        )  # fmt: skip
+
+    parameters = [
+        Parameter("prediction", Parameter.POSITIONAL_OR_KEYWORD),
+        Parameter("truth", Parameter.POSITIONAL_OR_KEYWORD),
+        Parameter("mask", Parameter.POSITIONAL_OR_KEYWORD, default=None),
+        *([Parameter(needs, Parameter.KEYWORD_ONLY)] if needs else []),
+        Parameter("erode", Parameter.KEYWORD_ONLY, default=False),
+        Parameter("scale", Parameter.KEYWORD_ONLY, default="none"),
+    ]
+    metric.__signature__ = Signature(parameters)
     metric.__name__ = metric.__qualname__ = definition.id
-    metric.__doc__ = f"{definition.name} [{definition.unit}]: {definition.definition}"
+    unit = f" [{definition.unit}]" if definition.unit else ""
+    metric.__doc__ = f"{definition.name}{unit}: {definition.definition}"
     return metric
 
 

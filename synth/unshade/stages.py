@@ -1,45 +1,91 @@
-"""The stages that the command line runs, from Python."""
+"""The stages that the command line runs, from Python.
+
+``progress(done, total, what)``, where a stage takes it, hears how it goes, on the caller's thread.
+What it raises stops the stage and is raised here, as is Ctrl-C (``KeyboardInterrupt``); returning
+``False`` stops it too, and raises :class:`unshade.errors.Stopped`. What was finished is kept: the same
+call goes on from there.
+"""
 
 from __future__ import annotations
 
 import json
 import os
+import tempfile
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from unshade import _native
-from unshade._native import Capture
+from unshade._native import Capture, Maps
+
+from .scores import Scores
 
 _Path = str | os.PathLike[str]
+_Progress = Callable[[int, int, str], object]
 
 
-def synth(scene: _Path, out: _Path) -> Capture:
+def synth(scene: _Path, out: _Path, *, progress: _Progress | None = None) -> Capture:
     """Render the scene file ``scene`` into the capture folder ``out``, truth included."""
-    _native.synth(scene, out)
+    _native.synth(scene, out, progress)
     return Capture(out)
 
 
-def relight(capture: _Path, maps: _Path, out: _Path) -> Path:
-    """Render the maps folder in the capture's lights into ``out``, as it is and after one factor."""
-    return _native.relight(capture, maps, out)
+def relight(
+    capture: Capture | _Path, maps: Maps | _Path, out: _Path, *, progress: _Progress | None = None
+) -> Path:
+    """Render maps in the capture's lights into the folder ``out``, as they are and after one factor.
+
+    ``maps`` is a maps folder, or the maps themselves.
+    """
+    with _folder_of(maps) as folder:
+        return _native.relight(_path_of(capture), folder, out, progress)
 
 
-def score(capture: _Path, maps: _Path, *, relit: _Path | None = None) -> dict[str, Any]:
-    """Scores of a maps folder (and of what ``relight`` made of it) against the truth."""
-    return json.loads(_native.score_json(capture, maps, relit))
+def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None) -> Scores:
+    """Scores of maps (and of what ``relight`` made of them) against the truth.
+
+    ``maps`` is a maps folder, or the maps themselves, which have no synthesis of the withheld views.
+    """
+    with _folder_of(maps) as folder:
+        return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit)))
 
 
-def run(suite: _Path, out: _Path) -> Path:
-    """Run a suite in the folder ``out``, resuming it; returns its report's page."""
-    return _native.run(suite, out)
+def run(
+    suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None
+) -> Path:
+    """Run a suite in the folder ``out``, resuming it; returns its report's page.
+
+    ``redo`` names methods whose maps are made anew. Raises `SolveError` at the end if a method
+    failed; the others are scored all the same.
+
+    ``progress`` counts the suite's stages; ``what`` says how far the present one is.
+    """
+    return _native.run(suite, out, list(redo), progress)
 
 
-def report(run: _Path, out: _Path) -> Path:
+def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path:
     """Write the report of a run folder; returns its page."""
-    _native.write_report(run, out)
+    _native.report(run, out, progress)
     return Path(out) / "index.html"
 
 
 def compare(run: _Path, baseline: _Path, *, tolerances: _Path | None = None) -> bool:
     """True if no metric of ``run`` is worse than in ``baseline`` beyond its tolerance."""
     return _native.compare(run, baseline, tolerances)
+
+
+def _path_of(capture: Capture | _Path) -> _Path:
+    return capture.path if isinstance(capture, Capture) else capture
+
+
+@contextmanager
+def _folder_of(maps: Maps | _Path) -> Generator[_Path]:
+    """A folder with the maps; a temporary one goes when the stage is over."""
+    if not isinstance(maps, Maps):
+        yield maps
+        return
+    with tempfile.TemporaryDirectory(prefix="unshade-") as folder:
+        # The folder's name is the solver's in scores.
+        written = Path(folder) / "maps"
+        maps.write(written)
+        yield written

@@ -58,12 +58,14 @@ pub enum MetricError {
         region: String,
     },
     /// A metric lacks something that it compares with.
-    #[error("{metric} needs {input}; give it with the pair")]
+    #[error("{metric} needs {input}; give {argument}=")]
     Needs {
         /// The metric's id.
         metric: &'static str,
         /// What is missing.
         input: &'static str,
+        /// The argument that takes it.
+        argument: &'static str,
     },
     /// No metric has this id.
     #[error("there is no metric {id:?}; there are {known}")]

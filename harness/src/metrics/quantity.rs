@@ -51,13 +51,25 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// What it compares with beside prediction and truth; as an argument is named in Python.
+    pub fn needs(self) -> Option<&'static str> {
+        match self {
+            Self::WithinLabel => Some("labels"),
+            Self::LogErrorAndCause => Some("shading"),
+            Self::ErrorAndCause => Some("specular"),
+            Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
+            _ => None,
+        }
+    }
+
     /// One or two numbers per pixel of the region, in its order. `metric` is named in errors.
     pub(super) fn measure(
         self,
         pair: &Pair,
         metric: &'static str,
     ) -> Result<Vec<f64>, MetricError> {
-        let needs = |input| MetricError::Needs { metric, input };
+        let argument = self.needs().unwrap_or_default();
+        let needs = |input| MetricError::Needs { metric, input, argument };
         self.check_channels(pair, metric)?;
         Ok(match self {
             Self::SquaredError => per_channel(pair, |p, g| (p - g).powi(2)),

@@ -12,7 +12,7 @@ use super::errors::{named_error, raise};
 use super::maps::Maps;
 use crate::compare::{self as comparing, Baseline, Tolerances};
 use crate::suite::SOLVER_SOURCES;
-use crate::{cli, report, score};
+use crate::{cli, score};
 
 /// Runs the command line and returns its exit code.
 #[pyfunction]
@@ -20,7 +20,7 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
     py.detach(|| cli::main(arguments))
 }
 
-/// Recovers maps from a capture; `progress(stage, iteration, total, loss)` may be given. What it
+/// Recovers maps from a capture or its folder; `progress(stage, iteration, total, loss)` may be given. What it
 /// raises (or Ctrl-C) stops the solve and is raised here; `False` stops it too, and the maps so far
 /// are returned. With `out`, the whole maps folder is written there, after a stop as well, and the
 /// same call goes on from where it stopped.
@@ -28,7 +28,7 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
 #[pyo3(signature = (capture, *, config="unshade", out=None, progress=None, backend="auto"))]
 pub(super) fn solve(
     py: Python<'_>,
-    capture: &Bound<'_, Capture>,
+    capture: &Bound<'_, PyAny>,
     config: &str,
     out: Option<PathBuf>,
     progress: Option<Py<PyAny>>,
@@ -46,6 +46,7 @@ pub(super) fn solve(
         config.records = solver::config::RecordConfig { stages: false, layers: false };
     }
     let backend: Choice = backend.parse().map_err(raise)?;
+    let capture = Capture::given(capture)?;
     let capture = &capture.get().inner;
     let opened = py.detach(|| backend.open()).map_err(raise)?;
     let mut raised: Option<PyErr> = None;
@@ -78,7 +79,7 @@ pub(super) fn solve(
         return Err(error);
     }
     let solution = solution.map_err(raise)?;
-    Ok(Maps { inner: solution.maps, interrupted: solution.record.interrupted })
+    Maps::new_from(py, solution.maps, solution.record.interrupted)
 }
 
 /// The scores of a maps folder as JSON text.
@@ -90,15 +91,25 @@ pub(super) fn score_json(
     maps: PathBuf,
     relit: Option<PathBuf>,
 ) -> PyResult<String> {
-    let scores = py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?;
-    serde_json::to_string(&scores).map_err(|error| named_error("ScoreError", &error.to_string()))
+    json_of(&py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?)
 }
 
-/// Writes the report of a run folder.
+/// Writes scores, as JSON text, to a file: the bytes that the command line writes.
 #[pyfunction]
-pub(super) fn write_report(py: Python<'_>, run: PathBuf, out: PathBuf) -> PyResult<()> {
-    py.detach(|| report::write(&run, &out, &mut |_, _, _| true)).map_err(raise)?;
-    Ok(())
+pub(super) fn write_scores(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<()> {
+    let scores: score::Scores = serde_json::from_str(text)
+        .map_err(|error| named_error("ScoreError", &format!("no scores: {error}")))?;
+    py.detach(|| scores.write(&path)).map_err(raise)
+}
+
+/// Reads a scores file as JSON text.
+#[pyfunction]
+pub(super) fn read_scores(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    json_of(&py.detach(|| score::Scores::read(&path)).map_err(raise)?)
+}
+
+fn json_of(scores: &score::Scores) -> PyResult<String> {
+    serde_json::to_string(scores).map_err(|error| named_error("ScoreError", &error.to_string()))
 }
 
 /// True if no score of a run is worse than its baseline beyond the tolerance.

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use numpy::ndarray::{Array1, Array2};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArrayDyn};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
+use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use solver::gbuffer::GBuffer;
@@ -12,7 +12,7 @@ use solver::picture::Picture;
 use solver::transport::{Beside, CHANNELS, Sky, Transport};
 use solver::{Camera, Mesh, View};
 
-use super::arrays;
+use super::arrays::{self, Argument};
 use super::errors::raise;
 use super::maps::Maps;
 
@@ -23,6 +23,14 @@ pub(super) struct Capture {
 }
 
 impl Capture {
+    /// The capture that an argument is or names.
+    pub(super) fn given(value: &Bound<PyAny>) -> PyResult<Py<Self>> {
+        if let Ok(capture) = value.cast::<Self>() {
+            return Ok(capture.clone().unbind());
+        }
+        Py::new(value.py(), Self::new(value.py(), path_of("capture", value)?)?)
+    }
+
     fn view(&self, name: &str) -> PyResult<&View> {
         let found = self.inner.train.iter().find(|view| view.camera.name == name);
         found.ok_or_else(|| PyKeyError::new_err(format!("no training view is named {name:?}")))
@@ -57,12 +65,12 @@ impl Capture {
 
     /// Linear radiance of a training view.
     fn image<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        arrays::picture_to_array(py, &self.view(name)?.image)
+        arrays::picture_to_array(py, self.view(name)?.image.clone())
     }
 
     /// 255 where the mesh is the first surface.
     fn mask<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
-        arrays::gray_to_array(py, &self.view(name)?.mask)
+        arrays::gray_to_array(py, self.view(name)?.mask.clone())
     }
 
     /// Region ids, or None.
@@ -72,7 +80,7 @@ impl Capture {
         name: &str,
     ) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
         let labels = self.view(name)?.labels.as_ref();
-        labels.map(|labels| arrays::gray_to_array(py, labels)).transpose()
+        labels.map(|labels| arrays::gray_to_array(py, labels.clone())).transpose()
     }
 
     /// Size, focal lengths, principal point (pixels) and camera-to-world matrix of any view.
@@ -102,7 +110,7 @@ impl Capture {
                 let at = *pixel as usize * channels;
                 picture.data[at..at + channels].copy_from_slice(&of(sample));
             }
-            arrays::picture_to_array(py, &picture)
+            arrays::picture_to_array(py, picture)
         };
         let dict = PyDict::new(py);
         dict.set_item("positions", plane(3, &|i| gbuffer.positions[i].to_array().to_vec())?)?;
@@ -118,17 +126,21 @@ impl Capture {
     fn shading<'py>(
         &self,
         py: Python<'py>,
-        light: PyReadonlyArrayDyn<f32>,
+        light: &Bound<'py, PyAny>,
         texture_size: usize,
         nearness: f32,
         bounces: usize,
         bounce_albedo: f32,
     ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        let light = arrays::picture_from_array("light", &light)?;
+        let argument = Argument { name: "light", class: "ValueError" };
+        let light = argument.picture(light)?;
         if light.channels != CHANNELS || light.width != 2 * light.height {
             let shape = (light.height, light.width, light.channels);
-            let message = format!("light: expected (rows, 2 x rows, 3), got shape {shape:?}");
-            return Err(PyValueError::new_err(message));
+            let message = format!("expected (rows, 2 x rows, 3), got shape {shape:?}");
+            return Err(argument.refused(&message));
+        }
+        if let Some(value) = light.data.iter().find(|value| !value.is_finite()) {
+            return Err(argument.refused(&format!("holds {value}; mend the pixel")));
         }
         let mut config = solver::Config::default();
         let transport = &mut config.transport;
@@ -141,14 +153,20 @@ impl Capture {
             Transport::new(mesh, &sky, transport, config.seed, Beside::Nothing).shading(&light.data)
         });
         let (width, height) = (texture_size, texture_size);
-        arrays::picture_to_array(py, &Picture { width, height, channels: CHANNELS, data })
+        arrays::picture_to_array(py, Picture { width, height, channels: CHANNELS, data })
     }
 
     /// The true maps of a synthetic capture.
     fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
         let folder = self.inner.folder.join("truth");
         let inner = py.detach(|| solver::Maps::read(&folder)).map_err(raise)?;
-        Ok(Maps { inner, interrupted: None })
+        Maps::new_from(py, inner, None)
+    }
+
+    /// For pickles and copies: the folder is opened again.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let arguments = (slf.get().path(),);
+        Ok((slf.get_type(), arguments).into_pyobject(slf.py())?.into_any())
     }
 
     fn __repr__(&self) -> String {
@@ -156,6 +174,14 @@ impl Capture {
         let folder = self.inner.folder.display();
         format!("Capture({folder}: {train} training views, {withheld} withheld)")
     }
+}
+
+/// The path that an argument is.
+fn path_of(name: &str, value: &Bound<PyAny>) -> PyResult<PathBuf> {
+    value.extract().map_err(|_| {
+        let given = value.get_type().qualname().map_or_else(|_| String::new(), |n| n.to_string());
+        PyTypeError::new_err(format!("{name}: expected a Capture or a path, got {given}"))
+    })
 }
 
 fn camera_to_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyDict>> {

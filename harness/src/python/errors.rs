@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 
+use crate::report::ReportError;
 use crate::score::ScoreError;
 use crate::suite::RunError;
 use solver::{BackendError, CaptureError, ConfigError, MapsError, SolveError};
@@ -26,13 +27,28 @@ named! {
     solver::atomic::FolderError => "StorageError",
     BackendError => "BackendError",
     CaptureError => "CaptureError",
-    MapsError => "MapsError",
     ConfigError => "ConfigError",
-    ScoreError => "ScoreError",
-    RunError => "UnshadeError",
     crate::compare::CompareError => "CompareError",
     crate::metrics::MetricError => "MetricError",
-    crate::report::ReportError => "ReportError",
+}
+
+/// A folder that may not be written is the same fault for all.
+impl Named for MapsError {
+    fn class(&self) -> &'static str {
+        if let Self::Folder(error) = self { error.class() } else { "MapsError" }
+    }
+}
+
+impl Named for ScoreError {
+    fn class(&self) -> &'static str {
+        if let Self::Folder(error) = self { error.class() } else { "ScoreError" }
+    }
+}
+
+impl Named for ReportError {
+    fn class(&self) -> &'static str {
+        if let Self::Folder(error) = self { error.class() } else { "ReportError" }
+    }
 }
 
 /// What a solve met with has the name that it has elsewhere.
@@ -42,7 +58,30 @@ impl Named for SolveError {
             Self::Config(error) => error.class(),
             Self::Capture(error) => error.class(),
             Self::Maps(error) => error.class(),
-            Self::NotFinite { .. } | Self::Interrupted | Self::Memory { .. } => "SolveError",
+            Self::Interrupted => "Stopped",
+            Self::NotFinite { .. } | Self::Memory { .. } => "SolveError",
+        }
+    }
+}
+
+/// What a stage met with has the name that it has elsewhere, the renderer's own exceptions too.
+impl Named for RunError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Scene(_) => "SceneError",
+            Self::Interpreter(_) | Self::Stage(_) => "RendererError",
+            Self::Capture(error) => error.class(),
+            Self::Config(error) => error.class(),
+            Self::Backend(error) => error.class(),
+            Self::Solve(error) => error.class(),
+            Self::Maps(error) => error.class(),
+            Self::Score(error) => error.class(),
+            Self::Report(error) => error.class(),
+            Self::Compare(error) => error.class(),
+            Self::Program { .. } | Self::Methods { .. } => "SolveError",
+            Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
+            Self::Interrupted | Self::Stopped { .. } => "Stopped",
+            _ => "UnshadeError",
         }
     }
 }

@@ -39,6 +39,8 @@ pub enum RunError {
     Compare(#[from] CompareError),
     #[error(transparent)]
     Torch(#[from] crate::bench::TorchError),
+    #[error("{name} failed: {reason}; the others are in {}", report.display())]
+    Methods { name: String, reason: String, report: PathBuf },
     #[error("solver {name}: {reason}")]
     Program { name: String, reason: String },
     #[error("{0}: another run is using this folder; wait for it or choose another")]

@@ -153,6 +153,7 @@ fn to_maps(
         diffuse_normal: picture(3, bent(&blurred)),
         specular_normal: picture(3, bent(&sharp)),
         confidence: None,
+        roughness: None,
         coverage: Some(GrayImage { width: size, height: size, data: coverage }),
     }
 }

@@ -1,0 +1,333 @@
+# Written by tests/metric_stub.py.
+from typing import Literal, NamedTuple
+
+from numpy.typing import ArrayLike
+
+_Scale = Literal["none", "global", "channel", "median"]
+
+class Definition(NamedTuple):
+    """What a metric is; ``needs`` names the argument that it takes beside the mask, or is empty."""
+
+    id: str
+    name: str
+    unit: str
+    direction: str
+    definition: str
+    link: str
+    needs: str
+
+DEFINITIONS: dict[str, Definition]
+
+__all__ = [
+    "DEFINITIONS",
+    "Definition",
+    "psnr_srgb",
+    "psnr_lin",
+    "relmse",
+    "ssim",
+    "flip_mean",
+    "flip_p95",
+    "ciede2000_mean",
+    "ita_error",
+    "scale_global",
+    "rmse",
+    "pearson",
+    "spearman",
+    "energy_ratio",
+    "normal_mean_deg",
+    "normal_median_deg",
+    "normal_below_5",
+    "normal_below_11_25",
+    "normal_below_22_5",
+    "normal_below_30",
+    "hc",
+    "wcorr",
+    "lp",
+    "leakage_shading",
+    "leakage_specular",
+    "confidence_rank",
+    "sparsification",
+]
+
+def psnr_srgb(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR [dB]: -10 log10 of the mean over pixels and channels of (p-g)² of sRGB values (IEC
+    61966-2-1) clipped to [0, 1]; peak 1; at most 100"""
+
+def psnr_lin(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR, linear [dB]: -10 log10 of the mean over pixels and channels of (p-g)² of linear values,
+    not clipped; peak 1; at most 100"""
+
+def relmse(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Relative MSE: mean over pixels and channels of (p-g)² / (g+.01)² of linear values"""
+
+def ssim(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """SSIM: mean of the structural similarity map of sRGB values: Gaussian window 11x11 with sigma
+    1.5, K1 .01, K2 .03, range 1, population covariance, per channel; black outside the mask"""
+
+def flip_mean(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """FLIP: mean of the LDR-FLIP map of 8-bit sRGB pictures at 67.02 pixels per degree; black outside
+    the mask"""
+
+def flip_p95(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """FLIP, 95th percentile: 95th percentile of the LDR-FLIP map of 8-bit sRGB pictures at 67.02
+    pixels per degree; black outside the mask"""
+
+def ciede2000_mean(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """CIEDE2000: mean CIEDE2000 of linear colours clipped to [0, 1] (D65, kL = kC = kH = 1)"""
+
+def ita_error(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Typology angle error [°]: |mean over p - mean over g| of the individual typology angle
+    atan2(L*-50, b*)"""
+
+def scale_global(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Aligning factor: the one factor k = <p,g> / <p,p> that aligns p with g in linear values"""
+
+def rmse(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """RMSE: square root of the mean of (p-g)² of linear values"""
+
+def pearson(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Correlation: Pearson correlation of p and g (colours: of their luminances); none if one is
+    constant"""
+
+def spearman(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Rank correlation: Pearson correlation of the ranks of p and g (colours: of their luminances),
+    ties sharing their mean rank; none if one is constant; its interval keeps the ranks fixed"""
+
+def energy_ratio(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Energy: sum of the luminance of p / sum of the luminance of g"""
+
+def normal_mean_deg(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Mean angle [°]: mean angle between p and g in object space; 90 where p has no length"""
+
+def normal_median_deg(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Median angle [°]: median angle between p and g in object space"""
+
+def normal_below_5(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Below 5°: share of pixels whose angle is below 5°"""
+
+def normal_below_11_25(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Below 11.25°: share of pixels whose angle is below 11.25°"""
+
+def normal_below_22_5(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Below 22.5°: share of pixels whose angle is below 22.5°"""
+
+def normal_below_30(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Below 30°: share of pixels whose angle is below 30°"""
+
+def hc(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Detail correlation: Pearson correlation of the high-pass log luminances: each less its Gaussian
+    mean over the region (sigma = width/64, cut off at 3 sigma), luminances below .001 raised to it"""
+
+def wcorr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    labels: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Correlation within labels: Pearson correlation of the log luminances, each less its mean within
+    the label; luminances below .001 raised to it"""
+
+def lp(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Residual shading: standard deviation of the low-pass difference of the log luminances: Gaussian
+    mean over the region, sigma = width/64, cut off at 3 sigma"""
+
+def leakage_shading(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    shading: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Baked shading: share of the variance of the log luminance error that a line in the log luminance
+    of the true diffuse shading explains (squared correlation)"""
+
+def leakage_specular(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    specular: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Baked highlights: share of the variance of the luminance error that a line in the luminance of
+    the true specular layer explains (squared correlation)"""
+
+def confidence_rank(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    confidence: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Confidence against error: Pearson correlation of the ranks of the confidence and of |difference
+    of the log luminances|, ties sharing their mean rank, luminances below .001 raised to it: -1 if
+    confidence falls wherever the error grows, 0 if it says nothing; none if one is constant; its
+    interval keeps the ranks fixed"""
+
+def sparsification(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    confidence: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Error of the trusted half: mean |difference of the log luminances| of the half with the highest
+    confidence / that of all, luminances below .001 raised to it; equal confidences share the half's
+    last places: 1 if confidence says nothing"""

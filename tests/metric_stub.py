@@ -1,0 +1,65 @@
+"""The type stub of `unshade.metrics`, made from the registry of metrics.
+
+    python tests/metric_stub.py        writes synth/unshade/metrics.pyi
+
+A stub beside the module would hide its `Definition`, so that is stated here again.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from pathlib import Path
+
+from unshade.metrics import DEFINITIONS, Definition
+
+STUB = Path(__file__).parents[1] / "synth" / "unshade" / "metrics.pyi"
+
+_HEAD = '''# Written by tests/metric_stub.py.
+from typing import Literal, NamedTuple
+
+from numpy.typing import ArrayLike
+
+_Scale = Literal["none", "global", "channel", "median"]
+
+class Definition(NamedTuple):
+    """What a metric is; ``needs`` names the argument that it takes beside the mask, or is empty."""
+
+    id: str
+    name: str
+    unit: str
+    direction: str
+    definition: str
+    link: str
+    needs: str
+
+DEFINITIONS: dict[str, Definition]
+'''
+
+
+def stub() -> str:
+    """The text of ``metrics.pyi``."""
+    names = "\n".join(f'    "{name}",' for name in ("DEFINITIONS", "Definition", *DEFINITIONS))
+    functions = "".join(map(_function, DEFINITIONS.values()))
+    return f"{_HEAD}\n__all__ = [\n{names}\n]\n{functions}"
+
+
+def _function(metric: Definition) -> str:
+    needs = f"    {metric.needs}: ArrayLike,\n" if metric.needs else ""
+    unit = f" [{metric.unit}]" if metric.unit else ""
+    words = textwrap.fill(f"{metric.name}{unit}: {metric.definition}", 96, break_long_words=False)
+    doc = textwrap.indent(f'"""{words}"""', "    ")
+    return (
+        f"\ndef {metric.id}(\n"
+        "    prediction: ArrayLike,\n"
+        "    truth: ArrayLike,\n"
+        "    mask: ArrayLike | None = None,\n"
+        "    *,\n"
+        f"{needs}"
+        "    erode: bool = False,\n"
+        '    scale: _Scale = "none",\n'
+        f") -> float | None:\n{doc}\n"
+    )
+
+
+if __name__ == "__main__":
+    STUB.write_text(stub())

@@ -1,0 +1,78 @@
+"""`progress=` of the stages: what it hears, and how it stops them."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import threading
+from pathlib import Path
+
+import pytest
+import unshade
+from unshade.errors import Stopped, UnshadeError
+
+CASE = "tiny-studio"
+SUITE = Path(__file__).parent / "scenes" / "tiny.toml"
+
+
+def test_a_finished_run_tells_every_stage(tiny_run: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    shutil.copytree(tiny_run, run)
+    heard: list[tuple[int, int, str]] = []
+    threads = set()
+
+    def progress(*step) -> None:
+        heard.append(step)
+        threads.add(threading.current_thread())
+
+    page = unshade.run(SUITE, run, progress=progress)
+    assert threads == {threading.current_thread()}
+    assert page == run / "report" / "index.html"
+    stages = {what.split(":")[0] for _, _, what in heard}
+    assert f"capture/{CASE}" in stages and f"scores/{CASE}/oracle" in stages and "report" in stages
+    counts = [done for done, _, _ in heard]
+    assert counts == sorted(counts) and heard[-1] == (11, 11, "report")
+
+
+@pytest.mark.parametrize("stage", ["synth", "relight", "run", "report"])
+@pytest.mark.parametrize("how", ["False", "exception", "Ctrl-C"])
+def test_a_stage_stops_when_it_is_asked_to(stage: str, how: str, tiny_run: Path, tmp_path: Path) -> None:
+    heard = []
+
+    def progress(*step: object) -> bool:
+        heard.append(step)
+        if how == "exception":
+            raise LookupError("enough")
+        if how == "Ctrl-C":
+            os.kill(os.getpid(), signal.SIGINT)
+        return how != "False"
+
+    out = tmp_path / "out"
+    calls = {
+        "synth": lambda: unshade.synth(SUITE.with_name("tiny-scene.toml"), out, progress=progress),
+        "relight": lambda: unshade.relight(
+            tiny_run / "captures" / CASE, tiny_run / "maps" / CASE / "quick", out, progress=progress
+        ),
+        "run": lambda: unshade.run(SUITE, out, progress=progress),
+        "report": lambda: unshade.report(tiny_run, out, progress=progress),
+    }
+    raised = {"False": Stopped, "exception": LookupError, "Ctrl-C": KeyboardInterrupt}[how]
+    with pytest.raises(raised) as caught:
+        calls[stage]()
+    assert len(heard) == 1 and not (out / "report").exists()
+    if how == "False":
+        assert isinstance(caught.value, UnshadeError) and caught.value.exit_code == 3
+        assert "goes on from here" in str(caught.value)
+
+
+def test_ctrl_c_stops_a_solve(tiny_run: Path) -> None:
+    heard = []
+
+    def progress(*step: object) -> None:
+        heard.append(step)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        unshade.solve(tiny_run / "captures" / CASE, config="fast", progress=progress)
+    assert len(heard) == 1
