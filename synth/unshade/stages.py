@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from unshade import _native
 from unshade._native import Capture
@@ -27,6 +27,27 @@ def relight(capture: _Path, maps: _Path, out: _Path) -> Path:
 def score(capture: _Path, maps: _Path, *, relit: _Path | None = None) -> dict[str, Any]:
     """Scores of a maps folder (and of what ``relight`` made of it) against the truth."""
     return json.loads(_native.score_json(capture, maps, relit))
+
+
+class Finding(TypedDict):
+    """What is likely wrong with one file of a maps folder."""
+
+    id: str
+    level: str
+    """``error`` if the maps cannot be scored, else ``warning``."""
+    map: str
+    message: str
+    mend: str
+    evidence: dict[str, float]
+
+
+def check(maps: _Path, *, capture: _Path | None = None) -> list[Finding]:
+    """What is likely wrong with a maps folder; empty for sound maps.
+
+    With the capture, maps are also compared with its photographs, cameras and mesh; its ``truth/``
+    is never opened.
+    """
+    return [{**finding, "evidence": finding.get("evidence", {})} for finding in json.loads(_native.check_json(maps, capture))]
 
 
 def run(suite: _Path, out: _Path) -> Path:

@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 
+use crate::check::CheckError;
 use crate::score::ScoreError;
 use crate::suite::RunError;
 use solver::{BackendError, CaptureError, ConfigError, MapsError, SolveError};
@@ -42,6 +43,16 @@ impl Named for SolveError {
             Self::Capture(error) => error.class(),
             Self::Maps(error) => error.class(),
             Self::NotFinite { .. } | Self::Interrupted | Self::Memory { .. } => "SolveError",
+        }
+    }
+}
+
+/// What is wrong with a capture or a maps folder has the name that it has elsewhere.
+impl Named for CheckError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::NoFolder(_) => "MapsError",
+            Self::Capture(error) => error.class(),
         }
     }
 }
