@@ -14,9 +14,10 @@ use super::witness::Witness;
 const LEAST_CORRELATION: f64 = 0.15;
 /// How much better another way must fit; wrong ways of right albedos reach .1.
 const LEAST_GAIN: f64 = 0.12;
-/// Correlation of the asymmetric part below which the map is the mirror image; right maps were
-/// never below 0, mirrored ones reach -.1 to -.6.
-const MIRRORED: f64 = -0.07;
+/// By how much more the asymmetric part must correlate when mirrored: right maps lose by .15 to 1,
+/// so that mirrored ones gain that. The whole pattern may then fit worse only by a tie.
+const MIRRORED: f64 = 0.14;
+const TIE: f64 = 0.03;
 /// Overlap from which a coverage lies well, and how much better another way must fit.
 const GOOD_OVERLAP: f64 = 0.9;
 const OVERLAP_GAIN: f64 = 0.08;
@@ -48,9 +49,10 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
     let pair = [best, best.mirrored()];
     let upright = if pair.contains(&Symmetry::Identity) { Symmetry::Identity } else { best };
     let &(_, upright_fit, asymmetry) = of(upright)?;
+    let &(_, mirrored_fit, mirrored_asymmetry) = of(upright.mirrored())?;
     let found = if (best_fit - other_fit).abs() > LEAST_GAIN {
         best
-    } else if asymmetry < MIRRORED {
+    } else if mirrored_asymmetry > asymmetry + MIRRORED && mirrored_fit > upright_fit - TIE {
         upright.mirrored()
     } else {
         upright
@@ -65,7 +67,7 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
     let message = if found == Symmetry::MirroredU && upright_fit > LEAST_CORRELATION {
         format!(
             "{wrong}: what is asymmetric of its pattern correlates with the projected photographs \
-             by {asymmetry:.2} as it is"
+             by {asymmetry:.2} as it is, {mirrored_asymmetry:.2} mirrored"
         )
     } else {
         format!(
@@ -77,6 +79,7 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
         ("correlation_as_it_is", as_it_is),
         ("correlation_undone", fit),
         ("asymmetry_as_it_is", of(Symmetry::Identity)?.2),
+        ("asymmetry_undone", of(found)?.2),
     ]))
 }
 

@@ -13,27 +13,29 @@ const PIXELS_PER_TEXEL: f64 = 9.0;
 pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut Vec<Finding>) {
     let pictures = maps.pictures().map(|(file, map)| (file, map.width, map.height));
     let coverage = maps.coverage.iter().map(|map| (COVERAGE, map.width, map.height));
-    let mut first: Option<(&str, usize)> = None;
+    let mut square = Vec::new();
     for (file, width, height) in pictures.chain(coverage) {
-        let evidence = [("width", width as f64), ("height", height as f64)];
         if width != height {
             let message = format!("is {width}x{height}, not square");
             let mend = "write maps over the unit square of the UV chart";
+            let evidence = [("width", width as f64), ("height", height as f64)];
             findings.push(Finding::error("not-square", file, message, mend).with(evidence));
-            continue;
-        }
         // Roughness is only relit, in whatever size.
-        if file == ROUGHNESS {
-            continue;
-        }
-        let (named, side) = *first.get_or_insert((file, width));
-        if width != side {
-            let message = format!("is {width}x{height}, but {named} is {side}x{side}");
-            let mend = "write all maps in one size";
-            findings.push(Finding::error("sizes-differ", file, message, mend).with(evidence));
+        } else if file != ROUGHNESS {
+            square.push((file, width));
         }
     }
-    let (Some((file, side)), Some(witness)) = (first, witness) else { return };
+    // The size that most maps have; of as many, that of the first.
+    let votes = |side: usize| square.iter().filter(|(_, other)| *other == side).count();
+    let most = square.iter().rev().max_by_key(|(_, side)| votes(*side));
+    let Some(&(named, side)) = most else { return };
+    for (file, other) in square.iter().filter(|(_, other)| *other != side) {
+        let message = format!("is {other}x{other}, but {named} is {side}x{side}");
+        let mend = "write all maps in one size";
+        let evidence = [("side", *other as f64), ("side_of_most", side as f64)];
+        findings.push(Finding::error("sizes-differ", file, message, mend).with(evidence));
+    }
+    let Some(witness) = witness else { return };
     let texels = witness.chart_share() * (side * side) as f64;
     let pixels = witness.pixels as f64;
     if pixels > PIXELS_PER_TEXEL * texels && texels > 0.0 {
@@ -45,7 +47,7 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
         );
         let mend = format!("write maps of {enough}x{enough}");
         let evidence = [("texels", texels), ("pixels", pixels)];
-        findings.push(Finding::warning("small", file, message, &mend).with(evidence));
+        findings.push(Finding::warning("small", named, message, &mend).with(evidence));
     }
 }
 

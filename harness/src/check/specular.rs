@@ -10,7 +10,7 @@ const LARGEST: f64 = 0.0525;
 /// Networks without a bound reach -0.01 where the skin is dull.
 const NEGATIVE: f64 = -0.025;
 /// Indices of refraction of skin and what is on it.
-const INDICES: std::ops::Range<f64> = 1.25..1.7;
+const INDICES: std::ops::Range<f64> = 1.1..1.7;
 /// The largest 0.05 after the sRGB curve.
 const ENCODED: f64 = 0.26;
 /// The largest 0.05 as a level of 0.08.

@@ -29,7 +29,9 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         }
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
-            score::score(&capture, &maps, relit.as_deref())?.write(&out)?;
+            let scores = score::score(&capture, &maps, relit.as_deref())?;
+            scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
+            scores.write(&out)?;
         }
         Verb::Run { suite, out } => return run_suite(&suite, &out),
         Verb::Report { run, out } => {
