@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -56,6 +55,10 @@ def tangent(n: Array) -> Array:
     return (wave + [0, 0, 1]) / np.linalg.norm(wave + [0, 0, 1], axis=-1, keepdims=True)
 
 
+VIEW = turned(np.eye(3), 0)
+"""World to camera (transposed) of the first view; the fixture sets it."""
+
+
 def hole(value: float) -> Callable[[Array], Array]:
     """Twelve texels in the middle of the face."""
 
@@ -99,7 +102,8 @@ FAULTS: dict[str, tuple[str, Callable[[Array], Array], str]] = {
     "normal coded 0 to 255": (NORMAL, lambda n: 127.5 * (n + 1), "coded-0-255"),
     "normal in tangent space": (NORMAL, tangent, "tangent-space"),
     "normal in tangent space, coded": (NORMAL, lambda n: tangent(n) / 2 + 0.5, "tangent-space"),
-    "normal turned by 50 degrees": (NORMAL, lambda n: turned(n, 70), "turned-normals"),
+    "normal turned by 70 degrees": (NORMAL, lambda n: turned(n, 70), "turned-normals"),
+    "normal in the first camera's space": (NORMAL, lambda n: n @ VIEW, "camera-space"),
     "normal of length 2": (NORMAL, lambda n: 2 * n, "not-unit"),
     "normal of length 0 here and there": (NORMAL, hole(0), "zero-length"),
     "normal of length 0": (NORMAL, lambda n: 0 * n, "zero-length"),
@@ -136,6 +140,8 @@ def capture(tiny_run: Path) -> Path:
     """A capture without its truth."""
     blind = tiny_run.parent / "blind"
     shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
+    opened = unshade.Capture(blind)
+    VIEW[:] = opened.camera(opened.train[0])["camera_to_world"][:3, :3]
     return blind
 
 
@@ -149,7 +155,7 @@ def test_a_planted_fault_is_found_and_named(fault: str, tiny_run: Path, capture:
     assert {map for map, _ in found} == {file} or expected in ("sizes-differ", "not-square"), findings
 
 
-@pytest.mark.parametrize("method", ["oracle", "fast", "mean_texture", "semantic_initialisation"])
+@pytest.mark.parametrize("method", ["oracle", "quick", "mean_texture", "semantic_initialisation"])
 def test_sound_maps_pass(method: str, tiny_run: Path, capture: Path, tmp_path: Path) -> None:
     maps = tiny_run / "maps" / CASE / method
     if not maps.exists():
@@ -157,3 +163,92 @@ def test_sound_maps_pass(method: str, tiny_run: Path, capture: Path, tmp_path: P
         maps = tmp_path / "maps"
     assert unshade.check(maps, capture=capture) == []
     assert unshade.check(maps) == []
+
+
+@pytest.mark.parametrize(
+    "fault", ["coverage inverted", "normal negated", "normal in tangent space", "normal coded 0 to 1",
+              "albedo 0 to 255", "specular 0 to 1", "roughness for alpha", "albedo with NaN"],
+)  # fmt: skip
+def test_some_faults_are_named_without_a_capture(fault: str, tiny_run: Path, tmp_path: Path) -> None:
+    file, expected = plant(tiny_run / "maps" / CASE / "oracle", fault, tmp_path / "maps")
+    assert (file, expected) in [(found["map"], found["id"]) for found in unshade.check(tmp_path / "maps")]
+
+
+def test_empty_texels_tell_of_a_flip_without_a_capture(tiny_run: Path, tmp_path: Path) -> None:
+    maps = tmp_path / "maps"
+    shutil.copytree(tiny_run / "maps" / CASE / "oracle", maps)
+    covered = np.zeros((128, 128, 1))
+    covered[20:60, 30:100] = 255
+    write(maps / COVERAGE, covered)
+    write(maps / ALBEDO, (read(maps / ALBEDO) * (covered > 0))[::-1])
+    assert [(found["map"], found["id"]) for found in unshade.check(maps)] == [(ALBEDO, "flipped-v")]
+
+
+def test_uncovered_texels_may_hold_anything(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+    maps = tmp_path / "maps"
+    shutil.copytree(tiny_run / "maps" / CASE / "oracle", maps)
+    outside = read(maps / COVERAGE)[..., 0] == 0
+    for file, value in ((ALBEDO, np.nan), (NORMAL, 0), (SPECULAR, 1e9), (ROUGHNESS, -np.inf)):
+        array = read(maps / file)
+        array[outside] = value
+        write(maps / file, array)
+    assert unshade.check(maps, capture=capture) == []
+
+
+def test_stray_files_are_named_with_what_they_should_be_called(tiny_run: Path, tmp_path: Path) -> None:
+    maps = tmp_path / "maps"
+    shutil.copytree(tiny_run / "maps" / CASE / "oracle", maps)
+    (maps / ALBEDO).rename(maps / "Diffuse_Albedo.exr")
+    (maps / NORMAL).rename(maps / "normals.png")
+    shutil.copy(maps / SPECULAR, maps / "specular.exr")  # beside its map it harms nobody
+    found = {(found["map"], found["id"]): found["mend"] for found in unshade.check(maps)}
+    assert found == {
+        ("Diffuse_Albedo.exr", "stray-file"): "rename it to diffuse_albedo.exr",
+        ("normals.png", "stray-file"): "write it as linear float EXR named specular_normal.exr",
+    }
+
+
+def test_maps_far_smaller_than_the_pictures_are_named(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+    maps = tmp_path / "maps"
+    shutil.copytree(tiny_run / "maps" / CASE / "oracle", maps)
+    for file in (ALBEDO, NORMAL, SPECULAR, ROUGHNESS, COVERAGE, "diffuse_normal.exr"):
+        write(maps / file, read(maps / file)[4::8, 4::8])
+    assert "small" in [found["id"] for found in unshade.check(maps, capture=capture)]
+
+
+def test_the_command_says_what_it_found(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+    sound = tiny_run / "maps" / CASE / "oracle"
+    done = command("check", sound, "--capture", capture)
+    assert done.stdout.strip() == f"{sound}: nothing found"
+    assert "with --capture" in command("check", sound).stdout
+    plant(sound, "albedo flipped in v", tmp_path / "maps")
+    done = command("check", tmp_path / "maps", "--capture", capture, check=False)
+    assert done.returncode == 1
+    (line,) = done.stdout.splitlines()
+    assert line.startswith("warning: diffuse_albedo.exr: is flipped in v: ") and line.endswith("[flipped-v]")
+    (tmp_path / "empty").mkdir()
+    done = command("check", tmp_path / "empty", check=False)
+    assert done.returncode == 1 and "holds no map" in done.stdout
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / ALBEDO).write_bytes(b"v/1\x01 and no more")
+    done = command("check", tmp_path / "broken", check=False)
+    assert done.returncode == 1 and "cannot be read" in done.stdout
+    for arguments in ([tmp_path / "absent"], [sound, "--capture", tmp_path / "absent"]):
+        done = command("check", *arguments, check=False)
+        assert done.returncode == 2 and len(done.stderr.splitlines()) == 1, done.stderr
+    with pytest.raises(unshade.errors.MapsError, match="is not a folder"):
+        unshade.check(tmp_path / "absent")
+    with pytest.raises(unshade.errors.CaptureError):
+        unshade.check(sound, capture=tmp_path / "absent")
+
+
+def test_scores_carry_the_findings_and_those_of_sound_maps_none(tiny_run: Path, tmp_path: Path) -> None:
+    full, scores = tiny_run / "captures" / CASE, tmp_path / "scores.json"
+    for path in (tiny_run / "scores" / CASE).glob("*.json"):
+        assert "findings" not in json.loads(path.read_text()), path
+    plant(tiny_run / "maps" / CASE / "oracle", "normal negated", tmp_path / "maps")
+    done = command("score", full, tmp_path / "maps", "-o", scores)
+    assert "warning: specular_normal.exr: is negated" in done.stderr
+    (finding,) = json.loads(scores.read_text())["findings"]
+    assert (finding["id"], finding["level"]) == ("negated", "warning")
+    assert finding["evidence"]["cosine_as_it_is"] < -0.9 < 0.9 < finding["evidence"]["cosine_undone"]

@@ -3,7 +3,7 @@
 use solver::picture::Picture;
 
 use super::finding::Finding;
-use super::folder::{COVERAGE, MapFolder, ROUGHNESS};
+use super::folder::{COVERAGE, MapFolder};
 use super::witness::Witness;
 
 /// Pixels of the best view that one texel may span before the map wastes the capture.
@@ -20,8 +20,7 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
             let mend = "write maps over the unit square of the UV chart";
             let evidence = [("width", width as f64), ("height", height as f64)];
             findings.push(Finding::error("not-square", file, message, mend).with(evidence));
-        // Roughness is only relit, in whatever size.
-        } else if file != ROUGHNESS {
+        } else {
             square.push((file, width));
         }
     }
