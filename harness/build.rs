@@ -10,7 +10,7 @@ fn main() {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for (name, folders) in [
         ("UNSHADE_SOLVER_SOURCES", vec!["../solver/src"]),
-        ("UNSHADE_SCORE_SOURCES", vec!["src/metrics", "src/score"]),
+        ("UNSHADE_SCORE_SOURCES", vec!["src/check", "src/metrics", "src/score"]),
     ] {
         let mut hasher = DefaultHasher::new();
         for folder in folders {

@@ -4,6 +4,7 @@
 //! [`score`] measures them with [`metrics`], [`report`] shows them, [`compare`] guards them.
 
 pub mod bench;
+pub mod check;
 pub mod cli;
 pub mod compare;
 pub mod metrics;

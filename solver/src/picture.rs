@@ -134,6 +134,24 @@ pub fn exr_channel_names(path: &Path) -> Result<Vec<String>, PictureError> {
 
 /// Reads the channels `names`, in that order, as 32-bit floats.
 pub fn read_exr(path: &Path, names: &[&str]) -> Result<Picture, PictureError> {
+    let picture = read_exr_unchecked(path, names)?;
+    match picture.data.iter().position(|value| !value.is_finite()) {
+        None => Ok(picture),
+        Some(index) => {
+            let (pixel, slot) = (index / picture.channels, index % picture.channels);
+            Err(PictureError::NotFinite {
+                path: path.to_path_buf(),
+                value: picture.data[index],
+                x: pixel % picture.width,
+                y: pixel / picture.width,
+                channel: names[slot].to_owned(),
+            })
+        }
+    }
+}
+
+/// As [`read_exr`], for those who look for faults: NaN and infinities are handed out.
+pub fn read_exr_unchecked(path: &Path, names: &[&str]) -> Result<Picture, PictureError> {
     let layer = read_layer(path)?;
     let (width, height) = (layer.size.0, layer.size.1);
     let mut picture = Picture::new(width, height, names.len());
@@ -149,15 +167,6 @@ pub fn read_exr(path: &Path, names: &[&str]) -> Result<Picture, PictureError> {
                 }
             })?;
         for (index, value) in channel.sample_data.values_as_f32().enumerate() {
-            if !value.is_finite() {
-                return Err(PictureError::NotFinite {
-                    path: path.to_path_buf(),
-                    value,
-                    x: index % width,
-                    y: index / width,
-                    channel: (*name).to_owned(),
-                });
-            }
             picture.data[index * names.len() + slot] = value;
         }
     }

@@ -19,12 +19,14 @@ from importlib import import_module
 os.environ.setdefault("NODEVICE_SELECT", "1")
 
 _HOMES = {
+    "Finding": "stages",
     "Capture": "_native",
     "Maps": "_native",
     "Score": "scores",
     "Scores": "scores",
     "__version__": "_native",
     "solve": "_native",
+    "check": "stages",
     "compare": "stages",
     "relight": "stages",
     "report": "stages",

@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypedDict
 
 from unshade import _native
 from unshade._native import Capture, Maps
@@ -61,6 +62,29 @@ def run(
     ``progress`` counts the suite's stages; ``what`` says how far the present one is.
     """
     return _native.run(suite, out, list(redo), progress)
+
+
+class Finding(TypedDict):
+    """What is likely wrong with one file of a maps folder."""
+
+    id: str
+    level: str
+    """``error`` if the maps cannot be scored, else ``warning``."""
+    map: str
+    message: str
+    mend: str
+    evidence: dict[str, float]
+
+
+def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list[Finding]:
+    """What is likely wrong with maps, a folder or the maps themselves; empty for sound maps.
+
+    With the capture, maps are also compared with its photographs, cameras and mesh; its ``truth/``
+    is never opened.
+    """
+    with _folder_of(maps) as folder:
+        text = _native.check_json(folder, None if capture is None else _path_of(capture))
+    return [{**finding, "evidence": finding.get("evidence", {})} for finding in json.loads(text)]
 
 
 def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path:

@@ -10,7 +10,7 @@ use solver::{Choice, atomic};
 use super::progress::Progress;
 use super::{
     BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
-    doctor,
+    check, doctor,
 };
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report::{self, ReportError};
@@ -27,10 +27,13 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
                 suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
         }
+        Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::apart(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
-            score::score(&capture, &maps, relit.as_deref())?.write(&out)?;
+            let scores = score::score(&capture, &maps, relit.as_deref())?;
+            scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
+            scores.write(&out)?;
         }
         Verb::Run { suite, out, redo } => return run_suite(&suite, &out, RunOptions { redo }),
         Verb::Report { run, out } => {

@@ -11,6 +11,7 @@ macro_rules! say {
 }
 
 mod bench;
+mod check;
 mod commands;
 mod doctor;
 mod progress;
@@ -46,6 +47,14 @@ enum Verb {
         /// The pictures' folder.
         #[arg(short, long)]
         out: PathBuf,
+    },
+    /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
+    Check {
+        /// The maps' folder.
+        maps: PathBuf,
+        /// The capture that they were made from; its `truth/` is never opened.
+        #[arg(long)]
+        capture: Option<PathBuf>,
     },
     /// Score maps and relit pictures against the truth.
     Score {

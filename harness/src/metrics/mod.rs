@@ -28,6 +28,7 @@ mod statistic;
 
 pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
 pub use error::MetricError;
+pub(crate) use filter::gaussian;
 pub use pair::Pair;
 pub use quantity::{Quantity, RELATIVE_OFFSET};
 pub use region::{Region, black_outside};

@@ -12,7 +12,7 @@ use super::errors::{named_error, raise};
 use super::maps::Maps;
 use crate::compare::{self as comparing, Baseline, Tolerances};
 use crate::suite::SOLVER_SOURCES;
-use crate::{cli, score};
+use crate::{check, cli, score};
 
 /// Runs the command line and returns its exit code.
 #[pyfunction]
@@ -92,6 +92,18 @@ pub(super) fn score_json(
     relit: Option<PathBuf>,
 ) -> PyResult<String> {
     json_of(&py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?)
+}
+
+/// What is likely wrong with a maps folder, as JSON text: a list of findings.
+#[pyfunction]
+#[pyo3(signature = (maps, capture=None))]
+pub(super) fn check_json(
+    py: Python<'_>,
+    maps: PathBuf,
+    capture: Option<PathBuf>,
+) -> PyResult<String> {
+    let findings = py.detach(|| check::check(&maps, capture.as_deref())).map_err(raise)?;
+    serde_json::to_string(&findings).map_err(|error| named_error("MapsError", &error.to_string()))
 }
 
 /// Writes scores, as JSON text, to a file: the bytes that the command line writes.

@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 
+use crate::check::CheckError;
 use crate::report::ReportError;
 use crate::score::ScoreError;
 use crate::suite::RunError;
@@ -76,12 +77,23 @@ impl Named for RunError {
             Self::Solve(error) => error.class(),
             Self::Maps(error) => error.class(),
             Self::Score(error) => error.class(),
+            Self::Check(error) => error.class(),
             Self::Report(error) => error.class(),
             Self::Compare(error) => error.class(),
             Self::Program { .. } | Self::Methods { .. } => "SolveError",
             Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
             Self::Interrupted | Self::Stopped { .. } => "Stopped",
             _ => "UnshadeError",
+        }
+    }
+}
+
+/// What is wrong with a capture or a maps folder has the name that it has elsewhere.
+impl Named for CheckError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::NoFolder(_) => "MapsError",
+            Self::Capture(error) => error.class(),
         }
     }
 }

@@ -20,6 +20,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;
     module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
     module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::check_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::compare, module)?)?;
     module.add_function(wrap_pyfunction!(calls::read_scores, module)?)?;
     module.add_function(wrap_pyfunction!(calls::write_scores, module)?)?;

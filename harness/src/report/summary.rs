@@ -18,6 +18,8 @@ pub(super) struct SummaryCase {
 pub(super) struct SummaryRow {
     title: String,
     kind: &'static str,
+    /// What is likely wrong with the maps.
+    findings: Vec<String>,
     cells: Vec<String>,
 }
 
@@ -60,6 +62,7 @@ pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
         title: column.entrant.title().to_owned(),
         kind: column.entrant.kind.name(),
+        findings: column.findings(),
         cells: match column.entrant.failed {
             Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
             None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),

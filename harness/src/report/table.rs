@@ -28,6 +28,12 @@ impl<'a> Column<'a> {
         self.scores.map_or(&[], |scores| &scores.rows)
     }
 
+    /// What is likely wrong with the maps, in words.
+    pub fn findings(&self) -> Vec<String> {
+        let findings = self.scores.into_iter().flat_map(|scores| &scores.findings);
+        findings.map(ToString::to_string).collect()
+    }
+
     /// The one factor of the diffuse albedo.
     pub fn factor(&self) -> Option<f64> {
         Some(self.scores?.scale.as_ref()?.global)
@@ -72,6 +78,8 @@ pub(super) struct Table {
 pub(super) struct Heading {
     pub title: String,
     pub kind: &'static str,
+    /// What is likely wrong with the maps.
+    pub findings: Vec<String>,
 }
 
 /// The rows of one subject.
@@ -140,6 +148,7 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
         .map(|column| Heading {
             title: column.entrant.title().to_owned(),
             kind: column.entrant.kind.name(),
+            findings: column.findings(),
         })
         .collect();
     Table { columns, groups }

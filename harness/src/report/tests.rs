@@ -3,6 +3,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use serde_json::{Value, json};
 use solver::picture::{self, Picture};
 
 use super::{ReportError, ReportSummary, fake, write};
@@ -213,6 +214,30 @@ fn an_interrupted_solve_says_so_wherever_its_figures_stand() {
     let refused = text.replacen('{', "{\"interrupted\": null,", 1);
     fs::write(&path, refused).unwrap();
     assert!(!again(made.folder.path()).contains("class=\"notice\""));
+}
+
+#[test]
+fn likely_faults_of_maps_stand_beside_the_method_s_name() {
+    let made = report();
+    assert!(!made.html.contains('⚠'));
+    let path = made.folder.path().join("run/scores/demo-flash/unshade.json");
+    let mut scores: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    scores["findings"] = json!([{
+        "id": "flipped-v", "level": "warning", "map": "diffuse_albedo.exr",
+        "message": "is <flipped> in v", "mend": "turn it", "evidence": {"correlation": 0.5},
+    }]);
+    fs::write(&path, scores.to_string()).unwrap();
+    let html = again(made.folder.path());
+    let words = "warning: diffuse_albedo.exr: is &lt;flipped&gt; in v; turn it [flipped-v]";
+    let summary = between(&html, "<th scope=\"row\">&lt;unshade&gt; &amp; co", "</th>");
+    assert!(summary[0].contains("1 likely fault of its maps") && summary[0].contains(words));
+    assert!(!summary[1].contains('⚠'), "the other case has none");
+    let notices = between(&html, "<p class=\"notice\">", "</p>");
+    assert_eq!(notices.len(), 1);
+    assert!(notices[0].contains("The maps of &lt;unshade&gt; &amp; co are likely wrong"));
+    assert!(notices[0].contains(words));
+    let heading = between(&html, "<th scope=\"col\" class=\"solver\">", "</th>");
+    assert!(heading[0].contains('⚠'), "{}", heading[0]);
 }
 
 #[test]

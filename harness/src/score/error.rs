@@ -54,6 +54,9 @@ pub enum ScoreError {
     /// The capture is broken.
     #[error(transparent)]
     Capture(#[from] solver::CaptureError),
+    /// The maps cannot be checked.
+    #[error(transparent)]
+    Check(#[from] crate::check::CheckError),
     /// A map is broken.
     #[error(transparent)]
     Maps(#[from] solver::MapsError),

@@ -24,6 +24,7 @@ pub use oracle::oracle_maps;
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
 
+use crate::check::check;
 use crate::suite::hash_path;
 use geometry::Geometry;
 use pictures::Frame;
@@ -32,7 +33,7 @@ use truth::{Identity, Truth};
 /// Scores a maps folder, and the pictures relit with it, against the capture's truth.
 ///
 /// Maps, views and pictures that a solver did not write have no rows; a folder with none of them
-/// is refused.
+/// is refused. What is likely wrong with the maps is looked for without the truth, and noted.
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
     let truth = Truth::open(capture)?;
     let Identity { face, light, protocol } = Identity::read(capture)?;
@@ -41,6 +42,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
     let frames = Frame::withheld(capture, &light)?;
     let geometry = Geometry::of(capture, &truth)?;
+    let findings = check(maps, Some(capture))?;
     let (of_maps, of_pictures) = rayon::join(
         || maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref()),
         || -> Result<_, ScoreError> {
@@ -74,6 +76,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         inputs,
         scale,
         regions,
+        findings,
         rows,
     })
 }

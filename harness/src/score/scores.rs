@@ -9,6 +9,7 @@ use solver::picture::GrayImage;
 
 use super::ScoreError;
 use super::protocol::Protocol;
+use crate::check::Finding;
 use crate::metrics::{Region, Scale};
 
 /// The format that is written and read.
@@ -35,6 +36,9 @@ pub struct Scores {
     pub scale: Option<Scale>,
     /// How much of the truth each region is.
     pub regions: Vec<RegionSize>,
+    /// What is likely wrong with the maps; absent of sound ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
     /// The numbers.
     pub rows: Vec<Row>,
 }

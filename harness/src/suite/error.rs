@@ -34,6 +34,8 @@ pub enum RunError {
     #[error(transparent)]
     Score(#[from] ScoreError),
     #[error(transparent)]
+    Check(#[from] crate::check::CheckError),
+    #[error(transparent)]
     Report(ReportError),
     #[error(transparent)]
     Compare(#[from] CompareError),
