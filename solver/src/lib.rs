@@ -15,6 +15,7 @@ pub mod gbuffer;
 pub mod maps;
 pub mod memory;
 pub mod model;
+pub mod obj;
 pub mod optimise;
 mod parallel;
 pub mod picture;

@@ -163,7 +163,7 @@ fn every_fault_of_the_files_is_named() {
         ("has no texture coordinates", |folder| {
             fs::write(folder.join("mesh.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
         }),
-        ("mesh.obj: cannot be read", |folder| {
+        ("mesh.obj: line 5: names vertex 9, but there are 3", |folder| {
             let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 9/1\n";
             fs::write(folder.join("mesh.obj"), text).unwrap();
         }),
