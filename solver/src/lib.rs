@@ -11,6 +11,7 @@ pub mod config;
 mod convolution;
 pub mod error;
 pub mod fill;
+mod first_look;
 pub mod gbuffer;
 pub mod maps;
 pub mod memory;

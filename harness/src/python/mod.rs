@@ -5,6 +5,7 @@ mod calls;
 mod capture;
 mod errors;
 mod maps;
+mod meshes;
 mod metrics;
 mod stages;
 
@@ -26,5 +27,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::run, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
+use super::winding::Winding;
 use crate::error::CaptureError;
 use crate::obj;
 
@@ -52,7 +53,7 @@ impl Mesh {
             mesh.triangles.extend(part.triangles.iter().map(|t| t.map(|corner| corner + base)));
         }
         if !normals_given || mesh.normals.contains(&Vec3::ZERO) {
-            mesh.normals = vertex_normals(&mesh.positions, &mesh.triangles);
+            mesh.normals = vertex_normals(&mesh.positions, &wound_alike(&mesh));
         }
         mesh.check()?;
         for normal in &mut mesh.normals {
@@ -91,6 +92,13 @@ impl Mesh {
 
 fn single(value: f64) -> f32 {
     value as f32
+}
+
+/// The triangles, each wound as most of its surface is.
+fn wound_alike(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let winding = Winding::of(&mesh.positions, &places(&mesh.positions), &mesh.triangles);
+    let triangles = mesh.triangles.iter().zip(winding.turned);
+    triangles.map(|([a, b, c], turned)| if turned { [*a, *c, *b] } else { [*a, *b, *c] }).collect()
 }
 
 /// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as

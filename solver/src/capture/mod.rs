@@ -1,11 +1,14 @@
 //! A capture folder: opened and checked here, once, for everyone.
 
 mod camera;
+mod frame;
 mod lens;
 mod mesh;
 mod orientation;
+pub mod outward;
 mod transforms;
 mod view;
+mod winding;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +17,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::error::CaptureError;
+use crate::first_look;
 use orientation::Turned;
 
 pub use camera::Camera;
@@ -52,6 +56,7 @@ impl Capture {
             || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
         );
         let (mut mesh, train) = (mesh?, train?);
+        first_look::check(folder, &mesh, &train, transforms.applied)?;
         let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
         let turned = orientation::orient(&mut mesh, &eyes);
         if turned != Default::default() {

@@ -60,6 +60,8 @@ impl Cutter {
             between(&mut triangles, *first, bent[(index + 1) % bent.len()], count);
         }
         if covers(&triangles, &flat) {
+            // A corner that is there twice.
+            triangles.retain(|[a, b, c]| cross(flat[*a], flat[*b], flat[*c]) != 0.0);
             return Ok(triangles);
         }
         let all: Vec<usize> = (0..count).collect();
