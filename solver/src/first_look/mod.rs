@@ -16,7 +16,8 @@ use silhouette::{Comparison, compare, median};
 const DOUBTFUL: f64 = 0.9;
 /// Median overlap below which the cameras do not fit.
 const REFUSED: f64 = 0.6;
-/// Intersection over union that a single change must reach to be named.
+/// Intersection over union that a single change must reach to be named; from [`DOUBTFUL`] on, it
+/// proves that the cameras are wrong.
 const FITS: f64 = 0.8;
 /// Size of a sound silhouette against its mask, or the other way round: hair and eyes may hide
 /// half of the mesh, and a mask may show a neck that the mesh has not.
@@ -53,15 +54,18 @@ pub(crate) fn check(
             .to_owned(),
     };
     let path = folder.join("transforms.json");
-    let overlap = overlap.min(if found.is_some() { union } else { 1.0 });
-    if overlap < REFUSED || found.is_some_and(|trial| trial.union >= DOUBTFUL) {
-        return Err(CaptureError::Misplaced { path, overlap, views: compared.len(), mend });
+    let views = compared.len();
+    if found.is_some_and(|trial| trial.union >= DOUBTFUL) {
+        return Err(CaptureError::Misplaced { path, overlap: overlap.min(union), views, mend });
+    }
+    if overlap < REFUSED {
+        return Err(CaptureError::Misplaced { path, overlap, views, mend });
     }
     if overlap < DOUBTFUL {
         tracing::warn!(
-            "{}: the mesh covers {overlap:.2} of the masks (median of {} views; .90 is sound); {mend}",
-            path.display(),
-            compared.len()
+            "{}: the mesh covers {overlap:.2} of the masks (median of {views} views; .90 is \
+             sound); {mend}",
+            path.display()
         );
     }
     Ok(())

@@ -10,6 +10,9 @@ const SIZE: usize = 256;
 /// Share of a picture that a mask may cover and still say anything.
 const WHOLE: f64 = 0.98;
 
+/// Share of a picture that a mask must cover to say anything.
+const LEAST: f64 = 0.002;
+
 /// Pixels of a small picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Comparison {
@@ -51,8 +54,8 @@ impl Comparison {
     }
 }
 
-/// Compares the mesh as `camera` sees it with a mask of the camera's size; `None` for an empty
-/// mask.
+/// Compares the mesh as `camera` sees it with a mask of the camera's size; `None` for a mask
+/// of next to nothing.
 pub(super) fn compare(mesh: &Mesh, camera: &Camera, mask: &GrayImage) -> Option<Comparison> {
     if !mask.data.contains(&255) {
         return None;
@@ -68,8 +71,9 @@ pub(super) fn compare(mesh: &Mesh, camera: &Camera, mask: &GrayImage) -> Option<
         found.mask += usize::from(masked);
         found.both += usize::from(masked && hit.is_some());
     }
-    found.unmasked = found.mask as f64 > WHOLE * (small.width * small.height) as f64;
-    (found.mask > 0).then_some(found)
+    let share = found.mask as f64 / (small.width * small.height) as f64;
+    found.unmasked = share > WHOLE;
+    (share > LEAST).then_some(found)
 }
 
 /// A camera with pictures of at most `size` pixels, and how many pixels of the given camera are

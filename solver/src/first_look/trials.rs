@@ -119,6 +119,13 @@ fn moved(applied: Option<Mat4>) -> Vec<(String, Change)> {
             .to_owned(),
         Box::new(move |camera| placed(camera, camera.camera_to_world * opencv)),
     ));
+    let pytorch3d = Mat4::from_scale(Vec3::new(-1.0, 1.0, -1.0));
+    changes.push((
+        "transform_matrix has PyTorch3D's camera axes (x left, looking along z): negate its first \
+         and third columns"
+            .to_owned(),
+        Box::new(move |camera| placed(camera, camera.camera_to_world * pytorch3d)),
+    ));
     changes.push((
         "transform_matrix is world to camera: write its inverse".to_owned(),
         Box::new(move |camera| placed(camera, camera.camera_to_world.inverse())),
