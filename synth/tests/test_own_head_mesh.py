@@ -9,7 +9,7 @@ import own_head_files as files
 import pytest
 
 from unshade.face import FaceError
-from unshade.own_head import HeadFiles, build
+from unshade.own_head import HeadFiles, build, placement
 from unshade.own_head.mesh_file import read_pieces
 from unshade.own_head.outward import MeshWarning, turned_outwards
 from unshade.scene_file.face import parse_face
@@ -29,7 +29,8 @@ def joined(folder, mesh):
     head = parse_face(table, "[face]", folder)
     assert isinstance(head, HeadFiles)
     inside, _ = build._divide(read_pieces(folder / mesh), head)
-    return build._joined(inside, head)
+    mesh = build._joined(inside, head)
+    return mesh | {"points": mesh["points"] - placement.origin(mesh["points"], head)}
 
 
 def corners(mesh):
@@ -133,8 +134,8 @@ def test_points_in_line_and_concave_polygons_keep_the_area(folder):
         grid = (folder / "scan.obj").read_text().splitlines()
         lines = [line for line in grid if line.startswith(("v ", "vt "))]
         (folder / "polygon.obj").write_text("\n".join(["o head", *lines, face]))
-        mesh = joined(folder, "polygon.obj")
-        areas = area(mesh)
+        (piece,) = read_pieces(folder / "polygon.obj")
+        areas = area({"uv": piece.uv, "triangles": piece.triangles})
         assert (areas > 1e-5).all() and len(areas) == len(polygon) - 2
         assert areas.sum() == pytest.approx(cells * 0.8 * 0.9 / files.STEPS**2, rel=1e-4)
 

@@ -77,6 +77,7 @@ fn common_mistakes_are_named() {
     type Change = Box<dyn Fn(&mut Camera)>;
     let back = Mat4::from_scale(Vec3::new(-1.0, 1.0, -1.0));
     let cases: [(&str, Change); 10] = [
+        ("PyTorch3D's camera axes", Box::new(move |c| c.camera_to_world *= back)),
         ("multiply fl_x and fl_y by 5.0", Box::new(|c| c.focal = c.focal.map(|f| f / 5.0))),
         ("in mm of a sensor 36 mm wide", Box::new(|c| c.focal = c.focal.map(|f| f * 36.0 / 90.0))),
         ("share of the width", Box::new(|c| c.focal = c.focal.map(|f| f / 90.0))),
