@@ -150,7 +150,6 @@ def test_every_view_sees_texels_of_all_islands(folder):
     camera = cameras(Rig("p", "phone", train=1, test=0, max_angle_degrees=1), 96, 96)[0]
     mask = view_through_centres(head, camera).mask
     with np.errstate(all="raise"):
-        # Also over the hexagon's sliver, which lies on a line of the UVs.
         seen = TexelVisibility(head, face.chart, 128).seen_by(camera, mask)
     for s, t in files.MARKS:
         assert nearest_texels(seen, files.uv_of(files.island_of(s, t), s, t))
