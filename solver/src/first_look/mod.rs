@@ -42,7 +42,8 @@ pub(crate) fn check(
         return Ok(());
     }
     let overlap = median(compared.iter().map(Comparison::overlap).collect());
-    let union = median(compared.iter().map(Comparison::union).collect());
+    let fit = |found: &Comparison| if found.unmasked { found.overlap() } else { found.union() };
+    let union = median(compared.iter().map(fit).collect());
     if overlap >= DOUBTFUL && union >= REFUSED {
         return Ok(());
     }

@@ -47,9 +47,6 @@ impl Comparison {
 
     /// Intersection over union.
     pub fn union(&self) -> f64 {
-        if self.unmasked {
-            return self.overlap();
-        }
         self.both as f64 / (self.mesh + self.mask - self.both).max(1) as f64
     }
 }

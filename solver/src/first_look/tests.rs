@@ -59,7 +59,7 @@ fn sound_captures_pass_with_hair_and_bumps_and_noise() {
     for view in &mut window {
         for (pixel, value) in view.mask.data.iter_mut().enumerate() {
             let (row, column) = (pixel / 90, pixel % 90);
-            *value *= u8::from((40..56).contains(&row) && (38..50).contains(&column));
+            *value *= u8::from((42..52).contains(&row) && (38..48).contains(&column));
         }
     }
     assert_eq!(look(&mesh, &window, None), Ok(()));

@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Mat4, Vec3};
 
-use super::silhouette::{compare, median};
+use super::silhouette::{Comparison, compare, median};
 use super::spread;
 use crate::capture::{Camera, Mesh, View};
 
@@ -39,14 +39,19 @@ pub(super) fn best(mesh: &Mesh, views: &[&View], applied: Option<Mat4>) -> Optio
 
 fn union(mesh: &Mesh, views: &[&View], change: impl Fn(&Camera) -> Camera) -> f64 {
     let compared = views.iter().map(|view| compare(mesh, &change(&view.camera), &view.mask));
-    median(compared.map(|found| found.map_or(0.0, |found| found.union())).collect())
+    median(compared.map(fit).collect())
+}
+
+/// Intersection over union; a mask of the whole picture fits nothing.
+fn fit(found: Option<Comparison>) -> f64 {
+    found.filter(|found| !found.unmasked).map_or(0.0, |found| found.union())
 }
 
 fn inverted(mesh: &Mesh, views: &[&View]) -> Trial {
     let compared = views.iter().map(|view| {
         let mut mask = view.mask.clone();
         mask.data.iter_mut().for_each(|value| *value = 255 - *value);
-        compare(mesh, &view.camera, &mask).map_or(0.0, |found| found.union())
+        fit(compare(mesh, &view.camera, &mask))
     });
     let mend = "the masks are inverted: write 255 where the mesh is seen".to_owned();
     Trial { mend, union: median(compared.collect()) }
