@@ -54,6 +54,21 @@ pub enum CaptureError {
          masks belong to them"
     )]
     Black(PathBuf),
+    /// The mesh is not where the cameras look.
+    #[error(
+        "{path}: the mesh covers {overlap:.2} of the masks (median of {views} views; .90 is \
+         sound), so the cameras do not fit it; {mend}"
+    )]
+    Misplaced {
+        /// `transforms.json`.
+        path: PathBuf,
+        /// Overlap of the mesh's silhouette with the masks, 0 to 1.
+        overlap: f64,
+        /// Views that were looked at.
+        views: usize,
+        /// What single change fits, or where to look.
+        mend: String,
+    },
     /// A picture file is faulty.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -118,7 +133,12 @@ pub enum SolveError {
     Capture(#[from] CaptureError),
     /// The loss became NaN or infinite.
     #[error(
-        "the loss of stage {stage} is {loss} at iteration {iteration}; lower that stage's rates"
+        "the loss of stage {stage} is {loss} at iteration {iteration}; {}",
+        if *iteration > 1 {
+            "lower that stage's rates"
+        } else {
+            "no rate has acted yet, so check the capture: cameras, masks and pictures"
+        }
     )]
     NotFinite {
         /// The stage's name.

@@ -89,6 +89,10 @@ def write_obj(path: Path, edit=lambda text: text) -> None:
 COLLAR = np.array([[-0.12, -0.14, 0.1], [0.12, -0.14, 0.1], [0.12, -0.14, -0.1], [-0.12, -0.14, -0.1]])
 
 
+CUTS = {3: [(0, 1, 2)], 4: [(0, 1, 2), (0, 2, 3)], 6: [(0, 1, 3), (1, 2, 3), (3, 4, 0), (4, 5, 0)]}
+"""Triangles of polygons, as a reader of OBJ files cuts them: of the hexagon none lies on a line of the UVs."""
+
+
 def write_glb(path: Path) -> None:
     """In metres and y up, as glTF has it, under nodes that turn and move it to the OBJ's place."""
     grid, faces = polygons()
@@ -96,7 +100,7 @@ def write_glb(path: Path) -> None:
     number = {corner: i for i, corner in enumerate(dict.fromkeys(corners))}
     head = np.array([place(*grid[k]) for k, _ in number])
     uv = np.array([uv_of(island, *grid[k]) for k, island in number])
-    indices = [[number[k, island] for k in (face[0], face[i], face[i + 1])] for island, face in faces for i in range(1, len(face) - 1)]
+    indices = [[number[face[k], island] for k in cut] for island, face in faces for cut in CUTS[len(face)]]
     arrays = [
         (head, "<f4", "VEC3"), (np.stack([uv[:, 0], 1 - uv[:, 1]], 1), "<f4", "VEC2"), (np.array(indices).reshape(-1, 1), "<u4", "SCALAR"),
         (COLLAR, "<f4", "VEC3"), (np.array([[0], [1], [2], [0], [2], [3]]), "<u4", "SCALAR"),

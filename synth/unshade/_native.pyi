@@ -210,3 +210,19 @@ def measure(
     scale: str = "none",
     beside: dict[str, ArrayLike] | None = None,
 ) -> float | None: ...
+
+class _Object(TypedDict):
+    name: str
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    uv: NDArray[np.float64] | None
+    normals: NDArray[np.float64] | None
+    line_without_uv: int | None
+
+def read_obj(data: bytes) -> list[_Object]:
+    """The objects of an OBJ file; raises ValueError with the line."""
+
+def outward_turns(
+    vertices: NDArray[np.float64], triangles: NDArray[np.int64], normals: NDArray[np.float64] | None = None
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_], int]:
+    """Triangles and normals to turn so that all face away from the origin, and triangles on one-sided surfaces."""

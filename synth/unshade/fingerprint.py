@@ -10,7 +10,7 @@ import hashlib
 from importlib.metadata import version
 from pathlib import Path
 
-_LIBRARIES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "anny", "pillow", "trimesh")
+_LIBRARIES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "anny", "pillow")
 
 
 @functools.cache  # sources that change later are not those at work here

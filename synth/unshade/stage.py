@@ -13,6 +13,7 @@ import os
 import sys
 import threading
 import traceback
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ _INTERRUPTED, _FAULT = 3, 1
 
 def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
+    warnings.showwarning = _show_warning
     if options.watch_stdin:
         threading.Thread(target=_leave_with_parent, daemon=True).start()
     try:
@@ -174,6 +176,14 @@ def _progress(done: int, total: int, what: str) -> None:
 
 def _warn(message: str) -> None:
     _say("warning", message=message)
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+    """Warnings of ours are for the user; those of libraries for whoever reads the log."""
+    if category.__module__.startswith("unshade."):
+        _warn(str(message))
+    else:
+        print(f"{category.__name__}: {message}", file=sys.stderr)
 
 
 def _say(event: str, **fields: Any) -> None:

@@ -6,6 +6,7 @@ mod capture;
 mod errors;
 mod folders;
 mod maps;
+mod meshes;
 mod metrics;
 mod stages;
 
@@ -32,5 +33,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::report, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
     Ok(())
 }

@@ -27,7 +27,7 @@ pub(super) struct Geometry {
 impl Geometry {
     /// Reprojects the layers of the training views onto the truth's texels.
     pub fn of(folder: &Path, truth: &Truth) -> Result<Self, ScoreError> {
-        let mut capture = Capture::open(folder)?;
+        let mut capture = Capture::reopen(folder)?;
         let side = truth.diffuse_albedo.width;
         let mut layers = Vec::new();
         for view in &capture.train {

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
+use super::winding::Winding;
 use crate::error::CaptureError;
+use crate::obj;
 
 /// A triangle mesh; every vertex has a position, a unit normal and a texture coordinate.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,31 +25,37 @@ pub struct Mesh {
 impl Mesh {
     /// Reads an OBJ file; all its objects become one mesh.
     pub fn open(path: &Path) -> Result<Self, CaptureError> {
-        let options =
-            tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
-        let (models, _) = tobj::load_obj(path, &options).map_err(|error| CaptureError::Read {
+        let bytes = std::fs::read(path).map_err(|error| CaptureError::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        let wrong = |reason: String| CaptureError::Mesh { path: path.to_path_buf(), reason };
+        Self::parse(&bytes)
+            .map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
+    }
+
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
         let mut mesh = Self { positions: vec![], normals: vec![], uvs: vec![], triangles: vec![] };
         let mut normals_given = true;
-        for tobj::Model { mesh: part, .. } in models {
+        for part in obj::read(bytes).map_err(|error| error.to_string())? {
             let base = mesh.positions.len() as u32;
-            if part.texcoords.len() / 2 != part.positions.len() / 3 {
-                return Err(wrong("has no texture coordinates; unwrap it first".to_owned()));
-            }
-            normals_given &= part.normals.len() == part.positions.len();
-            mesh.positions.extend(part.positions.chunks_exact(3).map(Vec3::from_slice));
-            mesh.normals.extend(part.normals.chunks_exact(3).map(Vec3::from_slice));
-            mesh.uvs.extend(part.texcoords.chunks_exact(2).map(Vec2::from_slice));
-            let corners = part.indices.chunks_exact(3);
-            mesh.triangles.extend(corners.map(|t| [t[0] + base, t[1] + base, t[2] + base]));
+            let Some(uvs) = part.uvs else {
+                let (name, line) = (part.name, part.line_without_uv.unwrap_or_default());
+                return Err(format!(
+                    "line {line}: object {name:?} has no texture coordinates; unwrap it, or take \
+                     it out of the file"
+                ));
+            };
+            normals_given &= part.normals.is_some();
+            mesh.positions.extend(part.positions.iter().map(|p| Vec3::from_array(p.map(single))));
+            mesh.normals
+                .extend(part.normals.iter().flatten().map(|n| Vec3::from_array(n.map(single))));
+            mesh.uvs.extend(uvs.iter().map(|uv| Vec2::from_array(uv.map(single))));
+            mesh.triangles.extend(part.triangles.iter().map(|t| t.map(|corner| corner + base)));
         }
         if !normals_given || mesh.normals.contains(&Vec3::ZERO) {
-            mesh.normals = vertex_normals(&mesh.positions, &mesh.triangles);
+            mesh.normals = vertex_normals(&mesh.positions, &wound_alike(&mesh));
         }
-        mesh.check().map_err(wrong)?;
+        mesh.check()?;
         for normal in &mut mesh.normals {
             // Only a vertex without area can have none; no pixel ever meets it.
             *normal = normal.normalize_or(Vec3::Z);
@@ -80,6 +88,17 @@ impl Mesh {
         }
         Ok(())
     }
+}
+
+fn single(value: f64) -> f32 {
+    value as f32
+}
+
+/// The triangles, each wound as most of its surface is.
+fn wound_alike(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let winding = Winding::of(&mesh.positions, &places(&mesh.positions), &mesh.triangles);
+    let triangles = mesh.triangles.iter().zip(winding.turned);
+    triangles.map(|([a, b, c], turned)| if turned { [*a, *c, *b] } else { [*a, *b, *c] }).collect()
 }
 
 /// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as

@@ -1,11 +1,14 @@
 //! A capture folder: opened and checked here, once, for everyone.
 
 mod camera;
+mod frame;
 mod lens;
 mod mesh;
 mod orientation;
+pub mod outward;
 mod transforms;
 mod view;
+mod winding;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,6 +17,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::error::CaptureError;
+use crate::first_look;
 use orientation::Turned;
 
 pub use camera::Camera;
@@ -40,8 +44,19 @@ pub struct Capture {
 }
 
 impl Capture {
-    /// Opens and checks a capture folder (`transforms.json`, the mesh, pictures, masks, labels).
+    /// Opens and checks a capture folder (`transforms.json`, the mesh, pictures, masks, labels),
+    /// and that its mesh is where its cameras look.
     pub fn open(folder: &Path) -> Result<Self, CaptureError> {
+        Self::opened(folder, true)
+    }
+
+    /// Opens a folder again that has been solved: as [`Capture::open`], without the look at how
+    /// mesh and cameras fit.
+    pub fn reopen(folder: &Path) -> Result<Self, CaptureError> {
+        Self::opened(folder, false)
+    }
+
+    fn opened(folder: &Path, look: bool) -> Result<Self, CaptureError> {
         let path = folder.join("transforms.json");
         let bytes = read(&path)?;
         let transforms = transforms::Transforms::parse(folder, &bytes)
@@ -52,6 +67,9 @@ impl Capture {
             || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
         );
         let (mut mesh, train) = (mesh?, train?);
+        if look {
+            first_look::check(folder, &mesh, &train, transforms.applied)?;
+        }
         let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
         let turned = orientation::orient(&mut mesh, &eyes);
         if turned != Default::default() {

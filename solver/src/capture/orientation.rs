@@ -4,6 +4,7 @@
 use glam::Vec3;
 
 use super::mesh::{Mesh, places};
+use super::winding::Winding;
 
 /// Cosine below which two directions are opposite: neither creases nor the folds of a noisy scan
 /// bring normals and triangles so far apart.
@@ -21,22 +22,30 @@ pub struct Turned {
     pub triangles: usize,
 }
 
-/// Turns normals towards the cameras as a whole, single ones to those around them, and triangles
-/// to their normals. `eyes` are the cameras' positions.
+/// Turns normals of one connected surface to the same side, the whole towards the cameras, single
+/// ones to those around them, and triangles to their normals. `eyes` are the cameras' positions.
 pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Turned {
     let mut turned = Turned::default();
+    let given = mesh.normals.clone();
+    let place = places(&mesh.positions);
+    let winding = Winding::of(&mesh.positions, &place, &mesh.triangles);
+    let minority = minority(mesh, &place, &winding);
+    for (normal, wrong) in mesh.normals.iter_mut().zip(minority) {
+        if wrong {
+            *normal = -*normal;
+        }
+    }
     if inside_out(mesh, eyes) {
         mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
-        turned.normals = mesh.normals.len();
     }
     let around = around(mesh);
     let Mesh { positions, normals, triangles, .. } = mesh;
     for (normal, around) in normals.iter_mut().zip(around) {
         if opposite(*normal, around) {
             *normal = -*normal;
-            turned.normals += 1;
         }
     }
+    turned.normals = normals.iter().zip(&given).filter(|(now, given)| now != given).count();
     for corners in triangles.iter_mut() {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let normal: Vec3 = corners.iter().map(|corner| normals[*corner as usize]).sum();
@@ -46,6 +55,29 @@ pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Turned {
         }
     }
     turned
+}
+
+/// Which normals point to the other side of their surface than most of its normals do.
+fn minority(mesh: &Mesh, place: &[usize], winding: &Winding) -> Vec<bool> {
+    let sides = winding.sides(&mesh.positions, place, &mesh.triangles);
+    let mut surface = vec![usize::MAX; place.len()];
+    for (corners, number) in mesh.triangles.iter().zip(&winding.surface) {
+        corners.iter().for_each(|corner| surface[*corner as usize] = *number);
+    }
+    let side = |vertex: usize| {
+        let cosine = mesh.normals[vertex].normalize_or_zero().dot(sides[vertex]);
+        if cosine.abs() < -OPPOSITE { 0 } else { cosine.signum() as isize }
+    };
+    let mut votes = vec![0_isize; mesh.triangles.len()];
+    for vertex in 0..place.len() {
+        if let Some(votes) = votes.get_mut(surface[vertex]) {
+            *votes += side(vertex);
+        }
+    }
+    let against = |vertex: usize| {
+        votes.get(surface[vertex]).is_some_and(|votes| votes.signum() * side(vertex) < 0)
+    };
+    (0..place.len()).map(against).collect()
 }
 
 /// For every vertex the sum of the normals of its neighbours, whichever way the triangles between
@@ -130,6 +162,25 @@ mod tests {
             (vertices.div_ceil(11), triangles.div_ceil(3))
         );
         assert_eq!(mesh, sound);
+    }
+
+    #[test]
+    fn halves_that_are_turned_over_are_turned_back() {
+        let sound = testing::dome(12);
+        let left = |position: &Vec3| position.x < 0.1;
+        let (mesh, turned) = oriented(|mesh| {
+            let normals = mesh.normals.iter_mut().zip(&mesh.positions);
+            negate(normals.filter(|(_, p)| left(p)).map(|(normal, _)| normal));
+        });
+        assert_eq!(mesh, sound);
+        assert_eq!(turned.normals, sound.positions.iter().filter(|p| left(p)).count());
+        let (mesh, turned) = oriented(|mesh| {
+            let positions = &mesh.positions;
+            let of_left = |t: &&mut [u32; 3]| t.iter().all(|c| left(&positions[*c as usize]));
+            reverse(mesh.triangles.iter_mut().filter(of_left));
+            negate(&mut mesh.normals);
+        });
+        assert_eq!((mesh, turned.normals), (sound.clone(), sound.normals.len()));
     }
 
     #[test]

@@ -99,7 +99,7 @@ fn broken(break_it: impl FnOnce(&Path, &mut Value)) -> String {
 
 #[test]
 fn every_fault_of_the_transforms_is_named() {
-    let cases: [(&str, Value, &str); 20] = [
+    let cases = [
         ("/camera_model", json!("FISHEYE"), "\"FISHEYE\"; undistort"),
         ("/camera_model", json!(7), "invalid type"),
         ("/train_filenames", json!([]), "train_filenames is empty"),
@@ -117,6 +117,15 @@ fn every_fault_of_the_transforms_is_named() {
         ("/frames/0/mask_path", json!("../000.png"), "leads out of the capture folder"),
         ("/frames/0/label_path", json!("/etc/000.png"), "leads out of the capture folder"),
         ("/frames/0/label_path", json!("truth/labels.png"), "part of the truth"),
+        ("/frames/0/w", json!(16.5), "frame images/000.exr: w is 16.5; it must be a whole"),
+        ("/frames/0/w", json!(1e30), "it must be a whole number of pixels"),
+        ("/frames/0/file_path", json!("images/000.JPG"), "no frame has file_path images/000.exr"),
+        (
+            "/frames/1/transform_matrix",
+            json!([[1.0]]),
+            "frame images/001.exr: transform_matrix has",
+        ),
+        ("/frames/1/transform_matrix", json!("x"), "frame images/001.exr: invalid type"),
         ("/label_names", json!({"256": "skin"}), "256"),
         ("/label_names", json!({"0": "skin"}), "label_names: 0"),
         ("/mesh", json!("../mesh.obj"), "mesh: ../mesh.obj leads out"),
@@ -125,6 +134,98 @@ fn every_fault_of_the_transforms_is_named() {
         let message = broken(|_, transforms| *transforms.pointer_mut(place).unwrap() = value);
         assert!(message.contains(expected), "{place}: {message}");
     }
+}
+
+#[test]
+fn what_nerfstudio_and_instant_ngp_write_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let views = written(folder.path());
+    let path = folder.path().join("transforms.json");
+    let plain: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    let shared = ["w", "h", "fl_x", "fl_y", "cx", "cy"];
+    type Edit = fn(&mut Value);
+    let edits: [(&str, Edit); 7] = [
+        ("values beside the frames, lists dropped", |_| ()),
+        ("sizes as floats", |t| (t["w"], t["h"]) = (json!(16.0), json!(16.0))),
+        ("paths with a dot", |t| t["frames"][0]["file_path"] = json!("./images/000.exr")),
+        ("paths of Windows", |t| t["frames"][0]["mask_path"] = json!("masks\\000.png")),
+        ("no ending", |t| t["frames"][0]["file_path"] = json!("images/000")),
+        ("a mask under the picture's name", |t| {
+            t["frames"][0].as_object_mut().unwrap().remove("mask_path");
+            t.as_object_mut().unwrap().remove("mesh");
+        }),
+        ("an angle for a focal length", |t| {
+            let focal = t["fl_x"].as_f64().unwrap();
+            t.as_object_mut().unwrap().retain(|key, _| !["fl_x", "fl_y", "cx"].contains(&&**key));
+            t["camera_angle_x"] = json!(2.0 * (8.0 / focal).atan());
+        }),
+    ];
+    for (what, edit) in edits {
+        let mut transforms = plain.clone();
+        for key in shared {
+            transforms[key] = plain["frames"][0][key].clone();
+        }
+        for frame in transforms["frames"].as_array_mut().unwrap() {
+            // The cameras of this rig differ in nothing but their places and focal lengths.
+            frame["fl_x"] = transforms_focal(frame);
+            frame["fl_y"] = frame["fl_x"].clone();
+            let own = |key: &String| !shared.contains(&key.as_str()) || key.starts_with("fl_");
+            frame.as_object_mut().unwrap().retain(|key, value| own(key) && !value.is_null());
+        }
+        let top = transforms.as_object_mut().unwrap();
+        top.retain(|key, _| {
+            !["camera_model", "train_filenames", "test_filenames"].contains(&&**key)
+        });
+        edit(&mut transforms);
+        let text = format!("\u{feff}{transforms}");
+        fs::write(&path, text).unwrap();
+        let capture = Capture::open(folder.path()).unwrap_or_else(|e| panic!("{what}: {e}"));
+        assert_eq!(capture.train.len(), 3, "{what}");
+        assert!(capture.withheld.is_empty());
+        assert_eq!(capture.train[1..], views[1..], "{what}");
+        assert_eq!(capture.train[0].mask, views[0].mask, "{what}");
+        let off = capture.train[0].camera.focal[0] - views[0].camera.focal[0];
+        assert!(off.abs() < 1e-4, "{what}: {off}");
+    }
+}
+
+/// Nothing for the first frame, which takes the value for all.
+fn transforms_focal(frame: &Value) -> Value {
+    if frame["name"] == "000" { Value::Null } else { frame["fl_x"].clone() }
+}
+
+#[test]
+fn what_is_missing_is_named_with_its_frame_and_the_mend() {
+    let without = |place: &str, key: &str| {
+        broken(|_, transforms| {
+            transforms.pointer_mut(place).unwrap().as_object_mut().unwrap().remove(key);
+        })
+    };
+    assert!(without("/frames/1", "w").contains("frame images/001.exr: has no w; state w and h"));
+    assert!(without("/frames/1", "transform_matrix").contains("frame images/001.exr: missing"));
+    assert!(without("/frames/1", "file_path").contains("frame 2 of the list: missing field"));
+    let masks = broken(|folder, transforms| {
+        fs::remove_file(folder.join("masks/001.png")).unwrap();
+        transforms["frames"][1].as_object_mut().unwrap().remove("mask_path");
+    });
+    assert!(masks.contains("frame images/001.exr: has no mask_path; add a grey PNG"), "{masks}");
+    let mesh = broken(|folder, transforms| {
+        fs::remove_file(folder.join("mesh.obj")).unwrap();
+        transforms.as_object_mut().unwrap().remove("mesh");
+    });
+    assert!(mesh.contains("names no mesh; add \"mesh\": \"mesh.obj\""), "{mesh}");
+    let jpeg = |name: &'static str| {
+        broken(move |_, transforms| {
+            transforms["frames"][0]["file_path"] = json!(name);
+            transforms["train_filenames"][0] = json!(name);
+        })
+    };
+    assert!(jpeg("images/000.JPG").contains("is a JPEG, but pictures are linear float EXR"));
+    assert!(jpeg("images/000.JPG").contains("name 000.exr beside it"));
+    assert!(
+        jpeg("images/009.png")
+            .contains("is a PNG, but pictures are linear float EXR files; develop")
+    );
 }
 
 #[test]
@@ -163,7 +264,7 @@ fn every_fault_of_the_files_is_named() {
         ("has no texture coordinates", |folder| {
             fs::write(folder.join("mesh.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
         }),
-        ("mesh.obj: cannot be read", |folder| {
+        ("mesh.obj: line 5: names vertex 9, but there are 3", |folder| {
             let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 9/1\n";
             fs::write(folder.join("mesh.obj"), text).unwrap();
         }),
@@ -195,11 +296,10 @@ fn lens_terms_need_a_model_that_has_them() {
     assert!(with("PINHOLE", "k1", 0.1).contains("camera_model is PINHOLE; state OPENCV"));
     assert!(with("OPENCV", "k3", 0.1).contains("k3 and k4 are not supported"));
     assert!(with("OPENCV", "p1", f64::NAN).contains("invalid type"), "JSON writes NaN as null");
-    let beside = broken(|_, transforms| {
-        transforms["camera_model"] = json!("OPENCV");
-        transforms["k1"] = json!(0.1);
-    });
-    assert!(beside.contains("write them into every frame"), "{beside}");
+    let beside = broken(|_, transforms| transforms["k1"] = json!(0.1));
+    assert!(beside.contains("frame images/000.exr: has lens distortion, but camera"), "{beside}");
+    let fisheye = broken(|_, transforms| transforms["is_fisheye"] = json!(true));
+    assert!(fisheye.contains("is_fisheye is true; undistort"), "{fisheye}");
 }
 
 #[test]
@@ -211,8 +311,9 @@ fn lenses_are_taken_out_on_opening() {
     transforms["camera_model"] = json!("OPENCV");
     fs::write(&path, transforms.to_string()).unwrap();
     assert_eq!(Capture::open(folder.path()).unwrap().train, views[..2], "terms left out are zero");
-    transforms["frames"][1]["k1"] = json!(-0.2);
-    transforms["frames"][2]["k1"] = json!(-0.2);
+    // The value beside the frames is for those that have none.
+    transforms["k1"] = json!(-0.2);
+    transforms["frames"][0]["k1"] = json!(0.0);
     fs::write(&path, transforms.to_string()).unwrap();
     let capture = Capture::open(folder.path()).unwrap();
     assert_eq!(capture.train[0], views[0]);

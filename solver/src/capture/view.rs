@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::path::Path;
 
-use super::{Camera, transforms::Frame};
+use super::{Camera, frame::Frame};
 use crate::error::CaptureError;
 use crate::picture::{self, GrayImage, Picture};
 

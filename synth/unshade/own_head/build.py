@@ -14,6 +14,7 @@ from ..face.spec import FaceError
 from ..face.texels import Texels, rasterise
 from .map_files import linear, read_labels, read_picture, resampled
 from .mesh_file import Piece, read_pieces
+from .outward import turned_outwards
 from .placement import axes, in_metres, origin, smooth_normals
 from .spec import SKIN_REFLECTANCE, HeadFiles
 
@@ -83,7 +84,10 @@ def _joined(pieces: list[Piece], head: HeadFiles) -> dict[str, np.ndarray]:
     # Normals of the file only if it has all of them.
     given = [piece.normals for piece in pieces]
     normals = None if any(n is None for n in given) else np.concatenate(given)[used] @ axes(head).T
-    if normals is None or not (np.linalg.norm(normals, axis=1) > 1e-6).all():
+    if normals is not None and not (np.linalg.norm(normals, axis=1) > 1e-6).all():
+        normals = None
+    triangles, normals = turned_outwards(points, triangles, normals, head)
+    if normals is None:
         normals = smooth_normals(points, triangles)
     return {"points": points, "normals": unit(normals), "uv": uv, "triangles": triangles}
 
@@ -122,7 +126,7 @@ def _check_outward(points: np.ndarray, triangles: np.ndarray, head: HeadFiles) -
     if outward <= 0:
         raise FaceError(
             f"{head.mesh}: its triangles face inwards as seen from the origin; "
-            "flip their winding, or put origin inside the head"
+            "put origin inside the head, and state the axes up and forward that the head has"
         )
 
 

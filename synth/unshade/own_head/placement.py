@@ -42,8 +42,13 @@ def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
         )
     if head.origin is not None:
         return np.array(head.origin) @ axes(head).T * UNITS[head.units]
-    middle = (low + high) / 2
-    return np.array([middle[0], middle[1], high[2] - NOSE_TO_ORIGIN])
+    return middle(points)
+
+
+def middle(points: np.ndarray) -> np.ndarray:
+    """A point (3,) inside the head that the chart's points (V,3) are of, as in `origin`."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2] - NOSE_TO_ORIGIN])
 
 
 def smooth_normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from ..face.base_mesh import data_folder, data_version
 from ..face.cache import cache_folder
 from . import llvm
 
-_PACKAGES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "pillow", "trimesh")
+_PACKAGES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "pillow")
 
 
 def examine() -> list[dict[str, Any]]:

@@ -1,0 +1,300 @@
+"""Meshes of one's own as other programs write them: read as what they mean, turned outwards, or refused by name."""
+
+import json
+import struct
+import warnings
+
+import numpy as np
+import own_head_files as files
+import pytest
+import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
+
+from unshade.face import FaceError
+from unshade.own_head import HeadFiles, build, placement
+from unshade.own_head.mesh_file import read_pieces
+from unshade.own_head.outward import MeshWarning, turned_outwards
+from unshade.scene_file.face import parse_face
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("mesh")
+    files.write_obj(path / "scan.obj")
+    files.write_glb(path / "scan.glb")
+    return path
+
+
+def joined(folder, mesh):
+    """The chart's mesh, before any map is read."""
+    table = files.TABLE | {"mesh": mesh, "diffuse_albedo": [0.5, 0.4, 0.3]}
+    head = parse_face(table, "[face]", folder)
+    assert isinstance(head, HeadFiles)
+    inside, _ = build._divide(read_pieces(folder / mesh), head)
+    mesh = build._joined(inside, head)
+    return mesh | {"points": mesh["points"] - placement.origin(mesh["points"], head)}
+
+
+def corners(mesh):
+    """Triangles as rows of positions, uvs and normals, in no order."""
+    rows = np.concatenate([mesh["points"], mesh["uv"], mesh["normals"]], 1)[mesh["triangles"]]
+    first = np.lexsort(np.moveaxis(np.round(rows, 6), 2, 0)[::-1], axis=1)[:, 0]
+    rows = rows[np.arange(len(rows))[:, None], (first[:, None] + np.arange(3)) % 3].reshape(len(rows), -1)
+    return rows[np.lexsort(np.round(rows, 5).T[::-1])]
+
+
+def with_normals(text):
+    """The file with a normal per vertex, which is the direction from a point within."""
+    lines, places = text.splitlines(), []
+    for line in lines:
+        if line.startswith("v "):
+            place = np.array(line.split()[1:], float) - files.OFFSET
+            places.append(place / np.linalg.norm(place))
+    normals = ["vn %.6f %.6f %.6f" % tuple(n) for n in places]
+    faces = [
+        "f " + " ".join(f"{c}/{c.split('/')[0]}" if "/" in c else c for c in line.split()[1:]) if line.startswith("f ") else line for line in lines
+    ]
+    return "\n".join([faces[0], *normals, *faces[1:]])
+
+
+def negated(text, which):
+    return "\n".join(
+        "vn " + " ".join("%.6f" % -float(x) for x in line.split()[1:]) if line.startswith("vn ") and which(line) else line
+        for line in text.splitlines()
+    )
+
+
+def reversed_faces(text, which):
+    faces = iter(range(10**6))
+    return "\n".join(
+        "f " + " ".join(line.split()[:0:-1]) if line.startswith("f ") and which(next(faces)) else line for line in text.splitlines()
+    )
+
+
+left = lambda line: float(line.split()[1]) < 0.1  # noqa: E731
+TURNED = {
+    "all normals": (with_normals, lambda t: negated(t, lambda _: True), "normals"),
+    "half of the normals": (with_normals, lambda t: negated(t, left), "normals"),
+    "all triangles": (lambda t: t, lambda t: reversed_faces(t, lambda _: True), "triangles"),
+    "half of the triangles": (lambda t: t, lambda t: reversed_faces(t, lambda k: k < 260), "triangles"),
+    "some of both": (with_normals, lambda t: negated(reversed_faces(t, lambda k: k % 3 == 0), left), "triangles and"),
+}
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_what_points_inwards_is_turned_with_a_warning(name, folder):
+    sound, change, said = TURNED[name]
+    files.write_obj(folder / "sound.obj", sound)
+    files.write_obj(folder / "turned.obj", lambda text: change(sound(text)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        expected = joined(folder, "sound.obj")
+    with pytest.warns(MeshWarning, match=f"turned.obj: .* of .* {said}.* point inwards; they are read as pointing outwards"):
+        found = joined(folder, "turned.obj")
+    # Polygons are cut elsewhere when they run the other way, so the surface is compared by its vertices.
+    rows = lambda mesh: np.unique(np.round(np.concatenate([mesh["points"], mesh["uv"]], 1), 6), axis=0)  # noqa: E731
+    np.testing.assert_array_equal(rows(found), rows(expected))
+    assert ((found["normals"] * found["points"]).sum(1) > 0).all()
+    corner = found["points"][found["triangles"]]
+    outward = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    assert ((outward * found["normals"][found["triangles"]].sum(1)).sum(1) > 0).all()
+
+
+def test_a_twisted_strip_is_named():
+    turn = np.linspace(0, 2 * np.pi, 20, endpoint=False)
+    along = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1) * 0.1
+    across = along * 0.3 * np.cos(turn / 2)[:, None] + np.array([0, 0, 0.03]) * np.sin(turn / 2)[:, None]
+    points = np.concatenate([along - across, along + across])
+    low, high = np.arange(20), np.arange(20) + 20
+    after_low, after_high = np.append(low[1:], high[0]), np.append(high[1:], low[0])
+    triangles = np.concatenate([np.stack([low, after_low, after_high], 1), np.stack([low, after_high, high], 1)])
+    with pytest.warns(MeshWarning, match="40 of 40 triangles lie on surfaces that have one side only"):
+        turned_outwards(points, triangles, None, type("Head", (), {"mesh": "strip.obj"}))
+
+
+def test_one_obj_however_it_is_written(folder):
+    expected = corners(joined(folder, "scan.obj"))
+    plain = (folder / "scan.obj").read_text()
+    for text in (plain.replace(" ", "\t"), plain.replace("\n", "\n   "), plain.replace("f ", "usemtl\nl 1 2\np 1\nf "), plain.replace("\n", "\r\n")):
+        (folder / "other.obj").write_bytes(b"# f\xfcr sp\xe4ter\n" + text.encode())
+        np.testing.assert_array_equal(corners(joined(folder, "other.obj")), expected)
+
+
+def test_points_in_line_and_concave_polygons_keep_the_area(folder):
+    """Two rows of the grid as one polygon each: a strip with points in line in the chart, and a U."""
+
+    def area(mesh):
+        a, b, c = np.moveaxis(mesh["uv"][mesh["triangles"]], 1, 0)
+        return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+    n = files.STEPS + 1
+    corner = lambda i, j: j * n + i + 1  # noqa: E731
+    strip = [corner(i, 1) for i in range(9)] + [corner(i, 2) for i in range(8, -1, -1)]
+    u = [corner(0, 8), corner(3, 8), corner(3, 10), corner(2, 10), corner(2, 9), corner(1, 9), corner(1, 10), corner(0, 10)]
+    for polygon, cells in ((strip, 8), (u, 5)):
+        face = "f " + " ".join(f"{k}/{k}" for k in polygon)
+        grid = (folder / "scan.obj").read_text().splitlines()
+        lines = [line for line in grid if line.startswith(("v ", "vt "))]
+        (folder / "polygon.obj").write_text("\n".join(["o head", *lines, face]))
+        (piece,) = read_pieces(folder / "polygon.obj")
+        areas = area({"uv": piece.uv, "triangles": piece.triangles})
+        assert (areas > 1e-5).all() and len(areas) == len(polygon) - 2
+        assert areas.sum() == pytest.approx(cells * 0.8 * 0.9 / files.STEPS**2, rel=1e-4)
+
+
+# glTF
+
+
+def parts(path):
+    data = path.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    return json.loads(data[20 : 20 + length]), data[28 + length :]
+
+
+def write(path, document, blob):
+    document["buffers"] = [{"byteLength": len(blob)}]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    head = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<II", len(text), 0x4E4F534A)
+    path.write_bytes(head + text + struct.pack("<II", len(blob), 0x004E4942) + blob)
+
+
+class Packed:
+    """A document whose arrays can be replaced and added to."""
+
+    def __init__(self, path):
+        self.document, self.blob = parts(path)
+
+    def values(self, number):
+        accessor = self.document["accessors"][number]
+        view = self.document["bufferViews"][accessor["bufferView"]]
+        kind = {5126: "<f4", 5125: "<u4"}[accessor["componentType"]]
+        return np.frombuffer(self.blob, kind, view["byteLength"] // 4, view["byteOffset"]).reshape(accessor["count"], -1)
+
+    def view(self, values, **more):
+        self.blob += b"\0" * (-len(self.blob) % 4)
+        data = np.ascontiguousarray(values).tobytes()
+        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.blob), "byteLength": len(data)} | more)
+        self.blob += data
+        return len(self.document["bufferViews"]) - 1
+
+    def add(self, values, component, **more):
+        shape = {1: "SCALAR", 2: "VEC2", 3: "VEC3"}[values.shape[1]]
+        accessor = {"bufferView": self.view(values), "componentType": component, "count": len(values), "type": shape}
+        self.document["accessors"].append(accessor | more)
+        return len(self.document["accessors"]) - 1
+
+    @property
+    def head(self):
+        return self.document["meshes"][0]["primitives"][0]
+
+
+def normalised_uv(packed):
+    codes = np.round(packed.values(1) * 65535).astype("<u2")
+    packed.head["attributes"]["TEXCOORD_0"] = packed.add(codes, 5123, normalized=True)
+
+
+def quantised(packed):
+    """As gltfpack does it: padded 16-bit positions under a node's scale."""
+    codes = np.zeros((len(packed.values(0)), 4), "<i2")
+    codes[:, :3] = np.round(packed.values(0) / 0.3 * 32767)
+    number = packed.add(codes[:, :3].copy(), 5122, normalized=True)
+    packed.document["accessors"][number]["bufferView"] = packed.view(codes, byteStride=8)
+    packed.head["attributes"]["POSITION"] = number
+    packed.document["nodes"][1]["scale"] = [0.3] * 3
+    packed.document["extensionsRequired"] = ["KHR_mesh_quantization"]
+
+
+def sparse(packed):
+    """Everything moved away, and back by sparse values."""
+    places = packed.values(0).copy()
+    wrong = places.copy()
+    wrong[5:50] += 1
+    number = packed.add(wrong, 5126)
+    indices = packed.view(np.arange(5, 50, dtype="<u2"))
+    values = packed.view(places[5:50])
+    packed.document["accessors"][number]["sparse"] = {
+        "count": 45,
+        "indices": {"bufferView": indices, "componentType": 5123},
+        "values": {"bufferView": values},
+    }
+    packed.head["attributes"]["POSITION"] = number
+
+
+def morphed(packed):
+    places = packed.values(0)
+    shift = np.full_like(places, 0.02)
+    packed.head["attributes"]["POSITION"] = packed.add(places - 0.5 * shift, 5126)
+    packed.head["targets"] = [{"POSITION": packed.add(shift * 9, 5126)}, {"POSITION": packed.add(shift, 5126)}]
+    packed.document["meshes"][0]["weights"] = [0, 0.5]
+
+
+def strips(packed):
+    """Two primitives: one as strips of one triangle each would be, the other as before."""
+    triangles = packed.values(2).reshape(-1, 3)
+    first = packed.add(triangles[:1].reshape(-1, 1).copy(), 5125)
+    rest = packed.add(triangles[1:].reshape(-1, 1).copy(), 5125)
+    attributes = packed.head["attributes"]
+    packed.document["meshes"][0]["primitives"] = [
+        {"attributes": attributes, "indices": first, "mode": 5},
+        {"attributes": attributes, "indices": rest},
+        {"attributes": attributes, "mode": 0},
+    ]
+
+
+@pytest.mark.parametrize("change", [normalised_uv, quantised, sparse, morphed, strips])
+def test_a_glb_however_it_is_packed(change, folder):
+    packed = Packed(folder / "scan.glb")
+    change(packed)
+    write(folder / "packed.glb", packed.document, packed.blob)
+    expected, found = (joined(folder, name) for name in ("scan.glb", "packed.glb"))
+    expected, found = (corners({**mesh, "normals": 0 * mesh["normals"], "uv": np.round(mesh["uv"], 3)}) for mesh in (expected, found))
+    near = np.abs(found[:, None, :3] - expected[None, :, :3]).max(2).min(1)
+    assert len(found) == len(expected) and near.max() < 2e-5
+    np.testing.assert_allclose(found.mean(0), expected.mean(0), atol=1e-3)
+
+
+EXTENSIONS = {
+    "KHR_draco_mesh_compression": "export it without compression",
+    "EXT_meshopt_compression": "gltfpack without -c",
+    "KHR_mesh_variants": "requires the extension KHR_mesh_variants, which is not read; export it without",
+}
+
+
+@pytest.mark.parametrize("name", EXTENSIONS)
+def test_extensions_that_are_not_read_are_named(name, folder):
+    packed = Packed(folder / "scan.glb")
+    packed.document["extensionsRequired"] = ["KHR_materials_unlit", name]
+    write(folder / "packed.glb", packed.document, packed.blob)
+    with pytest.raises(FaceError) as caught:
+        read_pieces(folder / "packed.glb")
+    assert name in str(caught.value) and EXTENSIONS[name] in str(caught.value)
+
+
+def test_damaged_files_are_refused_and_nothing_else(folder):
+    """Bytes and numbers of a document changed at random: a mesh, or a `FaceError` of one line."""
+    random = np.random.default_rng(3)
+    document, blob = parts(folder / "scan.glb")
+    text = json.dumps(document)
+    refused = 0
+    for turn in range(300):
+        path = folder / "damaged.glb"
+        if turn % 2:
+            numbers = [i for i, c in enumerate(text) if c.isdigit()]
+            at = random.choice(numbers)
+            changed = text[:at] + str(random.choice([0, 7, 99, 10**12, -1, 0.5])) + text[at + 1 :]
+            try:
+                write(path, json.loads(changed), blob)
+            except json.JSONDecodeError:
+                continue
+        else:
+            write(path, document, blob)
+            data = bytearray(path.read_bytes())
+            for _ in range(3):
+                data[random.integers(0, 400)] = random.integers(0, 256)
+            path.write_bytes(data[: random.integers(0, len(data))] if turn % 4 else data)
+        try:
+            read_pieces(path)
+        except FaceError as error:
+            refused += 1
+            assert "\n" not in str(error) and str(error).startswith(str(path))
+    assert refused > 100
