@@ -27,6 +27,7 @@ named! {
     CaptureError => "CaptureError",
     MapsError => "MapsError",
     ConfigError => "ConfigError",
+    solver::picture::PictureError => "PictureError",
     ScoreError => "ScoreError",
     RunError => "UnshadeError",
     crate::compare::CompareError => "CompareError",

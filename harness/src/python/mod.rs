@@ -6,6 +6,7 @@ mod capture;
 mod errors;
 mod maps;
 mod metrics;
+mod pictures;
 mod stages;
 
 use pyo3::prelude::*;
@@ -26,5 +27,12 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::run, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::exr_channels, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_exr, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_colour, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_light, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;
     Ok(())
 }
