@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::colour::{self, Chromaticities};
 use super::exr_channels::{self, NoPlace, Place};
-use super::{Picture, PictureError, kind, limits};
+use super::{Picture, PictureError, exr_dwa, kind, limits};
 
 /// A layer whose R, G, B are no colour, but the variances of one.
 const VARIANCE: &str = "variance.";
@@ -134,6 +134,7 @@ impl ExrFile {
             if batch.is_empty() {
                 break;
             }
+            batch.iter().try_for_each(|chunk| exr_dwa::check(header, chunk))?;
             let blocks: Vec<UncompressedBlock> = batch
                 .into_par_iter()
                 .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &self.meta, false))

@@ -8,6 +8,7 @@
 mod colour;
 mod error;
 mod exr_channels;
+mod exr_dwa;
 mod exr_file;
 mod kind;
 mod light;
