@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::atomic::Folder;
 use crate::error::MapsError;
-use crate::picture::{self, GrayImage, Picture};
+use crate::picture::{self, Content, GrayImage, Picture};
 
 /// Square reflectance maps of one size; what a solver does not recover is absent.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,24 +40,32 @@ const FILES: [(&str, &[&str], Field); 6] = [
 const COVERAGE: &str = "coverage.png";
 
 impl Maps {
-    /// Reads whatever maps `folder` has; they must be square and of one size.
+    /// Reads whatever maps `folder` has; they must be square and of one size, and finite but for
+    /// texels that the coverage leaves out, which become 0 there. The diffuse albedo is a colour:
+    /// linear Rec.709 once read, whatever its file states.
     pub fn read(folder: &Path) -> Result<Self, MapsError> {
         if let Err(source) = std::fs::read_dir(folder) {
             return Err(MapsError::Io { path: folder.to_path_buf(), source });
         }
         let mut maps = Self::default();
         let mut side = None;
+        let path = folder.join(COVERAGE);
+        let coverage = path.exists().then(|| picture::read_png_gray(&path)).transpose()?;
         for (file, channels, field) in FILES {
             let path = folder.join(file);
             if path.exists() {
-                let map = picture::read_exr(&path, channels)?;
+                let is_colour = file == "diffuse_albedo.exr";
+                let content = if is_colour { Content::Colour } else { Content::Data };
+                let mut map = picture::read_exr_unchecked(&path, channels, content)?;
                 check_side(&path, map.width, map.height, &mut side)?;
+                if let Some(coverage) = &coverage {
+                    map.blacken_not_finite(|texel| coverage.data.get(texel) == Some(&0));
+                }
+                map.require_finite(&path, channels)?;
                 *field(&mut maps) = Some(map);
             }
         }
-        let path = folder.join(COVERAGE);
-        if path.exists() {
-            let coverage = picture::read_png_gray(&path)?;
+        if let Some(coverage) = coverage {
             check_side(&path, coverage.width, coverage.height, &mut side)?;
             maps.coverage = Some(coverage);
         }
@@ -133,5 +141,23 @@ mod tests {
         let file = folder.join("roughness.exr");
         assert_eq!(picture::read_exr(&file, &["share1"]).unwrap().pixel(1, 0), [0.7]);
         assert_eq!(Maps::read(&folder).unwrap(), maps);
+    }
+
+    #[test]
+    fn texels_that_the_coverage_leaves_out_may_hold_anything() {
+        let root = tempfile::tempdir().unwrap();
+        let mut coverage = GrayImage::new(4, 4);
+        coverage.data.fill(255);
+        coverage.data[6] = 0;
+        let mut normal = Picture::new(4, 4, 3);
+        normal.pixel_mut(2, 1)[1] = f32::NAN;
+        let written =
+            Maps { diffuse_normal: Some(normal), coverage: Some(coverage), ..Maps::default() };
+        written.write(&root.path().join("maps")).unwrap();
+        let maps = Maps::read(&root.path().join("maps")).unwrap();
+        assert_eq!(maps.diffuse_normal, Some(Picture::new(4, 4, 3)));
+        std::fs::remove_file(root.path().join("maps/coverage.png")).unwrap();
+        let error = Maps::read(&root.path().join("maps")).unwrap_err().to_string();
+        assert!(error.contains("NaN at column 2, row 1, channel G"), "{error}");
     }
 }

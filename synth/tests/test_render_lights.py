@@ -106,7 +106,7 @@ def test_turning_moves_light_from_front_to_left_hand(monkeypatch):
     picture = np.zeros((9, 16, 3), np.float32)
     picture[4, 7:9] = 1  # around phi = pi: +Z
     front = lights.Environment(picture)
-    monkeypatch.setattr(envmap, "read_rgb", lambda path: picture)
+    monkeypatch.setattr(envmap, "read_light", lambda path: picture)
     turned = lights.environment(Light("e", "envmap", path="x", rotation_degrees=90.0))
     axes = np.eye(3)
     at = np.zeros((3, 3))

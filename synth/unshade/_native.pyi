@@ -226,3 +226,24 @@ def outward_turns(
     vertices: NDArray[np.float64], triangles: NDArray[np.int64], normals: NDArray[np.float64] | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], int]:
     """Triangles and normals to turn so that all face away from the origin, and triangles on one-sided surfaces."""
+
+def exr_channels(path: _Path) -> list[str]:
+    """Names of an EXR's channels, from its header; raises ``errors.PictureError``, as all readers here."""
+
+def read_exr(path: _Path, names: list[str] | None = None, *, colour: bool = False, finite: bool = True) -> tuple[list[str], _Float]:
+    """Channels (all without ``names``) and their names; (height, width, channels), in the display window."""
+
+def read_colour(path: _Path) -> _Float:
+    """EXR or Radiance as linear Rec.709, (height, width, 3)."""
+
+def read_light(path: _Path) -> _Float:
+    """As ``read_colour``, lat-long pictures of 2 : 1 alone."""
+
+def read_png(path: _Path) -> _Float:
+    """Values from 0 to 1, (height, width, 1 or 3)."""
+
+def read_gray(path: _Path) -> _Byte:
+    """8-bit grey PNG, (height, width)."""
+
+def read_ids(path: _Path) -> NDArray[np.uint16]:
+    """Samples of a PNG of one channel as they are, (height, width)."""

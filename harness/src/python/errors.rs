@@ -29,6 +29,7 @@ named! {
     BackendError => "BackendError",
     CaptureError => "CaptureError",
     ConfigError => "ConfigError",
+    solver::picture::PictureError => "PictureError",
     crate::compare::CompareError => "CompareError",
     crate::metrics::MetricError => "MetricError",
 }

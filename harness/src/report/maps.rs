@@ -1,6 +1,7 @@
 //! The plates of the maps.
 
 use rayon::prelude::*;
+use solver::picture::Content;
 
 use super::ReportError;
 use super::difference::{self, Measure};
@@ -53,6 +54,16 @@ pub(super) const MAPS: [MapKind; 4] = [
     },
 ];
 
+impl MapKind {
+    /// Whether its numbers are colours.
+    pub fn content(&self) -> Content {
+        match self.show {
+            Show::Colour { .. } => Content::Colour,
+            _ => Content::Data,
+        }
+    }
+}
+
 impl Studio<'_> {
     /// One plate per map that the capture knows the truth of.
     pub fn map_plates(&self) -> Result<Vec<Plate>, ReportError> {
@@ -62,7 +73,9 @@ impl Studio<'_> {
     fn map_plate(&self, kind: &MapKind) -> Result<Option<Plate>, ReportError> {
         let file = format!("{}.exr", kind.subject);
         let folder = self.frames.root.join("truth");
-        let Some(truth) = plates::read_if_present(&folder.join(&file), kind.channels)? else {
+        let Some(truth) =
+            plates::read_if_present(&folder.join(&file), kind.channels, kind.content())?
+        else {
             return Ok(None);
         };
         let subject = Subject {
@@ -78,7 +91,7 @@ impl Studio<'_> {
         };
         let strip = self.strip(&subject, |method| {
             let Some(maps) = &method.maps else { return Ok(None) };
-            let map = plates::read_if_present(&maps.join(&file), kind.channels)?;
+            let map = plates::read_if_present(&maps.join(&file), kind.channels, kind.content())?;
             let score = method.column.find(kind.subject, None, kind.metric, "none");
             Ok(map.map(|map| {
                 let map = difference::resample(&map, subject.truth.width, subject.truth.height);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use serde::Serialize;
-use solver::picture::{self, GrayImage, Picture};
+use solver::picture::{self, Content, ExrFile, GrayImage, Picture};
 
 use super::ReportError;
 use super::difference::{self, Measure};
@@ -156,7 +156,9 @@ impl Studio<'_> {
     /// The training views.
     pub fn inputs(&self) -> Result<Vec<Input>, ReportError> {
         let input = |frame: &Frame| {
-            let raster = tone::colour(&picture::read_exr_rgb(&frame.image)?, 1.0);
+            let mut picture = picture::read_colour_unchecked(&frame.image)?;
+            picture.blacken_not_finite(|_| true);
+            let raster = tone::colour(&picture, 1.0);
             let tile = self.save("input", &frame.name, &raster)?;
             Ok(Input { title: format!("input view {}", frame.name), tile })
         };
@@ -253,22 +255,27 @@ pub(super) fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
     format!("{} {value:.decimals$} {}", metric.name, metric.unit)
 }
 
-/// Channels of a file that may be absent as a whole or lack just these layers.
+/// Channels of a file that may be absent as a whole or lack just these layers. What is not finite,
+/// as it may be outside a mask, is shown black: the scores have judged it.
 pub(super) fn read_if_present(
     path: &Path,
     channels: &[&str],
+    content: Content,
 ) -> Result<Option<Picture>, ReportError> {
     if !path.exists() {
         return Ok(None);
     }
+    let file = ExrFile::open(path)?;
     let layered = channels.iter().any(|channel| channel.contains('.'));
     if layered {
-        let present = picture::exr_channel_names(path)?;
+        let present = file.channel_names();
         if !channels.iter().all(|channel| present.iter().any(|name| name == channel)) {
             return Ok(None);
         }
     }
-    Ok(Some(picture::read_exr(path, channels)?))
+    let mut picture = file.read(channels, content)?;
+    picture.blacken_not_finite(|_| true);
+    Ok(Some(picture))
 }
 
 /// A mask that may be absent.

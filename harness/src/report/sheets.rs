@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use solver::picture::{Content, Picture};
 
 use super::difference::{self, Measure};
 use super::maps::{MAPS, MapKind};
@@ -52,12 +53,11 @@ impl Studio<'_> {
     }
 
     fn light_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
-        let Some(found) = plates::read_if_present(&maps.join("light.exr"), Layer::ALL.channels)?
-        else {
+        let Some(found) = read_colour(&maps.join("light.exr"), Layer::ALL.channels)? else {
             return Ok(None);
         };
         let path = self.frames.root.join("truth/light.exr");
-        let truth = plates::read_if_present(&path, Layer::ALL.channels)?;
+        let truth = read_colour(&path, Layer::ALL.channels)?;
         let averaged = truth.as_ref().and_then(|t| light::in_cells(t, found.width, found.height));
         let (mut columns, mut tiles) = (Vec::new(), Vec::new());
         for (title, name, picture) in [
@@ -90,7 +90,9 @@ impl Studio<'_> {
         method: &Method,
         maps: &Path,
     ) -> Result<Option<Sheet>, ReportError> {
-        let Some(found) = plates::read_if_present(&maps.join("confidence.exr"), &["Y"])? else {
+        let Some(found) =
+            plates::read_if_present(&maps.join("confidence.exr"), &["Y"], Content::Data)?
+        else {
             return Ok(None);
         };
         let mut columns = vec!["confidence".to_owned()];
@@ -124,9 +126,8 @@ impl Studio<'_> {
     /// The diffuse albedo after its one factor against the truth, in false colour.
     fn albedo_error(&self, method: &Method, maps: &Path) -> Result<Option<Raster>, ReportError> {
         let folder = self.frames.root.join("truth");
-        let read = |folder: &Path| {
-            plates::read_if_present(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels)
-        };
+        let read =
+            |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);
         let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else { return Ok(None) };
         let albedo = difference::resample(&albedo, truth.width, truth.height);
         let mask = plates::read_mask_if_present(&folder.join("coverage.png"))?;
@@ -173,7 +174,9 @@ impl Studio<'_> {
         column: usize,
         path: &Path,
     ) -> Result<Option<Tile>, ReportError> {
-        let Some(map) = plates::read_if_present(path, kind.channels)? else { return Ok(None) };
+        let Some(map) = plates::read_if_present(path, kind.channels, kind.content())? else {
+            return Ok(None);
+        };
         let raster = kind.show.raster(&tone::shrink(&map, STAGE_SIDE));
         Ok(Some(self.save(group, &format!("stage-{column:02}-{}", kind.subject), &raster)?))
     }
@@ -201,7 +204,7 @@ impl Studio<'_> {
                     Some(folder) => folder.join(format!("{}.exr", frame.name)),
                     None => frame.image.clone(),
                 };
-                let Some(picture) = plates::read_if_present(&path, layer.channels)? else {
+                let Some(picture) = read_colour(&path, layer.channels)? else {
                     return Ok(None);
                 };
                 let small = tone::shrink(&picture, VIEW_SIDE);
@@ -226,6 +229,11 @@ impl Studio<'_> {
             folded: true,
         }))
     }
+}
+
+/// A picture or layer that may be absent.
+fn read_colour(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
+    plates::read_if_present(path, channels, Content::Colour)
 }
 
 /// The folders below one that may be absent, by name.

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use rayon::prelude::*;
+use solver::picture::Content;
 
 use super::difference::Measure;
 use super::plates::{self, Method, Plate, Show, Strip, Studio, Subject};
@@ -162,7 +163,7 @@ impl Studio<'_> {
             Source::View => folder.join("layers").join(&file),
             Source::Relit { light, .. } => folder.join("relit").join(light).join(&file),
         };
-        let Some(truth) = plates::read_if_present(&truth, layer.channels)? else {
+        let Some(truth) = plates::read_if_present(&truth, layer.channels, Content::Colour)? else {
             return Ok(None);
         };
         let mask = match &frame.mask {
@@ -184,7 +185,7 @@ impl Studio<'_> {
         };
         let strip = self.strip(&subject, |method| {
             let Some(path) = source.path(method, &file) else { return Ok(None) };
-            let made = plates::read_if_present(&path, layer.channels)?;
+            let made = plates::read_if_present(&path, layer.channels, Content::Colour)?;
             let score = method.column.find(&id, light, "psnr_srgb", source.scale());
             Ok(made.map(|made| (made, plates::caption(score, Some(&frame.name)))))
         })?;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, Picture};
+use solver::picture::{self, Content, Picture};
 
 use super::ScoreError;
 use super::protocol::MAP_BLOCK;
@@ -28,7 +28,7 @@ pub(super) fn rows_of_confidence(
     }
     let wrong = ScoreError::of("confidence");
     let (width, height) = truth.region.size();
-    let confidence = resample(&picture::read_exr(&path, &["Y"])?, width, height);
+    let confidence = resample(&read(maps, &path)?, width, height);
     let albedo = resample(albedo, width, height);
     let pair = Pair::new(&albedo, &truth.diffuse_albedo, &truth.region)
         .map(|pair| pair.scaled(scale.factors(ScaleMode::Global)))
@@ -38,4 +38,18 @@ pub(super) fn rows_of_confidence(
     let heading =
         Heading { subject: "confidence", light: None, scale, label: None, block: MAP_BLOCK };
     rows(heading, &METRICS, &[Compared { frame: None, pair }], &Floors::new())
+}
+
+/// The confidence; finite wherever the maps have data.
+fn read(maps: &Path, path: &Path) -> Result<Picture, ScoreError> {
+    let mut confidence = picture::read_exr_unchecked(path, &["Y"], Content::Data)?;
+    let coverage = maps.join("coverage.png");
+    if coverage.exists() {
+        let coverage = picture::read_png_gray(&coverage)?;
+        if (coverage.width, coverage.height) == (confidence.width, confidence.height) {
+            confidence.blacken_not_finite(|texel| coverage.data[texel] == 0);
+        }
+    }
+    confidence.require_finite(path, &["Y"])?;
+    Ok(confidence)
 }

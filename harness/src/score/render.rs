@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, GrayImage, Picture};
+use solver::picture::{Content, ExrFile, GrayImage, Picture};
 
 use super::ScoreError;
 use super::truth::{check_size, size};
@@ -24,7 +24,14 @@ impl Render {
     /// Reads `R, G, B` and the same below `diffuse.`, `specular.` and `variance.`; a part counts
     /// as present if its red channel is, and must then be complete.
     pub fn read(path: &Path) -> Result<Self, ScoreError> {
-        let found = picture::exr_channel_names(path)?;
+        let mut render = Self::decode(path)?;
+        render.require_finite(path)?;
+        Ok(render)
+    }
+
+    fn decode(path: &Path) -> Result<Self, ScoreError> {
+        let file = ExrFile::open(path)?;
+        let found = file.channel_names();
         let present: Vec<&str> =
             PARTS.into_iter().filter(|part| found.contains(&format!("{part}R"))).collect();
         let names: Vec<String> = present
@@ -32,7 +39,7 @@ impl Render {
             .flat_map(|part| ["R", "G", "B"].map(|channel| format!("{part}{channel}")))
             .collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let all = picture::read_exr(path, &names)?;
+        let all = file.read(&names, Content::Colour)?;
         let part = |name: &str| {
             let first = 3 * present.iter().position(|part| *part == name)?;
             let pixels = all.data.chunks_exact(all.channels);
@@ -43,14 +50,22 @@ impl Render {
         Ok(Self { total, diffuse, specular, variance })
     }
 
-    /// Reads a picture of the mask's size and blackens it outside.
+    /// Reads a picture of the mask's size and blackens it outside, where it may hold anything.
     pub fn read_masked(path: &Path, mask: &GrayImage) -> Result<Self, ScoreError> {
-        let mut render = Self::read(path)?;
+        let mut render = Self::decode(path)?;
         for part in render.parts() {
             check_size(path, size(part), (mask.width, mask.height))?;
             *part = black_outside(part, mask);
         }
+        render.require_finite(path)?;
         Ok(render)
+    }
+
+    fn require_finite(&mut self, path: &Path) -> Result<(), ScoreError> {
+        for part in self.parts() {
+            part.require_finite(path, &["R", "G", "B"])?;
+        }
+        Ok(())
     }
 
     fn parts(&mut self) -> impl Iterator<Item = &mut Picture> {

@@ -255,9 +255,9 @@ fn every_fault_of_the_files_is_named() {
                 picture::write_exr_rgb(&path, &Picture::new(16, 16, 3)).unwrap();
             }
         }),
-        ("001.exr: NaN at column 3, row 2, channel G", |folder| {
+        ("001.exr: NaN at column 8, row 7, channel G", |folder| {
             let mut image = Picture::new(16, 16, 3);
-            image.pixel_mut(3, 2)[1] = f32::NAN;
+            image.pixel_mut(8, 7)[1] = f32::NAN;
             picture::write_exr_rgb(&folder.join("images/001.exr"), &image).unwrap();
         }),
         ("has no triangles", |folder| fs::write(folder.join("mesh.obj"), "v 0 0 0\n").unwrap()),
@@ -283,6 +283,19 @@ fn every_fault_of_the_files_is_named() {
     }
     let message = Capture::open(Path::new("/nowhere")).unwrap_err().to_string();
     assert!(message.contains("/nowhere/transforms.json: cannot be read"), "{message}");
+}
+
+#[test]
+fn pixels_outside_the_mask_may_hold_anything() {
+    let folder = tempfile::tempdir().unwrap();
+    let views = written(folder.path());
+    let mut image = views[0].image.clone();
+    let outside = views[0].mask.data.iter().position(|mask| *mask == 0).unwrap();
+    image.data[3 * outside] = f32::NAN;
+    picture::write_exr_rgb(&folder.path().join("images/000.exr"), &image).unwrap();
+    let capture = Capture::open(folder.path()).unwrap();
+    assert_eq!(capture.train[0].image.data[3 * outside..3 * outside + 3], [0.0; 3]);
+    assert!(capture.train[0].image.data.iter().all(|value| value.is_finite()));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::{Camera, frame::Frame};
 use crate::error::CaptureError;
-use crate::picture::{self, GrayImage, Picture};
+use crate::picture::{self, Content, GrayImage, Picture};
 
 /// A training view.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,13 +36,17 @@ impl View {
             let gray = picture::read_png_gray(path)?;
             check(path, gray.width, gray.height).map(|()| gray)
         };
-        let image = picture::read_exr_rgb(image_path)?;
+        let channels = ["R", "G", "B"];
+        let mut image = picture::read_exr_unchecked(image_path, &channels, Content::Colour)?;
         check(image_path, image.width, image.height)?;
         let mut mask = gray(mask_path)?;
         // Masks that were resized elsewhere have soft edges.
         for value in &mut mask.data {
             *value = if *value >= 128 { 255 } else { 0 };
         }
+        // What lies outside the mask is no one's radiance.
+        image.blacken_not_finite(|pixel| mask.data[pixel] == 0);
+        image.require_finite(image_path, &channels)?;
         let labels = label_path.as_deref().map(gray).transpose()?;
         let taken = Self { camera: camera.clone(), image, mask, labels };
         Ok(match distortion {

@@ -12,7 +12,7 @@ from ..face.geometry import unit
 from ..face.normals import tangents
 from ..face.spec import FaceError
 from ..face.texels import Texels, rasterise
-from .map_files import linear, read_labels, read_picture, resampled
+from .map_files import linear, read_labels, read_normals, read_picture, resampled
 from .mesh_file import Piece, read_pieces
 from .outward import turned_outwards
 from .placement import axes, in_metres, origin, smooth_normals
@@ -192,7 +192,7 @@ class _Painter:
         value = getattr(self._head, key)
         if not isinstance(value, str):
             return np.broadcast_to(np.asarray(value, np.float32), (len(self._texels.triangle), 3))
-        picture = read_picture(value)
+        picture = read_picture(value, colour=key.endswith("albedo"))
         if space is not None:
             picture = linear(picture, space)
         return resampled(picture, self._nearest, self._head.texture_size)[self._texels.inside]
@@ -224,9 +224,7 @@ class _Painter:
         path = getattr(self._head, key)
         if path is None:
             return self._smooth
-        vectors = read_picture(path)
-        if path.lower().endswith(".png"):
-            vectors = 2 * vectors - 1
+        vectors = read_normals(path)
         points, uv, triangles = self._mesh
         n = resampled(vectors, self._nearest, self._head.texture_size)[self._texels.inside]
         known = np.linalg.norm(n, axis=1, keepdims=True) > 0.1

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import mitsuba as mi
 import numpy as np
 from PIL import Image
 
-from ..errors import PictureError
+from .. import _native
 from ..face.spec import FaceError
 from ..render.pictures import ROUGHNESS_CHANNELS, read_exr
 
@@ -17,24 +16,43 @@ _ORDERS = (tuple("RGB"), tuple("XYZ"), ROUGHNESS_CHANNELS)
 """Channels of an EXR with three values a texel."""
 
 
-def read_picture(path: str) -> np.ndarray:
-    """Values [H, W, 3] f32 as they are in the file; PNGs from 0 to 1, grey ones repeated."""
-    planes = _exr(Path(path)) if path.lower().endswith(".exr") else _png(Path(path))
+def read_picture(path: str, *, colour: bool = False) -> np.ndarray:
+    """Values [H, W, 3] f32 as they are in the file; PNGs from 0 to 1, grey ones repeated.
+
+    An EXR's ``colour`` is converted to linear Rec.709 if the file states other primaries.
+    """
+    planes = _planes(path, colour)
     return planes if planes.shape[-1] == 3 else np.repeat(planes[..., :1], 3, -1)
+
+
+def read_normals(path: str) -> np.ndarray:
+    """Vectors [H, W, 3] f32: of an EXR as they are, of a PNG 2 v - 1. Refuses what holds no vectors."""
+    vectors = _planes(path, False)
+    if vectors.shape[-1] != 3:
+        raise FaceError(f"{path}: has one channel, as a bump map; write normals as R, G, B")
+    if _is_png(path):
+        return 2 * vectors - 1
+    if _coded(vectors):
+        raise FaceError(f"{path}: holds n/2 + 1/2, not unit vectors n; write 2 v - 1 as float EXR, or a 16-bit PNG, which is decoded")
+    return vectors
+
+
+def _coded(vectors: np.ndarray) -> bool:
+    """Whether no vector is near unit length as it is, but as 2 v - 1."""
+    length, decoded = np.linalg.norm(vectors, axis=-1), np.linalg.norm(2 * vectors - 1, axis=-1)
+    known = (length > 0.1) & (decoded > 0.1)
+    if not known.any() or vectors[known].min() < -0.01:
+        return False
+    off, off_decoded = (np.median(np.abs(a[known] - 1)) for a in (length, decoded))
+    return bool(off > 0.03 and off_decoded < 0.03)
 
 
 def read_labels(path: str, size: int) -> np.ndarray:
     """Region ids [size, size] u8 of a grey PNG, nearest texels."""
-    try:
-        with Image.open(path) as image:
-            if image.mode not in ("L", "P", "I", "I;16", "1"):
-                raise FaceError(f"{path}: labels are of mode {image.mode}; write one grey channel of region ids")
-            ids = np.array(image).astype(np.int64)
-    except OSError as error:
-        raise PictureError(f"{path}: cannot be read: {error}; write an 8-bit PNG") from error
+    ids = _native.read_ids(path).astype(np.int64)
     rows, columns = ((np.arange(size) + 0.5) / size * extent for extent in ids.shape)
     ids = ids[rows.astype(int)[:, None], columns.astype(int)]
-    return ids.clip(-1, 255).astype(np.uint8)
+    return ids.clip(0, 255).astype(np.uint8)
 
 
 def linear(values: np.ndarray, space: str) -> np.ndarray:
@@ -66,24 +84,19 @@ def _resized(values: np.ndarray, size: int) -> np.ndarray:
     return np.stack(planes, -1)
 
 
-def _exr(path: Path) -> np.ndarray:
-    planes = read_exr(path)
+def _planes(path: str, colour: bool) -> np.ndarray:
+    return _native.read_png(path) if _is_png(path) else _exr(Path(path), colour)
+
+
+def _is_png(path: str) -> bool:
+    return path.lower().endswith(".png")
+
+
+def _exr(path: Path, colour: bool) -> np.ndarray:
+    planes = read_exr(path, colour=colour)
     for order in _ORDERS:
         if all(channel in planes for channel in order):
             return np.stack([planes[channel] for channel in order], -1)
     if "Y" in planes or len(planes) == 1:
         return next(iter(planes.values()))[..., None] if "Y" not in planes else planes["Y"][..., None]
     raise FaceError(f"{path}: has the channels {', '.join(sorted(planes))}; write R, G, B, or one channel")
-
-
-def _png(path: Path) -> np.ndarray:
-    # Not through Pillow, which cuts 16-bit colours down to 8.
-    try:
-        values = np.array(mi.Bitmap(str(path)))
-    except RuntimeError as error:
-        reason = str(error).strip().splitlines()[-1]
-        raise PictureError(f"{path}: cannot be read: {reason}; write an 8- or 16-bit PNG") from error
-    values = values.reshape(*values.shape[:2], -1)
-    largest = np.iinfo(values.dtype).max
-    # One or two channels are grey without and with alpha, four are colour with alpha.
-    return values[..., : 1 if values.shape[-1] < 3 else 3].astype(np.float32) / np.float32(largest)

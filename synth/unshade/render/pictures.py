@@ -1,6 +1,6 @@
 """Picture files: float EXRs whose channels have names, and 8-bit grey PNGs.
 
-Written beside as ``X.partial`` and renamed; equal pictures give equal bytes.
+Read as the solver reads them, by its own reader; faults are `PictureError`. Written beside as ``X.partial`` and renamed; equal pictures give equal bytes.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import mitsuba as mi
 import numpy as np
 from PIL import Image
 
+from .. import _native
 from ..errors import PictureError, StorageError
 
 ROUGHNESS_CHANNELS = ("alpha1", "alpha2", "share1")
@@ -35,7 +36,7 @@ def write_exr(path: Path, channels: dict[str, np.ndarray]) -> None:
             names += [f"{name}.{c}" if name else c for c in "RGB"]
             planes += list(np.moveaxis(picture, -1, 0))
     stack = np.ascontiguousarray(np.stack(planes, -1), dtype=np.float32)
-    _require_finite(path, stack, names)
+    require_finite(path, stack, names)
     if names == ["R", "G", "B"]:
         bitmap = mi.Bitmap(stack, mi.Bitmap.PixelFormat.RGB)
     else:
@@ -53,44 +54,33 @@ def write_text(path: Path, text: str) -> None:
     _replace(path, lambda partial: Path(partial).write_bytes(text.encode()))
 
 
-def read_exr(path: Path) -> dict[str, np.ndarray]:
-    """All channels of a float EXR by name, each [H, W] float32, finite."""
-    bitmap = _open(path)
-    names = [field.name for field in bitmap.struct_()]
-    values = np.array(bitmap).astype(np.float32)
-    values = values.reshape(*values.shape[:2], -1)
-    _require_finite(path, values, names)
+def read_exr(path: Path, *, colour: bool = False, finite: bool = True) -> dict[str, np.ndarray]:
+    """All channels of a float EXR by name, each [H, W] float32; R, G, B are those of its colour layer.
+
+    ``colour`` converts each R, G, B to linear Rec.709 where the file states other primaries;
+    without it, as for normals and roughness, numbers are those of the file.
+    """
+    names, values = _native.read_exr(path, colour=colour, finite=finite)
     return {name: values[..., i] for i, name in enumerate(names)}
 
 
 def read_rgb(path: str | Path) -> np.ndarray:
-    """Linear radiance [H, W, 3] float32 of an EXR or Radiance HDR file, finite."""
-    bitmap = _open(Path(path)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
-    values = np.array(bitmap, dtype=np.float32)
-    _require_finite(path, values, list("RGB"))
-    return values
+    """Linear Rec.709 radiance [H, W, 3] float32 of an EXR or Radiance HDR file, finite."""
+    return _native.read_colour(path)
+
+
+def read_light(path: str | Path) -> np.ndarray:
+    """As `read_rgb`; refuses what is no lat-long picture of 2 : 1, as cube maps and light probes."""
+    return _native.read_light(path)
 
 
 def read_gray(path: Path) -> np.ndarray:
     """An 8-bit grey PNG as [H, W] uint8."""
-    try:
-        with Image.open(path) as image:
-            return np.array(image.convert("L"))
-    except OSError as error:
-        raise PictureError(f"{path}: cannot be read: {error}; write an 8-bit PNG") from error
+    return _native.read_gray(path)
 
 
-def _open(path: Path) -> mi.Bitmap:
-    if not path.is_file():
-        raise PictureError(f"{path}: there is no such picture")
-    try:
-        return mi.Bitmap(str(path))
-    except RuntimeError as error:
-        reason = str(error).strip().splitlines()[-1]
-        raise PictureError(f"{path}: cannot be read: {reason}; write it as a float EXR") from error
-
-
-def _require_finite(path: str | Path, values: np.ndarray, names: list[str]) -> None:
+def require_finite(path: str | Path, values: np.ndarray, names: list[str]) -> None:
+    """Raises `PictureError` with the place of the first of ``values`` [H, W, C] that is NaN or infinite."""
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         row, column, channel = bad[0]

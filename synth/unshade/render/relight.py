@@ -17,7 +17,7 @@ from .folder import ResumableFolder, content_hash
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import ROUGHNESS_CHANNELS, read_exr, write_exr, write_text
+from .pictures import ROUGHNESS_CHANNELS, read_exr, read_gray, require_finite, write_exr, write_text
 from .rigs import cameras
 from .scene import ChartMaps
 from .scene_text import scene_text
@@ -86,8 +86,13 @@ def relight(
 
 
 def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
-    """The maps of a solver: all but the diffuse albedo may be missing."""
-    found = {name: _read_map(folder / f"{name}.exr", channels) for name, channels in _FILES.items()}
+    """The maps of a solver: all but the diffuse albedo may be missing.
+
+    Texels that its ``coverage.png`` leaves out may hold anything; what is not finite there counts as 0.
+    """
+    path = folder / "coverage.png"
+    coverage = read_gray(path) if path.exists() else None
+    found = {name: _read_map(folder / f"{name}.exr", channels, coverage) for name, channels in _FILES.items()}
     if found["diffuse_albedo"] is None:
         raise MapsError(f"{folder}: diffuse_albedo.exr is missing; a face cannot be relit without it")
     for name in ("diffuse_albedo", "specular_albedo"):
@@ -97,10 +102,10 @@ def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
     return ChartMaps(**found)
 
 
-def _read_map(path: Path, channels: tuple[str, ...]) -> np.ndarray | None:
+def _read_map(path: Path, channels: tuple[str, ...], coverage: np.ndarray | None) -> np.ndarray | None:
     if not path.exists():
         return None
-    planes = read_exr(path)
+    planes = read_exr(path, colour=path.stem == "diffuse_albedo", finite=False)
     missing = [channel for channel in channels if channel not in planes]
     if missing:
         raise MapsError(
@@ -109,4 +114,7 @@ def _read_map(path: Path, channels: tuple[str, ...]) -> np.ndarray | None:
     values = np.stack([planes[channel] for channel in channels], -1)
     if values.shape[0] != values.shape[1]:
         raise MapsError(f"{path}: is {values.shape[1]} x {values.shape[0]} texels; write a square map")
+    if coverage is not None and coverage.shape == values.shape[:2]:
+        values[(coverage == 0) & ~np.isfinite(values).all(-1)] = 0
+    require_finite(path, values, list(channels))
     return values if len(channels) > 1 else values[..., 0]

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...errors import SceneError
 from ...scene_file import Light
-from ..pictures import read_rgb
+from ..pictures import read_light
 from ..split import LambertLight
 from .conventions import LUMINANCE, directions, solid_angles
 
@@ -66,7 +66,7 @@ class Environment:
 
 def environment(light: Light) -> Environment:
     """A light's lat-long file: negatives to 0, clamped, turned about +Y."""
-    picture = read_rgb(light.path)
+    picture = read_light(light.path)
     height, width = picture.shape[:2]
     if height < 3 or width < 3:
         raise SceneError(f"{light.path}: an environment map of {width} x {height} is too small; use 3 x 3 or more")
