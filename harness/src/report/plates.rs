@@ -255,8 +255,9 @@ pub(super) fn caption(row: Option<&Row>, frame: Option<&str>) -> String {
     format!("{} {value:.decimals$} {}", metric.name, metric.unit)
 }
 
-/// Channels of a file that may be absent as a whole or lack just these layers. What is not finite,
-/// as it may be outside a mask, is shown black: the scores have judged it.
+/// Channels of a file that may be absent as a whole or lack just these layers. What may hold
+/// anything is black: texels that the coverage beside a map leaves out, and what is not finite in a
+/// picture, whose mask the scores have looked at.
 pub(super) fn read_if_present(
     path: &Path,
     channels: &[&str],
@@ -274,7 +275,13 @@ pub(super) fn read_if_present(
         }
     }
     let mut picture = file.read(channels, content)?;
-    picture.blacken_not_finite(|_| true);
+    let coverage = read_mask_if_present(&path.with_file_name("coverage.png"))?
+        .filter(|found| (found.width, found.height) == (picture.width, picture.height));
+    match coverage {
+        Some(coverage) => picture.blacken_not_finite(|texel| coverage.data[texel] == 0),
+        None => picture.blacken_not_finite(|_| content == Content::Colour),
+    }
+    picture.require_finite(path, channels)?;
     Ok(Some(picture))
 }
 
