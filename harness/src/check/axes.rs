@@ -133,6 +133,9 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
+    /// How normals are written by mistake, the fault's id, and words that name it.
+    type Case<'a> = (&'a dyn Fn(Vec3) -> Vec3, &'a str, &'a str);
+
     /// Normals all around the front, more of them upwards than downwards.
     fn moment(written: impl Fn(Vec3) -> Vec3) -> Mat3 {
         let mut sum = Mat3::ZERO;
@@ -151,7 +154,7 @@ mod tests {
         let opencv = Mat3::from_diagonal(Vec3::new(1.0, -1.0, -1.0));
         let turn = Mat3::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), 1.0);
         let cameras = [("007".to_owned(), camera)];
-        let cases: [(&dyn Fn(Vec3) -> Vec3, &str, &str); 8] = [
+        let cases: [Case; 8] = [
             (&|n| n, "upright", ""),
             (&|n| -n, "negated", "into the face"),
             (&|n| Vec3::new(n.x, -n.y, n.z), "y-flipped", "y axis"),
