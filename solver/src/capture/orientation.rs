@@ -69,8 +69,8 @@ fn minority(mesh: &Mesh, place: &[usize], winding: &Winding) -> Vec<bool> {
         if cosine.abs() < -OPPOSITE { 0 } else { cosine.signum() as isize }
     };
     let mut votes = vec![0_isize; mesh.triangles.len()];
-    for vertex in 0..place.len() {
-        if let Some(votes) = votes.get_mut(surface[vertex]) {
+    for (vertex, surface) in surface.iter().enumerate() {
+        if let Some(votes) = votes.get_mut(*surface) {
             *votes += side(vertex);
         }
     }

@@ -81,7 +81,8 @@ fn objects_keep_their_names_and_say_where_they_have_no_uv() {
 
 #[test]
 fn polygons_are_cut_without_folds_and_slivers() {
-    let cases: [(&str, &[(f64, f64)], usize, f64); 5] = [
+    type Case = (&'static str, &'static [(f64, f64)], usize, f64);
+    let cases: [Case; 5] = [
         (
             "U",
             &[(0., 0.), (3., 0.), (3., 3.), (2., 3.), (2., 1.), (1., 1.), (1., 3.), (0., 3.)],

@@ -14,8 +14,11 @@ pub(super) struct Line<'a> {
 /// The lines of a file: ended by LF, CRLF or CR, a byte order mark skipped, and joined where a
 /// backslash ends a line of data. Names and comments may end with one; they go on nowhere.
 pub(super) struct Lines<'a> {
-    lines: std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>,
+    lines: std::iter::Enumerate<std::slice::Split<'a, u8, IsEnd>>,
 }
+
+/// Whether a byte ends a line.
+type IsEnd = fn(&u8) -> bool;
 
 impl<'a> Lines<'a> {
     pub fn of(bytes: &'a [u8]) -> Result<Self, ObjError> {
@@ -24,7 +27,7 @@ impl<'a> Lines<'a> {
             return Err(ObjError { line: 1, reason });
         }
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-        let ends: fn(&u8) -> bool =
+        let ends: IsEnd =
             if bytes.contains(&b'\n') { |byte| *byte == b'\n' } else { |byte| *byte == b'\r' };
         Ok(Self { lines: bytes.split(ends).enumerate() })
     }
