@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, GrayImage, Picture, PictureError};
+use solver::picture::{self, Content, GrayImage, Picture, PictureError};
 
 use super::finding::Finding;
 
@@ -78,12 +78,11 @@ impl MapFolder {
     }
 }
 
-/// A map with whatever values it has.
+/// A map with whatever values it has, in the colour space that it is scored in.
 fn read_map(path: &Path, channels: &[&str]) -> Result<Picture, PictureError> {
-    match picture::read_exr(path, channels) {
-        Err(PictureError::NotFinite { .. }) => picture::read_exr_unchecked(path, channels),
-        read => read,
-    }
+    let colour = path.file_name().is_some_and(|name| name == DIFFUSE_ALBEDO);
+    let content = if colour { Content::Colour } else { Content::Data };
+    picture::read_exr_unchecked(path, channels, content)
 }
 
 fn unreadable(file: &str, channels: &[&str], error: &PictureError) -> Finding {

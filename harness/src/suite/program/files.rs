@@ -1,5 +1,7 @@
 //! What a program is made of: found before anything is rendered, and part of its result's key.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -73,6 +75,11 @@ impl Program {
         let name = executable.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !name.starts_with("python") {
             files.own.push(executable.clone());
+            if let Some(python) = self.python_of(&executable) {
+                let answer = self.ask(&python, "script", &executable.to_string_lossy())?;
+                files.own.extend(answer.files);
+                files.interpreter = answer.system;
+            }
             files.executable = executable;
             return Ok(files);
         }
@@ -109,6 +116,17 @@ impl Program {
         found.ok_or_else(|| {
             format!("there is no program {program:?} in {} or on the PATH", self.folder.display())
         })
+    }
+
+    /// The Python that the first line of a script names, as those do that packages install.
+    fn python_of(&self, script: &Path) -> Option<PathBuf> {
+        let mut head = Vec::new();
+        File::open(script).ok()?.take(512).read_to_end(&mut head).ok()?;
+        let text = String::from_utf8_lossy(&head).into_owned();
+        let mut words = text.lines().next()?.strip_prefix("#!")?.split_whitespace();
+        let is_python =
+            |word: &&str| word.rsplit('/').next().is_some_and(|n| n.starts_with("python"));
+        self.executable(words.find(is_python)?).ok()
     }
 
     fn ask(&self, python: &Path, kind: &str, name: &str) -> Result<Answer, String> {

@@ -1,0 +1,73 @@
+"""A program of others ends with the suite that started it, however that ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from conftest import HERE, unshade
+
+
+@pytest.fixture(scope="module")
+def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A suite with a program that waits, and its capture."""
+    folder = tmp_path_factory.mktemp("waiting")
+    text = f'format = 1\nname = "waiting"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\nscales = ["global"]\n'
+    (folder / "suite.toml").write_text(text + '[[solver]]\nname = "oracle"\n')
+    unshade("run", folder / "suite.toml", "-o", folder / "run")
+    waiting = '[[solver]]\nname = "waiting"\ncommand = ["sh", "wait.sh", "{capture}", "{maps}"]\n'
+    (folder / "suite.toml").write_text(text + waiting)
+    # One in the group, one that has left it.
+    (folder / "wait.sh").write_text("setsid sleep 120 & echo child $!\nsleep 120 & echo child $!\nwait\n")
+    return folder
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_a_program_ends_with_its_suite(rendered: Path, ending: signal.Signals) -> None:
+    log = rendered / "run" / "logs" / "tiny-studio" / "waiting.txt"
+    log.unlink(missing_ok=True)
+    command = [Path(sys.executable).with_name("unshade"), "run", rendered / "suite.toml", "-o", rendered / "run"]
+    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    children: list[int] = []
+    for _ in range(300):
+        if log.exists():
+            children = [int(line.split()[1]) for line in log.read_text().splitlines() if line.startswith("child")]
+        if len(children) == 2:
+            break
+        time.sleep(0.1)
+    assert len(children) == 2
+    time.sleep(0.3)
+    process.send_signal(ending)
+    process.wait(timeout=30)
+    if ending == signal.SIGKILL:
+        # Nobody is left to end what the program started; the program itself goes with its parent.
+        for child in children:
+            os.kill(child, signal.SIGKILL)
+        assert wait_for_no_shell(rendered)
+        return
+    assert process.returncode == 3
+    for child in children:
+        assert gone(child), ending
+
+
+def gone(process: int) -> bool:
+    for _ in range(50):
+        stat = Path(f"/proc/{process}/stat")
+        if not stat.exists() or ") Z " in stat.read_text():
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def wait_for_no_shell(folder: Path) -> bool:
+    for _ in range(50):
+        found = subprocess.run(["pgrep", "-f", "wait.sh .*unshade-"], capture_output=True, text=True)
+        if not found.stdout.strip():
+            return True
+        time.sleep(0.1)
+    return False
