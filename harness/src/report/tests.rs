@@ -347,6 +347,6 @@ fn a_folder_that_is_not_a_report_is_not_replaced() {
     fs::create_dir(&target).unwrap();
     fs::write(target.join("chapter.tex"), "years of work").unwrap();
     let message = whole(&made.folder.path().join("run"), &target).unwrap_err().to_string();
-    assert!(message.contains("is not a report; choose a new folder"), "{message}");
+    assert!(message.contains("not written by unshade"), "{message}");
     assert!(target.join("chapter.tex").exists());
 }

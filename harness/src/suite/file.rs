@@ -238,7 +238,7 @@ mod tests {
             (&*format!("{head}[[solver]]\nname = \"a b\"\n"), "cannot name a folder"),
             (
                 &*format!("{head}[[solver]]\nname = \"a\"\nthread = 2\n"),
-                "suite.toml:6: solver: unknown field `thread`",
+                "suite.toml:5: solver: unknown field `thread`",
             ),
             (&*format!("{head}[[solver]]\nname = \"a\"\n"), "no configuration is named \"a\""),
             (
