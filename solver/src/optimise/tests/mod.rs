@@ -317,6 +317,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         .collect();
     names.sort();
     let expected = [
+        ".unshade",
         "confidence.exr",
         "coverage.png",
         "diffuse_albedo.exr",
