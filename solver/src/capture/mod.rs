@@ -56,6 +56,16 @@ impl Capture {
         Self::opened(folder, false)
     }
 
+    /// The cameras of the content of `transforms.json` for the capture in `folder`, those of
+    /// training views first; no picture is opened.
+    pub fn cameras(folder: &Path, bytes: &[u8]) -> Result<Vec<Camera>, CaptureError> {
+        let transforms = transforms::Transforms::parse(folder, bytes).map_err(|reason| {
+            CaptureError::Transforms { path: folder.join("transforms.json"), reason }
+        })?;
+        let frames = transforms.train.into_iter().chain(transforms.withheld);
+        Ok(frames.map(|frame| frame.camera).collect())
+    }
+
     fn opened(folder: &Path, look: bool) -> Result<Self, CaptureError> {
         let path = folder.join("transforms.json");
         let bytes = read(&path)?;
