@@ -16,11 +16,16 @@ const MOST_ADDRESSES: u64 = 16 << 30;
 /// Time that no input may exceed.
 const MOST_TIME: Duration = Duration::from_secs(5);
 /// Inputs of a target without `UNSHADE_FUZZ_INPUTS`.
-const FEW_INPUTS: usize = 12_000;
+const FEW_INPUTS: usize = 30_000;
 /// Inputs that are kept to be changed again, because they met something new.
-const MOST_KEPT: usize = 2000;
+const MOST_KEPT: usize = 1000;
+/// And of those that are refused, from which little is reached.
+const MOST_REFUSED: usize = 100;
 /// Bytes of a kept input, so that inputs do not grow for ever.
 const LONGEST_KEPT: usize = 1 << 14;
+
+/// How the outcome of an input begins that a reader refuses.
+pub const REFUSED: &str = "refused: ";
 
 /// Counts what is live.
 pub struct Counting;
@@ -158,13 +163,13 @@ pub fn fuzz(
     SLOTS.lock().unwrap().push(slot.clone());
     watch(&slot);
     let started = Instant::now();
-    let mut kept = seeds.clone();
+    let mut kept = Vec::new();
     let mut kinds = std::collections::BTreeMap::<String, usize>::new();
-    let mut slowest = Duration::ZERO;
+    let (mut slowest, mut read) = (Duration::ZERO, 0);
     for index in 0..count.max(seeds.len()) {
         let input = match seeds.get(index) {
             Some(seed) => seed.clone(),
-            None => mutator.changed(&kept, run, index as u64),
+            None => mutator.changed(&seeds, &kept, run, index as u64),
         };
         slot.input.lock().unwrap().clone_from(&input);
         let began = Instant::now();
@@ -178,17 +183,20 @@ pub fn fuzz(
             eprintln!("{target}: input {index} of run {run}: {}: {what}", path.display());
             panic!("{target}: {what}");
         };
+        let is_read = !outcome.starts_with(REFUSED);
+        read += usize::from(is_read);
+        let most = if is_read { MOST_KEPT } else { MOST_REFUSED };
         let seen = kinds.entry(kind_of(&outcome)).or_default();
         *seen += 1;
-        if *seen == 1 && kept.len() < MOST_KEPT && input.len() <= LONGEST_KEPT {
+        if *seen == 1 && kept.len() < most && input.len() <= LONGEST_KEPT {
             kept.push(input);
         }
     }
     SLOTS.lock().unwrap().retain(|other| other.target != target);
     let (seconds, kinds) = (started.elapsed().as_secs_f64(), kinds.len());
     println!(
-        "{target}: {count} inputs from {} seeds in {seconds:.1} s, {kinds} kinds of outcome, \
-         slowest {slowest:.0?}",
+        "{target}: {count} inputs from {} seeds in {seconds:.1} s, {read} read, {kinds} kinds of \
+         outcome, slowest {slowest:.0?}",
         seeds.len()
     );
 }

@@ -41,12 +41,16 @@ pub struct Mutator {
 }
 
 impl Mutator {
-    /// One of `kept`, changed; the same for the same `run` and `index`.
-    pub fn changed(&self, kept: &[Vec<u8>], run: u64, index: u64) -> Vec<u8> {
+    /// One of the `seeds`, or of what was `kept` as often, changed; the same for the same `run` and
+    /// `index`.
+    pub fn changed(&self, seeds: &[Vec<u8>], kept: &[Vec<u8>], run: u64, index: u64) -> Vec<u8> {
         let mut random = Pcg64Mcg::seed_from_u64(run.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ index);
-        let pick = |random: &mut Pcg64Mcg| &kept[random.random_range(0..kept.len())];
+        let pick = |random: &mut Pcg64Mcg| {
+            let from = if kept.is_empty() || random.random() { seeds } else { kept };
+            &from[random.random_range(0..from.len())]
+        };
         let mut bytes = pick(&mut random).clone();
-        let changes = 1 << random.random_range(0..4);
+        let changes = 1 << random.random_range(0..3);
         for _ in 0..random.random_range(1..=changes) {
             if !self.words.is_empty() && random.random_range(0..4) > 0 {
                 let other = pick(&mut random);
