@@ -121,9 +121,10 @@ fn watch(slot: &Arc<Slot>) {
     let slot = Arc::downgrade(slot);
     std::thread::spawn(move || {
         while let Some(slot) = slot.upgrade() {
-            let late = slot.since.lock().is_ok_and(|since| {
-                since.is_some_and(|since| since.elapsed() > MOST_TIME)
-            });
+            let late = slot
+                .since
+                .lock()
+                .is_ok_and(|since| since.is_some_and(|since| since.elapsed() > MOST_TIME));
             if late {
                 slot.save("hang");
                 std::process::abort();
