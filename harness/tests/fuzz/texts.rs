@@ -177,7 +177,7 @@ pub fn scores() -> Vec<Vec<u8>> {
     let rows = [
         row(
             "diffuse_albedo",
-            "psnr",
+            "psnr_srgb",
             "\"label\": null, \"light\": null, \"value\": 30.25, \"ci95\": [29.5, 31], \"n\": 1024, \
              \"floor\": 41.5",
         ),
@@ -208,8 +208,8 @@ pub fn scores() -> Vec<Vec<u8>> {
 pub fn baselines() -> Vec<Vec<u8>> {
     let text = "{\"format\": 1, \"suite\": \"tiny\", \"versions\": {\"unshade\": \"0.1.0\", \"n\": {\"a\": [1]}},\n\
         \"rows\": {\n\
-        \"ada-key/fast/diffuse_albedo/psnr@coverage-e5:global\": {\"value\": 30.25, \"ci95\": [29, 31], \"n\": 64},\n\
+        \"ada-key/fast/diffuse_albedo/psnr_srgb@coverage-e5:global\": {\"value\": 30.25, \"ci95\": [29, 31], \"n\": 64},\n\
         \"ada-key/fast/relit/hall/ssim@mask-e5:none\": {\"value\": 0.5, \"ci95\": null, \"n\": 64},\n\
-        \"ada-key/fast/view/flip@mask-e5.skin:none\": {\"value\": null, \"ci95\": null, \"n\": 0}}}";
+        \"ada-key/fast/view/flip_mean@mask-e5.skin:none\": {\"value\": null, \"ci95\": null, \"n\": 0}}}";
     vec![text.as_bytes().to_vec()]
 }
