@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test software-gpu bench lint miri neon clean
+.PHONY: build demo emily results test fuzz software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -40,6 +40,13 @@ results: build
 test: build
 	cargo test --release --workspace --quiet
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile
+
+# Readers on changed files, for as long as it takes: a million inputs of each, others for another
+# UNSHADE_FUZZ_SEED. `make test` tries some thousands.
+FUZZ = UNSHADE_FUZZ_INPUTS=$${UNSHADE_FUZZ_INPUTS:-1000000}
+fuzz: build
+	$(FUZZ) cargo test --release --workspace --test fuzz -- --nocapture
+	$(FUZZ) $(BIN)/python -m pytest -q -s synth/tests/test_own_head_fuzz.py
 
 # A Vulkan driver in software, for the GPU's tests: Debian's mesa-vulkan-drivers, where root and apt allow.
 software-gpu:

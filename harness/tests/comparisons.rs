@@ -27,6 +27,14 @@ fn verdict(id: &str, old: Option<f64>, new: Option<f64>) -> Verdict {
 }
 
 #[test]
+fn a_message_is_one_line_whatever_a_row_is_called() {
+    let odd = baseline(&[("a/b/c\nd/no@x:none", Some(1.0))]);
+    let error = compare(&odd, &odd, &Tolerances::built_in().unwrap()).unwrap_err();
+    let message = error.to_string();
+    assert!(message.starts_with("a/b/c d/no@x") && message.lines().count() == 1, "{message}");
+}
+
+#[test]
 fn direction_and_tolerance_decide() {
     for (id, old, new, expected) in [
         (PSNR, 28.0, 27.85, Verdict::Worse),

@@ -95,7 +95,13 @@ impl Baseline {
 
     /// Reads a baseline file.
     pub fn read(path: &Path) -> Result<Self, CompareError> {
-        let baseline: Self = parse(path)?;
+        let bytes = fs::read(path).map_err(|error| CompareError::io(path, error))?;
+        Self::from_bytes(path, &bytes)
+    }
+
+    /// Reads a baseline file in memory; `path` is for messages.
+    pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, CompareError> {
+        let baseline: Self = parsed(path, bytes)?;
         if baseline.format != FORMAT {
             let reason = format!("has format {}, this version reads {FORMAT}", baseline.format);
             return Err(CompareError::text(path, reason));
@@ -131,6 +137,9 @@ impl Baseline {
 }
 
 fn parse<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, CompareError> {
-    let bytes = fs::read(path).map_err(|error| CompareError::io(path, error))?;
-    serde_json::from_slice(&bytes).map_err(|error| CompareError::text(path, error))
+    parsed(path, &fs::read(path).map_err(|error| CompareError::io(path, error))?)
+}
+
+fn parsed<T: serde::de::DeserializeOwned>(path: &Path, bytes: &[u8]) -> Result<T, CompareError> {
+    serde_json::from_slice(bytes).map_err(|error| CompareError::text(path, error))
 }

@@ -59,6 +59,11 @@ pub enum CompareError {
 }
 
 impl CompareError {
+    /// An id as a message shows it: it may hold a line's end, a message is one line.
+    pub(super) fn line(id: &str) -> String {
+        id.replace(char::is_control, " ")
+    }
+
     pub(super) fn io(path: &Path, reason: io::Error) -> Self {
         Self::Io { path: path.to_path_buf(), reason }
     }

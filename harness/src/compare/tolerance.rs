@@ -54,7 +54,7 @@ impl Tolerances {
     /// The rule for a row.
     pub fn rule(&self, id: &str) -> Result<&Rule, CompareError> {
         let found = self.rules.iter().find(|rule| matches(&rule.rows, id));
-        found.ok_or_else(|| CompareError::NoRule(id.to_owned()))
+        found.ok_or_else(|| CompareError::NoRule(CompareError::line(id)))
     }
 
     fn parse(path: &Path, text: &str) -> Result<Self, CompareError> {

@@ -127,7 +127,7 @@ fn weigh(metric: &Metric, rule: &Rule, old: f64, new: f64) -> Verdict {
 /// The metric of `.../<metric>@<region>:<scale>`.
 fn metric_of(id: &str) -> Result<&'static Metric, CompareError> {
     let name = id.split('@').next().and_then(|head| head.rsplit('/').next()).unwrap_or_default();
-    Metric::find(name).map_err(|source| CompareError::Metric { id: id.to_owned(), source })
+    Metric::find(name).map_err(|source| CompareError::Metric { id: CompareError::line(id), source })
 }
 
 impl Judged {

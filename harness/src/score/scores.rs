@@ -124,8 +124,13 @@ impl Scores {
     /// Reads a scores file.
     pub fn read(path: &Path) -> Result<Self, ScoreError> {
         let bytes = std::fs::read(path).map_err(|error| ScoreError::io(path, error))?;
+        Self::from_bytes(path, &bytes)
+    }
+
+    /// Reads a scores file in memory; `path` is for messages.
+    pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, ScoreError> {
         let scores: Self =
-            serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(path, error))?;
+            serde_json::from_slice(bytes).map_err(|error| ScoreError::text(path, error))?;
         if scores.format != FORMAT {
             let reason =
                 format!("has format {}, this version reads {FORMAT}; score again", scores.format);

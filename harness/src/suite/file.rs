@@ -259,6 +259,10 @@ mod tests {
                 "no.toml: cannot be read",
             ),
             (
+                "format = 1\nname = \"m\"\nscene = \"no\\nsuch.toml\"\n",
+                "no such.toml: cannot be read",
+            ),
+            (
                 &*format!("{head}[[solver]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
                 "\"mean_texture\" has no use for config; leave it out",
             ),

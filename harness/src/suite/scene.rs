@@ -246,12 +246,12 @@ pub(super) fn check_id(path: &Path, id: &str) -> Result<(), SceneError> {
 }
 
 pub(super) fn read_toml(path: &Path) -> Result<Table, SceneError> {
-    let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
-        path: path.to_path_buf(),
-        reason: error.to_string(),
-    })?;
+    // A file may name another with a line's end in it; a message is one line.
+    let shown = || PathBuf::from(path.to_string_lossy().replace(char::is_control, " "));
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| SceneError::Read { path: shown(), reason: error.to_string() })?;
     text.parse::<Table>().map_err(|error| SceneError::Syntax {
-        path: path.to_path_buf(),
+        path: shown(),
         line: error.span().map_or(1, |span| place::line_at(&text, span.start)),
         reason: error.message().replace('\n', " "),
     })

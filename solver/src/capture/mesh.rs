@@ -29,8 +29,12 @@ impl Mesh {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Self::parse(&bytes)
-            .map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
+        Self::from_bytes(path, &bytes)
+    }
+
+    /// Reads an OBJ file in memory; `path` is for messages.
+    pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, CaptureError> {
+        Self::parse(bytes).map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {

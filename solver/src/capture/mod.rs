@@ -19,10 +19,13 @@ use rayon::prelude::*;
 use crate::error::CaptureError;
 use crate::first_look;
 use orientation::Turned;
+use transforms::Transforms;
 
 pub use camera::Camera;
 pub use mesh::Mesh;
 pub use view::View;
+
+const TRANSFORMS: &str = "transforms.json";
 
 /// Everything a solver may see: the mesh, the training views, and where the withheld cameras stand.
 ///
@@ -56,11 +59,17 @@ impl Capture {
         Self::opened(folder, false)
     }
 
+    /// The cameras of the content of `transforms.json` for the capture in `folder`, those of
+    /// training views first; no picture is opened.
+    pub fn cameras(folder: &Path, bytes: &[u8]) -> Result<Vec<Camera>, CaptureError> {
+        let transforms = parsed(folder, bytes)?;
+        let frames = transforms.train.into_iter().chain(transforms.withheld);
+        Ok(frames.map(|frame| frame.camera).collect())
+    }
+
     fn opened(folder: &Path, look: bool) -> Result<Self, CaptureError> {
-        let path = folder.join("transforms.json");
-        let bytes = read(&path)?;
-        let transforms = transforms::Transforms::parse(folder, &bytes)
-            .map_err(|reason| CaptureError::Transforms { path, reason })?;
+        let bytes = read(&folder.join(TRANSFORMS))?;
+        let transforms = parsed(folder, &bytes)?;
         let open = |frame| View::open(frame);
         let (mesh, train) = rayon::join(
             || Mesh::open(&transforms.mesh_path),
@@ -124,6 +133,14 @@ impl Capture {
         let train = self.train.iter().map(|view| &view.camera);
         train.chain(&self.withheld).find(|camera| camera.name == name)
     }
+}
+
+fn parsed(folder: &Path, bytes: &[u8]) -> Result<Transforms, CaptureError> {
+    Transforms::parse(folder, bytes).map_err(|reason| {
+        // A name may hold a line's end; a message is one line.
+        let reason = reason.replace(char::is_control, " ");
+        CaptureError::Transforms { path: folder.join(TRANSFORMS), reason }
+    })
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, CaptureError> {

@@ -334,3 +334,14 @@ fn lenses_are_taken_out_on_opening() {
     assert_ne!(capture.train[1].image, views[1].image);
     assert_eq!(capture.withheld, [views[2].camera.clone()]);
 }
+
+#[test]
+fn a_message_is_one_line_whatever_a_name_holds() {
+    let frame = json!({ "file_path": "a\nb", "transform_matrix": [] });
+    let text = json!({ "frames": [frame] }).to_string();
+    let message = Capture::cameras(Path::new("c"), text.as_bytes()).unwrap_err().to_string();
+    assert!(
+        message.starts_with("c/transforms.json: frame a b") && !message.contains('\n'),
+        "{message}"
+    );
+}

@@ -133,6 +133,7 @@ fn colour(headers: &[Header]) -> Result<Option<[Place; 3]>, NoPlace> {
 fn listed(mut names: Vec<String>) -> String {
     let more = names.len().saturating_sub(SHOWN);
     names.truncate(SHOWN);
-    let text = names.join(", ");
+    // A name may hold a line's end; a message is one line.
+    let text = names.join(", ").replace(char::is_control, " ");
     if more > 0 { format!("{text} and {more} more") } else { text }
 }

@@ -240,7 +240,7 @@ fn is_colour(layer: &str) -> bool {
 
 /// What the decoder said, with the mend where a kind of file is not read.
 fn explained(error: exr::error::Error) -> String {
-    let said = error.to_string();
+    let said = error.to_string().replace(char::is_control, " ");
     let mend = if said.contains("deep data") {
         "; flatten the deep picture and save it as float EXR"
     } else if said.contains("subsampling") {

@@ -346,3 +346,10 @@ fn damaged_files_end_in_an_error_or_a_picture() {
         let _ = Png::from_bytes(path, &bytes);
     }
 }
+
+#[test]
+fn a_message_is_one_line_whatever_a_channel_is_called() {
+    let (_kept, path) = plain(&[Part("", [0, 0], [8, 4], &["G", "a\nb"])]);
+    let message = read_exr(&path, &["R"]).unwrap_err().to_string();
+    assert!(message.ends_with("it has G, a b"), "{message}");
+}
