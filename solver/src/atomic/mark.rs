@@ -36,8 +36,10 @@ pub(super) fn owner(folder: &Path) -> io::Result<Owner> {
     let mut entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Owner::Absent),
-        // A file, for one.
-        Err(error) if error.kind() == ErrorKind::NotADirectory => return Ok(Owner::Foreign),
+        // A file in its place, and not in that of a folder above.
+        Err(error) if error.kind() == ErrorKind::NotADirectory && folder.is_file() => {
+            return Ok(Owner::Foreign);
+        }
         Err(error) => return Err(error),
     };
     if entries.next().is_none() {
