@@ -1,7 +1,7 @@
 //! Turns a capture into maps, whichever way an entrant of the suite does it.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -18,16 +18,14 @@ use crate::score;
 /// Ends what is said of a step that knows better than its share how long the rest takes.
 pub const TIME_LEFT: &str = " left";
 
-/// Writes `maps` from `capture`; a program's output goes to `log`, and it must not see what is `secret`.
+/// Writes the maps of a place from its capture.
 pub(super) fn make_maps(
     ready: &Ready,
-    capture: &Path,
-    maps: &Path,
-    log: &Path,
-    secret: Vec<PathBuf>,
+    place: Place,
     tools: &Tools,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Option<Usage>, RunError> {
+    let Place { capture, maps, .. } = place;
     let Ready { entrant, files } = ready;
     match (&entrant.method, files) {
         (Method::Baseline { method, texture_size }, _) => {
@@ -42,7 +40,6 @@ pub(super) fn make_maps(
             })?;
         }
         (Method::Program(program), Some(files)) => {
-            let place = Place { capture, maps, log, secret };
             return program.run(&entrant.id, files, &place, &tools.interrupt).map(Some);
         }
         (Method::Oracle | Method::Program(_), _) => score::oracle_maps(capture, maps)?,

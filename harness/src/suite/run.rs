@@ -20,6 +20,7 @@ use super::file::Suite;
 use super::manifest::manifest;
 use super::method::Method;
 use super::preflight::{self, Ready};
+use super::program::{self, Place};
 use super::record::{Made, Records};
 use super::scene::{Scene, SceneError};
 use super::stages::{relight, words};
@@ -71,6 +72,7 @@ pub fn run(
         Err(TryLockError::WouldBlock) => return Err(RunError::Busy(out.to_path_buf())),
         Err(TryLockError::Error(error)) => return Err(error.into()),
     }
+    program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprint()?;
     let total = suite.cases.len() * (1 + 3 * suite.entrants.len()) + 1;
     let records = Records::open(out)?;
@@ -265,6 +267,7 @@ impl Stages<'_> {
         let (method, made_from) = self.method_key(ready)?;
         let secret = case.scene.files().into_iter().chain([self.out.to_path_buf()]).collect();
         let log = self.out.join("logs").join(format!("{name}.txt"));
+        let scratch = program::scratch_prefix(self.out);
         let scales = &self.suite.scales;
         let redo = self.options.redo.contains(&entrant.id);
         let inputs = ["maps", &capture.content, &method];
@@ -273,8 +276,14 @@ impl Stages<'_> {
             Key { inputs: &inputs, redo, made_from },
             self.out.join("maps").join(name),
             |path, tools, step| {
-                let usage =
-                    entrant::make_maps(ready, &capture.path, path, &log, secret, tools, step)?;
+                let place = Place {
+                    capture: &capture.path,
+                    maps: path,
+                    log: &log,
+                    secret,
+                    scratch: &scratch,
+                };
+                let usage = entrant::make_maps(ready, place, tools, step)?;
                 Ok(Made { usage, ..Made::default() })
             },
         )?;

@@ -18,6 +18,7 @@ use std::thread;
 
 use solver::atomic::Folder;
 
+use super::content::hash_parts;
 use super::error::RunError;
 use crate::synth::Interrupt;
 use confine::Permissions;
@@ -68,6 +69,25 @@ pub(super) struct Place<'a> {
     pub log: &'a Path,
     /// What it must not see: the run, and the files of the truth.
     pub secret: Vec<PathBuf>,
+    /// The run's [`scratch_prefix`].
+    pub scratch: &'a str,
+}
+
+/// How the temporary folders of a run's programs begin, so that the next run of the same folder can
+/// clear what a killed one left.
+pub(super) fn scratch_prefix(run: &Path) -> String {
+    let place = run.canonicalize().unwrap_or_else(|_| run.to_path_buf());
+    let key = hash_parts(&[&place.to_string_lossy()]);
+    format!("unshade-{}-", &key[..12])
+}
+
+/// Removes the temporary folders that an earlier run of this folder left.
+pub(super) fn clear_scratch(prefix: &str) {
+    for entry in fs::read_dir(std::env::temp_dir()).into_iter().flatten().flatten() {
+        if entry.file_name().to_string_lossy().starts_with(prefix) {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
 }
 
 impl Program {
@@ -90,7 +110,7 @@ impl Program {
         let failed = |reason: String| RunError::Program { name: name.to_owned(), reason };
         let output = Folder::begin(place.maps)?;
         // Elsewhere than the run, whose truth a program has no business with.
-        let scratch = tempfile::Builder::new().prefix("unshade-").tempdir()?;
+        let scratch = tempfile::Builder::new().prefix(place.scratch).tempdir()?;
         let [capture, results, own] =
             ["capture", "results", "tmp"].map(|name| scratch.path().join(name));
         // Beside the maps there is room for what is renamed into their place.
