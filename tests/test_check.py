@@ -13,9 +13,7 @@ import pytest
 import unshade
 
 from conftest import unshade as command
-from unshade.render import llvm
 
-llvm.activate(llvm.choose())
 CASE = "tiny-studio"
 RGB, GREY, LOBES = ["R", "G", "B"], ["Y"], ["alpha1", "alpha2", "share1"]
 ALBEDO, NORMAL, SPECULAR = "diffuse_albedo.exr", "specular_normal.exr", "specular_albedo.exr"

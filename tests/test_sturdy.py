@@ -13,11 +13,8 @@ import numpy as np
 import pytest
 import unshade
 from PIL import Image
-from unshade.render import llvm
 
-llvm.activate(llvm.choose())
-
-from unshade.render.pictures import read_exr, read_gray, read_rgb, write_exr, write_gray  # noqa: E402
+from unshade.render.pictures import read_exr, read_gray, read_rgb, write_exr, write_gray
 
 CASE = "tiny-studio"
 CONFIG = """

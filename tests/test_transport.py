@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 import unshade
 from scipy.ndimage import binary_erosion, map_coordinates
-from unshade.render import llvm
 
-llvm.activate(llvm.choose())
-
-from unshade.render.pictures import read_exr, read_rgb  # noqa: E402
+from unshade.render.pictures import read_exr, read_rgb
 
 CASE = "tiny-studio"
 ROWS = 16

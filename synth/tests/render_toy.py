@@ -1,7 +1,4 @@
-"""A small procedural head for the rendering tests, and the variant they run in.
-
-Import this before anything of Mitsuba: it sets the variant.
-"""
+"""A small procedural head for the rendering tests."""
 
 from __future__ import annotations
 
@@ -9,9 +6,6 @@ import numpy as np
 
 from unshade.face import Chart, Face, FaceSpec, Maps, Part
 from unshade.face.texels import rasterise
-from unshade.render import llvm
-
-llvm.activate(llvm.choose("llvm_ad_rgb"))
 
 SPEC = FaceSpec("toy", 1, "III", 0.5, 0.5, (0.3, 0.3, 0.4), 0.5, texture_size=64)
 STEPS = 40

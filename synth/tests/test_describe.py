@@ -6,8 +6,7 @@ import re
 import colour
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
-
+import render_toy
 from unshade.render import describe as module
 from unshade.render import lights
 from unshade.render.colour_temperature import correlated_kelvin

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import render_toy  # noqa: F401  (sets the variant)  # isort: skip
 import mitsuba as mi
 from scipy.ndimage import label
 

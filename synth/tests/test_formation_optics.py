@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import mitsuba as mi
 from scipy.spatial.transform import Rotation
 

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import own_head_files as files
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import mitsuba as mi
 from PIL import Image
 

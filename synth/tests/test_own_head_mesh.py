@@ -7,8 +7,6 @@ import warnings
 import numpy as np
 import own_head_files as files
 import pytest
-import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
-
 from unshade.face import FaceError
 from unshade.own_head import HeadFiles, build, placement
 from unshade.own_head.mesh_file import read_pieces

@@ -1,7 +1,6 @@
 """The checks of the material pass, and each fails on the fault it is there for."""
 
 import pytest
-import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
 import drjit as dr
 
 from unshade.render.physics.formula import check_formula

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
-
 from unshade.render.physics.orientation import PROBES, Pipeline, check_orientation
 
 

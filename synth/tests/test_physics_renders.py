@@ -7,8 +7,6 @@ import sys
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
-
 from unshade.render import physics
 from unshade.render.layers import Layers
 from unshade.render.passes import render_layers

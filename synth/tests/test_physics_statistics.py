@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  # noqa: F401  (sets the variant, before drjit is imported)
-
 from unshade.render.layers import Layers
 from unshade.render.physics import statistics
 from unshade.render.physics.statistics import Comparison, Estimate

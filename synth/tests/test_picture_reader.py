@@ -3,7 +3,6 @@
 import numpy as np
 import own_head_files as files
 import pytest
-import render_toy  # noqa: F401  (sets the variant, before drjit is imported)
 import colour
 import mitsuba as mi
 from exr_files import ACESCG, XYZ, write_exr_file

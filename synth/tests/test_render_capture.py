@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
-
+import render_toy
 from unshade.errors import CaptureError, MapsError, PictureError, StorageError
 from unshade.face.ita import Tone
 from unshade.render import capture, llvm, relight, shots

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import render_toy  # noqa: F401  (sets the variant)  # isort: skip
 from PIL import Image
 
 from unshade.errors import SceneError, StorageError

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import mitsuba as mi
 
 from unshade.render.mesh_file import obj_text

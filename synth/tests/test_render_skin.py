@@ -3,7 +3,7 @@ obey: sampling that matches its density, no energy made, the same light both way
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import drjit as dr
 import mitsuba as mi
 

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import mitsuba as mi
 
 from unshade.render import lights

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import render_toy  # isort: skip  (sets the variant, before drjit is imported)
+import render_toy
 import drjit as dr
 import mitsuba as mi
 
