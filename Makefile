@@ -65,9 +65,12 @@ bench: build
 lint: build .venv/lint
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
+	cargo clippy --release --package harness --features python --lib -- -D warnings
+	$(BIN)/ruff check --quiet
+	$(BIN)/ruff format --check --quiet
 	$(BIN)/python tests/check_types.py
 
-# The checkers of types, apart from what running and testing need.
+# The checkers of style and types, apart from what running and testing need.
 .venv/lint: .venv/complete
 	$(UV) pip install --quiet --python .venv --group lint
 	@touch $@
