@@ -31,9 +31,7 @@ def synth(scene: _Path, out: _Path, *, progress: _Progress | None = None) -> Cap
     return Capture(out)
 
 
-def relight(
-    capture: Capture | _Path, maps: Maps | _Path, out: _Path, *, progress: _Progress | None = None
-) -> Path:
+def relight(capture: Capture | _Path, maps: Maps | _Path, out: _Path, *, progress: _Progress | None = None) -> Path:
     """Render maps in the capture's lights into the folder ``out``, as they are and after one factor.
 
     ``maps`` is a maps folder, or the maps themselves.
@@ -51,9 +49,7 @@ def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None =
         return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit)))
 
 
-def run(
-    suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None
-) -> Path:
+def run(suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None) -> Path:
     """Run a suite in the folder ``out``, resuming it; returns its report's page.
 
     ``redo`` names methods whose maps are made anew. Raises `SolveError` at the end if a method

@@ -30,7 +30,12 @@ _LEAST_COSINE = 0.3
 
 
 def decimate(
-    positions: np.ndarray, uv: np.ndarray, triangles: np.ndarray, target: int, fixed: np.ndarray, rng: np.random.Generator
+    positions: np.ndarray,
+    uv: np.ndarray,
+    triangles: np.ndarray,
+    target: int,
+    fixed: np.ndarray,
+    rng: np.random.Generator,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Old indices (W,) of the vertices that are kept and the new triangles (G,3).
 

@@ -22,7 +22,9 @@ def keep(head: HeadFiles, folder: Path) -> None:
         for key, path in head.files().items():
             shutil.copyfile(path, folder / _name(key, path))
     except OSError as error:
-        raise StorageError(f"{folder}: cannot be written: {error.strerror}; make room or choose another folder") from error
+        raise StorageError(
+            f"{folder}: cannot be written: {error.strerror}; make room or choose another folder"
+        ) from error
 
 
 def _name(key: str, path: str) -> str:

@@ -37,7 +37,7 @@ def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
     size = float((high - low).max())
     if not _SIZES[0] <= size <= _SIZES[1]:
         raise FaceError(
-            f"{head.mesh}: the chart measures {size:.3g} m in units = \"{head.units}\"; "
+            f'{head.mesh}: the chart measures {size:.3g} m in units = "{head.units}"; '
             f"heads measure {_SIZES[0]:g} to {_SIZES[1]:g} m, so state other units or name the head's object in chart"
         )
     if head.origin is not None:

@@ -121,7 +121,9 @@ class Capture:
         write_exr(self.truth / "roughness.exr", dict(zip(ROUGHNESS_CHANNELS, np.moveaxis(maps.roughness, -1, 0))))
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
         if isinstance(face.spec, FaceSpec):
-            _write_json(self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table())
+            _write_json(
+                self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table()
+            )
         else:
             keep(face.spec, self.truth / _HEAD)
         for light in self.scene.lights:

@@ -77,7 +77,9 @@ def sitters(count: int, seed: int) -> list[Sitter]:
     return chosen
 
 
-def contact_sheet(count: int, out: Path, seed: int = 0, progress: Callable[[int, int, str], None] = lambda done, total, what: None) -> None:
+def contact_sheet(
+    count: int, out: Path, seed: int = 0, progress: Callable[[int, int, str], None] = lambda done, total, what: None
+) -> None:
     """Renders `count` sampled faces to one PNG, captioned with seed, skin type, age and light.
 
     Equal counts and seeds give the same picture. Written beside `out` and renamed.
@@ -156,4 +158,6 @@ def _save(page: Image.Image, out: Path) -> None:
     except OSError as error:
         with contextlib.suppress(OSError):
             partial.unlink()
-        raise StorageError(f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder") from error
+        raise StorageError(
+            f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder"
+        ) from error

@@ -15,7 +15,14 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
     of the names. Naming other withheld views leaves every camera where it is."""
     poses = _POSES[rig.kind](rig, width, height)
     views = [
-        Camera(name, width, height, focal, look_at(position, target), train if rig.withheld is None else name not in rig.withheld)
+        Camera(
+            name,
+            width,
+            height,
+            focal,
+            look_at(position, target),
+            train if rig.withheld is None else name not in rig.withheld,
+        )
         for name, (position, target, focal, train) in zip(rig.view_names(), poses, strict=True)
     ]
     return sorted(views, key=lambda view: not view.train)
@@ -47,7 +54,12 @@ def _phone(rig: Rig, width: int, height: int):
             # An ellipse, so that no corner view leaves the permitted angle.
             elevation = reach * _ELEVATION_SHARE * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
-            yield FACE_CENTRE + distance * _away(azimuth, elevation), FACE_CENTRE + rng.uniform(-0.008, 0.008, 3), focal, train
+            yield (
+                FACE_CENTRE + distance * _away(azimuth, elevation),
+                FACE_CENTRE + rng.uniform(-0.008, 0.008, 3),
+                focal,
+                train,
+            )
 
 
 _DESKTOP = (

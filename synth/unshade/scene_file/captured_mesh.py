@@ -28,7 +28,12 @@ class CapturedMesh:
         return {key: value for key, value in asdict(self).items() if value != getattr(CapturedMesh(), key)}
 
 
-_RANGES = {"vertex_share": (0.01, 1.0), "smoothing_mm": (0.0, 30.0), "bumps_mm": (0.0, 5.0), "bumps_wavelength_mm": (0.5, 200.0)}
+_RANGES = {
+    "vertex_share": (0.01, 1.0),
+    "smoothing_mm": (0.0, 30.0),
+    "bumps_mm": (0.0, 5.0),
+    "bumps_wavelength_mm": (0.5, 200.0),
+}
 
 
 def parse_captured_mesh(table: Mapping[str, Any], place: str) -> CapturedMesh:

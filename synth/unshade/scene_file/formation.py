@@ -100,7 +100,9 @@ def _require_sense(formation: Formation, table: Mapping[str, Any], place: str) -
     if formation.motion_pixels and formation.motion_degrees:
         raise SceneError(f"motion_pixels and motion_degrees in {place} say the same thing; keep one")
     if formation.pose_noise_pixels and (formation.pose_noise_degrees or formation.pose_noise_mm):
-        raise SceneError(f"pose_noise_pixels in {place} stands for pose_noise_degrees and pose_noise_mm; keep it or them")
+        raise SceneError(
+            f"pose_noise_pixels in {place} stands for pose_noise_degrees and pose_noise_mm; keep it or them"
+        )
 
 
 def _between(table: Mapping[str, Any], key: str, place: str, default: float, low: float, high: float) -> float:

@@ -133,7 +133,9 @@ def two_colours(settings: TwoColours) -> Panels:
     sides = ((settings.azimuth_degrees, settings.left), (-settings.azimuth_degrees, settings.right))
     return Panels(
         tuple(
-            Panel.facing_head(around(azimuth, settings.elevation_degrees, settings.distance_metres), size, size, np.array(colour))
+            Panel.facing_head(
+                around(azimuth, settings.elevation_degrees, settings.distance_metres), size, size, np.array(colour)
+            )
             for azimuth, colour in sides
         )
     )
