@@ -80,7 +80,10 @@ def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list
     """
     with _folder_of(maps) as folder:
         text = _native.check_json(folder, None if capture is None else _path_of(capture))
-    return [{**finding, "evidence": finding.get("evidence", {})} for finding in json.loads(text)]
+    findings: list[Finding] = json.loads(text)
+    for finding in findings:
+        finding.setdefault("evidence", {})
+    return findings
 
 
 def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path:
