@@ -194,7 +194,7 @@ def test_every_kind_has_a_model_and_stands_beside_mitsubas_renders(kind, tmp_pat
     """A kind that a scene may name, but that has no model or no test beside it, fails here."""
     model = lights.exposed(light(kind, tmp_path), POINTS, NORMALS)
     assert model.irradiance(POINTS, NORMALS).shape == (3, 3) and model.latlong().shape[2] == 3
-    assert model.emitters() and (model.brightest > 0).any()
+    assert model.emitters() and (model.brightest() > 0).any()
     rendered = {"pattern" if isinstance(settings, Pattern) else name for name, settings in SETTINGS.items()}
     assert kind in {*PLAIN, *rendered}
 
