@@ -16,7 +16,7 @@ from unshade.render.lights.conventions import around, directions, solid_angles
 from unshade.render.passes import render_layers
 from unshade.render.pictures import write_exr
 from unshade.render.scene import ChartMaps, HeadScene
-from unshade.scene_file import Light
+from unshade.scene_file import LIGHT_KINDS, Light
 from unshade.scene_file.light import Gradient, KeyLight, Pattern, PointLight, Sun, TwoColours
 
 FACE = render_toy.toy_face()
@@ -36,7 +36,11 @@ def light(kind, tmp_path, **keys):
     return Light(name=kind, kind=kind, path=path, **keys)
 
 
-@pytest.mark.parametrize("kind", ["dome", "studio", "flash", "envmap"])
+PLAIN = ["dome", "studio", "flash", "envmap"]
+"""Kinds without settings of their own."""
+
+
+@pytest.mark.parametrize("kind", PLAIN)
 def test_a_white_face_is_just_well_exposed(kind, tmp_path):
     """The brightest pixel of a white Lambert face without its bounces is exposure x 1:
     the largest irradiance is pi. A ball of all normals takes the face's place."""
@@ -183,6 +187,16 @@ def rendered_irradiance(emitters, samples=256):
         )
         found.append(math.pi * np.array(mi.render(scene, seed=1)).reshape(-1, 3).mean(0))
     return np.array(found)
+
+
+@pytest.mark.parametrize("kind", LIGHT_KINDS)
+def test_every_kind_has_a_model_and_stands_beside_mitsubas_renders(kind, tmp_path):
+    """A kind that a scene may name, but that has no model or no test beside it, fails here."""
+    model = lights.exposed(light(kind, tmp_path), POINTS, NORMALS)
+    assert model.irradiance(POINTS, NORMALS).shape == (3, 3) and model.latlong().shape[2] == 3
+    assert model.emitters() and (model.brightest() > 0).any()
+    rendered = {"pattern" if isinstance(settings, Pattern) else name for name, settings in SETTINGS.items()}
+    assert kind in {*PLAIN, *rendered}
 
 
 @pytest.mark.parametrize("name", SETTINGS)

@@ -89,7 +89,7 @@ class Capture:
     def camera(self, name: str) -> _Camera:
         """Any view's camera: pixels, and camera to world with OpenGL axes (4, 4)."""
     def gbuffer(self, name: str) -> _GBuffer:
-        """What any view sees of the mesh at its pixels' centres: positions and normals
+        """The mesh at the pixel centres of any view: positions (metres) and unit normals
         (height, width, 3), uvs (height, width, 2); NaN where it sees nothing of it."""
     def shading(
         self,

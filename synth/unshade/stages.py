@@ -61,7 +61,7 @@ def run(suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progre
 
 
 class Finding(TypedDict):
-    """What is likely wrong with one file of a maps folder."""
+    """A likely fault of one file of a maps folder, with the numbers that speak for it and the mend."""
 
     id: str
     level: str
@@ -73,7 +73,7 @@ class Finding(TypedDict):
 
 
 def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list[Finding]:
-    """What is likely wrong with maps, a folder or the maps themselves; empty for sound maps.
+    """Likely faults of maps (a folder, or `Maps`); empty for sound maps.
 
     With the capture, maps are also compared with its photographs, cameras and mesh; its ``truth/``
     is never opened.

@@ -99,3 +99,17 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
         (value, _) => table::shown(value, 1),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metrics::Metric;
+
+    #[test]
+    fn every_key_figure_is_a_metric_of_a_subject() {
+        for key in KEY_FIGURES {
+            assert!(Metric::find(key.metric).is_ok(), "{}", key.metric);
+            assert_ne!(metric::subject(key.subject), key.subject);
+        }
+    }
+}

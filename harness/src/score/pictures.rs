@@ -12,10 +12,8 @@ use super::render::Render;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
 use super::truth::{self, present};
-use crate::metrics::{Pair, Region};
+use crate::metrics::{Pair, Region, scored};
 
-const PICTURE: [&str; 6] = ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
-const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
 const INCOMPLETE: &str = "either all withheld frames are written or none; write the folder again";
 
 /// A withheld frame.
@@ -119,9 +117,9 @@ fn compare(
     }
     type Part = (fn(&Render) -> &Option<Picture>, &'static [&'static str]);
     let parts: [Part; 3] = [
-        (|render| &render.total, &PICTURE),
-        (|render| &render.diffuse, &LAYER),
-        (|render| &render.specular, &LAYER),
+        (|render| &render.total, &scored::PICTURE),
+        (|render| &render.diffuse, &scored::LAYER),
+        (|render| &render.specular, &scored::LAYER),
     ];
     let mut all = Vec::new();
     for (subject, (part, metrics)) in subjects.into_iter().zip(parts) {

@@ -1,4 +1,4 @@
-"""What all faces share: subdivided head, its parts, the chart, the morph targets."""
+"""The head that all faces begin with: subdivided head, its parts, the chart, the morph targets."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ _SCATTERING_AT_500, _RAYLEIGH_SHARE, _MIE_POWER = 48.0, 0.409, 0.702
 
 @dataclasses.dataclass(frozen=True)
 class Tissue:
-    """What lies over the blood: share of the epidermis' scattering that is left, and the oxygenation under it."""
+    """Skin over blood: share of the epidermis' scattering that is left, oxygenation below (both 0 to 1)."""
 
     scattering: float
     oxygenation: float

@@ -1,4 +1,4 @@
-"""What a face is asked to be: the `[face]` table of a scene."""
+"""The `[face]` table of a scene as checked data."""
 
 from __future__ import annotations
 

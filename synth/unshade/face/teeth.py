@@ -1,4 +1,4 @@
-"""What an open mouth shows: teeth, gums and tongue.
+"""Teeth, gums and tongue of an open mouth.
 
 The head data holds bands where the teeth are and a coarse tongue, all moved by its morph
 targets. Teeth are shaped one by one along the bands' biting edges.
@@ -148,7 +148,7 @@ def _tube(rings: int, segments: int) -> np.ndarray:
 
 
 def _outward(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """The same triangles, turned so that the solid's volume is positive."""
+    """Triangles [F, 3] of a closed solid, all turned over if its signed volume is negative."""
     a, b, c = (positions[triangles[:, k]] - positions.mean(axis=0) for k in range(3))
     return triangles if (a * np.cross(b, c)).sum() > 0 else triangles[:, [0, 2, 1]]
 

@@ -33,7 +33,7 @@ _MENDS = {
 }
 
 _MOST_VERTICES = 1 << 25
-"""Of all objects together: instances may ask for more than any memory holds."""
+"""Most vertices of all objects together: instances may ask for more than any memory holds."""
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 

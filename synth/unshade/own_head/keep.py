@@ -11,7 +11,7 @@ from .spec import HeadFiles
 
 
 def kept(head: HeadFiles, folder: Path) -> HeadFiles:
-    """The same head with its files named as `keep` names them in ``folder``."""
+    """``head`` with its files named as `keep` names them in ``folder``."""
     return dataclasses.replace(head, **{key: str(folder / _name(key, path)) for key, path in head.files().items()})
 
 

@@ -28,7 +28,7 @@ def in_metres(piece: Piece, head: HeadFiles) -> np.ndarray:
 
 
 def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
-    """What to subtract from the chart's points (V,3) of `in_metres`, and from the occluders'.
+    """Origin (3,) in metres, to subtract from the chart's points (V,3) of `in_metres` and the occluders'.
 
     Without a stated origin it lies amid the chart sideways and in height, and behind its
     foremost point as far as behind a nose's tip. Raises `FaceError` for a size that no head has.

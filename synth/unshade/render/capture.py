@@ -154,7 +154,7 @@ class Capture:
             write_exr(image, {"": self._photograph(shots, camera, layers)})
 
     def _photograph(self, shots: Shots, camera: Camera, perfect: Layers) -> np.ndarray:
-        """What solvers get of a view: for withheld ones, the truth itself."""
+        """The picture of a view [H, W, 3] that solvers get: the perfect one if it is withheld."""
         if not camera.train:
             return perfect.total
         seed = seed_of("photograph", self.scene.render.seed, camera.name)

@@ -1,4 +1,4 @@
-"""What a scene will be, in words and numbers, before anything is rendered."""
+"""A scene in words and numbers, before anything is rendered."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
 
 
 def _faults(scene: Scene) -> list[str]:
-    """What pictures, cameras, mesh and labels lack."""
+    """Lines on the faults of pictures, cameras, mesh and labels, as the scene asks for them."""
     share = scene.labels.boundary_error
     labels = f"{100 * share:.3g} % of the boundary pixels have the label of the other side" if share else "perfect"
     formation, mesh = (

@@ -53,7 +53,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Probe:
-    """What a child process made of a library: its version, or why it failed."""
+    """An LLVM library as a child process found it: its version, or why it failed."""
 
     path: str
     origin: str

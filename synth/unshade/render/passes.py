@@ -124,7 +124,7 @@ def _band(estimator, sensor, lens, samples, passes, seed, top, rows) -> np.ndarr
 
 
 def _band_slowly(lit, depth, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:
-    """The same, sample by sample, for variants without a compiler."""
+    """Means [rows, width, passes, 6] of a band, sample by sample: for variants without a compiler."""
     width, height = sensor.film().size()
     sampler = sensor.sampler()
     sampler.set_sample_count(samples)

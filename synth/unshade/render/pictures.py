@@ -16,7 +16,7 @@ from .. import _native
 from ..errors import PictureError, StorageError
 
 ROUGHNESS_CHANNELS = ("alpha1", "alpha2", "share1")
-"""Of a roughness map: GGX alphas of the two lobes, and the share of the first."""
+"""Channels of a roughness map: GGX alphas of the two lobes, share of the first (all 0 to 1)."""
 
 _OPENEXR = mi.Bitmap.FileFormat.OpenEXR
 

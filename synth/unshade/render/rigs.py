@@ -1,4 +1,4 @@
-"""What cameras a scene's rig stands for, and where they stand."""
+"""Cameras of a scene's rig: names, poses and lenses."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
 
 
 FACE_CENTRE = np.array([0.0, 0.0, 0.06])
-"""What cameras are pointed at: the middle of the face, seen from the head's centre (m)."""
+"""Point that cameras aim at: the middle of the face, from the head's centre (m)."""
 
 _ELEVATION_SHARE = 0.6
 """A walk around a face moves more sideways than up and down."""

@@ -18,7 +18,7 @@ _WET_ALPHA = 0.06
 
 @dataclass(frozen=True)
 class ChartMaps:
-    """What the chart is made of; square arrays of any size, texel row 0 at v = 1.
+    """Maps of the chart; square arrays of any size, texel row 0 at v = 1.
 
     ``diffuse_albedo`` [N, N, 3] linear Rec.709, ``specular_albedo`` [N, N] (0 to 0.05),
     normals [N, N, 3] in object space, ``roughness`` [N, N, 3]: GGX alpha of lobe 1, of lobe 2,

@@ -44,7 +44,7 @@ class LambertLight(Enum):
     BLEND = 2
     """Both, weighed by the power heuristic: environment maps."""
     FROM_SURFACE = 3
-    """The same light from everywhere: only its occlusion is left to chance."""
+    """Even radiance from all directions: only its occlusion is left to chance."""
 
 
 @dr.syntax

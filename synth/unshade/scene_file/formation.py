@@ -37,7 +37,7 @@ class Formation:
     motion_pixels: float = 0.0
     """Length of the streak that a point in the middle of the picture leaves (pixels)."""
     motion_degrees: float = 0.0
-    """The same as a turn of the camera, in place of ``motion_pixels``."""
+    """Turn of the camera while the shutter is open (degrees), in place of ``motion_pixels``."""
     motion_direction_degrees: float | None = None
     """Direction of the streak, from right towards up; ``None`` draws one for every view."""
     aperture_radius_mm: float = 0.0
@@ -54,7 +54,7 @@ class Formation:
     """Error of the stated poses: standard deviation of the shift along each camera axis."""
 
     def to_table(self) -> dict[str, Any]:
-        """What differs from the defaults; empty where nothing does."""
+        """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(Formation(), key)}
 
 

@@ -153,7 +153,7 @@ def _met(panel: Panel, towards: np.ndarray) -> np.ndarray:
 
 
 def _solid_angle(panel: Panel) -> float:
-    """Of a small panel that faces the head's centre (sr)."""
+    """Solid angle (sr) of a small panel that faces the head's centre, seen from there."""
     return 4 * np.linalg.norm(np.cross(panel.right, panel.up)) / float(panel.centre @ panel.centre)
 
 

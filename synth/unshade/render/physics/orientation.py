@@ -268,7 +268,7 @@ def _judged_directions(what: str, solved: np.ndarray, expected: dict[str, np.nda
 
 
 def _judged(what: str, tolerance: float, unit: str, misses: dict[str, float], clear: float) -> tuple[str, str]:
-    """What was found, and the fault in words if there is one.
+    """The finding in words, and the fault in words (empty if there is none).
 
     ``misses``: distance of what was seen from what each mistake would show; ``clear``: least
     distance between what is right and a mistake.

@@ -44,7 +44,7 @@ def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None
 
 
 def estimator(head: HeadScene, lit: LitHead, baked: Baked, depth: int):
-    """What `passes.render_estimate` renders."""
+    """Function of sampler, ray and pass that gives the layers of `passes.render_estimate`."""
     lookup = _Lookup(head, baked)
 
     def estimate(sampler, ray, number):

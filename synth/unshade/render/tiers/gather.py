@@ -97,7 +97,7 @@ class _Cells:
 
 
 class _Sources:
-    """What is gathered, in the order of the cells.
+    """Points whose light is gathered, in the order of the cells.
 
     No dataclass: Dr.Jit would carry the fields of one through its loops as variables.
     """

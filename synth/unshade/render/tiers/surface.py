@@ -117,7 +117,7 @@ def _at_texels(texels: Texels):
 
 
 def _diffuse_normals(head: HeadScene, texels: Texels, smooth: np.ndarray) -> np.ndarray:
-    """Those of the map; of the mesh where it holds no direction."""
+    """Unit diffuse normals [N, 3] at the texels: the map's, or ``smooth`` where it holds no direction."""
     if head.skin.diffuse_normal is None:
         return smooth
     mapped = np.array(head.skin.diffuse_normal.eval_3(_at_texels(texels))).T
