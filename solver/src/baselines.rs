@@ -2,8 +2,7 @@
 
 use glam::Vec3;
 
-use crate::capture::Capture;
-use crate::error::CaptureError;
+use crate::capture::{Capture, CaptureError};
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;

@@ -9,7 +9,6 @@ pub mod baselines;
 pub mod capture;
 pub mod config;
 mod convolution;
-pub mod error;
 pub mod fill;
 mod first_look;
 pub mod gbuffer;
@@ -30,13 +29,14 @@ mod testing;
 pub mod transport;
 
 pub use backend::{Backend, BackendError, Choice};
-pub use capture::{Camera, Capture, Mesh, View};
-pub use config::Config;
-pub use error::{CaptureError, ConfigError, MapsError, SolveError};
+pub use capture::{Camera, Capture, CaptureError, Mesh, View};
+pub use config::{Config, ConfigError};
 pub use gbuffer::mesh_normal_map;
-pub use maps::Maps;
+pub use maps::{Maps, MapsError};
 pub use optimise::checkpoint::Checkpoint;
-pub use optimise::solve::{Options, Progress, solve_into, solve_on};
+pub use optimise::error::SolveError;
+pub use optimise::progress::{LayerSink, Options, Progress};
+pub use optimise::solve::{solve_into, solve_on};
 pub use solution::{Record, Solution, StageMaps, Timing, ViewLayers};
 
 /// The instruction set that the processor backend uses on this machine.

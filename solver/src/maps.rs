@@ -1,10 +1,37 @@
 //! The maps folder: what every solver leaves behind.
 
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
-use crate::atomic::Folder;
-use crate::error::MapsError;
-use crate::picture::{self, Content, GrayImage, Picture};
+use crate::atomic::{Folder, FolderError};
+use crate::picture::{self, Content, GrayImage, Picture, PictureError};
+
+/// A maps folder that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum MapsError {
+    /// The folder must not be written where it was to be.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A file or the folder itself cannot be read or written.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A picture file is faulty.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A map is not square, or has another size than the others.
+    #[error("{path}: {reason}")]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and the mend.
+        reason: String,
+    },
+}
 
 /// Square reflectance maps of one size; what a solver does not recover is absent.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,8 +7,7 @@ use serde_json::{Map, Value};
 
 use crate::atomic::{self, Folder};
 use crate::config::Config;
-use crate::error::MapsError;
-use crate::maps::Maps;
+use crate::maps::{Maps, MapsError};
 use crate::picture::{self, Picture};
 
 /// The result of [`crate::solve`].

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::Camera;
 use super::lens::Distortion;
-use super::transforms::{inside, plain};
+use super::paths::{inside, plain};
 
 /// How far `transform_matrix` may be from a rotation, per entry of RᵀR - 1: single precision and
 /// six printed digits pass, a scale or a shear does not.

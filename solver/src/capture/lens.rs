@@ -1,6 +1,6 @@
 //! Lens distortion: taken out of a view when it is opened, so that all cameras are pinholes.
 
-use super::{Camera, View};
+use super::Camera;
 use crate::picture::{GrayImage, Picture};
 
 /// Steps between the optical axis and the corner of a picture at which the lens is tested.
@@ -19,6 +19,16 @@ pub(super) struct Distortion {
     pub p1: f64,
     /// Tangential.
     pub p2: f64,
+}
+
+/// The pictures of a view.
+pub(super) struct Layers {
+    /// See [`super::View::image`].
+    pub image: Picture,
+    /// See [`super::View::mask`].
+    pub mask: GrayImage,
+    /// See [`super::View::labels`].
+    pub labels: Option<GrayImage>,
 }
 
 impl Distortion {
@@ -57,17 +67,16 @@ impl Distortion {
         last.map_or(0.0, ring)
     }
 
-    /// The view as the pinhole `view.camera` would have taken it: the picture interpolated
+    /// The layers as the pinhole `camera` would have taken them: the picture interpolated
     /// bilinearly, mask and labels from the nearest pixel. Where the lens saw nothing, the
     /// picture is black and the mask empty.
-    pub fn undistort(&self, view: &View) -> View {
-        let (camera, image) = (&view.camera, &view.image);
+    pub fn undistort(&self, camera: &Camera, taken: &Layers) -> Layers {
+        let image = &taken.image;
         let (width, height) = (camera.width, camera.height);
-        let mut result = View {
-            camera: camera.clone(),
+        let mut result = Layers {
             image: Picture::new(width, height, image.channels),
             mask: GrayImage::new(width, height),
-            labels: view.labels.as_ref().map(|_| GrayImage::new(width, height)),
+            labels: taken.labels.as_ref().map(|_| GrayImage::new(width, height)),
         };
         let film = |column: f64, row: f64| {
             let [fx, fy] = camera.focal.map(f64::from);
@@ -88,8 +97,8 @@ impl Distortion {
                     continue;
                 }
                 let (index, nearest) = (row * width + column, y as usize * width + x as usize);
-                result.mask.data[index] = view.mask.data[nearest];
-                if let (Some(to), Some(from)) = (&mut result.labels, &view.labels) {
+                result.mask.data[index] = taken.mask.data[nearest];
+                if let (Some(to), Some(from)) = (&mut result.labels, &taken.labels) {
                     to.data[index] = from.data[nearest];
                 }
                 bilinear(image, x, y, result.image.pixel_mut(column, row));
@@ -132,8 +141,8 @@ mod tests {
 
     const LENS: Distortion = Distortion { k1: -0.25, k2: 0.08, p1: 0.004, p2: -0.003 };
 
-    /// A view whose red is the column and whose green is the row of every pixel's centre.
-    fn ramp() -> View {
+    /// A camera with a picture whose red is the column and whose green is the row of every pixel's centre.
+    fn ramp() -> (Camera, Layers) {
         let (width, height) = (64, 48);
         let mut camera = testing::camera("000", Vec3::Z, 64);
         (camera.width, camera.height) = (width, height);
@@ -145,7 +154,7 @@ mod tests {
             ids.data[y * width + x] = x as u8;
         }
         let mask = GrayImage { width, height, data: vec![255; width * height] };
-        View { camera, image, mask, labels: Some(ids) }
+        (camera, Layers { image, mask, labels: Some(ids) })
     }
 
     #[test]
@@ -164,7 +173,8 @@ mod tests {
 
     #[test]
     fn a_pinhole_pixel_shows_what_the_lens_put_elsewhere() {
-        let view = LENS.undistort(&ramp());
+        let (camera, taken) = ramp();
+        let view = LENS.undistort(&camera, &taken);
         // OpenCV's formula in NumPy, in pixels, for pixel centres of this camera.
         let cases = [
             ((0, 0), [3.50966, 2.74191]),
@@ -187,14 +197,15 @@ mod tests {
     fn what_the_lens_did_not_see_is_no_foreground() {
         // Pincushion: the corners of the pinhole's picture lie beyond the lens's.
         let lens = Distortion { k1: 0.3, k2: 0.0, p1: 0.0, p2: 0.0 };
-        let view = lens.undistort(&ramp());
+        let (camera, taken) = ramp();
+        let view = lens.undistort(&camera, &taken);
         assert_eq!(view.mask.data[0], 0);
         assert_eq!(view.image.pixel(0, 0), [0.0; 3]);
         assert_eq!(view.mask.data[24 * 64 + 33], 255);
         // A polynomial that folds back at a radius of 1 / sqrt(6): 24.5 columns from the axis.
         let folding = Distortion { k1: -2.0, ..lens };
         assert!((folding.reach(1.0) - 6f64.sqrt().recip()).abs() < 0.005);
-        assert_eq!(folding.undistort(&ramp()).mask.data[24 * 64], 0);
+        assert_eq!(folding.undistort(&camera, &taken).mask.data[24 * 64], 0);
         assert!((LENS.reach(0.7) - 0.7).abs() < 1e-9);
     }
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
+use super::error::CaptureError;
 use super::winding::Winding;
-use crate::error::CaptureError;
 use crate::obj;
 
 /// A triangle mesh; every vertex has a position, a unit normal and a texture coordinate.

@@ -1,11 +1,13 @@
 //! A capture folder: opened and checked here, once, for everyone.
 
 mod camera;
+mod error;
 mod frame;
 mod lens;
 mod mesh;
 mod orientation;
 pub mod outward;
+mod paths;
 mod transforms;
 mod view;
 mod winding;
@@ -16,12 +18,12 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::error::CaptureError;
 use crate::first_look;
 use orientation::Turned;
 use transforms::Transforms;
 
 pub use camera::Camera;
+pub use error::CaptureError;
 pub use mesh::Mesh;
 pub use view::View;
 

@@ -3,8 +3,10 @@
 use std::cmp::Reverse;
 use std::path::Path;
 
-use super::{Camera, frame::Frame};
-use crate::error::CaptureError;
+use super::camera::Camera;
+use super::error::CaptureError;
+use super::frame::Frame;
+use super::lens::Layers;
 use crate::picture::{self, Content, GrayImage, Picture};
 
 /// A training view.
@@ -48,11 +50,12 @@ impl View {
         image.blacken_not_finite(|pixel| mask.data[pixel] == 0);
         image.require_finite(image_path, &channels)?;
         let labels = label_path.as_deref().map(gray).transpose()?;
-        let taken = Self { camera: camera.clone(), image, mask, labels };
-        Ok(match distortion {
-            Some(lens) => lens.undistort(&taken),
+        let taken = Layers { image, mask, labels };
+        let Layers { image, mask, labels } = match distortion {
+            Some(lens) => lens.undistort(camera, &taken),
             None => taken,
-        })
+        };
+        Ok(Self { camera: camera.clone(), image, mask, labels })
     }
 
     /// The label of a pixel; 0 for none.

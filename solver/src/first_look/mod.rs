@@ -8,20 +8,15 @@ use std::path::Path;
 
 use glam::Mat4;
 
-use crate::capture::{Mesh, View};
-use crate::error::CaptureError;
-use silhouette::{Comparison, compare, median};
+use crate::capture::{CaptureError, Mesh, View};
+use silhouette::{Comparison, REFUSED, compare, median};
+use trials::spread;
 
 /// Median overlap below which a warning is due.
 const DOUBTFUL: f64 = 0.9;
-/// Median overlap below which the cameras do not fit.
-const REFUSED: f64 = 0.6;
 /// Intersection over union that a single change must reach to be named; from [`DOUBTFUL`] on, it
 /// proves that the cameras are wrong.
 const FITS: f64 = 0.8;
-/// Size of a sound silhouette against its mask, or the other way round: hair and eyes may hide
-/// half of the mesh, and a mask may show a neck that the mesh has not.
-const HALF: f64 = 0.5;
 /// Views at which silhouettes are compared, spread over all.
 const MOST_VIEWS: usize = 24;
 /// Triangles painted in all, which bounds the time.
@@ -76,12 +71,6 @@ pub(crate) fn check(
 fn chosen<'a>(mesh: &Mesh, views: &'a [View]) -> Vec<&'a View> {
     let most = (MOST_TRIANGLES / mesh.triangles.len().max(1)).clamp(3, MOST_VIEWS);
     spread(&views.iter().collect::<Vec<_>>(), most)
-}
-
-/// At most `most` of the items, evenly spread.
-fn spread<T: Copy>(items: &[T], most: usize) -> Vec<T> {
-    let count = items.len().min(most);
-    (0..count).map(|index| items[index * items.len() / count]).collect()
 }
 
 #[cfg(test)]

@@ -1,10 +1,14 @@
 //! A mesh's silhouette beside a mask.
 
-use super::HALF;
 use crate::capture::{Camera, Mesh};
 use crate::gbuffer::rasterise;
 use crate::picture::GrayImage;
 
+/// Median overlap below which the cameras do not fit.
+pub(super) const REFUSED: f64 = 0.6;
+/// Size of a sound silhouette against its mask, or the other way round: hair and eyes may hide
+/// half of the mesh, and a mask may show a neck that the mesh has not.
+const HALF: f64 = 0.5;
 /// Pixels along the larger side of a picture, at most.
 const SIZE: usize = 256;
 /// Share of a picture that a mask may cover and still say anything.
@@ -41,7 +45,7 @@ impl Comparison {
         let within = self.both as f64 / smaller as f64;
         let size = smaller as f64 / larger as f64 / HALF;
         // What is hidden is no fault of the cameras': a doubt at most.
-        let size = if self.mask < self.mesh { size.max(super::REFUSED) } else { size };
+        let size = if self.mask < self.mesh { size.max(REFUSED) } else { size };
         within.min(size)
     }
 

@@ -3,7 +3,6 @@
 use glam::{Mat3, Mat4, Vec3};
 
 use super::silhouette::{Comparison, compare, median};
-use super::spread;
 use crate::capture::{Camera, Mesh, View};
 
 /// Views at which a change is tried.
@@ -192,4 +191,10 @@ fn turns() -> Vec<(String, Mat4)> {
         }
     }
     turns
+}
+
+/// At most `most` of the items, evenly spread.
+pub(super) fn spread<T: Copy>(items: &[T], most: usize) -> Vec<T> {
+    let count = items.len().min(most);
+    (0..count).map(|index| items[index * items.len() / count]).collect()
 }

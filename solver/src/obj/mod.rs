@@ -4,11 +4,13 @@
 //! without a name, cuts concave polygons as fans, pairs texture coordinates with wrong vertices
 //! where some corners have none, and names no line. Polygons are cut by the crate `earcut`.
 
+mod error;
 mod polygon;
 mod text;
 
 use std::collections::HashMap;
 
+pub use error::ObjError;
 use polygon::Place;
 use text::{Lines, Values};
 
@@ -33,16 +35,6 @@ pub struct Object {
     pub triangles: Vec<[u32; 3]>,
     /// Line of the object's first face that has a corner without texture coordinate.
     pub line_without_uv: Option<usize>,
-}
-
-/// What cannot be read, and where.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}: {reason}")]
-pub struct ObjError {
-    /// Line of the file, from 1.
-    pub line: usize,
-    /// What is wrong, and the mend.
-    pub reason: String,
 }
 
 /// Reads the objects that have faces, in the order of their first faces; polygons become

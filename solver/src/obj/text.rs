@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::ObjError;
+use super::error::ObjError;
 
 /// A line of the file, with those that continue it.
 pub(super) struct Line<'a> {

@@ -13,8 +13,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use super::run::Log;
-use super::solve::Solve;
+use super::found::Solve;
+use super::log::Log;
 use super::stage::{Memory, Stage, State};
 use crate::atomic;
 use crate::backend::Backend;

@@ -1,16 +1,19 @@
 //! The end of a solve: maps, withheld views and the record of what has been found.
 
 use super::clock::Work;
+use super::error::SolveError;
+use super::found::Solve;
 use super::gloss;
 use super::lit::Highlights;
 use super::normalise::Scales;
+use super::progress::LayerSink;
 use super::run::Run;
-use super::site::{Site, map_size};
+use super::site::Site;
 use super::snapshot::stage_maps;
-use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
+use super::transported::albedo;
 use crate::capture::Camera;
-use crate::error::SolveError;
+use crate::config::map_size;
 use crate::fill;
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::maps::Maps;

@@ -2,12 +2,12 @@
 //! conjugate gradients would not fill with what is coarse in as many steps.
 
 use super::bent_highlights::BentHighlights;
+use super::error::SolveError;
 use super::lit::Lit;
 use super::relief::{self, ReliefSolve};
 use super::site::Site;
 use super::stage::State;
 use crate::config::HeightConfig;
-use crate::error::SolveError;
 use crate::gbuffer::Atlas;
 use crate::model::texture::resample;
 

@@ -1,7 +1,7 @@
 //! Shading under frozen networks, and its gradients.
 
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use super::layout::{Layout, TILE};
 use super::pieces::{Pieces, pixels};
 use crate::backend::BENT;

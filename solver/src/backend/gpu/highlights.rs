@@ -1,7 +1,7 @@
 //! Light, its nearness and diffuse albedo with the highlights that the light itself makes.
 
-use super::Gpu;
-use super::kernel::{Pass, THREADS};
+use super::computing::Gpu;
+use super::pass::{Pass, THREADS};
 use super::matrix::{Matrix, Shading, by_light};
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program, prior, total};

@@ -1,8 +1,8 @@
 //! Networks and albedos together: once, or step after step.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use super::layout::{Layout, TILE};
 use super::pieces::{DeviceTaps, Pieces, padded, pixels};
 use super::program::{Moved, Program, prior};

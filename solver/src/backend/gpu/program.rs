@@ -1,8 +1,8 @@
 //! The program of a stage: its passes, recorded once, and its variables.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::{AdamFactors, Factors, Pass, Slots, THREADS};
+use super::pass::{AdamFactors, Factors, Pass, Slots, THREADS};
 use super::layout::Layout;
 use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
 

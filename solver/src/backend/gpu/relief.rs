@@ -1,10 +1,10 @@
 //! Specular albedo and deviation, with frozen networks.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::bending::Bending;
 use super::blurs::{blurring, pyramid};
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use super::layout::Layout;
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program};

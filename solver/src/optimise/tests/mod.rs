@@ -12,12 +12,13 @@ use std::ops::ControlFlow;
 
 use glam::{Vec2, Vec3};
 
-use super::solve::{Options, solve_on};
+use super::error::SolveError;
+use super::progress::Options;
+use super::solve::solve_on;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use crate::backend::cpu::{Cpu, Level};
-use crate::capture::{Capture, View};
+use crate::capture::{Capture, CaptureError, View};
 use crate::config::{Config, TextureSize};
-use crate::error::{CaptureError, SolveError};
 use crate::gbuffer::GBuffer;
 use crate::maps::Maps;
 use crate::model::deviation::Deviation;
@@ -84,7 +85,7 @@ fn small() -> Config {
 fn solve(
     capture: &Capture,
     config: &Config,
-    progress: &mut super::solve::Callback,
+    progress: &mut super::progress::Callback,
 ) -> Result<Solution, SolveError> {
     solve_on(&Cpu::new(), capture, config, Options::default(), progress)
 }
