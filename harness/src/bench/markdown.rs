@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
+use super::cells::{count, size, write_solves};
 use super::gpu::{write_gpu, write_reach};
-use super::{PaperSize, Report, Solved, Step, Torch};
+use super::report::{PaperSize, Report, Torch};
+use super::steps::Step;
 
 /// The page that `docs/performance.md` is; `command` wrote it.
 pub fn markdown(report: &Report, command: &str) -> String {
@@ -136,32 +138,6 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
     write_gpu(page, report.gpu.as_ref())
 }
 
-pub fn write_solves(page: &mut String, solves: &[Solved]) -> std::fmt::Result {
-    let head =
-        "| capture | configuration | pixels | textures | s | memory: measured / said before |";
-    writeln!(page, "{head}\n|---|---|---|---|---|---|")?;
-    for solve in solves {
-        writeln!(
-            page,
-            "| {} | {} | {:.0} thousand | {}² | {:.1} | {} / {} |",
-            solve.capture,
-            solve.config,
-            solve.pixels as f64 / 1e3,
-            solve.texture,
-            solve.seconds,
-            solve.peak_memory.map_or(String::new(), size),
-            size(solve.estimated_memory),
-        )?;
-    }
-    writeln!(page)?;
-    for solve in solves {
-        let stages = solve.stages.iter().map(|(stage, seconds)| format!("{stage} {seconds:.1}"));
-        let stages = stages.collect::<Vec<_>>().join(", ");
-        writeln!(page, "- {}, {}: {stages} s.", solve.capture, solve.config)?;
-    }
-    Ok(())
-}
-
 fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> std::fmt::Result {
     writeln!(
         page,
@@ -197,18 +173,4 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
         )?;
     }
     Ok(())
-}
-
-pub fn count(number: usize) -> String {
-    match number {
-        0..1_000_000 => format!("{} thousand", number as f64 / 1e3),
-        _ => format!("{} million", number as f64 / 1e6),
-    }
-}
-
-pub fn size(bytes: u64) -> String {
-    match bytes {
-        0..1_000_000_000 => format!("{} MB", bytes.div_ceil(1_000_000)),
-        _ => format!("{:.1} GB", bytes as f64 / 1e9),
-    }
 }

@@ -3,12 +3,16 @@
 //!
 //! Everything runs through [`solver::backend::Backend`] and the stages of a solve.
 
+mod cells;
 mod clock;
 mod cost;
+mod error;
 mod gpu;
 mod kernels;
 mod machine;
 mod markdown;
+mod paper;
+mod report;
 mod solves;
 mod steps;
 mod synthetic;
@@ -18,41 +22,32 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use rayon::ThreadPoolBuilder;
-use serde::Serialize;
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
 use solver::backend::{Backend, BackendError};
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
+pub use error::BenchError;
 pub use gpu::GpuReport;
 pub use kernels::Kernel;
 pub use machine::Machine;
 pub use markdown::markdown;
+pub use report::{PaperSize, Report, Torch, TorchRow};
 pub use solves::Solved;
 pub use steps::{Kind, Reach, Step};
 pub use torch::{MEND, TorchError, TorchStep};
 
-use crate::suite::RunError;
+use paper::{COARSE, PAPER_SHARES, PAPER_STEPS, Paper};
 use synthetic::Problem;
+use torch::TORCH_STEPS;
 
 /// Pixels of the steps that stand for a capture of the demo's kind, half resolution.
 const SMALL: usize = 300_000;
 const LARGE: usize = 3_000_000;
-/// Textures of the warm-up, and of the fine-tuning.
-const COARSE: usize = 128;
 const FINE: usize = 1024;
-/// The paper's capture: ten views of 12 million pixels in half resolution, 48 million in full,
-/// textures of 2048²; steps of each kind.
-const PAPER_PIXELS: [usize; 2] = [12_000_000, 48_000_000];
-const PAPER_TEXTURE: usize = 2048;
-const PAPER_STEPS: [usize; 3] = [2000, 500, 500];
-/// A processor does these shares of its pixels; a step's time is linear in them, but for its textures.
-const PAPER_SHARES: [usize; 2] = [16, 64];
 /// Bytes of each array of the bandwidth measurement: far more than any cache.
 const ARRAY: usize = 128 << 20;
-/// Steps whose losses are compared with PyTorch's.
-const TORCH_STEPS: usize = 8;
 
 /// What to measure.
 pub struct Options {
@@ -66,72 +61,8 @@ pub struct Options {
     pub captures: Vec<PathBuf>,
 }
 
-/// All that was measured.
-#[derive(Debug, Serialize)]
-pub struct Report {
-    /// On what.
-    pub machine: Machine,
-    /// What it reaches, level by level.
-    pub reach: Vec<(String, Reach)>,
-    /// The paper's steps at every level.
-    pub steps: Vec<Step>,
-    /// The parts of the steps, at the best level.
-    pub kernels: Vec<Kernel>,
-    /// Warm-up steps over pixels, fine-tuning over textures, warm-up over threads; at the best level.
-    pub scaling: Vec<Step>,
-    /// The paper's capture on the processor.
-    pub paper: PaperSize,
-    /// The same on a GPU.
-    pub gpu: Option<GpuReport>,
-    /// The same steps in PyTorch.
-    pub torch: Torch,
-    /// Whole solves.
-    pub solves: Vec<Solved>,
-}
-
-/// The paper's capture on the processor.
-#[derive(Debug, Serialize)]
-pub struct PaperSize {
-    /// One over the shares of the pixels that were really there, the larger share first.
-    pub shares: [usize; 2],
-    /// One step of each kind on each share.
-    pub steps: Vec<[Step; 2]>,
-    /// Seconds of all 3000 steps on all pixels, on the line through the measured ones.
-    pub seconds: f64,
-}
-
-/// PyTorch's rows.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum Torch {
-    /// None, and how to get them.
-    Absent {
-        /// What to type.
-        mend: String,
-    },
-    /// Of each kind and size.
-    Measured(Vec<TorchRow>),
-}
-
-/// PyTorch beside ours.
-#[derive(Debug, Serialize)]
-pub struct TorchRow {
-    /// What was done.
-    pub kind: Kind,
-    /// Pixels of all views.
-    pub pixels: usize,
-    /// Side of the textures.
-    pub texture: usize,
-    /// There.
-    pub torch: TorchStep,
-    /// Here, level by level.
-    pub ours: Vec<Step>,
-    /// Largest relative difference of the losses of the first steps.
-    pub loss_difference: f64,
-}
-
 /// Measures everything; `progress` hears what comes next.
-pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, RunError> {
+pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, BenchError> {
     let bench = Bench { quick: options.quick };
     // Before there is a load of our own.
     let machine = Machine::here();
@@ -285,7 +216,7 @@ impl Bench {
         cpu: &dyn Backend,
         captures: &[PathBuf],
         progress: &mut dyn FnMut(&str),
-    ) -> Result<GpuReport, RunError> {
+    ) -> Result<GpuReport, BenchError> {
         progress(&format!("what {} reaches", adapter.name));
         let bytes = if self.quick { 1 << 20 } else { ARRAY };
         let device = gpu::Device::open(adapter, bytes, self.budget())?;
@@ -302,24 +233,6 @@ impl Bench {
         }
         let paper = device.paper(&self.paper(), progress);
         Ok(device.report(steps, solves, paper))
-    }
-}
-
-/// The size of the paper's capture.
-struct Paper {
-    quick: bool,
-    /// One over the shares that a processor does.
-    shares: [usize; 2],
-}
-
-impl Paper {
-    /// Pixels and side of the textures in a kind of step, on one pixel of `share`.
-    fn size(&self, kind: Kind, share: usize) -> (usize, usize) {
-        let [half, full] = PAPER_PIXELS.map(|pixels| pixels / share);
-        match kind {
-            Kind::WarmUp => (half, COARSE),
-            _ => (full, if self.quick { 32 } else { PAPER_TEXTURE }),
-        }
     }
 }
 

@@ -10,7 +10,7 @@ use solver::memory::Estimate;
 use solver::{Backend, BackendError, Capture, Config};
 
 use super::clock::{forget_peak, peak_memory};
-use crate::suite::RunError;
+use super::error::BenchError;
 
 /// A solve.
 #[derive(Debug, Serialize)]
@@ -36,7 +36,7 @@ pub struct Solved {
 }
 
 /// Solves a capture with `unshade` and with `paper`, the latter with textures of the same side.
-pub fn measure(capture: &Path, backend: &dyn Backend) -> Result<[Solved; 2], RunError> {
+pub fn measure(capture: &Path, backend: &dyn Backend) -> Result<[Solved; 2], BenchError> {
     let mut paper = Config::preset("paper")?;
     paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
     Ok([
@@ -50,7 +50,7 @@ fn solve(
     backend: &dyn Backend,
     config_name: &'static str,
     config: &Config,
-) -> Result<Solved, RunError> {
+) -> Result<Solved, BenchError> {
     let device = backend.name();
     let out = tempfile::tempdir()?;
     let forgot = forget_peak();

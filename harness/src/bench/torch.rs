@@ -12,6 +12,9 @@ use solver::model::planes::Planes;
 use super::steps::Kind;
 use super::synthetic::Problem;
 
+/// Steps whose losses are compared with PyTorch's.
+pub(super) const TORCH_STEPS: usize = 8;
+
 const SCRIPT: &str = include_str!("torch_steps.py");
 
 /// How to get the row, where there is no PyTorch.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{CHECK_FAILED, DONE};
+use super::exit::{CHECK_FAILED, DONE};
 use crate::check::{self, CheckError};
 
 /// Prints each finding on a line of its own; the exit code says whether there is any.

@@ -7,11 +7,10 @@ use std::time::Instant;
 
 use solver::{Choice, atomic};
 
+use super::arguments::{BackendName, CompareArgs, SolveArgs, SolverName, SynthArgs, Verb};
+use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{
-    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
-    check, doctor,
-};
+use super::{bench, check, doctor};
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report::{self, ReportError};
 use crate::score;

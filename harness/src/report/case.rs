@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::ReportError;
+use super::error::ReportError;
 use super::methods::{self as made, MethodRow};
 use super::plates::{self, Input, Method, Plate, Studio};
 use super::run::{Case, Frames, Timing};

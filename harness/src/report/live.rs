@@ -14,7 +14,7 @@ use rerun::{
 use solver::picture::Picture;
 use solver::{Capture, Maps, Progress, Solution, View};
 
-use super::ReportError;
+use super::error::ReportError;
 use super::tone::{self, Raster};
 
 /// How long a viewer may take to answer.

@@ -2,7 +2,7 @@
 
 use solver::{Capture, Progress, Solution};
 
-use super::ReportError;
+use super::error::ReportError;
 
 /// Where a solve is shown; there is none.
 pub enum Live {}

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use solver::picture::Content;
 
-use super::ReportError;
 use super::difference::{self, Measure};
+use super::error::ReportError;
 use super::plates::{self, Plate, Show, Studio, Subject};
 
 /// A map as it is shown and compared.

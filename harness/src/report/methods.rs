@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::ReportError;
+use super::error::ReportError;
 use super::plates;
 use super::run::{Case, Timing};
 use super::table::{Column, EMPTY};

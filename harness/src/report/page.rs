@@ -8,14 +8,22 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use super::case::CaseView;
+use super::error::ReportError;
 use super::matrix::{self, Matrix};
 use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
-use super::{Hearer, MARK, ReportError, metric, tone};
+use super::{metric, tone};
 use crate::metrics::{METRICS, Metric};
 use crate::score::{Protocol, Scores};
+
+/// Stands in every page.
+const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
+
+/// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
+/// go on.
+pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 
 /// The page as the templates see it.
 #[derive(Serialize)]

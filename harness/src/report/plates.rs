@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 use solver::picture::{self, Content, ExrFile, GrayImage, Picture};
 
-use super::ReportError;
 use super::difference::{self, Measure};
+use super::error::ReportError;
 use super::run::{Frame, Frames};
 use super::table::{self, Column};
 use super::tone::{self, Raster};

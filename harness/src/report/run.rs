@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{FORMAT, ReportError};
+use super::error::{FORMAT, ReportError};
 
 /// `run.json`: what was compared.
 #[derive(Debug, Deserialize)]

@@ -8,11 +8,12 @@ use serde::Serialize;
 use solver::picture::{Content, Picture};
 
 use super::difference::{self, Measure};
+use super::error::ReportError;
 use super::maps::{MAPS, MapKind};
 use super::plates::{self, Method, Studio, Tile};
 use super::tone::{self, Raster};
 use super::views::Layer;
-use super::{ReportError, light, table};
+use super::{light, table};
 use crate::metrics::Metric;
 
 /// Longest side of the small pictures.

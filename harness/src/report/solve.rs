@@ -5,10 +5,11 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::curve;
+use super::error::ReportError;
 use super::plates::{Method, Studio};
 use super::run;
 use super::sheets::Sheet;
-use super::{ReportError, curve};
 
 /// The stage in which a solve was cut; null or absent in one that came to its end.
 const INTERRUPTED: &str = "interrupted";

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use solver::picture::Content;
 
 use super::difference::Measure;
+use super::error::ReportError;
+use super::metric;
 use super::plates::{self, Method, Plate, Show, Strip, Studio, Subject};
 use super::run::Frame;
-use super::{ReportError, metric};
 
 /// A picture as a whole, or one part of its exact split.
 #[derive(Clone, Copy)]

@@ -7,11 +7,11 @@ use std::time::Duration;
 
 use indicatif::HumanDuration;
 
-use super::SOLVER_SOURCES;
 use super::error::RunError;
 use super::method::Method;
 use super::preflight::Ready;
 use super::program::{Place, Usage};
+use super::sources::SOLVER_SOURCES;
 use super::tools::Tools;
 use crate::score;
 

@@ -40,7 +40,7 @@ pub enum RunError {
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
-    Torch(#[from] crate::bench::TorchError),
+    Bench(#[from] crate::bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },
     #[error("solver {name}: {reason}")]

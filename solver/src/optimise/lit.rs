@@ -49,9 +49,7 @@ impl Lit {
         let (config, transport) = (site.config, site.transport(standing));
         let veil = match gloss.is_empty() {
             true => vec![],
-            false => {
-                veil(&config.networks, transport, samples, &state, backend, &radiance, &gloss)
-            }
+            false => veil(&config.networks, transport, samples, &state, backend, &radiance, &gloss),
         };
         let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
         Self {

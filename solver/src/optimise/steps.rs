@@ -129,7 +129,12 @@ impl Step {
     }
 
     /// Takes the step. After an interrupt it leaves in `solve` what it has found until then.
-    pub fn take(&self, site: &mut Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
+    pub fn take(
+        &self,
+        site: &mut Site,
+        run: &mut Run,
+        solve: &mut Solve,
+    ) -> Result<(), SolveError> {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
             site.drop_coarse();
         }

@@ -2,104 +2,31 @@
 //! processor's; then whole solves, and the paper's capture in full.
 
 mod page;
+mod rows;
 mod running;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
 use solver::BackendError;
 use solver::backend::Backend;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::memory::available;
 
 use self::running::{Running, failed};
+use super::error::BenchError;
+use super::paper::{PAPER_STEPS, Paper};
 use super::solves::{self, Solved};
 use super::steps::{Kind, Reach};
 use super::synthetic::Problem;
-use super::{PAPER_STEPS, Paper, TORCH_STEPS};
-use crate::suite::RunError;
+use super::torch::TORCH_STEPS;
 pub use page::{write_gpu, write_reach};
+pub use rows::{GpuPaper, GpuReport, GpuStep};
 
 /// Memory of the host that the whole of the paper's capture takes, about; with less, a quarter is done.
 const PAPER_MEMORY: u64 = 20 << 30;
 /// One over the share of the paper's pixels on a software adapter.
 const SOFTWARE_SHARE: usize = 256;
-
-/// A GPU's rows.
-#[derive(Debug, Serialize)]
-pub struct GpuReport {
-    /// Device, interface and driver.
-    pub name: String,
-    /// A processor that plays a GPU: its times say nothing about GPUs.
-    pub software: bool,
-    /// What compute kernels reach.
-    pub reach: Reach,
-    /// The paper's steps.
-    pub steps: Vec<GpuStep>,
-    /// Whole solves.
-    pub solves: Vec<Solved>,
-    /// The paper's capture.
-    pub paper: GpuPaper,
-}
-
-/// A step.
-#[derive(Debug, Serialize)]
-pub struct GpuStep {
-    /// What was done.
-    pub kind: Kind,
-    /// Pixels of all views.
-    pub pixels: usize,
-    /// Side of the textures.
-    pub texture: usize,
-    /// Milliseconds of a step: the least of several submissions, or the mean of all steps of the paper.
-    pub milliseconds: f64,
-    /// Milliseconds that the step's operations alone would take, and its bytes.
-    pub floors: [f64; 2],
-    /// Bytes on the device, where the driver counts them.
-    pub memory: Option<u64>,
-    /// Its passes, the longest first; none without a clock.
-    pub passes: Vec<PassRow>,
-    /// The losses before the first steps.
-    pub losses: Vec<f64>,
-    /// Their largest relative difference to the processor's, where those were taken too.
-    pub loss_difference: Option<f64>,
-}
-
-/// All dispatches of one name within a step.
-#[derive(Debug, Serialize)]
-pub struct PassRow {
-    /// What it does.
-    pub name: &'static str,
-    /// In a step.
-    pub dispatches: f64,
-    /// In a step, by the device's clock.
-    pub milliseconds: f64,
-    /// Milliseconds that the operations alone would take, and the bytes.
-    pub floors: [f64; 2],
-}
-
-/// The paper's capture on a GPU.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum GpuPaper {
-    /// It went through.
-    Done {
-        /// One over the share of the pixels that was really there; with all of them, all steps were taken.
-        share: usize,
-        /// One of each kind.
-        steps: Vec<GpuStep>,
-        /// Of all 3000 steps on all pixels.
-        seconds: f64,
-        /// Before them: what stays fixed is evaluated and uploaded, kernels are compiled.
-        preparation_seconds: f64,
-    },
-    /// It did not.
-    Failed {
-        /// What the device said.
-        reason: String,
-    },
-}
 
 /// A GPU that is measured.
 pub struct Device {
@@ -183,7 +110,7 @@ impl Device {
     }
 
     /// Whole solves of a capture.
-    pub fn solves(&self, capture: &Path) -> Result<[Solved; 2], RunError> {
+    pub fn solves(&self, capture: &Path) -> Result<[Solved; 2], BenchError> {
         solves::measure(capture, &self.gpu)
     }
 

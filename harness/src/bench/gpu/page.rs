@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{GpuPaper, GpuReport, GpuStep};
-use crate::bench::markdown::{count, size, write_solves};
+use super::rows::{GpuPaper, GpuReport, GpuStep};
+use crate::bench::cells::{count, size, write_solves};
 
 /// The row of what a GPU reaches, or that nobody knows.
 pub fn write_reach(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Result {

@@ -9,7 +9,7 @@ use solver::backend::resident::{BATCH, DeviceError, Resident};
 use solver::model::deviation::Deviation;
 use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
 
-use super::{GpuStep, PassRow};
+use super::rows::{GpuStep, PassRow};
 use crate::bench::steps::{Kind, Reach};
 use crate::bench::synthetic::Problem;
 

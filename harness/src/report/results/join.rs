@@ -1,7 +1,7 @@
 //! Runs of one suite over the same captures are one run with more methods: solving again what has not
 //! changed would cost hours.
 
-use super::Finished;
+use super::finished::Finished;
 use super::setting::scene;
 use crate::report::run::Case;
 use crate::report::solve::plain;

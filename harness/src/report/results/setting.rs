@@ -6,8 +6,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::Finished;
-use super::tables::escape;
+use super::finished::Finished;
+use super::markdown::escape;
 use crate::report::ReportError;
 use crate::report::run::{self, Case, Frames};
 use crate::report::solve::{interrupted, plain};

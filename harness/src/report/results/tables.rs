@@ -1,7 +1,8 @@
 //! The Markdown tables: means over faces, single faces, and what the figures are.
 
-use super::Finished;
 use super::figures::{Figure, Found, Lit, TABLES, mean, others};
+use super::finished::Finished;
+use super::markdown::{escape, head, row};
 use super::setting;
 use crate::metrics::Metric;
 use crate::report::ReportError;
@@ -273,30 +274,4 @@ pub(super) fn legend() -> String {
         ]));
     }
     text
-}
-
-fn head(first: &[&str], names: impl Iterator<Item = String>) -> String {
-    let names: Vec<String> = first.iter().map(|name| (*name).to_owned()).chain(names).collect();
-    format!("{}|{}\n", row(names.clone()), "---|".repeat(names.len()))
-}
-
-fn row(cells: impl IntoIterator<Item = String>) -> String {
-    let cells: Vec<String> = cells.into_iter().collect();
-    format!("| {} |\n", cells.join(" | "))
-}
-
-/// Text that is no markup, in a table neither.
-pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '|' | '*' | '_' | '[' | ']' => escaped.extend(['\\', c]),
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '\n' => escaped.push(' '),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

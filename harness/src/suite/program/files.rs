@@ -8,7 +8,7 @@ use std::process::Command;
 use serde::Deserialize;
 
 use super::confine::is_system;
-use super::{Program, Start};
+use super::start::{Program, Start};
 use crate::suite::content::{hash_parts, hash_path};
 use crate::synth::Interpreter;
 

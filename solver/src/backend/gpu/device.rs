@@ -192,7 +192,8 @@ impl Device {
 /// Samples of a piece on a device that has bindings of this size: 2 million where there are 128 MiB, as
 /// every adapter has them.
 fn largest_piece(binding: u64) -> usize {
-    usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * PIECE_ROWS)).min(LARGEST)) / BLOCK
+    usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * PIECE_ROWS)).min(LARGEST))
+        / BLOCK
         * BLOCK
 }
 

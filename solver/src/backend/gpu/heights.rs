@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::computing::Gpu;
 use super::blurs::blurring;
+use super::computing::Gpu;
 use super::device::Device;
 use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};

@@ -2,8 +2,8 @@
 
 use super::computing::Gpu;
 use super::device::Device;
-use super::pass::Pass;
 use super::layout::{Layout, TILE};
+use super::pass::Pass;
 use super::pieces::{DeviceTaps, Pieces, padded, pixels};
 use super::program::{Moved, Program, prior};
 use crate::backend::resident::DeviceError;

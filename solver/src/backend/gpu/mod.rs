@@ -51,10 +51,10 @@ mod timings;
 mod transported;
 mod unroll;
 
+pub use super::error::VARIABLE;
 pub use adapter::{Adapter, adapters};
 pub use ceilings::Ceilings;
 pub use computing::Gpu;
-pub use super::error::VARIABLE;
 pub use timings::{PassTime, Timings};
 
 use self::layout::Layout;

@@ -2,8 +2,8 @@
 
 use super::computing::Gpu;
 use super::device::Device;
-use super::pass::{AdamFactors, Factors, Pass, Slots, THREADS};
 use super::layout::Layout;
+use super::pass::{AdamFactors, Factors, Pass, Slots, THREADS};
 use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
 
 /// Values on the device, with their gradient and moments.
