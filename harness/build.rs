@@ -9,7 +9,10 @@ use std::{env, fs};
 fn main() {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for (name, folders) in [
-        ("UNSHADE_SOLVER_SOURCES", vec!["../solver/src"]),
+        (
+            "UNSHADE_SOLVER_SOURCES",
+            vec!["../solver/src", "../solver/capture/src", "../solver/formats/src"],
+        ),
         ("UNSHADE_SCORE_SOURCES", vec!["src/check", "src/metrics", "src/score"]),
     ] {
         let mut hasher = DefaultHasher::new();

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+use formats::picture::{GrayImage, Picture};
 use harness::metrics::{Metric, MetricError, Pair, Region, Scale};
-use solver::picture::{GrayImage, Picture};
 
 fn picture(channels: usize, value: impl Fn(usize) -> f32) -> Picture {
     let data = (0..8 * 8 * channels).map(value).collect();

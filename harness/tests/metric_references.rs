@@ -1,9 +1,9 @@
 //! Every metric against an independent implementation (scikit-image, colour-science, SciPy,
 //! flip-evaluator): `reference/metrics.py` makes the same pictures and records the values.
 
+use formats::picture::{GrayImage, Picture};
 use harness::metrics::{METRICS, Metric, Pair, Quantity, Region, Scale, black_outside};
 use serde_json::Value;
-use solver::picture::{GrayImage, Picture};
 
 const WIDTH: usize = 96;
 const HEIGHT: usize = 64;

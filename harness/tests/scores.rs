@@ -8,12 +8,12 @@ mod plane;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::picture::write_exr;
 use harness::compare::{Baseline, Tolerances, Verdict, compare};
 use harness::score::{Scores, fit_scale, oracle_maps, score};
 use harness::suite::BaselineMethod;
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
-use solver::picture::write_exr;
 
 struct Bench {
     root: tempfile::TempDir,

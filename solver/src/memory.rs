@@ -39,7 +39,8 @@
 use std::fmt;
 use std::fs;
 
-use crate::capture::Capture;
+use capture::Capture;
+
 use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.

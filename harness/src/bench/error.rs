@@ -7,7 +7,7 @@ use std::io;
 pub enum BenchError {
     /// A capture that was to be solved cannot be used.
     #[error(transparent)]
-    Capture(#[from] solver::CaptureError),
+    Capture(#[from] capture::CaptureError),
     /// A configuration cannot be used.
     #[error(transparent)]
     Config(#[from] solver::ConfigError),

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
+use capture::Mesh;
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 use solver::backend::Backend;
-use solver::capture::Mesh;
 use solver::memory::Hoard;
 use solver::model::blur::Blur;
 use solver::model::normals::DirectionScale;

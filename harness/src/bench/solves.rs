@@ -4,10 +4,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
+use capture::Capture;
 use serde::Serialize;
 use solver::config::{TextureRule, TextureSize};
 use solver::memory::Estimate;
-use solver::{Backend, BackendError, Capture, Config};
+use solver::{Backend, BackendError, Config};
 
 use super::clock::{forget_peak, peak_memory};
 use super::error::BenchError;

@@ -1,6 +1,6 @@
 //! The diffuse albedo's values: their range, coding, exposure, and the order of their channels.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::bands::Bands;
 use super::finding::Finding;

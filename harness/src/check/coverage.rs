@@ -1,6 +1,6 @@
 //! The coverage: 255 where the maps have data, else 0.
 
-use solver::picture::{GrayImage, Picture};
+use formats::picture::{GrayImage, Picture};
 
 use super::finding::Finding;
 use super::folder::COVERAGE;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, Content, GrayImage, Picture, PictureError};
+use formats::picture::{self, Content, GrayImage, Picture, PictureError};
 
 use super::finding::Finding;
 

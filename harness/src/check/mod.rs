@@ -22,7 +22,7 @@ mod witness;
 
 use std::path::{Path, PathBuf};
 
-use solver::{Capture, CaptureError};
+use capture::{Capture, CaptureError};
 
 pub use finding::{Finding, Level};
 

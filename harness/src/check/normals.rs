@@ -1,7 +1,7 @@
 //! Normal maps: their coding, their lengths, their space and how they lie.
 
+use formats::picture::Picture;
 use glam::{Mat3, Vec3};
-use solver::picture::Picture;
 
 use super::axes::{best_frame, mean_cosine};
 use super::finding::Finding;

@@ -1,7 +1,7 @@
 //! Whether maps lie as they should: the albedo against the photographs, the coverage against the
 //! chart, and without a capture the maps against their own coverage.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::bands::Bands;
 use super::finding::Finding;

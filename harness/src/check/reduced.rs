@@ -1,6 +1,6 @@
 //! A map at the size at which it is compared: small enough to be fast, large enough for brows.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 /// Side of what is compared, texels.
 pub(super) const SIDE: usize = 128;

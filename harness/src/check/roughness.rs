@@ -1,6 +1,6 @@
 //! The roughness map: GGX alphas of the two lobes, and the share of the first, the sharper one.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::finding::Finding;
 use super::reduced::{median, quantile};

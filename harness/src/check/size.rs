@@ -1,6 +1,6 @@
 //! Sizes of the maps, and values that are no numbers.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::finding::Finding;
 use super::folder::{COVERAGE, MapFolder};

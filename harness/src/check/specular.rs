@@ -1,6 +1,6 @@
 //! The specular albedo's range: reflectance at normal incidence, 0 to 0.05.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::finding::Finding;
 use super::reduced::{median, quantile};

@@ -1,10 +1,10 @@
 //! What a capture says of its maps without its truth: the mean projected texture, the mesh in
 //! texture space, and where the cameras stand.
 
+use capture::gbuffer::Atlas;
+use capture::mean_texture::mean_texture;
+use capture::{Capture, CaptureError};
 use glam::{Mat3, Vec3};
-use solver::baselines::mean_texture;
-use solver::gbuffer::Atlas;
-use solver::{Capture, CaptureError};
 
 use super::reduced::{Reduced, SIDE, quantile};
 use crate::metrics::luminance;
@@ -54,12 +54,12 @@ impl Witness {
         let of_seen = (0..SIDE * SIDE).filter(|texel| seen[*texel]);
         let bright = quantile(of_seen.map(|texel| light(texel) as f32), 0.9).unwrap_or(0.0);
         let lit = (0..SIDE * SIDE).map(|t| seen[t] && light(t) > SHADOW * bright).collect();
-        let rotation = |camera: &solver::Camera| {
+        let rotation = |camera: &capture::Camera| {
             (camera.name.clone(), Mat3::from_mat4(camera.world_to_camera()))
         };
         let train = capture.train.iter().map(|view| &view.camera);
         let shown =
-            |view: &solver::View| view.mask.data.iter().filter(|value| **value == 255).count();
+            |view: &capture::View| view.mask.data.iter().filter(|value| **value == 255).count();
         Ok(Self {
             normals: atlas.normals,
             seen,

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
-use solver::atomic;
+use formats::atomic;
 use solver::backend::gpu::{Adapter, VARIABLE};
 
 use crate::bench::{Options, markdown, run};

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::{Choice, atomic};
+use formats::atomic;
+use solver::Choice;
 
 use super::arguments::{BackendName, CompareArgs, SolveArgs, SolverName, SynthArgs, Verb};
 use super::exit::{CHECK_FAILED, DONE};
@@ -113,7 +114,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
         SolverName::Fields => {
-            let capture = solver::Capture::open(capture)?;
+            let capture = capture::Capture::open(capture)?;
             eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
             let backend = match arguments.backend {
                 BackendName::Auto => Choice::Auto,

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use formats::atomic;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use solver::atomic;
 
 use super::CompareError;
 use crate::score::Scores;

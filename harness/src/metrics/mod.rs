@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use harness::metrics::{Metric, Pair, Region};
-//! use solver::picture::Picture;
+//! use formats::picture::Picture;
 //!
 //! let truth = Picture { width: 2, height: 1, channels: 3, data: vec![0.5; 6] };
 //! let prediction = Picture { data: vec![0.4; 6], ..truth.clone() };

@@ -1,6 +1,6 @@
 //! A prediction beside its truth: checked once, compared many times.
 
-use solver::picture::{GrayImage, Picture};
+use formats::picture::{GrayImage, Picture};
 
 use super::colour::luminance;
 use super::{MetricError, Region};

@@ -1,6 +1,6 @@
 //! Where a metric is evaluated.
 
-use solver::picture::{GrayImage, Picture};
+use formats::picture::{GrayImage, Picture};
 
 use super::MetricError;
 

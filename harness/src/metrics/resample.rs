@@ -1,6 +1,6 @@
 //! Maps of another size.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 /// Samples a map bilinearly at the texel centres of another size, clamped at the border.
 pub fn resample(map: &Picture, width: usize, height: usize) -> Picture {

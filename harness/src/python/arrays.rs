@@ -4,11 +4,11 @@
 //! Whatever numpy makes an array of is taken (float of any width, signed integers, nested lists, any
 //! strides); what cannot be meant is refused by the argument's name.
 
+use formats::picture::{GrayImage, Picture};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use solver::picture::{GrayImage, Picture};
 
 use super::errors::named_error;
 

@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
+use capture::gbuffer::GBuffer;
+use capture::{Camera, Mesh, View};
+use formats::picture::Picture;
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
 use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use solver::gbuffer::GBuffer;
-use solver::picture::Picture;
 use solver::transport::{Beside, CHANNELS, Sky, Transport};
-use solver::{Camera, Mesh, View};
 
 use super::arrays::{self, Argument};
 use super::errors::raise;
@@ -19,7 +19,7 @@ use super::maps::Maps;
 /// A capture folder, opened and checked.
 #[pyclass(module = "unshade", frozen)]
 pub(super) struct Capture {
-    pub(super) inner: solver::Capture,
+    pub(super) inner: capture::Capture,
 }
 
 impl Capture {
@@ -41,7 +41,7 @@ impl Capture {
 impl Capture {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let inner = py.detach(|| solver::Capture::open(&path)).map_err(raise)?;
+        let inner = py.detach(|| capture::Capture::open(&path)).map_err(raise)?;
         Ok(Self { inner })
     }
 
@@ -159,7 +159,7 @@ impl Capture {
     /// The true maps of a synthetic capture.
     fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
         let folder = self.inner.folder.join("truth");
-        let inner = py.detach(|| solver::Maps::read(&folder)).map_err(raise)?;
+        let inner = py.detach(|| formats::Maps::read(&folder)).map_err(raise)?;
         Maps::new_from(py, inner, None)
     }
 

@@ -1,12 +1,14 @@
 //! Rust's errors as the named exceptions of `unshade.errors`.
 
+use capture::CaptureError;
+use formats::MapsError;
 use pyo3::prelude::*;
+use solver::{BackendError, ConfigError, SolveError};
 
 use crate::check::CheckError;
 use crate::report::ReportError;
 use crate::score::ScoreError;
 use crate::suite::RunError;
-use solver::{BackendError, CaptureError, ConfigError, MapsError, SolveError};
 
 /// An error that has a Python exception of its own.
 pub(super) trait Named: std::error::Error {
@@ -25,11 +27,11 @@ macro_rules! named {
 }
 
 named! {
-    solver::atomic::FolderError => "StorageError",
+    formats::atomic::FolderError => "StorageError",
     BackendError => "BackendError",
     CaptureError => "CaptureError",
     ConfigError => "ConfigError",
-    solver::picture::PictureError => "PictureError",
+    formats::picture::PictureError => "PictureError",
     crate::compare::CompareError => "CompareError",
     crate::metrics::MetricError => "MetricError",
 }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use formats::atomic::Folder;
 use pyo3::prelude::*;
-use solver::atomic::Folder;
 
 use super::errors::raise;
 

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use formats::picture::{GrayImage, Picture};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use solver::picture::{GrayImage, Picture};
 
 use super::arrays::{self, Argument};
 use super::errors::{named_error, raise};
@@ -45,11 +45,11 @@ impl Maps {
     /// What was read or solved, its arrays moved.
     pub(super) fn new_from(
         py: Python<'_>,
-        maps: solver::Maps,
+        maps: formats::Maps,
         interrupted: Option<String>,
     ) -> PyResult<Self> {
         let mut new = Self { interrupted, ..Self::default() };
-        let solver::Maps {
+        let formats::Maps {
             diffuse_albedo,
             specular_albedo,
             diffuse_normal,
@@ -75,14 +75,14 @@ impl Maps {
 
     /// A copy for the solver's side of the house; texels without coverage that hold no number are
     /// zero in it, because a renderer interpolates across the border.
-    pub(super) fn to_solver(&self, py: Python<'_>) -> solver::Maps {
+    pub(super) fn to_solver(&self, py: Python<'_>) -> formats::Maps {
         let coverage = self.coverage_of(py);
         let map = |slot: usize| {
             let mut picture = arrays::picture_of(self.floats[slot].as_ref()?.bind(py));
             picture.data.iter_mut().filter(|value| !value.is_finite()).for_each(|v| *v = 0.0);
             Some(picture)
         };
-        solver::Maps {
+        formats::Maps {
             diffuse_albedo: map(0),
             specular_albedo: map(1),
             diffuse_normal: map(2),
@@ -197,7 +197,7 @@ impl Maps {
     /// Reads whatever maps the folder has.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let inner = py.detach(|| solver::Maps::read(&path)).map_err(raise)?;
+        let inner = py.detach(|| formats::Maps::read(&path)).map_err(raise)?;
         Self::new_from(py, inner, solver::solution::interrupted(&path))
     }
 

@@ -1,19 +1,19 @@
 //! Meshes of heads of one's own: the solver's reader of OBJ files, and which way surfaces face.
 
+use capture::outward;
 use glam::Vec3;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use solver::capture::outward;
 
 /// The objects of an OBJ file, each a dict of `name`, `vertices` (V,3) float64, `triangles` (F,3)
 /// int64, `uv` (V,2) and `normals` (V,3) float64 or None, and `line_without_uv`, a line number or
 /// None. Raises ValueError for what cannot be read, with the line.
 #[pyfunction]
 pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py, PyList>> {
-    let objects = py.detach(|| solver::obj::read(data));
+    let objects = py.detach(|| formats::obj::read(data));
     let objects = objects.map_err(|error| PyValueError::new_err(error.to_string()))?;
     let list = PyList::empty(py);
     for object in objects {

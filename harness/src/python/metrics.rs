@@ -1,8 +1,8 @@
 //! `unshade.metrics`.
 
+use formats::picture::{GrayImage, Picture};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use solver::picture::{GrayImage, Picture};
 
 use super::arrays::Argument;
 use super::errors::{named_error, raise};

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use formats::picture::{self, Content, ExrFile, GrayImage, Picture, PictureError, Png};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3};
 use pyo3::prelude::*;
-use solver::picture::{self, Content, ExrFile, GrayImage, Picture, PictureError, Png};
 
 use super::errors::raise;
 

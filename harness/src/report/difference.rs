@@ -1,6 +1,6 @@
 //! Error of one picture or map against its truth, per pixel: the quantities behind the scores.
 
-use solver::picture::{GrayImage, Picture};
+use formats::picture::{GrayImage, Picture};
 
 use super::tone::Field;
 use crate::metrics::{Metric, Pair, Region};

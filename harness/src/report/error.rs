@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use solver::atomic::FolderError;
-use solver::picture::PictureError;
+use formats::atomic::FolderError;
+use formats::picture::PictureError;
 
 use crate::compare::CompareError;
 use crate::score::ScoreError;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use formats::picture::{self, GrayImage, Picture};
 use serde_json::{Value, json};
-use solver::picture::{self, GrayImage, Picture};
 
 const SIDE: usize = 96;
 const LIGHTS: [&str; 2] = ["flash", "uniform"];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::tone::{self, Raster};
 

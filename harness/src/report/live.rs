@@ -6,13 +6,15 @@ use std::collections::HashMap;
 use std::fmt::Display;
 use std::time::Duration;
 
+use capture::{Capture, View};
+use formats::Maps;
+use formats::picture::Picture;
 use glam::Mat3;
 use rerun::{
     Image, Mesh3D, Pinhole, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
     Scalars, Transform3D, ViewCoordinates, components,
 };
-use solver::picture::Picture;
-use solver::{Capture, Maps, Progress, Solution, View};
+use solver::{Progress, Solution};
 
 use super::error::ReportError;
 use super::tone::{self, Raster};

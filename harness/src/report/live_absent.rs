@@ -1,6 +1,7 @@
 //! Stands for `live.rs` where the Cargo feature `rerun` is off.
 
-use solver::{Capture, Progress, Solution};
+use capture::Capture;
+use solver::{Progress, Solution};
 
 use super::error::ReportError;
 

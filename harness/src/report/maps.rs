@@ -1,7 +1,7 @@
 //! The plates of the maps.
 
+use formats::picture::Content;
 use rayon::prelude::*;
-use solver::picture::Content;
 
 use super::difference::{self, Measure};
 use super::error::ReportError;

@@ -38,7 +38,7 @@ mod tests;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use solver::atomic::{self, Folder, FolderError};
+use formats::atomic::{self, Folder, FolderError};
 
 pub use error::ReportError;
 pub use live::Live;

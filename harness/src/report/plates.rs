@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::picture::{self, Content, ExrFile, GrayImage, Picture};
 use rayon::prelude::*;
 use serde::Serialize;
-use solver::picture::{self, Content, ExrFile, GrayImage, Picture};
 
 use super::difference::{self, Measure};
 use super::error::ReportError;

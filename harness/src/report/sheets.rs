@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::picture::{Content, Picture};
 use serde::Serialize;
-use solver::picture::{Content, Picture};
 
 use super::difference::{self, Measure};
 use super::error::ReportError;

@@ -3,8 +3,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use formats::picture::{self, Picture};
 use serde_json::{Value, json};
-use solver::picture::{self, Picture};
 
 use super::{ReportError, ReportSummary, fake, write};
 use crate::compare::Baseline;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, Picture, PictureError};
+use formats::picture::{self, Picture, PictureError};
 
 use crate::metrics::srgb;
 

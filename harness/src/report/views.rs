@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
+use formats::picture::Content;
 use rayon::prelude::*;
-use solver::picture::Content;
 
 use super::difference::Measure;
 use super::error::ReportError;

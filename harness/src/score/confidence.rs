@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::picture::{self, Content, Picture};
+use formats::picture::{self, Content, Picture};
 
 use super::ScoreError;
 use super::protocol::MAP_BLOCK;

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use solver::atomic::FolderError;
-use solver::picture::PictureError;
+use formats::atomic::FolderError;
+use formats::picture::PictureError;
 
 use crate::metrics::MetricError;
 
@@ -53,13 +53,13 @@ pub enum ScoreError {
     Picture(#[from] PictureError),
     /// The capture is broken.
     #[error(transparent)]
-    Capture(#[from] solver::CaptureError),
+    Capture(#[from] capture::CaptureError),
     /// The maps cannot be checked.
     #[error(transparent)]
     Check(#[from] crate::check::CheckError),
     /// A map is broken.
     #[error(transparent)]
-    Maps(#[from] solver::MapsError),
+    Maps(#[from] formats::MapsError),
     /// A metric cannot be computed.
     #[error("{subject}: {source}")]
     Metric {

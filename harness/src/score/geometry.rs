@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use solver::Capture;
-use solver::baselines::mean_texture;
-use solver::picture::Picture;
+use capture::Capture;
+use capture::mean_texture::mean_texture;
+use formats::picture::Picture;
 
 use super::ScoreError;
 use super::render::Render;

@@ -1,7 +1,7 @@
 //! Maps against the truth.
 
-use solver::Maps;
-use solver::picture::{GrayImage, Picture};
+use formats::Maps;
+use formats::picture::{GrayImage, Picture};
 
 use super::ScoreError;
 use super::geometry::Geometry;

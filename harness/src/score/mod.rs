@@ -16,7 +16,8 @@ mod truth;
 use std::fs;
 use std::path::Path;
 
-use solver::Maps;
+use formats::Maps;
+use formats::content_hash::hash_path;
 
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
@@ -25,7 +26,6 @@ pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
 
 use crate::check::check;
-use crate::suite::hash_path;
 use geometry::Geometry;
 use pictures::Frame;
 use truth::{Identity, Truth};

@@ -1,7 +1,7 @@
 //! What rendering noise alone does to a metric: two pictures of the same scene differ by the
 //! Monte Carlo error of both.
 
-use solver::picture::Picture;
+use formats::picture::Picture;
 
 use super::rows::Floors;
 use crate::metrics::{Quantity, RELATIVE_OFFSET, Region, srgb};

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use solver::atomic::{self, Folder};
+use formats::atomic::{self, Folder};
 
 use super::ScoreError;
 use super::truth::{self, present};

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use formats::picture::{self, GrayImage, Picture};
 use rayon::prelude::*;
-use solver::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
 use super::noise_floor;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::picture::{Content, ExrFile, GrayImage, Picture};
+use formats::picture::{Content, ExrFile, GrayImage, Picture};
 
 use super::ScoreError;
 use super::truth::{check_size, size};

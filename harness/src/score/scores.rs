@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use formats::atomic;
+use formats::picture::GrayImage;
 use serde::{Deserialize, Serialize};
-use solver::atomic;
-use solver::picture::GrayImage;
 
 use super::ScoreError;
 use super::protocol::Protocol;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use solver::picture::{self, GrayImage, Picture};
+use formats::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
 use super::protocol::Protocol;

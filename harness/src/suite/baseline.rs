@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use solver::baselines;
+use capture::Capture;
+use capture::mean_texture::mean_texture;
+use formats::{MapsError, atomic};
+use solver::baselines::semantic_initialisation;
 
 use super::error::RunError;
 
@@ -40,11 +43,11 @@ impl BaselineMethod {
 
     /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
     pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
-        solver::atomic::apart(maps, &[capture]).map_err(solver::MapsError::from)?;
-        let capture = solver::Capture::open(capture)?;
+        atomic::apart(maps, &[capture]).map_err(MapsError::from)?;
+        let capture = Capture::open(capture)?;
         let made = match self {
-            Self::MeanTexture => baselines::mean_texture(&capture, size)?,
-            Self::SemanticInitialisation => baselines::semantic_initialisation(&capture, size)?,
+            Self::MeanTexture => mean_texture(&capture, size)?,
+            Self::SemanticInitialisation => semantic_initialisation(&capture, size)?,
         };
         Ok(made.write(maps)?)
     }

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use solver::atomic::FolderError;
+use formats::atomic::FolderError;
 
 use super::scene::SceneError;
 use crate::compare::CompareError;
@@ -22,7 +22,7 @@ pub enum RunError {
     #[error(transparent)]
     Stage(StageError),
     #[error(transparent)]
-    Capture(#[from] solver::CaptureError),
+    Capture(#[from] capture::CaptureError),
     #[error(transparent)]
     Config(#[from] solver::ConfigError),
     #[error(transparent)]
@@ -30,7 +30,7 @@ pub enum RunError {
     #[error(transparent)]
     Solve(#[from] solver::SolveError),
     #[error(transparent)]
-    Maps(#[from] solver::MapsError),
+    Maps(#[from] formats::MapsError),
     #[error(transparent)]
     Score(#[from] ScoreError),
     #[error(transparent)]

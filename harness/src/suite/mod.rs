@@ -2,7 +2,6 @@
 
 mod baseline;
 mod cases;
-mod content;
 mod entrant;
 mod error;
 mod file;
@@ -20,7 +19,6 @@ mod tools;
 
 pub use baseline::BaselineMethod;
 pub use cases::Case;
-pub use content::hash_path;
 pub use entrant::{TIME_LEFT, in_words, solve};
 pub use error::RunError;
 pub use file::{SCALES, Suite};

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::atomic;
+use formats::atomic;
+use formats::content_hash::{hash_parts, hash_path};
 
 use super::cases::Case;
-use super::content::{hash_parts, hash_path};
 use super::entrant;
 use super::error::RunError;
 use super::file::Suite;

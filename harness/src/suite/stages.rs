@@ -4,7 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use solver::atomic;
+use formats::atomic;
 
 use super::error::RunError;
 use super::place;

@@ -4,8 +4,9 @@
 use std::fs;
 use std::path::Path;
 
+use formats::picture::{GrayImage, Picture, write_exr, write_png_gray};
+
 use crate::noise::normal_noise;
-use solver::picture::{GrayImage, Picture, write_exr, write_png_gray};
 
 /// Side of pictures and of the true maps.
 pub const SIDE: usize = 96;

@@ -36,7 +36,7 @@ pub struct RenderingConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewWeightConfig {
-    /// Divide the cosine by the blurred depth derivative, see [`crate::gbuffer::view_weights`].
+    /// Divide the cosine by the blurred depth derivative, see [`capture::gbuffer::view_weights`].
     pub depth: bool,
     /// Standard deviation of the blur, pixels of the full picture. Not published.
     pub depth_blur: f32,

@@ -1,8 +1,9 @@
 //! Why a decomposition did not come to its end.
 
-use crate::capture::CaptureError;
+use capture::CaptureError;
+use formats::maps::MapsError;
+
 use crate::config::ConfigError;
-use crate::maps::MapsError;
 use crate::memory::NotEnoughMemory;
 
 /// A decomposition that did not come to its end.

@@ -1,5 +1,6 @@
 //! What a solve has found so far.
 
+use capture::CaptureError;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
@@ -9,7 +10,6 @@ use super::probed::{Physical, Probed};
 use super::site::Site;
 use super::snapshot::Snapshot;
 use super::stage::State;
-use crate::capture::CaptureError;
 
 /// What a solve has found so far: with the capture and the configuration, all that is needed to go
 /// on from the end of a step.

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use formats::maps::MapsError;
+
 use super::checkpoint::Checkpoint;
-use crate::maps::MapsError;
 use crate::solution::ViewLayers;
 
 /// Where a solve stands.

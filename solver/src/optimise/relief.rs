@@ -6,6 +6,7 @@
 //! n_d the same blurred) and damped relative changes of the diffuse albedo; L1 by reweighting, conjugate
 //! gradients on the normal equations; linearised anew on every texture, coarse to fine.
 
+use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -19,7 +20,6 @@ use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
-use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;

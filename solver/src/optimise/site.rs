@@ -3,18 +3,18 @@
 
 use std::cell::OnceCell;
 
+use capture::gbuffer::{Atlas, GBuffer};
+use capture::projection::Projection;
+use capture::{Capture, View};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::stage::State;
 use crate::backend::Backend;
-use crate::capture::{Capture, View};
 use crate::config::{Config, TransportConfig, ViewWeightConfig, texture_size};
-use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::projection::Projection;
 use crate::semantic::{self, colours::ColourRegions};
 use crate::transport::{Beside, Sky, Transport};
 

@@ -2,6 +2,10 @@
 
 use std::path::Path;
 
+use capture::{Camera, Capture};
+use formats::atomic::{self, Folder};
+use formats::maps::MapsError;
+
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
 use super::error::SolveError;
@@ -11,11 +15,8 @@ use super::progress::{Callback, Options};
 use super::run::Run;
 use super::site::Site;
 use super::steps::Step;
-use crate::atomic::{self, Folder};
 use crate::backend::Backend;
-use crate::capture::{Camera, Capture};
 use crate::config::{Config, map_size, texture_size};
-use crate::maps::MapsError;
 use crate::memory::{self, Estimate};
 use crate::solution::{Solution, ViewLayers};
 

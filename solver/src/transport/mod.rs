@@ -19,13 +19,13 @@ mod matrix;
 mod rays;
 mod sky;
 
+use capture::Mesh;
+use capture::gbuffer::Atlas;
+use formats::fill;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::capture::Mesh;
 use crate::config::TransportConfig;
-use crate::fill;
-use crate::gbuffer::Atlas;
 pub use bent_highlights::{Glints, HIGHLIGHT_ROWS};
 pub use channels::CHANNELS;
 pub(crate) use channels::LUMINANCE;

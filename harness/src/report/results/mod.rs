@@ -13,7 +13,7 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
-use solver::atomic;
+use formats::atomic;
 
 use super::error::ReportError;
 use crate::score::{Protocol, Scores};

@@ -16,9 +16,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 
-use solver::atomic::Folder;
+use formats::atomic::Folder;
+use formats::content_hash::hash_parts;
 
-use super::content::hash_parts;
 use super::error::RunError;
 use crate::synth::Interrupt;
 use confine::Permissions;
@@ -184,7 +184,7 @@ fn check(maps: &Path) -> Result<(), String> {
     if !maps.join("diffuse_albedo.exr").is_file() {
         return Err("left no diffuse_albedo.exr in its maps folder".to_owned());
     }
-    solver::Maps::read(maps)
+    formats::Maps::read(maps)
         .map(drop)
         .map_err(|error| error.to_string().replace(&*maps.to_string_lossy(), "its maps folder"))
 }

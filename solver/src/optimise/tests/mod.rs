@@ -10,6 +10,10 @@ mod transported;
 
 use std::ops::ControlFlow;
 
+use capture::gbuffer::GBuffer;
+use capture::{Capture, CaptureError, View};
+use formats::maps::Maps;
+use formats::picture;
 use glam::{Vec2, Vec3};
 
 use super::error::SolveError;
@@ -17,14 +21,10 @@ use super::progress::Options;
 use super::solve::solve_on;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use crate::backend::cpu::{Cpu, Level};
-use crate::capture::{Capture, CaptureError, View};
 use crate::config::{Config, TextureSize};
-use crate::gbuffer::GBuffer;
-use crate::maps::Maps;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::picture;
 use crate::solution::Solution;
 use crate::testing;
 

@@ -1,31 +1,18 @@
 //! A capture folder: opened and checked here, once, for everyone.
 
-mod camera;
-mod error;
-mod frame;
-mod lens;
-mod mesh;
-mod orientation;
-pub mod outward;
-mod paths;
-mod transforms;
-mod view;
-mod winding;
-
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use rayon::prelude::*;
 
+use crate::camera::Camera;
+use crate::error::CaptureError;
 use crate::first_look;
-use orientation::Turned;
-use transforms::Transforms;
-
-pub use camera::Camera;
-pub use error::CaptureError;
-pub use mesh::Mesh;
-pub use view::View;
+use crate::mesh::Mesh;
+use crate::orientation::{self, Turned};
+use crate::transforms::Transforms;
+use crate::view::View;
 
 const TRANSFORMS: &str = "transforms.json";
 
@@ -149,6 +136,3 @@ fn read(path: &Path) -> Result<Vec<u8>, CaptureError> {
     std::fs::read(path)
         .map_err(|error| CaptureError::Read { path: path.to_path_buf(), reason: error.to_string() })
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use formats::obj;
 use glam::{Vec2, Vec3};
 
 use super::error::CaptureError;
 use super::winding::Winding;
-use crate::obj;
 
 /// A triangle mesh; every vertex has a position, a unit normal and a texture coordinate.
 #[derive(Clone, Debug, PartialEq)]

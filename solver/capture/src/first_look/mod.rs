@@ -8,7 +8,7 @@ use std::path::Path;
 
 use glam::Mat4;
 
-use crate::capture::{CaptureError, Mesh, View};
+use crate::{CaptureError, Mesh, View};
 use silhouette::{Comparison, REFUSED, compare, median};
 use trials::spread;
 

@@ -1,12 +1,12 @@
 //! The mesh in texture space: the point of the surface behind every texel.
 
+use formats::fill;
+use formats::picture::Picture;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::raster::{self, Hit};
-use crate::capture::Mesh;
-use crate::fill;
-use crate::picture::Picture;
+use crate::Mesh;
 
 /// The surface behind every texel of a square texture, row 0 at v = 1: texel (i, j) of N has its
 /// centre at u = (i + 0.5) / N, v = 1 - (j + 0.5) / N.

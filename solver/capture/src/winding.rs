@@ -131,7 +131,7 @@ impl Forest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capture::mesh::places;
+    use crate::mesh::places;
     use crate::testing;
 
     fn winding(positions: &[Vec3], triangles: &[[u32; 3]]) -> Winding {

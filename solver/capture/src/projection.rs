@@ -3,7 +3,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::capture::View;
+use crate::View;
 use crate::gbuffer::{Atlas, GBuffer};
 
 /// Cosine between view and normal below which a point is not used: its footprint is too long.

@@ -8,7 +8,7 @@
 use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::capture::{Camera, Mesh};
+use crate::{Camera, Mesh};
 
 /// Rows that one task paints.
 const BAND: usize = 16;

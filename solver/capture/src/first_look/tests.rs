@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::capture::Camera;
+use crate::Camera;
 use crate::testing;
 
 /// A mesh with no symmetry, 1 m in size.

@@ -1,8 +1,9 @@
 //! A mesh's silhouette beside a mask.
 
-use crate::capture::{Camera, Mesh};
+use formats::picture::GrayImage;
+
 use crate::gbuffer::rasterise;
-use crate::picture::GrayImage;
+use crate::{Camera, Mesh};
 
 /// Median overlap below which the cameras do not fit.
 pub(super) const REFUSED: f64 = 0.6;

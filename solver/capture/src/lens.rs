@@ -1,7 +1,8 @@
 //! Lens distortion: taken out of a view when it is opened, so that all cameras are pinholes.
 
+use formats::picture::{GrayImage, Picture};
+
 use super::Camera;
-use crate::picture::{GrayImage, Picture};
 
 /// Steps between the optical axis and the corner of a picture at which the lens is tested.
 const RADIAL_STEPS: usize = 256;

@@ -9,7 +9,8 @@
 //! w = max(cos, 0) / (1 + [`FALLOFF`] · s̄), which is in 0 to 1 and does not depend on the unit of
 //! length. The paper names the factors but neither their scale nor the blur; these are ours.
 
-use super::GBuffer;
+use capture::gbuffer::GBuffer;
+
 use crate::convolution::{Shape, convolve, gaussian};
 use crate::region::Region;
 
@@ -65,4 +66,32 @@ fn slopes(gbuffer: &GBuffer) -> Vec<f32> {
 pub(crate) fn blurred(picture: &[f32], shape: Shape, sigma: f32) -> Vec<f32> {
     let whole = Region::whole(shape.width, shape.height);
     convolve(picture, &gaussian(sigma), shape, &whole, |_, _, _| {}, |_, _, _| {})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn weights_are_the_form_factor() {
+        let camera = testing::camera("a", Vec3::new(0.0, 0.0, 2.0), 64);
+        let facing = GBuffer::new(&testing::square(), &camera, None);
+        let weights = facing.spread(&view_weights(&facing, 1.0), 0.0);
+        assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)));
+        let middle = weights[32 * 64 + 32];
+        assert!((middle - 1.0).abs() < 1e-3, "a facing plane has no slope: {middle}");
+        // Away from the edges a slanted plane has the slope of its tilt: its depth changes by
+        // tan(tilt) per metre across, at its centre.
+        let tilted = testing::camera("b", Vec3::new(2.0, 0.0, 2.0), 128);
+        let slanted = GBuffer::new(&testing::square(), &tilted, None);
+        let index = slanted.pixels.iter().position(|pixel| *pixel == 64 * 128 + 64).unwrap();
+        let cosine = cosine_weights(&slanted)[index];
+        assert!((cosine - 0.5_f32.sqrt()).abs() < 5e-3, "{cosine}");
+        let expected = cosine / (1.0 + FALLOFF);
+        let weight = view_weights(&slanted, 1.0)[index];
+        assert!((weight - expected).abs() < 0.02 * expected, "{weight} {expected}");
+        let edge = (0..64).find(|x| weights[32 * 64 + x] > 0.0).unwrap();
+        assert!(weights[32 * 64 + edge] < 0.3, "the silhouette counts little");
+    }
 }

@@ -3,7 +3,7 @@
 use glam::{Mat3, Mat4, Vec3};
 
 use super::silhouette::{Comparison, compare, median};
-use crate::capture::{Camera, Mesh, View};
+use crate::{Camera, Mesh, View};
 
 /// Views at which a change is tried.
 const MOST_VIEWS: usize = 5;

@@ -1,11 +1,11 @@
 use std::fs;
 use std::path::Path;
 
+use formats::picture::{self, GrayImage, Picture};
 use glam::Vec3;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::picture::{self, GrayImage, Picture};
 use crate::testing;
 
 fn written(folder: &Path) -> Vec<View> {

@@ -3,11 +3,12 @@
 use std::cmp::Reverse;
 use std::path::Path;
 
+use formats::picture::{self, Content, GrayImage, Picture};
+
 use super::camera::Camera;
 use super::error::CaptureError;
 use super::frame::Frame;
 use super::lens::Layers;
-use crate::picture::{self, Content, GrayImage, Picture};
 
 /// A training view.
 #[derive(Clone, Debug, PartialEq)]

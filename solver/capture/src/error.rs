@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::picture::PictureError;
+use formats::picture::PictureError;
 
 /// A capture folder that cannot be used.
 #[derive(Debug, thiserror::Error)]

@@ -1,12 +1,12 @@
-//! Small captures with a known answer, for the tests of this crate.
+//! Small captures with a known answer, for tests.
 
 use std::path::Path;
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 
-use crate::capture::{Camera, Mesh, View};
-use crate::gbuffer::rasterise;
-use crate::picture::{self, GrayImage, Picture};
+use capture::gbuffer::rasterise;
+use capture::{Camera, Mesh, View};
+use formats::picture::{self, GrayImage, Picture};
 
 /// The square -1..1 in the plane z = 0 with the whole unit square as its chart, facing +z.
 pub fn square() -> Mesh {

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Wall times differ from run to run, and the mark of a folder says nothing that its files do not.
-const NOT_CONTENT: [&str; 2] = ["timing.json", solver::atomic::MARK];
+const NOT_CONTENT: [&str; 2] = ["timing.json", crate::atomic::MARK];
 
 /// The BLAKE3 hash of a file, or of every path and file below a folder in sorted order.
 pub fn hash_path(path: &Path) -> io::Result<String> {

@@ -2,18 +2,15 @@
 
 mod atlas;
 mod raster;
-mod weights;
 
+use formats::picture::GrayImage;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use crate::capture::{Camera, Mesh, View};
-use crate::picture::GrayImage;
+use crate::{Camera, Mesh, View};
 
 pub use atlas::{Atlas, mesh_normal_map};
 pub use raster::{Hit, Raster, rasterise};
-pub(crate) use weights::blurred;
-pub use weights::{BLUR_SIGMA_PX, EDGE_SLOPE, FALLOFF, cosine_weights, view_weights};
 
 /// The surface behind every covered pixel of a camera, in the order of the pixels.
 #[derive(Clone, Debug, PartialEq)]

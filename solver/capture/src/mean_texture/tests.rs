@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::capture::View;
+use crate::View;
 use crate::testing;
 
 fn capture(shade: impl Fn(Vec3) -> (Vec3, u8)) -> Capture {
