@@ -13,7 +13,10 @@ fn main() {
             "UNSHADE_SOLVER_SOURCES",
             vec!["../solver/src", "../solver/capture/src", "../solver/formats/src"],
         ),
-        ("UNSHADE_SCORE_SOURCES", vec!["src/check", "src/metrics", "src/score"]),
+        (
+            "UNSHADE_SCORE_SOURCES",
+            vec!["scoring/src/check", "scoring/src/metrics", "scoring/src/score"],
+        ),
     ] {
         let mut hasher = DefaultHasher::new();
         for folder in folders {

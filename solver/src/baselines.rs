@@ -20,3 +20,6 @@ pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, C
     let seen = per_texel(&atlas, &projections, |_: &[(usize, Observation)]| true);
     with_mesh_normals(capture, &atlas, albedo, &seen)
 }
+
+#[cfg(test)]
+mod tests;

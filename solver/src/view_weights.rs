@@ -70,6 +70,8 @@ pub(crate) fn blurred(picture: &[f32], shape: Shape, sigma: f32) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::testing;
 
@@ -93,5 +95,14 @@ mod tests {
         assert!((weight - expected).abs() < 0.02 * expected, "{weight} {expected}");
         let edge = (0..64).find(|x| weights[32 * 64 + x] > 0.0).unwrap();
         assert!(weights[32 * 64 + edge] < 0.3, "the silhouette counts little");
+    }
+    #[test]
+    fn the_number_of_threads_changes_no_weight() {
+        let camera = testing::camera("a", Vec3::new(0.4, 0.3, 3.0), 50);
+        let gbuffer = GBuffer::new(&testing::dome(30), &camera, None);
+        let weights = view_weights(&gbuffer, 1.5);
+        for threads in 1..=3 {
+            assert_eq!(testing::on_threads(threads, || view_weights(&gbuffer, 1.5)), weights);
+        }
     }
 }

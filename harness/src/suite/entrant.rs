@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use indicatif::HumanDuration;
+use scoring::score;
 
 use super::error::RunError;
 use super::method::Method;
@@ -13,7 +14,6 @@ use super::preflight::Ready;
 use super::program::{Place, Usage};
 use super::sources::SOLVER_SOURCES;
 use super::tools::Tools;
-use crate::score;
 
 /// Ends what is said of a step that knows better than its share how long the rest takes.
 pub const TIME_LEFT: &str = " left";

@@ -4,11 +4,12 @@ use std::io;
 use std::path::PathBuf;
 
 use formats::atomic::FolderError;
+use report::ReportError;
+use scoring::compare::CompareError;
+use scoring::score::ScoreError;
 
 use super::scene::SceneError;
-use crate::compare::CompareError;
-use crate::report::ReportError;
-use crate::score::ScoreError;
+use crate::live::LiveError;
 use crate::synth::{InterpreterError, StageError};
 
 /// How a run can end badly; each message is one line.
@@ -34,13 +35,15 @@ pub enum RunError {
     #[error(transparent)]
     Score(#[from] ScoreError),
     #[error(transparent)]
-    Check(#[from] crate::check::CheckError),
+    Check(#[from] scoring::check::CheckError),
     #[error(transparent)]
     Report(ReportError),
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
-    Bench(#[from] crate::bench::BenchError),
+    Live(#[from] LiveError),
+    #[error(transparent)]
+    Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },
     #[error("solver {name}: {reason}")]

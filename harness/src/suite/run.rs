@@ -12,6 +12,7 @@ use std::time::Instant;
 
 use formats::atomic;
 use formats::content_hash::{hash_parts, hash_path};
+use scoring::score;
 
 use super::cases::Case;
 use super::entrant;
@@ -26,8 +27,6 @@ use super::scene::{Scene, SceneError};
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::stages::{relight, words};
 use super::tools::{Observer, Tools};
-use crate::report;
-use crate::score;
 use crate::synth::run_stage;
 
 /// The stage that comes last.

@@ -55,6 +55,3 @@ pub fn with_mesh_normals(
         coverage: Some(GrayImage { width: size, height: size, data }),
     })
 }
-
-#[cfg(test)]
-mod tests;
