@@ -83,7 +83,8 @@ def read(file: Path, folder: Path, parent: Module | None = None) -> Module:
     module = Module(file, parent)
     source = file.read_text()
     # Paths of `#[path]` are texts too.
-    text = without_tests(SILENT.sub(lambda found: found[0] if source[: found.start()].endswith("path = ") else " ", source))
+    named = lambda found: source.endswith("path = ", 0, found.start())  # noqa: E731
+    text = without_tests(SILENT.sub(lambda found: found[0] if named(found) else " ", source))
     for path, name in MODULE.findall(text):
         places = [folder / path] if path else [folder / f"{name}.rs", folder / name / "mod.rs"]
         for place in places:

@@ -1,6 +1,6 @@
 """Reference values of the metrics, by independent implementations.
 
-    python harness/tests/reference/metrics.py        writes metrics.json beside this file
+    python harness/scoring/tests/reference/metrics.py        writes metrics.json beside this file
 
 The pictures are closed formulas of integers and IEEE divisions, so that the Rust test makes
 the same bits (`tests/metric_references.rs`). Nothing of this project is imported here.
