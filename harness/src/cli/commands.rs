@@ -9,8 +9,8 @@ use solver::{Choice, atomic};
 
 use super::progress::Progress;
 use super::{
-    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
-    check, doctor,
+    BackendName, CHECK_FAILED, CompareArgs, DONE, RendererName, SolveArgs, SolverName, SynthArgs,
+    Verb, bench, check, doctor, export,
 };
 use crate::compare::{Baseline, Tolerances, compare};
 use crate::report::{self, ReportError};
@@ -22,11 +22,16 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => solve(&arguments)?,
-        Verb::Relight { capture, maps, out } => {
+        Verb::Relight { capture, maps, out, renderer } => {
+            let renderer = match renderer {
+                RendererName::Mitsuba => "mitsuba",
+                RendererName::Cycles => "cycles",
+            };
             alone("relight", |tools, step| {
-                suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
+                suite::relight_with(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
         }
+        Verb::Export(arguments) => export::export(&arguments)?,
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
@@ -64,7 +69,7 @@ fn tools() -> Tools {
 }
 
 /// Runs one stage outside a suite, with its bar.
-fn alone(
+pub(super) fn alone(
     id: &str,
     work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
 ) -> Result<(), RunError> {

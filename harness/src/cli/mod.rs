@@ -14,6 +14,7 @@ mod bench;
 mod check;
 mod commands;
 mod doctor;
+mod export;
 mod progress;
 
 use std::ffi::OsString;
@@ -47,7 +48,12 @@ enum Verb {
         /// The pictures' folder.
         #[arg(short, long)]
         out: PathBuf,
+        /// What traces the paths.
+        #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
+        renderer: RendererName,
     },
+    /// Write maps as an asset of another program, and say what it loses.
+    Export(export::ExportArgs),
     /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
     Check {
         /// The maps' folder.
@@ -190,6 +196,14 @@ enum BackendName {
     Cpu,
     /// A real GPU, or the adapter that UNSHADE_ADAPTER names by a part of its name.
     Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum RendererName {
+    /// Mitsuba, which renders the truth.
+    Mitsuba,
+    /// Blender's Cycles, a second judge (`make cycles`).
+    Cycles,
 }
 
 /// Exit codes.

@@ -31,5 +31,5 @@ pub use method::{Entrant, Method};
 pub use program::{Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};
-pub use stages::{contact_sheet, describe, relight, synth};
+pub use stages::{Export, contact_sheet, describe, export, relight, relight_with, synth};
 pub use tools::{Observer, Tools};

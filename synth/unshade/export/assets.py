@@ -1,0 +1,99 @@
+"""`export`: maps into one asset folder, with ``asset.json`` (what it says) and ``fidelity.json`` (what it loses)."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import ExportError
+from ..fingerprint import fingerprint
+from ..render import lights
+from ..render.folder import ResumableFolder, content_hash
+from ..render.pictures import write_text
+from ..render.scene import HeadScene
+from ..scene_file import Light
+from . import fidelity, layered_bsdf
+from .fidelity import Setting, setting_of
+from .gltf import FILE as GLB
+from .gltf import write_gltf
+from .materialx import write_materialx
+from .mitsuba_scene import mitsuba_shapes, write_mitsuba
+from .plain_pictures import write_pictures
+from .read_gltf import gltf_shape
+from .surface import Surface, read_surface, require_maps
+
+FORMATS = ("gltf", "mitsuba", "blender", "materialx", "png")
+
+Report = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to export: one of `FORMATS`, bits of normals (and of all of ``png``), and whether to compare."""
+
+    format: str
+    bits: int = 16
+    green_up: bool = True
+    fidelity: bool = True
+
+
+def export(
+    maps: Path, out: Path, capture: Path | None, mesh: Path | None, options: Options, progress: Report, warn: Callable[[str], None]
+) -> list[str]:
+    """Writes the asset folder; returns lines to print. Raises `ExportError`, `MapsError`, `CaptureError`."""
+    progress(0, 1, "maps")
+    surface = read_surface(maps, capture, mesh, warn)
+    require_maps(surface, maps)
+    inputs = [*sorted(maps.glob("*.exr")), *([mesh] if mesh else [capture / "mesh.obj"] if capture else [])]
+    folder = ResumableFolder(out, f"{options} {fingerprint()} {[content_hash(path) for path in inputs]}")
+    setting = setting_of(capture, surface) if capture and _needs_setting(options) else None
+    said = _write(surface, folder.path, options, setting)
+    document = {"format": options.format, "generator": _generator(), "texels": surface.size, **said}
+    write_text(folder.path / "asset.json", json.dumps(document, indent=1) + "\n")
+    lines = [f"{out / str(said['file'])}"]
+    if setting is not None and options.fidelity:
+        lines += _compare(surface, setting, folder.path, options, progress)
+    elif options.fidelity and options.format not in ("png", "materialx"):
+        warn("without a capture nothing says in which light and camera to compare; name it with --capture")
+    folder.commit()
+    progress(1, 1, "asset")
+    return lines
+
+
+def _needs_setting(options: Options) -> bool:
+    return options.format in ("mitsuba", "blender") or (options.fidelity and options.format == "gltf")
+
+
+def _write(surface: Surface, folder: Path, options: Options, setting: Setting | None) -> dict[str, Any]:
+    if options.format == "gltf":
+        return write_gltf(surface, folder, options.bits, _generator())
+    if options.format == "materialx":
+        return write_materialx(surface, folder, options.bits)
+    if options.format == "png":
+        return write_pictures(surface, folder, options.bits, options.green_up)
+    if options.format == "mitsuba":
+        if setting is None:
+            raise ExportError("a Mitsuba scene has the camera and the light of a capture; name it with --capture")
+        return write_mitsuba(surface, folder, next(iter(setting.lights.values())), setting.camera, setting.depth)
+    raise ExportError(f"{options.format}: is no format; use one of {', '.join(FORMATS)}")
+
+
+def _compare(surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report) -> list[str]:
+    layered_bsdf.register()
+    shapes = mitsuba_shapes(folder) if options.format == "mitsuba" else {"gltf": gltf_shape(folder / GLB)}
+    ours = fidelity.reference(setting, surface)
+    rows = fidelity.compare(setting, ours, shapes, folder / "fidelity", progress)
+    document = {"protocol": fidelity.PROTOCOL, "rows": rows}
+    write_text(folder / "fidelity.json", json.dumps(document, indent=1) + "\n")
+    return [fidelity.line(row) for row in rows]
+
+
+def _generator() -> str:
+    try:
+        return f"unshade {importlib.metadata.version('unshade')}"
+    except importlib.metadata.PackageNotFoundError:
+        return "unshade"
