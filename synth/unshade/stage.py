@@ -56,6 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--out", type=Path, required=True)
     relight.add_argument("--scale", type=_scale, action="append", required=True, metavar="NAME=FACTOR")
     relight.add_argument("--seed-offset", type=int, default=0)
+    relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
 
     export = verbs.add_parser("export", help="write maps as an asset of another program")
@@ -121,7 +122,10 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
 
     scene = captured_scene(options.capture)
     choice = _activate(llvm.choose(scene.versions["variant"]))
-    from .render.relight import relight
+    if options.renderer == "cycles":
+        from .cycles.relight import relight
+    else:
+        from .render.relight import relight
 
     relight(
         scene, options.maps, options.out,

@@ -11,12 +11,11 @@ from typing import Any
 
 from ..errors import ExportError
 from ..fingerprint import fingerprint
-from ..render import lights
 from ..render.folder import ResumableFolder, content_hash
 from ..render.pictures import write_text
-from ..render.scene import HeadScene
-from ..scene_file import Light
 from . import fidelity, layered_bsdf
+from .blender import FILE as BLEND
+from .blender import write_blender
 from .fidelity import Setting, setting_of
 from .gltf import FILE as GLB
 from .gltf import write_gltf
@@ -42,7 +41,13 @@ class Options:
 
 
 def export(
-    maps: Path, out: Path, capture: Path | None, mesh: Path | None, options: Options, progress: Report, warn: Callable[[str], None]
+    maps: Path,
+    out: Path,
+    capture: Path | None,
+    mesh: Path | None,
+    options: Options,
+    progress: Report,
+    warn: Callable[[str], None],
 ) -> list[str]:
     """Writes the asset folder; returns lines to print. Raises `ExportError`, `MapsError`, `CaptureError`."""
     progress(0, 1, "maps")
@@ -50,43 +55,41 @@ def export(
     require_maps(surface, maps)
     inputs = [*sorted(maps.glob("*.exr")), *([mesh] if mesh else [capture / "mesh.obj"] if capture else [])]
     folder = ResumableFolder(out, f"{options} {fingerprint()} {[content_hash(path) for path in inputs]}")
-    setting = setting_of(capture, surface) if capture and _needs_setting(options) else None
+    setting = setting_of(capture, surface)
     said = _write(surface, folder.path, options, setting)
     document = {"format": options.format, "generator": _generator(), "texels": surface.size, **said}
     write_text(folder.path / "asset.json", json.dumps(document, indent=1) + "\n")
     lines = [f"{out / str(said['file'])}"]
-    if setting is not None and options.fidelity:
+    if options.fidelity and options.format in ("gltf", "mitsuba", "blender"):
         lines += _compare(surface, setting, folder.path, options, progress)
-    elif options.fidelity and options.format not in ("png", "materialx"):
-        warn("without a capture nothing says in which light and camera to compare; name it with --capture")
     folder.commit()
     progress(1, 1, "asset")
     return lines
 
 
-def _needs_setting(options: Options) -> bool:
-    return options.format in ("mitsuba", "blender") or (options.fidelity and options.format == "gltf")
-
-
-def _write(surface: Surface, folder: Path, options: Options, setting: Setting | None) -> dict[str, Any]:
+def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -> dict[str, Any]:
     if options.format == "gltf":
         return write_gltf(surface, folder, options.bits, _generator())
     if options.format == "materialx":
         return write_materialx(surface, folder, options.bits)
     if options.format == "png":
         return write_pictures(surface, folder, options.bits, options.green_up)
+    name, light = next(iter(setting.lights.items()))
     if options.format == "mitsuba":
-        if setting is None:
-            raise ExportError("a Mitsuba scene has the camera and the light of a capture; name it with --capture")
-        return write_mitsuba(surface, folder, next(iter(setting.lights.values())), setting.camera, setting.depth)
+        return write_mitsuba(surface, folder, light, setting.camera, setting.depth)
+    if options.format == "blender":
+        return write_blender(surface, folder, name, light, setting.camera, setting.depth)
     raise ExportError(f"{options.format}: is no format; use one of {', '.join(FORMATS)}")
 
 
 def _compare(surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report) -> list[str]:
-    layered_bsdf.register()
-    shapes = mitsuba_shapes(folder) if options.format == "mitsuba" else {"gltf": gltf_shape(folder / GLB)}
-    ours = fidelity.reference(setting, surface)
-    rows = fidelity.compare(setting, ours, shapes, folder / "fidelity", progress)
+    ours, pictures = fidelity.reference(setting, surface), folder / "fidelity"
+    if options.format == "blender":
+        rows = fidelity.compare_blend(setting, ours, folder / BLEND, pictures, progress)
+    else:
+        layered_bsdf.register()
+        shapes = mitsuba_shapes(folder) if options.format == "mitsuba" else {"gltf": gltf_shape(folder / GLB)}
+        rows = fidelity.compare(setting, ours, shapes, pictures, progress)
     document = {"protocol": fidelity.PROTOCOL, "rows": rows}
     write_text(folder / "fidelity.json", json.dumps(document, indent=1) + "\n")
     return [fidelity.line(row) for row in rows]

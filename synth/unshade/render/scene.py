@@ -12,7 +12,7 @@ from ..face import Chart, Face, Part
 from .lights import AnyLight
 from .split import LambertLight
 
-_WET_ALPHA = 0.06
+WET_ALPHA = 0.06
 """GGX alpha of the eyes, which are smoother than any skin."""
 
 
@@ -109,7 +109,7 @@ def _part(part: Part):
         "type": "skin",
         "diffuse": _texture(part.diffuse),
         "specular": _texture(part.specular),
-        "alpha": _WET_ALPHA,
+        "alpha": WET_ALPHA,
     }
     return mesh_shape(part.name, part, mi.load_dict(bsdf), uv=part.uv)
 
