@@ -141,8 +141,8 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     from .export.assets import Options, export
 
     chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
-    lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
-    return {"asset": str(options.out), "lines": lines}
+    rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
+    return {"asset": str(options.out), "fidelity": rows, "lines": lines}
 
 
 def _check(options: argparse.Namespace) -> dict[str, Any]:

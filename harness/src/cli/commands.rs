@@ -28,7 +28,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
                 RendererName::Cycles => "cycles",
             };
             alone("relight", |tools, step| {
-                suite::relight_with(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
+                suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
         }
         Verb::Export(arguments) => export::export(&arguments)?,

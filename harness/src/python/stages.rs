@@ -43,7 +43,7 @@ pub(super) fn relight(
 ) -> PyResult<PathBuf> {
     watched(py, progress, |tools, said| {
         let step = &mut |done, total, what: &str| said.say(done, total, what);
-        suite::relight_with(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
+        suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
     })?;
     Ok(out)
 }

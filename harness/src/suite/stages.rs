@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use solver::atomic;
 
 use super::error::RunError;
+use super::file::RENDERERS;
 use super::place;
 use super::scene::Scene;
 use super::tools::Tools;
@@ -63,19 +64,9 @@ fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
 }
 
 /// Renders `maps` in the capture's lights, under each of `scales` (of [`SCALES`](super::SCALES)).
+///
+/// `renderer` is one of [`RENDERERS`](super::RENDERERS).
 pub fn relight(
-    capture: &Path,
-    maps: &Path,
-    out: &Path,
-    scales: &[&str],
-    tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
-) -> Result<(), RunError> {
-    relight_with("mitsuba", capture, maps, out, scales, tools, step)
-}
-
-/// As [`relight`], by the path tracer `renderer`: `mitsuba`, or `cycles`, the second judge.
-pub fn relight_with(
     renderer: &str,
     capture: &Path,
     maps: &Path,
@@ -95,7 +86,7 @@ pub fn relight_with(
         let factor = if *name == "global" { scale.global } else { 1.0 };
         arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
     }
-    if renderer != "mitsuba" {
+    if renderer != RENDERERS[0] {
         arguments.extend(words(&[("--renderer", OsStr::new(renderer))]));
     }
     run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;

@@ -48,8 +48,8 @@ def export(
     options: Options,
     progress: Report,
     warn: Callable[[str], None],
-) -> list[str]:
-    """Writes the asset folder; returns lines to print. Raises `ExportError`, `MapsError`, `CaptureError`."""
+) -> tuple[list[dict[str, Any]], list[str]]:
+    """Writes the asset folder; returns what it loses, as rows and as lines to print. Raises `ExportError`, `MapsError`, `CaptureError`."""
     progress(0, 1, "maps")
     surface = read_surface(maps, capture, mesh, warn)
     require_maps(surface, maps)
@@ -59,12 +59,12 @@ def export(
     said = _write(surface, folder.path, options, setting)
     document = {"format": options.format, "generator": _generator(), "texels": surface.size, **said}
     write_text(folder.path / "asset.json", json.dumps(document, indent=1) + "\n")
-    lines = [f"{out / str(said['file'])}"]
+    rows: list[dict[str, Any]] = []
     if options.fidelity and options.format in ("gltf", "mitsuba", "blender"):
-        lines += _compare(surface, setting, folder.path, options, progress)
+        rows = _compare(surface, setting, folder.path, options, progress)
     folder.commit()
     progress(1, 1, "asset")
-    return lines
+    return rows, [str(out / said["file"]), *map(fidelity.line, rows)]
 
 
 def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -> dict[str, Any]:
@@ -82,7 +82,7 @@ def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -
     raise ExportError(f"{options.format}: is no format; use one of {', '.join(FORMATS)}")
 
 
-def _compare(surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report) -> list[str]:
+def _compare(surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report) -> list[dict[str, Any]]:
     ours, pictures = fidelity.reference(setting, surface), folder / "fidelity"
     if options.format == "blender":
         rows = fidelity.compare_blend(setting, ours, folder / BLEND, pictures, progress)
@@ -92,7 +92,7 @@ def _compare(surface: Surface, setting: Setting, folder: Path, options: Options,
         rows = fidelity.compare(setting, ours, shapes, pictures, progress)
     document = {"protocol": fidelity.PROTOCOL, "rows": rows}
     write_text(folder / "fidelity.json", json.dumps(document, indent=1) + "\n")
-    return [fidelity.line(row) for row in rows]
+    return rows
 
 
 def _generator() -> str:
