@@ -16,6 +16,7 @@ __all__ = [
     "check_json",
     "commit_folder",
     "compare",
+    "export",
     "exr_channels",
     "measure",
     "metric_definitions",
@@ -200,8 +201,20 @@ def score_json(capture: _Path, maps: _Path, relit: _Path | None = None) -> str: 
 def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
 def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
-def relight(capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None) -> Path: ...
-def run(suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None) -> Path: ...
+def relight(
+    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None, renderer: str = "mitsuba"
+) -> Path: ...
+def export(
+    maps: _Path,
+    out: _Path,
+    options: list[str],
+    capture: _Path | None = None,
+    mesh: _Path | None = None,
+    progress: _Progress | None = None,
+) -> str: ...
+def run(
+    suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None
+) -> Path: ...
 def begin_folder(target: _Path, key: str) -> Path: ...
 def commit_folder(target: _Path, key: str) -> None: ...
 def report(run: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
@@ -218,6 +231,14 @@ def measure(
     scale: str = "none",
     beside: dict[str, ArrayLike] | None = None,
 ) -> float | None: ...
+
+def mikktspace(
+    vertices: NDArray[np.float32],
+    normals: NDArray[np.float32],
+    uv: NDArray[np.float32],
+    triangles: NDArray[np.int64],
+) -> NDArray[np.float32]:
+    """Tangents (F, 3, 4) of a mesh: xyz unit, and the sign of the bitangent; raises ValueError."""
 
 class _Object(TypedDict):
     name: str

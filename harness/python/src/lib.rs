@@ -10,6 +10,7 @@ mod meshes;
 mod metrics;
 mod pictures;
 mod stages;
+mod tangents;
 
 use pyo3::prelude::*;
 
@@ -43,5 +44,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::export, module)?)?;
+    module.add_function(wrap_pyfunction!(tangents::mikktspace, module)?)?;
     Ok(())
 }

@@ -17,7 +17,7 @@ use scoring::score;
 use super::cases::Case;
 use super::entrant;
 use super::error::RunError;
-use super::file::Suite;
+use super::file::{RENDERERS, Suite};
 use super::manifest::manifest;
 use super::method::Method;
 use super::preflight::{self, Ready};
@@ -286,14 +286,19 @@ impl Stages<'_> {
                 Ok(Made { usage, ..Made::default() })
             },
         )?;
+        let by = self.suite.relight;
+        let mut how = scales.join(" ");
+        if by != RENDERERS[0] {
+            how = format!("{how} {by}");
+        }
         let inputs: &[&str] =
-            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")];
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &how];
         let relit = self.stage(
             &format!("relit/{name}"),
             inputs,
             self.out.join("relit").join(name),
             |path, tools, step| {
-                relight(&capture.path, &maps.path, path, scales, tools, step)?;
+                relight(by, &capture.path, &maps.path, path, scales, tools, step)?;
                 Ok(Made::default())
             },
         )?;

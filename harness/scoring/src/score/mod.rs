@@ -37,6 +37,8 @@ use truth::{Identity, Truth};
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
     let truth = Truth::open(capture)?;
     let Identity { face, light, protocol } = Identity::read(capture)?;
+    let renderer = relit.map(renderer_of).transpose()?.flatten();
+    let protocol = protocol.relit_by(renderer.as_deref());
     let found = Maps::read(maps)?;
     let scale =
         found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
@@ -96,6 +98,18 @@ fn is_empty(maps: &Maps) -> bool {
     [diffuse_albedo, specular_albedo, diffuse_normal, specular_normal]
         .iter()
         .all(|map| map.is_none())
+}
+
+/// What `relit.json` says rendered the pictures; nothing for the truth's own renderer.
+fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
+    let path = relit.join("relit.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
+    let said: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
+    Ok(said["renderer"].as_str().map(str::to_owned))
 }
 
 /// What `solve.json` calls the solver, else the folder's name.

@@ -38,6 +38,17 @@ impl Protocol {
         }
         Self { id, statements }
     }
+
+    /// The same for pictures that another renderer than the truth's relit.
+    pub fn relit_by(mut self, renderer: Option<&str>) -> Self {
+        if let Some(renderer @ "cycles") = renderer {
+            self.id.push_str(&format!(" {renderer}"));
+            self.statements.push(format!(
+                "relit by {renderer}: maps were relit by another renderer than the truth; what the two renderers differ by counts against every method."
+            ));
+        }
+        self
+    }
 }
 
 const STATEMENTS: [&str; 11] = [
