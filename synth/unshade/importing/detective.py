@@ -26,7 +26,10 @@ _NAMED = 0.75
 _GAIN = 0.1
 """What it must gain."""
 
-_MOST_VIEWS = 6
+_LEAST_VIEWS, _MOST_VIEWS = 3, 6
+_MOST_TRIANGLES = 300_000
+"""Drawn for one change."""
+
 _ROUNDS = 6
 """In which a factor is fitted."""
 
@@ -73,7 +76,8 @@ def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str
     telling = [e for e in evidence if _LEAST < e.mask.mean() < _WHOLE]
     if not telling:
         return None
-    chosen = [telling[i * len(telling) // _MOST_VIEWS] for i in range(_MOST_VIEWS)] if len(telling) > _MOST_VIEWS else telling
+    most = min(max(_MOST_TRIANGLES // len(mesh.triangles), _LEAST_VIEWS), _MOST_VIEWS)
+    chosen = [telling[i * len(telling) // most] for i in range(most)] if len(telling) > most else telling
     small = [_smaller(e) for e in chosen]
     before = _union(mesh, small, PLAIN)
     if before >= SOUND:

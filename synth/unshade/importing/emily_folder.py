@@ -35,7 +35,8 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
         number = re.search(r"(\d+)$", file.stem)
         if number is None:
             continue
-        taken = sorted(below.glob(f"cam{int(number[1])}_*.exr")) + sorted(below.glob(f"cam{int(number[1]):02}_*.exr"))
+        names = {f"cam{int(number[1])}_*.exr", f"cam{int(number[1]):02}_*.exr"}
+        taken = sorted(file for name in names for file in below.glob(name))
         if not taken:
             assumed.append(f"left out: camera {number[1]} has no picture in {below.name}")
             continue
