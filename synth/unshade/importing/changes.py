@@ -78,9 +78,14 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
 def half_pixels() -> list[Change]:
     """The two changes that only many pixels can tell."""
     return [
-        Change("half-pixel", "the principal point counts pixel centres as whole numbers (OpenCV): add .5", _shifted(0.5)),
-        Change("half-pixel-back", "half a pixel was added to the principal point twice: take .5 away", _shifted(-0.5)),
+        Change("half-pixel", "the principal point counts pixel centres as whole numbers (OpenCV): add .5", _shifted(0.5, 0.5)),
+        Change("half-pixel-back", "half a pixel was added to the principal point twice: take .5 away", _shifted(-0.5, -0.5)),
     ]
+
+
+def shift(dx: float, dy: float) -> Change:
+    """A principal point elsewhere, pixels."""
+    return Change("shift", f"the principal point is off by ({dx:g}, {dy:g}) pixels", _shifted(dx, dy))
 
 
 def focal_factor(factor: float) -> Change:
@@ -135,8 +140,8 @@ def _focal(factor: float) -> Callable[[Pinhole], Pinhole]:
     return lambda camera: replace(camera, focal=(camera.focal[0] * factor, camera.focal[1] * factor))
 
 
-def _shifted(by: float) -> Callable[[Pinhole], Pinhole]:
-    return lambda camera: replace(camera, centre=(camera.centre[0] + by, camera.centre[1] + by))
+def _shifted(dx: float, dy: float) -> Callable[[Pinhole], Pinhole]:
+    return lambda camera: replace(camera, centre=(camera.centre[0] + dx, camera.centre[1] + dy))
 
 
 def _scaled(factor: float) -> Callable[[Pinhole], Pinhole]:

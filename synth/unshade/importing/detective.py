@@ -11,7 +11,7 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, single_changes
+from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
 from .chart_mesh import ChartMesh
 from .pictures import turned
 from .pinhole import Pinhole
@@ -39,14 +39,11 @@ _SIZE = 256
 _WHOLE, _LEAST = 0.98, 0.002
 """Shares of a picture beyond which a mask says nothing."""
 
-_FEWER = 0.75
-"""Pixels that a change by half a pixel must leave wrong, at most, of those that were."""
-
 _VIEWS_AGREE = 0.8
 """Share of views that must gain by half a pixel."""
 
-_EDGE = 0.03
-"""Share of a silhouette's pixels that may be wrong for half a pixel to be told at all."""
+_OF_OPPOSITE = 0.5
+"""Share of what half a pixel the other way loses that half a pixel must gain."""
 
 
 @dataclass(frozen=True)
@@ -85,8 +82,8 @@ def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str
     width, height = chosen[0].camera.width, chosen[0].camera.height
     changes = single_changes(elsewhere, width, square=width == height)
     found = [(change, _union(mesh, small, change)) for change in changes]
-    if max(union for _, union in found) < _NAMED:
-        # Nothing that has a name: factors that are fitted.
+    if max(union for _, union in found) < SOUND:
+        # Nothing that has a name fits: factors are fitted.
         found += [(change, _union(mesh, small, change)) for change in _fitted(mesh, small, width)]
     best, union = max(found, key=lambda pair: pair[1])
     if union >= _NAMED and union >= before + _GAIN:
@@ -121,15 +118,27 @@ def _growth(mesh: ChartMesh, evidence: list[Evidence], change: Change) -> float 
 
 
 def _finer(mesh: ChartMesh, evidence: list[Evidence], union: float) -> Verdict:
-    """Whether half a pixel makes masks fit that fit already, but for their edges."""
+    """Whether half a pixel makes masks fit that fit already, but for their edges.
+
+    What hides the mesh, and masks that are a little wide, make every shift as wrong as any other; a shift that
+    is due gains about what its opposite loses, a shift twice as far gains nothing more, and one across neither.
+    """
     before = [_wrong(mesh, e, PLAIN) for e in evidence]
-    area = [max(int(e.mask.sum()), 1) for e in evidence]
-    if median(b / a for b, a in zip(before, area)) <= _EDGE:
-        for change in half_pixels():
-            after = [_wrong(mesh, e, change) for e in evidence]
-            better = sum(a < b for a, b in zip(after, before)) / len(evidence)
-            if sum(after) < _FEWER * sum(before) and better >= _VIEWS_AGREE:
-                return Verdict(len(evidence), union, change, union + (sum(before) - sum(after)) / sum(area))
+    for change, (back, twice, *across) in zip(half_pixels(), ((-0.5, 1.0, 0.5), (0.5, -1.0, 0.5))):
+        after = [_wrong(mesh, e, change) for e in evidence]
+        gain = sum(before) - sum(after)
+        if gain <= 0 or sum(a < b for a, b in zip(after, before)) < _VIEWS_AGREE * len(evidence):
+            continue
+
+        def losing(dx: float, dy: float) -> int:
+            return sum(_wrong(mesh, e, shift(dx, dy)) for e in evidence) - sum(before)
+
+        side = across[0]
+        if gain < _OF_OPPOSITE * losing(back, back) or losing(twice, twice) < -_OF_OPPOSITE * gain:
+            continue
+        if min(losing(side, -side), losing(-side, side)) > -_OF_OPPOSITE * gain:
+            area = sum(int(e.mask.sum()) for e in evidence)
+            return Verdict(len(evidence), union, change, min(1.0, union + gain / max(area, 1)))
     return Verdict(len(evidence), union)
 
 
