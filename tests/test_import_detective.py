@@ -164,8 +164,10 @@ def test_inverted_masks_are_named(source: Path, tmp_path: Path) -> None:
 
 def test_a_factor_without_a_name_is_fitted(source: Path, tmp_path: Path) -> None:
     focal = _numbers(fl_x=lambda f: f["fl_x"] / 1.7, fl_y=lambda f: f["fl_y"] / 1.7)
-    assert "[focal-times-1.7" in _refused(_planted(source, tmp_path / "focal", focal), tmp_path / "a")
-    assert "[cameras-times-0.02" in _refused(_planted(source, tmp_path / "world", _positions(37.0)), tmp_path / "b")
+    message = _refused(_planted(source, tmp_path / "focal", focal), tmp_path / "a")
+    assert float(message.split("[focal-times-")[1].split("]")[0]) == pytest.approx(1.7, rel=0.01)
+    message = _refused(_planted(source, tmp_path / "world", _positions(37.0)), tmp_path / "b")
+    assert float(message.split("[cameras-times-")[1].split("]")[0]) == pytest.approx(1 / 37, rel=0.02)
 
 
 def test_a_sound_capture_is_left_alone_and_a_hopeless_one_only_warned_of(source: Path, tmp_path: Path) -> None:

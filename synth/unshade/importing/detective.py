@@ -124,7 +124,7 @@ def _finer(mesh: ChartMesh, evidence: list[Evidence], union: float) -> Verdict:
     is due gains about what its opposite loses, a shift twice as far gains nothing more, and one across neither.
     """
     before = [_wrong(mesh, e, PLAIN) for e in evidence]
-    for change, (back, twice, *across) in zip(half_pixels(), ((-0.5, 1.0, 0.5), (0.5, -1.0, 0.5))):
+    for change, half in zip(half_pixels(), (0.5, -0.5)):
         after = [_wrong(mesh, e, change) for e in evidence]
         gain = sum(before) - sum(after)
         if gain <= 0 or sum(a < b for a, b in zip(after, before)) < _VIEWS_AGREE * len(evidence):
@@ -133,10 +133,9 @@ def _finer(mesh: ChartMesh, evidence: list[Evidence], union: float) -> Verdict:
         def losing(dx: float, dy: float) -> int:
             return sum(_wrong(mesh, e, shift(dx, dy)) for e in evidence) - sum(before)
 
-        side = across[0]
-        if gain < _OF_OPPOSITE * losing(back, back) or losing(twice, twice) < -_OF_OPPOSITE * gain:
+        if gain < _OF_OPPOSITE * losing(-half, -half) or losing(2 * half, 2 * half) < -_OF_OPPOSITE * gain:
             continue
-        if min(losing(side, -side), losing(-side, side)) > -_OF_OPPOSITE * gain:
+        if min(losing(half, -half), losing(-half, half)) > -_OF_OPPOSITE * gain:
             area = sum(int(e.mask.sum()) for e in evidence)
             return Verdict(len(evidence), union, change, min(1.0, union + gain / max(area, 1)))
     return Verdict(len(evidence), union)

@@ -19,6 +19,9 @@ from .envmap import Environment
 
 _FINE = 4
 
+_FACETS = 96
+"""Facets around the sphere and from pole to pole, at least: flat ones, within a thousandth of its radius."""
+
 
 @dataclass(frozen=True)
 class CellSphere:
@@ -30,25 +33,37 @@ class CellSphere:
     lambert_light = LambertLight.BLEND
 
     def emitters(self) -> dict[str, Any]:
-        # The sphere's own azimuth turns about +Y from -Z towards -X: against that of a lat-long.
-        axes = np.eye(4)
-        axes[:3, :3] = self.radius * np.stack([[0, 0, -1], [-1, 0, 0], [0, 1, 0]], 1)
+        """A mesh: the radiance of Mitsuba's own sphere, where it varies, is lost on one side of nearby points."""
         texture = {
             "type": "bitmap",
-            "bitmap": mi.Bitmap(np.ascontiguousarray(self.cells[:, ::-1], np.float32)),
+            "bitmap": mi.Bitmap(np.ascontiguousarray(self.cells, np.float32)),
             "raw": True,
             "filter_type": "nearest",
-            "wrap_mode": "repeat",
+            "wrap_mode": "clamp",
         }
-        return {
-            "cells": {
-                "type": "sphere",
-                "to_world": mi.ScalarTransform4f(axes),
-                "flip_normals": True,
-                "emitter": {"type": "area", "radiance": texture},
-                "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}},
-            }
-        }
+        properties = mi.Properties()
+        properties["emitter"] = mi.load_dict({"type": "area", "radiance": texture})
+        properties["bsdf"] = mi.load_dict({"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}})
+        points, uv, triangles = self._tessellated()
+        mesh = mi.Mesh("cells", len(points), len(triangles), props=properties, has_vertex_texcoords=True)
+        parameters = mi.traverse(mesh)
+        parameters["vertex_positions"] = points.astype(np.float32).ravel()
+        parameters["vertex_texcoords"] = uv.astype(np.float32).ravel()
+        parameters["faces"] = triangles.astype(np.uint32).ravel()
+        parameters.update()
+        return {"cells": mesh}
+
+    def _tessellated(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Points, texture coordinates and triangles that face inwards; every cell has whole ones."""
+        rows, columns = (count * max(1, -(-_FACETS // count)) for count in self.cells.shape[:2])
+        v, u = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
+        t, p = math.pi * v, 2 * math.pi * u
+        points = self.radius * np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1)
+        corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+        a, b, c, d = corner, corner + 1, corner + columns + 1, corner + columns + 2
+        # At the poles a quadrangle is one triangle.
+        triangles = np.concatenate([np.stack([a, d, b], 1)[columns:], np.stack([a, c, d], 1)[:-columns]])
+        return points.reshape(-1, 3), np.stack([u, v], -1).reshape(-1, 2), triangles
 
 
 def found_light(maps: Path) -> CellSphere | Environment | None:
