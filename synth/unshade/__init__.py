@@ -30,6 +30,7 @@ _HOMES = {
     "check": "stages",
     "compare": "stages",
     "export": "stages",
+    "import_capture": "importing",
     "relight": "stages",
     "report": "stages",
     "run": "stages",

@@ -1,7 +1,7 @@
 """The compiled core; use it through :mod:`unshade`."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import ClassVar, TypedDict, final
 
@@ -256,6 +256,16 @@ def outward_turns(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], int]:
     """Triangles and normals to turn so that all face away from the origin, and triangles on one-sided surfaces."""
 
+def depth_of(
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int64],
+    size: tuple[int, int],
+    focal: Sequence[float],
+    centre: Sequence[float],
+    camera_to_world: Sequence[Sequence[float]],
+) -> _Float:
+    """Depth at every pixel's centre (height, width) for a pinhole of ``size`` (width, height); infinite beside the mesh."""
+
 def exr_channels(path: _Path) -> list[str]:
     """Names of an EXR's channels, from its header; raises ``errors.PictureError``, as all readers here."""
 
@@ -269,6 +279,9 @@ def read_colour(path: _Path) -> _Float:
 
 def read_light(path: _Path) -> _Float:
     """As ``read_colour``, lat-long pictures of 2 : 1 alone."""
+
+def write_colour(path: _Path, picture: _Float) -> None:
+    """Linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes."""
 
 def read_png(path: _Path) -> _Float:
     """Values from 0 to 1, (height, width, 1 or 3)."""

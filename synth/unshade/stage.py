@@ -118,6 +118,9 @@ def _synth(options: argparse.Namespace) -> dict[str, Any]:
 
 def _relight(options: argparse.Namespace) -> dict[str, Any]:
     from .render import llvm
+
+    if not (options.capture / "truth").is_dir() and (options.capture / "transforms.json").is_file():
+        return _relight_photographed(options)
     from .render.truth_scene import captured_scene
 
     scene = captured_scene(options.capture)
@@ -143,6 +146,19 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
     rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
     return {"asset": str(options.out), "fidelity": rows, "lines": lines}
+
+
+def _relight_photographed(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+
+    choice = _activate(llvm.choose("auto"))
+    from .render.photographed import relight_photographed
+
+    relight_photographed(
+        options.capture, options.maps, options.out,
+        scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
+    )  # fmt: skip
+    return {"relit": str(options.out), "variant": choice.variant}
 
 
 def _check(options: argparse.Namespace) -> dict[str, Any]:

@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
-use super::method::{self, Entrant};
+use super::method::{self, Entrant, Method};
 use super::place;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 12] = [
-    "format", "name", "title", "scene", "faces", "lights", "face", "render", "variant", "scales",
-    "relight", "solver",
+const KEYS: [&str; 13] = [
+    "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
+    "scales", "relight", "solver",
 ];
+
+/// Keys that say something of a scene.
+const OF_SCENES: [&str; 5] = ["faces", "lights", "face", "render", "variant"];
 
 /// What the diffuse albedo can be multiplied by before maps are relit: nothing, and the one factor that
 /// aligns it with the truth.
@@ -49,17 +52,28 @@ impl Suite {
         scene::check_format(path, &table)?;
         scene::check_keys(path, &table, &KEYS)?;
         let name = text_of(path, &table, "name")?;
-        let mut base = Scene::open(&place::beside(path, &text_of(path, &table, "scene")?))?;
-        match table.get("render") {
-            None => {}
-            Some(Value::Table(_)) => {
-                let render = ("render".to_owned(), table["render"].clone());
-                base = base.with_changes(&Table::from_iter([render]));
-            }
-            Some(_) => return Err(SceneError::value(path, "render", "must be a table")),
+        let photographed = cases::photographed(path, &table)?;
+        let mut cases = if photographed.is_empty() || table.contains_key("scene") {
+            rendered(path, &table)?
+        } else if let Some(key) = OF_SCENES.into_iter().find(|key| table.contains_key(*key)) {
+            let reason = "has no use for captures; leave it out, or name a scene";
+            return Err(SceneError::value(path, key, reason));
+        } else {
+            Vec::new()
+        };
+        let twice = |case: &Case| photographed.iter().any(|other| other.id == case.id);
+        if let Some(case) = cases.iter().find(|case| twice(case)) {
+            let reason =
+                format!("{} is the name of a rendered case too; rename the folder", case.id);
+            return Err(SceneError::value(path, "captures", reason));
         }
-        let cases = cases::cases_of(path, &base, &table)?;
         let entrants = method::entrants_of(path, &table)?;
+        let oracle = entrants.iter().find(|entrant| matches!(entrant.method, Method::Oracle));
+        if let (Some(oracle), false) = (oracle, photographed.is_empty()) {
+            let reason = "photographs have no true maps; leave the oracle out";
+            return Err(SceneError::in_table(path, &oracle.id, "name", reason));
+        }
+        cases.extend(photographed);
         let scales = scales_of(path, &table)?;
         let relight = relight_of(path, &table)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
@@ -69,6 +83,20 @@ impl Suite {
         })?;
         Ok(Self { path: path.to_path_buf(), name, title, cases, entrants, scales, relight, text })
     }
+}
+
+/// The cases of the suite's scene.
+fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
+    let mut base = Scene::open(&place::beside(path, &text_of(path, table, "scene")?))?;
+    match table.get("render") {
+        None => {}
+        Some(Value::Table(_)) => {
+            let render = ("render".to_owned(), table["render"].clone());
+            base = base.with_changes(&Table::from_iter([render]));
+        }
+        Some(_) => return Err(SceneError::value(path, "render", "must be a table")),
+    }
+    cases::cases_of(path, &base, table)
 }
 
 fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError> {
@@ -101,7 +129,6 @@ fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> 
 #[cfg(test)]
 mod tests {
     use super::super::baseline::BaselineMethod;
-    use super::super::method::Method;
     use super::super::program::Start;
     use super::*;
 

@@ -76,14 +76,17 @@ pub fn relight(
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
     atomic::apart(out, &[capture, maps])?;
-    let scale = score::fit_scale(capture, maps)?;
+    // Without a truth nothing says what the albedo is to be multiplied by.
+    let photographed = score::is_photographed(capture);
+    let scales: &[&str] = if photographed { &["none"] } else { scales };
+    let global = if photographed { 1.0 } else { score::fit_scale(capture, maps)?.global };
     let mut arguments = words(&[
         ("--capture", capture.as_os_str()),
         ("--maps", maps.as_os_str()),
         ("--out", out.as_os_str()),
     ]);
     for name in scales {
-        let factor = if *name == "global" { scale.global } else { 1.0 };
+        let factor = if *name == "global" { global } else { 1.0 };
         arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
     }
     if renderer != RENDERERS[0] {

@@ -18,7 +18,7 @@ from ..render import lights
 from ..render.folder import ResumableFolder, content_hash
 from ..render.meter import Meter, Progress
 from ..render.pictures import write_exr, write_text
-from ..render.relight import FILES, read_maps
+from ..render.relight import MAP_FILES, read_maps
 from ..render.rigs import cameras
 from ..render.scene_text import scene_text
 from ..scene_file import Scene
@@ -47,7 +47,7 @@ def relight(
     if render.tier != "opaque":
         warn(f"tier {render.tier}: Cycles renders the opaque skin; compare with a capture of that tier")
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
-    hashes = [content_hash(maps / f"{name}.exr") for name in FILES]
+    hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
     key = f"cycles {blender} {scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     folder = ResumableFolder(out, key)
     meter = Meter(progress, len(scales) * len(scene.lights) * len(views) * PASSES, render.width * render.height * render.samples // PASSES)

@@ -6,6 +6,7 @@ mod geometry;
 mod maps;
 mod noise_floor;
 mod oracle;
+mod photographs;
 mod pictures;
 mod protocol;
 mod render;
@@ -22,6 +23,7 @@ use formats::content_hash::hash_path;
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
 pub use oracle::oracle_maps;
+pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
 
@@ -33,8 +35,12 @@ use truth::{Identity, Truth};
 /// Scores a maps folder, and the pictures relit with it, against the capture's truth.
 ///
 /// Maps, views and pictures that a solver did not write have no rows; a folder with none of them
-/// is refused. What is likely wrong with the maps is looked for without the truth, and noted.
+/// is refused. What is likely wrong with the maps is looked for without the truth, and noted. Of a
+/// capture without a truth, pictures are held against its withheld photographs.
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
+    if is_photographed(capture) {
+        return photographs::score(capture, maps, relit);
+    }
     let truth = Truth::open(capture)?;
     let Identity { face, light, protocol } = Identity::read(capture)?;
     let renderer = relit.map(renderer_of).transpose()?.flatten();
