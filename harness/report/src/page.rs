@@ -16,7 +16,7 @@ use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
-use super::{metric, tone};
+use super::tone;
 
 /// Stands in every page.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
