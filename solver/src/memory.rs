@@ -39,11 +39,9 @@
 use std::fmt;
 use std::fs;
 
-use crate::capture::Capture;
-use crate::config::Config;
-use crate::error::SolveError;
-use crate::optimise::highlights::MOST_SAMPLES;
-use crate::optimise::site::{map_size, texture_size};
+use capture::Capture;
+
+use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.
 const PROGRAM: f64 = 50e6;
@@ -78,6 +76,22 @@ pub struct Estimate {
     pub taken: u64,
 }
 
+/// The machine has not the memory.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the solve needs {} of memory more ({estimate} in all), but {} are free; lower \
+     fine_tuning.texture_size, take the pictures at half their size, or fewer views",
+    bytes(*needed), bytes(*available)
+)]
+pub struct NotEnoughMemory {
+    /// What was to be solved.
+    pub estimate: Estimate,
+    /// Bytes on top of what is taken already.
+    pub needed: u64,
+    /// Bytes that there are.
+    pub available: u64,
+}
+
 impl Estimate {
     /// Of a solve on the processor.
     pub fn new(capture: &Capture, config: &Config) -> Self {
@@ -107,7 +121,7 @@ impl Estimate {
         let transport = match t.enabled {
             true => {
                 let samples = share * covered;
-                let followed = samples.min(MOST_SAMPLES as f64) * cells * 4.0;
+                let followed = samples.min(MOST_HIGHLIGHT_SAMPLES as f64) * cells * 4.0;
                 let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
                 warm_up_pictures + (6.0 * matrix).max(stages)
             }
@@ -131,11 +145,11 @@ impl Estimate {
     }
 
     /// Refuses a solve that would need more than `available` bytes on top of what is taken.
-    pub fn fits(&self, available: Option<u64>) -> Result<(), SolveError> {
+    pub fn fits(&self, available: Option<u64>) -> Result<(), NotEnoughMemory> {
         let needed = self.peak.saturating_sub(self.taken);
         match available {
             Some(available) if needed > available => {
-                Err(SolveError::Memory { estimate: self.clone(), needed, available })
+                Err(NotEnoughMemory { estimate: self.clone(), needed, available })
             }
             _ => Ok(()),
         }

@@ -5,16 +5,16 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::{Choice, atomic};
+use formats::atomic;
+use scoring::compare::{Baseline, Tolerances, compare};
+use scoring::score;
+use solver::Choice;
 
+use super::arguments::{BackendName, CompareArgs, SolveArgs, SolverName, SynthArgs, Verb};
+use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{
-    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
-    check, doctor,
-};
-use crate::compare::{Baseline, Tolerances, compare};
-use crate::report::{self, ReportError};
-use crate::score;
+use super::{bench, check, doctor};
+use crate::live::{Live, LiveError};
 use crate::suite::{self, BaselineMethod, Observer, RunError, RunOptions, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 
@@ -109,12 +109,12 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     }
     if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
         let reason = "a baseline has no steps to show; leave it out".to_owned();
-        return Err(ReportError::Live(reason).into());
+        return Err(LiveError(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
         SolverName::Fields => {
-            let capture = solver::Capture::open(capture)?;
+            let capture = capture::Capture::open(capture)?;
             eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
             let backend = match arguments.backend {
                 BackendName::Auto => Choice::Auto,
@@ -123,7 +123,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
             };
             let backend = backend.open()?;
             eprintln!("solve: {}", backend.name());
-            let live = arguments.rerun.as_deref().map(|place| report::Live::open(place, &capture));
+            let live = arguments.rerun.as_deref().map(|place| Live::open(place, &capture));
             let mut live = live.transpose()?;
             alone("solve", |tools, bar| {
                 let solution =

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use solver::baselines;
+use capture::Capture;
+use capture::mean_texture::mean_texture;
+use formats::{MapsError, atomic};
+use solver::baselines::semantic_initialisation;
 
 use super::error::RunError;
 
@@ -30,8 +33,8 @@ macro_rules! baselines {
 
             /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
             pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
-                solver::atomic::apart(maps, &[capture]).map_err(solver::MapsError::from)?;
-                let capture = solver::Capture::open(capture)?;
+                atomic::apart(maps, &[capture]).map_err(MapsError::from)?;
+                let capture = Capture::open(capture)?;
                 let made = match self { $(Self::$variant => $make(&capture, size)?,)* };
                 Ok(made.write(maps)?)
             }
@@ -41,10 +44,10 @@ macro_rules! baselines {
 
 baselines! {
     /// The mean of the projected colours as diffuse albedo: shading and highlights stay in it.
-    MeanTexture, "mean_texture", "mean projected texture", baselines::mean_texture;
+    MeanTexture, "mean_texture", "mean projected texture", mean_texture;
     /// What our solver starts from: one colour for each label region.
     SemanticInitialisation, "semantic_initialisation", "semantic initialisation",
-        baselines::semantic_initialisation;
+        semantic_initialisation;
 }
 
 impl BaselineMethod {

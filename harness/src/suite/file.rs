@@ -6,6 +6,7 @@ use toml::{Table, Value};
 
 use super::cases::{self, Case};
 use super::method::{self, Entrant};
+use super::place;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 11] = [
@@ -43,7 +44,7 @@ impl Suite {
         scene::check_format(path, &table)?;
         scene::check_keys(path, &table, &KEYS)?;
         let name = text_of(path, &table, "name")?;
-        let mut base = Scene::open(&scene::beside(path, &text_of(path, &table, "scene")?))?;
+        let mut base = Scene::open(&place::beside(path, &text_of(path, &table, "scene")?))?;
         match table.get("render") {
             None => {}
             Some(Value::Table(_)) => {

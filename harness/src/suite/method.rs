@@ -8,6 +8,7 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
+use super::place;
 use super::program::{Limits, Program, Start};
 use super::scene::{self, SceneError};
 
@@ -169,7 +170,7 @@ impl SolverTable {
             return wrong("threads", "must be 1 or more");
         }
         let Self { timeout_s, memory_gib, threads, .. } = *self;
-        let folder = scene::beside(path, "");
+        let folder = place::beside(path, "");
         Ok(Some(Program {
             start,
             inputs: self.inputs.iter().flatten().map(|input| folder.join(input)).collect(),
@@ -244,7 +245,7 @@ fn config_text(
     let key = if config.is_some() { "config" } else { "name" };
     let config = config.unwrap_or(name);
     let mut table = if config.ends_with(".toml") {
-        scene::read_toml(&scene::beside(path, config))?
+        scene::read_toml(&place::beside(path, config))?
     } else {
         Table::from_iter([("base".to_owned(), Value::String(config.to_owned()))])
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::atomic;
+use formats::atomic;
 
 use super::cases::Case;
 use super::error::RunError;

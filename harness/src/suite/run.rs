@@ -10,10 +10,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::atomic;
+use formats::atomic;
+use formats::content_hash::{hash_parts, hash_path};
+use scoring::score;
 
 use super::cases::Case;
-use super::content::{hash_parts, hash_path};
 use super::entrant;
 use super::error::RunError;
 use super::file::Suite;
@@ -23,11 +24,9 @@ use super::preflight::{self, Ready};
 use super::program::{self, Place};
 use super::record::{Made, Records};
 use super::scene::{Scene, SceneError};
+use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::stages::{relight, words};
 use super::tools::{Observer, Tools};
-use super::{SCORE_SOURCES, SOLVER_SOURCES};
-use crate::report;
-use crate::score;
 use crate::synth::run_stage;
 
 /// The stage that comes last.

@@ -4,13 +4,13 @@ use std::ffi::{OsStr, OsString};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use solver::atomic;
+use formats::atomic;
+use scoring::score;
 
 use super::error::RunError;
 use super::place;
 use super::scene::Scene;
 use super::tools::Tools;
-use crate::score;
 use crate::synth::run_stage;
 
 /// Renders the scene file `scene` into the capture folder `out`.

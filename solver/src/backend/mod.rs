@@ -10,10 +10,12 @@
 
 mod choice;
 pub mod cpu;
+mod error;
 pub mod gpu;
 pub mod resident;
 
-pub use choice::{BackendError, Choice};
+pub use choice::Choice;
+pub use error::BackendError;
 
 use crate::model::bend::{BentTextures, ROWS};
 use crate::model::bend_gradient::{BendGradient, RowSums};

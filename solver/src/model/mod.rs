@@ -4,6 +4,7 @@ pub mod bend;
 pub mod bend_gradient;
 pub mod blur;
 pub mod deviation;
+mod gather;
 pub mod halving;
 pub mod height;
 pub mod layer;

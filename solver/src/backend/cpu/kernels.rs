@@ -1,10 +1,10 @@
 //! The passes over a chunk of samples, written once for all vector types, and the entry points
 //! that compile them for each instruction set.
 
-use super::Level;
 use super::ahead::Ahead;
 use super::directions::{adjoint, bend as bend_directions};
 use super::lanes::{Lanes, Portable};
+use super::level::Level;
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};

@@ -10,20 +10,21 @@ mod transported;
 
 use std::ops::ControlFlow;
 
+use capture::gbuffer::GBuffer;
+use capture::{Capture, CaptureError, View};
+use formats::maps::Maps;
+use formats::picture;
 use glam::{Vec2, Vec3};
 
-use super::solve::{Options, solve_on};
+use super::error::SolveError;
+use super::progress::Options;
+use super::solve::solve_on;
 use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
 use crate::backend::cpu::{Cpu, Level};
-use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
-use crate::error::{CaptureError, SolveError};
-use crate::gbuffer::GBuffer;
-use crate::maps::Maps;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::picture;
 use crate::solution::Solution;
 use crate::testing;
 
@@ -84,7 +85,7 @@ fn small() -> Config {
 fn solve(
     capture: &Capture,
     config: &Config,
-    progress: &mut super::solve::Callback,
+    progress: &mut super::progress::Callback,
 ) -> Result<Solution, SolveError> {
     solve_on(&Cpu::new(), capture, config, Options::default(), progress)
 }
