@@ -80,7 +80,6 @@ bench: build
 lint: build .venv/lint
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
-	cargo clippy --release --package harness --features python --lib -- -D warnings
 	$(BIN)/ruff check --quiet
 	$(BIN)/ruff format --check --quiet
 	$(BIN)/python tests/check_types.py

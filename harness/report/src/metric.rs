@@ -80,8 +80,9 @@ pub(super) fn scale(id: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use scoring::metrics::Metric;
+
+    use super::*;
 
     #[test]
     fn variants_are_metrics_and_trivial_answers_are_subjects() {

@@ -109,8 +109,9 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use scoring::metrics::Metric;
+
+    use super::*;
 
     #[test]
     fn every_key_figure_is_a_metric_of_a_subject() {

@@ -242,9 +242,10 @@ pub(super) fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::report::metric;
     use scoring::metrics::Metric;
+
+    use super::*;
+    use crate::metric;
 
     #[test]
     fn every_figure_is_a_metric_of_a_subject_and_knows_which_values_are_better() {
