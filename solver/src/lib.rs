@@ -21,7 +21,6 @@ pub mod optimise;
 mod parallel;
 pub mod picture;
 pub mod projection;
-pub mod region;
 pub mod semantic;
 mod simd;
 pub mod solution;

@@ -5,6 +5,8 @@ mod bent_highlights;
 pub mod checkpoint;
 mod clock;
 mod confidence;
+pub mod deviation;
+pub mod diffuse;
 mod finish;
 mod gloss;
 mod heights;
@@ -25,6 +27,7 @@ mod tint;
 pub mod transported;
 mod vectors;
 mod veil;
+pub mod warm_up;
 
 #[cfg(test)]
 mod tests;

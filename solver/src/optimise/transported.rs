@@ -7,11 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::diffuse::Diffuse;
 use super::lit::{Lit, bent_shading};
 use super::recolour::recolour;
 use super::run::Run;
 use super::site::{Site, Standing};
-use super::stage::{Diffuse, Memory, Stage, State, layers};
+use super::stage::{Memory, Stage, State, layers};
 use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
