@@ -25,22 +25,22 @@ def no_warning(message):
     raise AssertionError(message)
 
 
-def captured(folder: Path) -> Path:
+def captured(folder: Path, samples: int = 16) -> Path:
     """A capture of the toy in ``folder/capture``; its truth is a maps folder."""
     out = folder / "capture"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(capture, "build_head", render_toy.toy_face)
         patch.setattr(capture, "face_ita", lambda maps: Tone({}, 20.0, "tan"))
         choice = llvm.choose("llvm_ad_rgb")
-        capture.synthesise(parse_scene(render_toy.toy_table(), "toy", Path()), out, choice, no_progress)
+        capture.synthesise(parse_scene(render_toy.toy_table(samples=samples), "toy", Path()), out, choice, no_progress)
     return out
 
 
-def exported(capture: Path, out: Path, format: str, **options) -> list[dict]:
-    """The rows of the fidelity of the truth's maps as an asset."""
+def exported(capture: Path, out: Path, format: str, maps: Path | None = None, **options) -> list[dict]:
+    """The rows of the fidelity of maps, or the truth's, as an asset."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fidelity, "build_head", render_toy.toy_face)
-        return export(capture / "truth", out, capture, None, Options(format, **options), no_progress, no_warning)[0]
+        return export(maps or capture / "truth", out, capture, None, Options(format, **options), no_progress, no_warning)[0]
 
 
 def needs_blender() -> None:

@@ -87,7 +87,8 @@ def export(
     with _folder_of(maps) as folder:
         place = None if capture is None else _path_of(capture)
         said = json.loads(_native.export(folder, out, options, place, mesh, progress))
-    return [{"psnr_noise": None, **row} for row in said["fidelity"]]
+    rows: list[Fidelity] = said["fidelity"]
+    return rows
 
 
 def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None) -> Scores:

@@ -28,7 +28,9 @@ def write_meshes(folder: Path, surface: Surface, parts: Sequence[Part]) -> list[
     face = {
         "diffuse": _picture(folder / "diffuse.exr", surface.maps.diffuse_albedo),
         "specular": _picture(folder / "specular.exr", surface.specular_albedo),
-        "roughness": _STANDARD if surface.maps.roughness is None else _picture(folder / "roughness.exr", surface.roughness),
+        "roughness": _STANDARD
+        if surface.maps.roughness is None
+        else _picture(folder / "roughness.exr", surface.roughness),
         "diffuse_normal": _picture(folder / "diffuse_normal.exr", surface.diffuse_normal),
         "specular_normal": _picture(folder / "specular_normal.exr", surface.specular_normal),
     }

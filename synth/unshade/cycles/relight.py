@@ -50,7 +50,8 @@ def relight(
     hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
     key = f"cycles {blender} {scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     folder = ResumableFolder(out, key)
-    meter = Meter(progress, len(scales) * len(scene.lights) * len(views) * PASSES, render.width * render.height * render.samples // PASSES)
+    pictures = len(set(scales.values())) * len(scene.lights) * len(views) * PASSES
+    meter = Meter(progress, pictures, render.width * render.height * samples_each(render.samples))
     meter.note("face")
     face = build_head(scene.face)
     chart = face.chart

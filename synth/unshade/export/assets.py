@@ -53,7 +53,7 @@ def export(
     progress(0, 1, "maps")
     surface = read_surface(maps, capture, mesh, warn)
     require_maps(surface, maps)
-    inputs = [*sorted(maps.glob("*.exr")), *([mesh] if mesh else [capture / "mesh.obj"] if capture else [])]
+    inputs = [*sorted(maps.glob("*.exr")), maps / "coverage.png", mesh or (capture or maps) / "mesh.obj"]
     folder = ResumableFolder(out, f"{options} {fingerprint()} {[content_hash(path) for path in inputs]}")
     setting = setting_of(capture, surface)
     said = _write(surface, folder.path, options, setting)

@@ -98,7 +98,8 @@ def compare(
         for name, head in heads.items():
             report(len(rows), total, f"{name} in {light_name}")
             made = _render(head, setting, light, light_name)
-            rows.append({"material": name, "light": light_name, "view": setting.camera.name, **differences(made, truth, mask)})
+            row = {"material": name, "light": light_name, "view": setting.camera.name, **differences(made, truth, mask)}
+            rows.append({**row, "psnr_noise": None})
             _write_strip(pictures / f"{name}-{light_name}.png", truth.total, made.total)
     return rows
 

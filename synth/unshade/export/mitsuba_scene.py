@@ -17,7 +17,7 @@ import numpy as np
 
 from ..render import skin_bsdf
 from ..render.camera import Camera
-from ..render.lights import AnyLight, Environment
+from ..render.lights import AnyLight, Environment, SunSky
 from ..render.mesh_file import obj_text
 from ..render.pictures import ROUGHNESS_CHANNELS, write_exr, write_text
 from ..render.skin_bsdf import F0
@@ -28,7 +28,8 @@ from .texture_files import encoded_normals
 STOCK, EXACT = "scene.xml", "exact.xml"
 
 _IOR = (1 + math.sqrt(F0)) / (1 - math.sqrt(F0))
-_SAMPLES = 128
+_SAMPLES = 144
+"""A full grid of the sampler."""
 
 _RENDER = '''"""Renders the face: python render.py [exact.xml | scene.xml] picture.exr"""
 
@@ -58,7 +59,12 @@ def write_mitsuba(surface: Surface, folder: Path, light: AnyLight, camera: Camer
     # Three channels that are no colour, by the names that every reader takes.
     write_exr(textures / "roughness.exr", {"": roughness})
     _write_stock_textures(surface, textures)
-    common = {"type": "scene", "integrator": {"type": "path", "max_depth": depth}, "camera": _camera(camera), **_light(light, textures)}
+    common = {
+        "type": "scene",
+        "integrator": {"type": "path", "max_depth": depth},
+        "camera": _camera(camera),
+        **_light(light, textures),
+    }
     face = {"type": "obj", "filename": "face.obj"}
     for name, bsdf in ((STOCK, _stock()), (EXACT, _exact())):
         write_text(folder / name, scene_text({**common, "face": {**face, "bsdf": bsdf}}))
@@ -146,8 +152,8 @@ def _camera(camera: Camera) -> dict[str, Any]:
 
 def _light(light: AnyLight, textures: Path) -> dict[str, Any]:
     emitters = light.emitters()
-    if isinstance(light, Environment) or "environment" in emitters:
-        sky = light.picture if isinstance(light, Environment) else light.sky.picture
+    if isinstance(light, (Environment, SunSky)):
+        sky = light.sky.picture if isinstance(light, SunSky) else light.picture
         write_exr(textures / "environment.exr", {"": sky})
         emitters["environment"] = {"type": "envmap", "filename": "textures/environment.exr"}
     return emitters
@@ -181,7 +187,8 @@ _TAGS = {
 
 def _plugin(name: str, plugin: dict[str, Any], depth: int) -> list[str]:
     tag, pad = _TAGS.get(plugin["type"], "bsdf"), "    " * depth
-    lines = [f'{pad}<{tag} type="{plugin["type"]}" name="{name}">']
+    # Mitsuba names nested plugins by ``name``, and those of the scene by ``id``.
+    lines = [f'{pad}<{tag} type="{plugin["type"]}" {"id" if depth == 1 else "name"}="{name}">']
     for key, value in plugin.items():
         if key != "type":
             lines += _value(key, value, depth + 1)
@@ -212,4 +219,9 @@ def _value(key: str, value: Any, depth: int) -> list[str]:
 
 def mitsuba_shapes(folder: Path) -> dict[str, Any]:
     """The face of both scenes, as Mitsuba loads them."""
-    return {Path(name).stem: mi.load_file(str(folder / name)).shapes()[0] for name in (EXACT, STOCK)}
+    found = {}
+    for name in (EXACT, STOCK):
+        # Shapes come in any order, lamps among them.
+        shapes = mi.load_file(str(folder / name)).shapes()
+        found[Path(name).stem] = next(shape for shape in shapes if shape.id() == "face")
+    return found
