@@ -28,6 +28,7 @@ _HOMES = {
     "solve": "_native",
     "check": "stages",
     "compare": "stages",
+    "consistency": "importing",
     "import_capture": "importing",
     "relight": "stages",
     "report": "stages",
