@@ -29,6 +29,7 @@ _HOMES = {
     "solve": "_native",
     "check": "stages",
     "compare": "stages",
+    "consistency": "importing",
     "export": "stages",
     "import_capture": "importing",
     "relight": "stages",

@@ -4,6 +4,8 @@ from unshade._native import Capture as Capture
 from unshade._native import Maps as Maps
 from unshade._native import __version__ as __version__
 from unshade._native import solve as solve
+from unshade.importing import Consistency as Consistency
+from unshade.importing import consistency as consistency
 from unshade.importing import import_capture as import_capture
 from unshade.scores import Score as Score
 from unshade.scores import Scores as Scores
