@@ -73,3 +73,7 @@ class ReportError(UnshadeError):
 
 class CompareError(UnshadeError):
     """A run cannot be compared with a baseline."""
+
+
+class ExportError(UnshadeError):
+    """An asset cannot be written, or the program that writes or renders it is missing."""

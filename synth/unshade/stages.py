@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypedDict
+from typing import Literal, TypedDict
 
 from unshade import _native
 from unshade._native import Capture, Maps
@@ -31,13 +31,64 @@ def synth(scene: _Path, out: _Path, *, progress: _Progress | None = None) -> Cap
     return Capture(out)
 
 
-def relight(capture: Capture | _Path, maps: Maps | _Path, out: _Path, *, progress: _Progress | None = None) -> Path:
+def relight(
+    capture: Capture | _Path,
+    maps: Maps | _Path,
+    out: _Path,
+    *,
+    renderer: Literal["mitsuba", "cycles"] = "mitsuba",
+    progress: _Progress | None = None,
+) -> Path:
     """Render maps in the capture's lights into the folder ``out``, as they are and after one factor.
 
-    ``maps`` is a maps folder, or the maps themselves.
+    ``maps`` is a maps folder, or the maps themselves. ``cycles`` is Blender's path tracer, a second judge.
     """
     with _folder_of(maps) as folder:
-        return _native.relight(_path_of(capture), folder, out, progress)
+        return _native.relight(_path_of(capture), folder, out, progress, renderer)
+
+
+class Fidelity(TypedDict):
+    """What an asset loses, in one light: the asset as its files say it beside the relit maps."""
+
+    material: str
+    """Which of the asset's materials, or what rendered it."""
+    light: str
+    view: str
+    psnr_srgb: float | None
+    """dB inside the mask; None where nothing differs."""
+    psnr_noise: float | None
+    """What noise alone would allow, where the pictures do not share theirs."""
+    diffuse_ratio: float | None
+    """Mean of the asset's diffuse layer over that of the maps; None without light in it."""
+    specular_ratio: float | None
+
+
+def export(
+    maps: Maps | _Path,
+    out: _Path,
+    *,
+    format: Literal["gltf", "mitsuba", "blender", "materialx", "png"],
+    capture: Capture | _Path | None = None,
+    mesh: _Path | None = None,
+    bits: Literal[8, 16] = 16,
+    normal_y: Literal["plus", "minus"] = "plus",
+    fidelity: bool = True,
+    progress: _Progress | None = None,
+) -> list[Fidelity]:
+    """Write maps as an asset of another program into the folder ``out``; returns what it loses.
+
+    The mesh is that of ``capture``, or the OBJ ``mesh``. ``bits`` are those of the normal maps, and of all
+    maps of ``png``, whose green points where ``normal_y`` says. The list is also in ``fidelity.json``; it is
+    empty without ``fidelity`` and for ``materialx`` and ``png``, which nothing here renders. Raises
+    `ExportError`, `MapsError`, `CaptureError`, and `RendererError` where Blender is missing.
+    """
+    options = ["--format", format, "--bits", str(bits), "--normal-y", normal_y]
+    options += [] if fidelity else ["--no-fidelity"]
+    with _folder_of(maps) as folder:
+        place = None if capture is None else _path_of(capture)
+        said = json.loads(_native.export(folder, out, options, place, mesh, progress))
+    rows: list[Fidelity] = said["fidelity"]
+    return rows
 
 
 def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None) -> Scores:

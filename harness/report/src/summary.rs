@@ -85,7 +85,14 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
             lights
         }
     };
-    let value = |subject: &str, light| column.find(subject, light, key.metric, key.scale)?.value;
+    let find = |subject: &str, light: Option<&str>, scale: &str| {
+        column.find(subject, light, key.metric, scale)?.value
+    };
+    // What is held against photographs has no factor.
+    let value = |subject: &str, light| {
+        find(subject, light, key.scale)
+            .or_else(|| find(subject, light, "none").filter(|_| column.factor().is_none()))
+    };
     let values: Vec<f64> =
         lights.into_iter().filter_map(|light| value(key.subject, light)).collect();
     let trivial = metric::trivial(key.subject).and_then(|trivial| value(trivial, None));

@@ -26,13 +26,18 @@ pub(super) struct Frame {
 impl Frame {
     /// The withheld frames of a capture whose own light is `light`.
     pub fn withheld(capture: &Path, light: &str) -> Result<Vec<Self>, ScoreError> {
+        Self::of(capture, truth::withheld(capture, light)?)
+    }
+
+    /// The frames with these names.
+    pub fn of(capture: &Path, names: Vec<String>) -> Result<Vec<Self>, ScoreError> {
         let open = |name: String| {
             let path = capture.join(format!("masks/{name}.png"));
             let mask = picture::read_png_gray(&present(path, truth::AGAIN)?)?;
             let region = Region::eroded("mask-e5", &mask).map_err(ScoreError::of(&name))?;
             Ok(Self { name, mask, region })
         };
-        truth::withheld(capture, light)?.into_iter().map(open).collect()
+        names.into_iter().map(open).collect()
     }
 
     /// How much of its mask is compared.
@@ -88,6 +93,22 @@ pub(super) fn relit_rows(
         lights.iter().flat_map(|light| ["none", "global"].map(|scale| (light, scale))).collect();
     let rows: Result<Vec<_>, ScoreError> = jobs.into_par_iter().map(rows).collect();
     Ok(rows?.concat())
+}
+
+/// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
+/// that it found; none if there is no such folder.
+pub(super) fn photograph_rows(
+    frames: &[Frame],
+    photographs: &Path,
+    folder: &Path,
+    light: Option<&str>,
+) -> Result<Vec<Row>, ScoreError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let subject = if light.is_some() { "relit" } else { "view" };
+    let heading = Heading { subject, light, scale: "none", label: None, block: PICTURE_BLOCK };
+    compare(frames, folder, photographs, heading, [subject, "", ""])
 }
 
 fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
