@@ -272,9 +272,8 @@ class _Import:
         parts = [self.format, str(self.path), repr(self.choices), content_hash(self.mesh_file)]
         for view in self.source.views:
             parts.append(f"{view!r}")
-            for file in (view.picture, view.mask, view.label):
-                if file is not None and file.is_file():
-                    parts.append(f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}")
+            files = [file for file in (view.picture, view.mask, view.label) if file is not None and file.is_file()]
+            parts += [f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}" for file in files]
         return "\n".join(parts)
 
     def _record(self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings) -> dict[str, Any]:
