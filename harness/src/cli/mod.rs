@@ -23,7 +23,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
-#[command(name = "unshade", version, max_term_width = 100)]
+#[command(
+    name = "unshade",
+    version,
+    max_term_width = 100,
+    after_help = "unshade import --help: photographs, cameras and a mesh of other programs"
+)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,

@@ -130,7 +130,8 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
         let folder = scene::beside(path, name);
         let folder = std::path::absolute(&folder).unwrap_or(folder);
         if !score::is_photographed(&folder) {
-            let reason = format!("{name} is no capture without a truth; import one, or name a scene");
+            let reason =
+                format!("{name} is no capture without a truth; import one, or name a scene");
             return Err(wrong(reason));
         }
         let id = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();

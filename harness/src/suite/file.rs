@@ -57,7 +57,8 @@ impl Suite {
         };
         let twice = |case: &Case| photographed.iter().any(|other| other.id == case.id);
         if let Some(case) = cases.iter().find(|case| twice(case)) {
-            let reason = format!("{} is the name of a rendered case too; rename the folder", case.id);
+            let reason =
+                format!("{} is the name of a rendered case too; rename the folder", case.id);
             return Err(SceneError::value(path, "captures", reason));
         }
         let entrants = method::entrants_of(path, &table)?;

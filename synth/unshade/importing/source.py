@@ -155,8 +155,9 @@ def _stem(path: str) -> str:
 def quaternion_matrix(w: float, x: float, y: float, z: float) -> Matrix:
     """The rotation of a quaternion of any length above 0."""
     q = np.array([w, x, y, z], float)
-    length = np.linalg.norm(q)
-    w, x, y, z = q / length if length > 0 else (np.nan,) * 4
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(q)
+    w, x, y, z = q / length if 0 < length < np.inf else (np.nan,) * 4
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
