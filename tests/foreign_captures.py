@@ -103,14 +103,16 @@ def metashape(capture: Path, folder: Path) -> Path:
         local[:3, 3] = rotation.T @ (world[:3, 3] - translation) / scale
         words = " ".join(repr(float(v)) for v in local.ravel())
         cameras.append(f'<camera id="{number}" sensor_id="0" label="{frame["name"]}"><transform>{words}</transform></camera>')
-    cameras.append('<camera id="97" sensor_id="0" label="off" enabled="false"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>')
+    placed = "<transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform>"
+    cameras.append(f'<camera id="97" sensor_id="0" label="off" enabled="false">{placed}</camera>')
     cameras.append('<camera id="98" sensor_id="0" label="lost"></camera>')
-    cameras.append('<camera id="99" sensor_id="1" label="dummy"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>')
+    cameras.append(f'<camera id="99" sensor_id="1" label="dummy">{placed}</camera>')
     numbers = lambda a: " ".join(repr(float(v)) for v in np.ravel(a))  # noqa: E731
+    size = f'<resolution width="{first["w"]}" height="{first["h"]}"/>'
     text = f"""<?xml version="1.0" encoding="UTF-8"?>
 <document version="2.0.0"><chunk label="Chunk 1" enabled="true"><sensors next_id="2">
-<sensor id="0" label="lens" type="frame"><resolution width="{first["w"]}" height="{first["h"]}"/>
-<calibration type="frame" class="adjusted"><resolution width="{first["w"]}" height="{first["h"]}"/><f>{first["fl_y"]!r}</f>{shift}</calibration></sensor>
+<sensor id="0" label="lens" type="frame">{size}
+<calibration type="frame" class="adjusted">{size}<f>{first["fl_y"]!r}</f>{shift}</calibration></sensor>
 <sensor id="1" label="unknown" type="frame"><resolution width="10" height="10"/></sensor></sensors>
 <cameras>{"".join(cameras)}</cameras>
 <transform><rotation>{numbers(rotation)}</rotation><translation>{numbers(translation)}</translation><scale>{scale}</scale></transform>

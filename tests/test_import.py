@@ -201,7 +201,8 @@ def test_what_cannot_be_is_refused_in_one_line(capture: Path, tmp_path: Path) ->
 
     def refused(words: str, error: type[Exception] = CaptureError, **choices: object) -> None:
         with pytest.raises(error, match=words) as refusal:
-            unshade.import_capture(str(choices.pop("format", "colmap")), path, choices.pop("out", tmp_path / "out"), **choices)  # type: ignore[arg-type]
+            format, out = str(choices.pop("format", "colmap")), choices.pop("out", tmp_path / "out")
+            unshade.import_capture(format, path, out, **choices)  # type: ignore[arg-type]
         assert "\n" not in str(refusal.value)
 
     refused("names no mesh")
