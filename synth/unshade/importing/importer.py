@@ -108,7 +108,7 @@ def import_capture(
         mesh=path_of(mesh),
         objects=tuple(objects),
         pictures=path_of(pictures),
-        masks=masks if masks in ("alpha", "silhouette") else path_of(masks),  # type: ignore[arg-type]
+        masks=masks if isinstance(masks, str) and masks in ("alpha", "silhouette") else path_of(masks),
         labels=path_of(labels),
         parser=parser,
         curve=curve,
