@@ -11,7 +11,6 @@ pub mod memory;
 pub mod model;
 pub mod optimise;
 mod parallel;
-pub mod region;
 pub mod semantic;
 mod simd;
 pub mod solution;

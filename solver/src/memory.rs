@@ -14,8 +14,8 @@
 //! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
 //!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
-//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, 4 as samples see them, 4 gradients, 3 of
-//!   the blur; the rest again the allocator's); 170 where heights have been before.
+//!   keeps) and 190 bytes a texel (7 values of the state, 8 moments, 8 as samples see them, 8 gradients, 12 of
+//!   the blur; the rest again the allocator's); 170 where heights have been before and nothing is moved.
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
@@ -55,7 +55,7 @@ const TRANSPORT_SAMPLE: f64 = 280.0;
 const HEIGHT_SAMPLE: f64 = 490.0;
 const HEIGHT_TEXEL: f64 = 100.0;
 const FINE_SAMPLE: f64 = 190.0;
-const FINE_TEXEL: f64 = 130.0;
+const FINE_TEXEL: f64 = 190.0;
 const FINE_TEXEL_AFTER_HEIGHTS: f64 = 170.0;
 const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.

@@ -19,6 +19,7 @@ from importlib import import_module
 os.environ.setdefault("NODEVICE_SELECT", "1")
 
 _HOMES = {
+    "Fidelity": "stages",
     "Finding": "stages",
     "Capture": "_native",
     "Maps": "_native",
@@ -28,6 +29,9 @@ _HOMES = {
     "solve": "_native",
     "check": "stages",
     "compare": "stages",
+    "consistency": "importing",
+    "export": "stages",
+    "import_capture": "importing",
     "relight": "stages",
     "report": "stages",
     "run": "stages",

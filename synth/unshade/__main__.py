@@ -1,4 +1,4 @@
-"""The ``unshade`` command: hands its arguments to the Rust command line."""
+"""The ``unshade`` command: hands its arguments to the Rust command line, those of ``import`` to ours."""
 
 from __future__ import annotations
 
@@ -13,6 +13,10 @@ def main() -> int:
     os.environ.setdefault("UNSHADE_PYTHON", sys.executable)
     # Ctrl-C belongs to the Rust side, which stops its stages cleanly.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if sys.argv[1:2] == ["import"]:
+        from unshade.importing.command import main as import_main
+
+        return import_main(sys.argv[2:])
     from unshade._native import run_command_line
 
     return run_command_line(["unshade", *sys.argv[1:]])

@@ -1,7 +1,7 @@
 """The compiled core; use it through :mod:`unshade`."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import ClassVar, TypedDict, final
 
@@ -12,9 +12,22 @@ __all__ = [
     "Capture",
     "Maps",
     "__version__",
+    "begin_folder",
+    "check_json",
+    "commit_folder",
     "compare",
+    "export",
+    "exr_channels",
     "measure",
     "metric_definitions",
+    "outward_turns",
+    "read_colour",
+    "read_exr",
+    "read_gray",
+    "read_ids",
+    "read_light",
+    "read_obj",
+    "read_png",
     "read_scores",
     "relight",
     "report",
@@ -77,7 +90,7 @@ class Capture:
     def camera(self, name: str) -> _Camera:
         """Any view's camera: pixels, and camera to world with OpenGL axes (4, 4)."""
     def gbuffer(self, name: str) -> _GBuffer:
-        """What any view sees of the mesh at its pixels' centres: positions and normals
+        """The mesh at the pixel centres of any view: positions (metres) and unit normals
         (height, width, 3), uvs (height, width, 2); NaN where it sees nothing of it."""
     def shading(
         self,
@@ -189,8 +202,16 @@ def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
 def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
 def relight(
-    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None
+    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None, renderer: str = "mitsuba"
 ) -> Path: ...
+def export(
+    maps: _Path,
+    out: _Path,
+    options: list[str],
+    capture: _Path | None = None,
+    mesh: _Path | None = None,
+    progress: _Progress | None = None,
+) -> str: ...
 def run(
     suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None
 ) -> Path: ...
@@ -211,6 +232,14 @@ def measure(
     beside: dict[str, ArrayLike] | None = None,
 ) -> float | None: ...
 
+def mikktspace(
+    vertices: NDArray[np.float32],
+    normals: NDArray[np.float32],
+    uv: NDArray[np.float32],
+    triangles: NDArray[np.int64],
+) -> NDArray[np.float32]:
+    """Tangents (F, 3, 4) of a mesh: xyz unit, and the sign of the bitangent; raises ValueError."""
+
 class _Object(TypedDict):
     name: str
     vertices: NDArray[np.float64]
@@ -227,10 +256,22 @@ def outward_turns(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], int]:
     """Triangles and normals to turn so that all face away from the origin, and triangles on one-sided surfaces."""
 
+def depth_of(
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int64],
+    size: tuple[int, int],
+    focal: Sequence[float],
+    centre: Sequence[float],
+    camera_to_world: Sequence[Sequence[float]],
+) -> _Float:
+    """Depth at every pixel's centre (height, width) for a pinhole of ``size`` (width, height); infinite beside the mesh."""
+
 def exr_channels(path: _Path) -> list[str]:
     """Names of an EXR's channels, from its header; raises ``errors.PictureError``, as all readers here."""
 
-def read_exr(path: _Path, names: list[str] | None = None, *, colour: bool = False, finite: bool = True) -> tuple[list[str], _Float]:
+def read_exr(
+    path: _Path, names: list[str] | None = None, *, colour: bool = False, finite: bool = True
+) -> tuple[list[str], _Float]:
     """Channels (all without ``names``) and their names; (height, width, channels), in the display window."""
 
 def read_colour(path: _Path) -> _Float:
@@ -238,6 +279,9 @@ def read_colour(path: _Path) -> _Float:
 
 def read_light(path: _Path) -> _Float:
     """As ``read_colour``, lat-long pictures of 2 : 1 alone."""
+
+def write_colour(path: _Path, picture: _Float) -> None:
+    """Linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes."""
 
 def read_png(path: _Path) -> _Float:
     """Values from 0 to 1, (height, width, 1 or 3)."""

@@ -99,7 +99,7 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     let coarse = 0.25f64.powi(pyramid.levels() as i32);
     let operations = 16.0 * pyramid.taps() as f64 * coarse + 60.0 * (1.0 - coarse);
     time("blur by a pyramid, 4 channels", operations * texels, 8.0 * texels, &mut || {
-        pyramid.apply(four.as_chunks().0);
+        pyramid.apply(&four);
     });
 
     let (mesh, sky) = (bump(256), Sky::even(16));

@@ -26,7 +26,10 @@ use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
 use solver::backend::{Backend, BackendError};
 use solver::model::deviation::Deviation;
-use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
+use solver::optimise::deviation::Relief;
+use solver::optimise::diffuse::Diffuse;
+use solver::optimise::stage::Stage;
+use solver::optimise::warm_up::WarmUp;
 
 pub use error::BenchError;
 pub use gpu::GpuReport;

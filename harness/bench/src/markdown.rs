@@ -50,13 +50,14 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
     writeln!(page, "## Steps\n")?;
     writeln!(
         page,
-        "One step of the paper's stages on synthetic G-buffers of ten views. The floors are the \
-         operations over the multiply-adds per second, of the products of networks and blurs alone \
-         (of which the share of the peak is counted) and of all arithmetic, whose every vector operation \
-         takes a multiply-add's place; and the bytes (every value read once and written once) over the \
-         memory's. The share is given of the multiply-adds above, and of those in a fifth of a millisecond \
-         right after such a step (the most of several times): what the processor is slowed down to by its \
-         work, or by others', no kernel can exceed. The last column has the time over the largest floor.\n"
+        "One step of the paper's stages on synthetic G-buffers of ten views.\n\n\
+         - *Floor*: operations over the multiply-adds per second, of the products of networks and blurs alone \
+         and of all arithmetic, whose every vector operation takes a multiply-add's place; bytes (every value \
+         read once and written once) over the memory's.\n\
+         - *Share of the peak*: the products' share of the multiply-adds above, and of those in a fifth of a \
+         millisecond right after such a step (the most of several times): what the processor is slowed down to \
+         by its work, or by others', no kernel can exceed.\n\
+         - *x floor*: the time over the largest floor.\n"
     )?;
     write_steps(page, report.steps.iter())?;
 

@@ -7,7 +7,10 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::memory::Hoard;
 use solver::model::deviation::Deviation;
-use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
+use solver::optimise::deviation::Relief;
+use solver::optimise::diffuse::Diffuse;
+use solver::optimise::stage::Stage;
+use solver::optimise::warm_up::WarmUp;
 
 use super::clock::{best, forget_peak, peak_memory};
 use super::cost::{self, Cost};

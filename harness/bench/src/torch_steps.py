@@ -32,13 +32,17 @@ def main() -> None:
     }
 
     def sampled(texture: torch.Tensor) -> torch.Tensor:
-        return functional.grid_sample(texture, grid, mode="bilinear", padding_mode="border", align_corners=False)[0, :, 0].T
+        return functional.grid_sample(texture, grid, mode="bilinear", padding_mode="border", align_corners=False)[
+            0, :, 0
+        ].T
 
     def network(number: int, values: torch.Tensor) -> torch.Tensor:
         rest = state["networks"].reshape(3, -1)[number]
         for layer, (inputs, outputs) in enumerate([(3, 16), (16, 16), (16, 8)]):
             matrix, bias, rest = rest.split([inputs * outputs, outputs, len(rest) - (inputs + 1) * outputs])
-            values = functional.linear(functional.relu(values) if layer else values, matrix.reshape(outputs, inputs), bias)
+            values = functional.linear(
+                functional.relu(values) if layer else values, matrix.reshape(outputs, inputs), bias
+            )
         return values
 
     def shading(light: torch.Tensor, soft: torch.Tensor, sharp: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
@@ -123,7 +127,11 @@ def main() -> None:
         times.append(time.perf_counter() - begin)
         losses.append(value.item())
     peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    print(json.dumps({"milliseconds": 1e3 * min(times), "losses": losses, "peak_memory": peak, "version": torch.__version__}))
+    print(
+        json.dumps(
+            {"milliseconds": 1e3 * min(times), "losses": losses, "peak_memory": peak, "version": torch.__version__}
+        )
+    )
 
 
 main()

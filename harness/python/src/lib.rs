@@ -10,6 +10,7 @@ mod meshes;
 mod metrics;
 mod pictures;
 mod stages;
+mod tangents;
 
 use pyo3::prelude::*;
 
@@ -36,12 +37,16 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::depth_of, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::exr_channels, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_exr, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_colour, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_light, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::write_colour, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::export, module)?)?;
+    module.add_function(wrap_pyfunction!(tangents::mikktspace, module)?)?;
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use formats::picture::{self, Content, ExrFile, GrayImage, Picture, PictureError, Png};
 use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray2, PyArray3};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use super::errors::raise;
@@ -53,6 +53,22 @@ pub(super) fn read_colour<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
 #[pyfunction]
 pub(super) fn read_light<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
     array(py, py.detach(|| picture::read_light(&path)).map_err(raise)?)
+}
+
+/// Writes linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes.
+#[pyfunction]
+pub(super) fn write_colour(
+    py: Python<'_>,
+    path: PathBuf,
+    picture: PyReadonlyArray3<f32>,
+) -> PyResult<()> {
+    let view = picture.as_array();
+    let (height, width, channels) = view.dim();
+    if channels != 3 {
+        return Err(pyo3::exceptions::PyValueError::new_err("picture: expected (h, w, 3)"));
+    }
+    let picture = Picture { width, height, channels, data: view.iter().copied().collect() };
+    py.detach(|| picture::write_exr_rgb(&path, &picture)).map_err(raise)
 }
 
 /// A PNG's values from 0 to 1, (height, width, 1) for a grey one, else three channels.

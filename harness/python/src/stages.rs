@@ -32,19 +32,45 @@ pub(super) fn synth(py: Python<'_>, scene: PathBuf, out: PathBuf, progress: Hear
 
 /// Renders maps in a capture's lights.
 #[pyfunction]
-#[pyo3(signature = (capture, maps, out, progress=None))]
+#[pyo3(signature = (capture, maps, out, progress=None, renderer="mitsuba"))]
 pub(super) fn relight(
     py: Python<'_>,
     capture: PathBuf,
     maps: PathBuf,
     out: PathBuf,
     progress: Heard,
+    renderer: &str,
 ) -> PyResult<PathBuf> {
     watched(py, progress, |tools, said| {
         let step = &mut |done, total, what: &str| said.say(done, total, what);
-        suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
+        suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
     })?;
     Ok(out)
+}
+
+/// Writes maps as an asset; JSON text of what the asset says of itself.
+#[pyfunction]
+#[pyo3(signature = (maps, out, options, capture=None, mesh=None, progress=None))]
+pub(super) fn export(
+    py: Python<'_>,
+    maps: PathBuf,
+    out: PathBuf,
+    options: Vec<String>,
+    capture: Option<PathBuf>,
+    mesh: Option<PathBuf>,
+    progress: Heard,
+) -> PyResult<String> {
+    let said = watched(py, progress, |tools, said| {
+        let export = suite::Export {
+            maps: &maps,
+            out: &out,
+            capture: capture.as_deref(),
+            mesh: mesh.as_deref(),
+            options: options.into_iter().map(Into::into).collect(),
+        };
+        suite::export(&export, tools, &mut |done, total, what| said.say(done, total, what))
+    })?;
+    Ok(said.to_string())
 }
 
 /// Runs a suite, resuming it, and returns its report's page.

@@ -59,7 +59,7 @@ impl MapKind {
     pub fn content(&self) -> Content {
         match self.show {
             Show::Colour { .. } => Content::Colour,
-            _ => Content::Data,
+            Show::Grey { .. } | Show::Normal => Content::Data,
         }
     }
 }

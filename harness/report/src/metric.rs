@@ -1,6 +1,6 @@
 //! The words of the table: what the ids of a row mean.
 
-use scoring::metrics::{Metric, Quantity};
+use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
 /// What is compared, in the order of the table.
@@ -57,24 +57,6 @@ pub(super) fn is_whole(row: &Row) -> bool {
     row.label.is_none() && matches!(row.region.as_str(), "coverage-e5" | "mask-e5")
 }
 
-/// The values that are compared.
-pub(super) fn space(metric: &Metric) -> &'static str {
-    match metric.quantity {
-        Quantity::SquaredErrorSrgb => "sRGB clipped to [0, 1]",
-        Quantity::Ssim | Quantity::Flip => "sRGB clipped to [0, 1], black outside",
-        Quantity::ColourDifference | Quantity::Typology => "L*a*b*, D65",
-        Quantity::Angle => "object space",
-        Quantity::HighPass
-        | Quantity::WithinLabel
-        | Quantity::LowPassError
-        | Quantity::LogErrorAndCause
-        | Quantity::TrustAndErrorRanks
-        | Quantity::TrustedAndWholeError => "log luminance",
-        Quantity::Luminance | Quantity::ErrorAndCause => "linear luminance",
-        _ => "linear",
-    }
-}
-
 /// A subject's name.
 pub(super) fn subject(id: &str) -> &str {
     SUBJECTS.iter().find(|(subject, _)| *subject == id).map_or(id, |(_, name)| name)
@@ -91,13 +73,24 @@ pub(super) fn region(id: &str, label: Option<&str>) -> String {
     label.map_or(words.to_owned(), |label| format!("{words}, {label}"))
 }
 
-/// A scale mode in words.
+/// A scale mode in words; one of another version of the scoring by its id.
 pub(super) fn scale(id: &str) -> &str {
-    match id {
-        "none" => "as is",
-        "global" => "after one factor",
-        "channel" => "after one factor per channel",
-        "median" => "after the median ratio per channel",
-        other => other,
+    ScaleMode::ALL.iter().find(|mode| mode.id() == id).map_or(id, |mode| mode.words())
+}
+
+#[cfg(test)]
+mod tests {
+    use scoring::metrics::Metric;
+
+    use super::*;
+
+    #[test]
+    fn variants_are_metrics_and_trivial_answers_are_subjects() {
+        for id in VARIANTS {
+            assert!(Metric::find(id).is_ok(), "{id} is no metric");
+        }
+        for (map, trivial) in TRIVIAL {
+            assert!(subject(map) != map && subject(trivial) != trivial, "{map}, {trivial}");
+        }
     }
 }

@@ -16,7 +16,7 @@ use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
-use super::{metric, tone};
+use super::tone;
 
 /// Stands in every page.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
@@ -24,6 +24,18 @@ const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 /// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
 /// go on.
 pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
+
+/// Every template by the name that others include it by.
+pub(super) const TEMPLATES: [(&str, &str); 8] = [
+    ("index.html", include_str!("templates/index.html")),
+    ("table.html", include_str!("templates/table.html")),
+    ("plate.html", include_str!("templates/plate.html")),
+    ("matrix.html", include_str!("templates/matrix.html")),
+    ("solve.html", include_str!("templates/solve.html")),
+    ("reading.html", include_str!("templates/reading.html")),
+    ("style.css", include_str!("templates/style.css")),
+    ("slider.js", include_str!("templates/slider.js")),
+];
 
 /// The page as the templates see it.
 #[derive(Serialize)]
@@ -131,16 +143,7 @@ impl Page {
         environment.set_undefined_behavior(UndefinedBehavior::Strict);
         environment
             .set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
-        for (name, text) in [
-            ("index.html", include_str!("templates/index.html")),
-            ("table.html", include_str!("templates/table.html")),
-            ("plate.html", include_str!("templates/plate.html")),
-            ("matrix.html", include_str!("templates/matrix.html")),
-            ("solve.html", include_str!("templates/solve.html")),
-            ("reading.html", include_str!("templates/reading.html")),
-            ("style.css", include_str!("templates/style.css")),
-            ("slider.js", include_str!("templates/slider.js")),
-        ] {
+        for (name, text) in TEMPLATES {
             environment.add_template(name, text)?;
         }
         let html = environment.get_template("index.html")?.render(Value::from(Serde(self)))?;
@@ -184,7 +187,7 @@ impl Definition {
             name: metric.name,
             unit: metric.unit,
             direction: metric.direction.symbol(),
-            space: metric::space(metric),
+            space: metric.quantity.space(),
             text: metric.definition,
             link: metric.link,
         }

@@ -46,6 +46,7 @@ impl Studio<'_> {
         let group = format!("solve-{}", plates::file_name(&method.column.entrant.id));
         let sheets = [
             self.light_sheet(&group, maps)?,
+            self.relit_sheet(&group, method)?,
             self.confidence_sheet(&group, method, maps)?,
             self.stage_sheet(&group, maps)?,
             self.layer_sheet(&group, maps)?,
@@ -81,6 +82,40 @@ impl Studio<'_> {
             columns,
             rows: vec![SheetRow { title: String::new(), tiles }],
             tile_rem: 16.0,
+            folded: false,
+        }))
+    }
+
+    /// Of photographs: the withheld views in every light, for most of which there is no truth.
+    fn relit_sheet(&self, group: &str, method: &Method) -> Result<Option<Sheet>, ReportError> {
+        let relit = method.relit.as_ref().filter(|_| !self.frames.root.join("truth").is_dir());
+        let lights = relit.map_or(Ok(Vec::new()), |relit| folders(&relit.join("none")))?;
+        let mut rows = Vec::new();
+        for frame in &self.frames.test {
+            let tile = |folder: &PathBuf| {
+                let path = folder.join(format!("{}.exr", frame.name));
+                let Some(picture) = read_colour(&path, Layer::ALL.channels)? else {
+                    return Ok(None);
+                };
+                let raster = tone::colour(&tone::shrink(&picture, STAGE_SIDE), 1.0);
+                let light = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                self.save(group, &format!("relit-{light}-{}", frame.name), &raster).map(Some)
+            };
+            let tiles: Vec<_> = lights.iter().map(tile).collect::<Result<_, ReportError>>()?;
+            if tiles.iter().any(Option::is_some) {
+                rows.push(SheetRow { title: format!("view {}", frame.name), tiles });
+            }
+        }
+        let names = lights.iter().filter_map(|light| light.file_name());
+        let columns = names.map(|name| name.to_string_lossy().into_owned()).collect();
+        let caption = "The withheld views with the recovered maps, path-traced in the light that was \
+                       found and in others; linear colour, sRGB curve.";
+        Ok((!rows.is_empty()).then(|| Sheet {
+            title: "Relit",
+            caption: caption.to_owned(),
+            columns,
+            rows,
+            tile_rem: 9.5,
             folded: false,
         }))
     }

@@ -85,7 +85,14 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
             lights
         }
     };
-    let value = |subject: &str, light| column.find(subject, light, key.metric, key.scale)?.value;
+    let find = |subject: &str, light: Option<&str>, scale: &str| {
+        column.find(subject, light, key.metric, scale)?.value
+    };
+    // What is held against photographs has no factor.
+    let value = |subject: &str, light| {
+        find(subject, light, key.scale)
+            .or_else(|| find(subject, light, "none").filter(|_| column.factor().is_none()))
+    };
     let values: Vec<f64> =
         lights.into_iter().filter_map(|light| value(key.subject, light)).collect();
     let trivial = metric::trivial(key.subject).and_then(|trivial| value(trivial, None));
@@ -97,5 +104,20 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
             format!("{} / {}", table::shown(value, 2), table::shown(trivial, 2))
         }
         (value, _) => table::shown(value, 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use scoring::metrics::Metric;
+
+    use super::*;
+
+    #[test]
+    fn every_key_figure_is_a_metric_of_a_subject() {
+        for key in KEY_FIGURES {
+            assert!(Metric::find(key.metric).is_ok(), "{}", key.metric);
+            assert_ne!(metric::subject(key.subject), key.subject);
+        }
     }
 }

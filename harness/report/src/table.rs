@@ -194,7 +194,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
         unit,
         direction: known.map_or("", |metric| metric.direction.symbol()),
         region: metric::region(&key.region, key.label.as_deref()),
-        space: known.map_or("", metric::space),
+        space: known.map_or("", |metric| metric.quantity.space()),
         scale: metric::scale(&key.scale).to_owned(),
         cells,
         trivial: shown(trivial, decimals),

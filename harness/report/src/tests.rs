@@ -7,6 +7,8 @@ use formats::picture::{self, Picture};
 use scoring::compare::Baseline;
 use serde_json::{Value, json};
 
+use super::page::{Page, TEMPLATES};
+use super::run::RunFile;
 use super::{ReportError, ReportSummary, fake, write};
 
 struct Made {
@@ -94,6 +96,27 @@ fn a_plain_mesh_that_beats_the_recovered_normal_is_the_bold_one() {
     assert_eq!(between(row, "<td class=\"trivial\">", "</td>"), ["<b>3.50</b>"]);
     assert!(between(row, "<td class=\"solver\">", "</td>")[0].starts_with("4.00"), "{row}");
     assert!(html.contains("<td>4.00 / 3.50</td>"), "the key figures name both");
+}
+
+#[test]
+fn every_part_of_the_page_and_of_a_case_is_shown_by_a_template() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    fake::write(&run);
+    let manifest = RunFile::open(&run).unwrap();
+    let page = Page::make(&run, &manifest, folder.path(), &mut |_, _, _| true).unwrap();
+    let page = serde_json::to_value(page).unwrap();
+    let shown = |key: &str| {
+        let mut words = TEMPLATES
+            .iter()
+            .flat_map(|(_, text)| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_'));
+        words.any(|word| word == key)
+    };
+    for part in [&page, &page["cases"][0]] {
+        for key in part.as_object().unwrap().keys() {
+            assert!(shown(key), "no template shows {key}");
+        }
+    }
 }
 
 #[test]

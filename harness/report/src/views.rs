@@ -140,7 +140,8 @@ impl Studio<'_> {
     fn lights(&self) -> Result<Vec<String>, ReportError> {
         let folder = self.frames.root.join("truth/relit");
         if !folder.is_dir() {
-            return Ok(Vec::new());
+            // Of photographs no other light is known.
+            return Ok(vec![self.light.to_owned()]);
         }
         let mut lights = Vec::new();
         for entry in fs::read_dir(&folder).map_err(|error| ReportError::read(&folder, error))? {
@@ -162,6 +163,8 @@ impl Studio<'_> {
         let truth = match source {
             Source::View if layer.name.is_none() => frame.image.clone(),
             Source::View => folder.join("layers").join(&file),
+            // A photograph is the truth in its own light.
+            Source::Relit { .. } if layer.name.is_none() && !folder.is_dir() => frame.image.clone(),
             Source::Relit { light, .. } => folder.join("relit").join(light).join(&file),
         };
         let Some(truth) = plates::read_if_present(&truth, layer.channels, Content::Colour)? else {

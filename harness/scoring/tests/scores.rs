@@ -12,6 +12,7 @@ use formats::picture::write_exr;
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
 use scoring::compare::{Baseline, Tolerances, Verdict, compare};
+use scoring::metrics::METRICS;
 use scoring::score::{Scores, fit_scale, oracle_maps, score};
 
 struct Bench {
@@ -169,6 +170,23 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
     assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
     assert_eq!(scored(&|_| 0.7)[0], None);
     assert!((scored(&|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn every_metric_is_scored_of_something() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.root.path().join("oracle");
+    oracle_maps(&bench.capture(), &maps).unwrap();
+    write_exr(&maps.join("confidence.exr"), &map(SIDE, 1, |u, _| [u; 3]), &["Y"]).unwrap();
+    for frame in [3, 4] {
+        let view = maps.join(format!("views/{frame:03}.exr"));
+        write_render(&view, frame, 0.0, &mut || 0.0, 1.0);
+    }
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    for metric in METRICS {
+        let found = scores.rows.iter().any(|row| row.metric == metric.id);
+        assert!(found, "{} has no row: name it in metrics/registry.rs, scored", metric.id);
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::bench::BenchArgs;
+use super::export::ExportArgs;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
@@ -32,7 +33,12 @@ pub(super) enum Verb {
         /// The pictures' folder.
         #[arg(short, long)]
         out: PathBuf,
+        /// What traces the paths.
+        #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
+        renderer: RendererName,
     },
+    /// Write maps as an asset of another program, and say what it loses.
+    Export(ExportArgs),
     /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
     Check {
         /// The maps' folder.
@@ -175,6 +181,14 @@ pub(super) enum BackendName {
     Cpu,
     /// A real GPU, or the adapter that UNSHADE_ADAPTER names by a part of its name.
     Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum RendererName {
+    /// Mitsuba, which renders the truth.
+    Mitsuba,
+    /// Blender's Cycles, a second judge (`make cycles`).
+    Cycles,
 }
 
 #[cfg(test)]

@@ -10,10 +10,12 @@ use scoring::compare::{Baseline, Tolerances, compare};
 use scoring::score;
 use solver::Choice;
 
-use super::arguments::{BackendName, CompareArgs, SolveArgs, SolverName, SynthArgs, Verb};
+use super::arguments::{
+    BackendName, CompareArgs, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
+};
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{bench, check, doctor};
+use super::{bench, check, doctor, export};
 use crate::live::{Live, LiveError};
 use crate::suite::{self, BaselineMethod, Observer, RunError, RunOptions, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
@@ -22,11 +24,16 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => solve(&arguments)?,
-        Verb::Relight { capture, maps, out } => {
+        Verb::Relight { capture, maps, out, renderer } => {
+            let renderer = match renderer {
+                RendererName::Mitsuba => "mitsuba",
+                RendererName::Cycles => "cycles",
+            };
             alone("relight", |tools, step| {
-                suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
+                suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
         }
+        Verb::Export(arguments) => export::export(&arguments)?,
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
@@ -64,7 +71,7 @@ fn tools() -> Tools {
 }
 
 /// Runs one stage outside a suite, with its bar.
-fn alone(
+pub(super) fn alone(
     id: &str,
     work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
 ) -> Result<(), RunError> {

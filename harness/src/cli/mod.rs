@@ -16,6 +16,7 @@ mod check;
 mod commands;
 mod doctor;
 mod exit;
+mod export;
 mod progress;
 
 use std::ffi::OsString;

@@ -1,10 +1,12 @@
 //! The cases of a suite: every face in every light, in every variant of the scene.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use super::place;
 use super::scene::{self, Scene, SceneError};
+use scoring::score;
 
 /// One capture: a face in a light, in a variant of the scene.
 #[derive(Clone, Debug)]
@@ -13,8 +15,10 @@ pub struct Case {
     pub id: String,
     /// The variant's name; none in a suite without variants.
     pub variant: Option<String>,
-    /// What is rendered.
+    /// What is rendered; of photographs the names alone.
     pub scene: Scene,
+    /// The capture's folder, if it was photographed and not rendered.
+    pub photographed: Option<PathBuf>,
 }
 
 /// The tables of a scene that a variant may change.
@@ -110,7 +114,36 @@ fn case(path: &Path, mut scene: Scene, variant: Option<&Variant>) -> Result<Case
     }
     scene::check_id(path, &id)?;
     scene.table.insert("name".to_owned(), Value::String(id.clone()));
-    Ok(Case { id, variant: variant.map(|variant| variant.name.clone()), scene })
+    let variant = variant.map(|variant| variant.name.clone());
+    Ok(Case { id, variant, scene, photographed: None })
+}
+
+/// The captures of the file's list, folders beside it, each a case of its folder's name.
+pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, SceneError> {
+    let Some(listed) = suite.get("captures") else { return Ok(Vec::new()) };
+    let wrong = |reason: String| SceneError::value(path, "captures", reason);
+    let names: Option<Vec<&str>> =
+        listed.as_array().and_then(|list| list.iter().map(Value::as_str).collect());
+    let names = names.filter(|names| !names.is_empty());
+    let names = names.ok_or_else(|| wrong("must be a list of captures' folders".to_owned()))?;
+    let mut cases: Vec<Case> = Vec::new();
+    for name in names {
+        let folder = place::beside(path, name);
+        let folder = std::path::absolute(&folder).unwrap_or(folder);
+        if !score::is_photographed(&folder) {
+            let reason =
+                format!("{name} is no capture without a truth; import one, or name a scene");
+            return Err(wrong(reason));
+        }
+        let id = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        scene::check_id(path, &id)?;
+        if cases.iter().any(|other| other.id == id) {
+            return Err(wrong(format!("{id} occurs twice; rename one folder")));
+        }
+        let scene = Scene::named(&id, score::FOUND_LIGHT);
+        cases.push(Case { id, variant: None, scene, photographed: Some(folder) });
+    }
+    Ok(cases)
 }
 
 /// The variants of the file; a single none where it has none.

@@ -36,7 +36,11 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
             json!({
                 "id": case.id, "face": case.scene.name_of("face"),
                 "light": case.scene.name_of("light"), "variant": case.variant,
-                "capture": format!("captures/{}", case.id), "solvers": solvers,
+                "capture": match &case.photographed {
+                    Some(folder) => folder.display().to_string(),
+                    None => format!("captures/{}", case.id),
+                },
+                "solvers": solvers,
             })
         })
         .collect();

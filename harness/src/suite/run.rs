@@ -17,7 +17,7 @@ use scoring::score;
 use super::cases::Case;
 use super::entrant;
 use super::error::RunError;
-use super::file::Suite;
+use super::file::{RENDERERS, Suite};
 use super::manifest::manifest;
 use super::method::Method;
 use super::preflight::{self, Ready};
@@ -73,7 +73,8 @@ pub fn run(
     }
     program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprint()?;
-    let total = suite.cases.len() * (1 + 3 * suite.entrants.len()) + 1;
+    let rendered = suite.cases.iter().filter(|case| case.photographed.is_none()).count();
+    let total = rendered + suite.cases.len() * 3 * suite.entrants.len() + 1;
     let records = Records::open(out)?;
     let failed = BTreeMap::new();
     let mut stages =
@@ -167,7 +168,8 @@ impl Stages<'_> {
         let captures = self.out.join("captures");
         fs::create_dir_all(&captures)?;
         let mut pending = Vec::new();
-        for case in &self.suite.cases {
+        let rendered = self.suite.cases.iter().filter(|case| case.photographed.is_none());
+        for case in rendered {
             let scene = case.scene.to_toml().map_err(io::Error::other)?;
             atomic::write_file(&captures.join(format!("{}.toml", case.id)), scene.as_bytes())?;
             let (id, path) = (format!("capture/{}", case.id), captures.join(&case.id));
@@ -214,6 +216,10 @@ impl Stages<'_> {
     }
 
     fn capture(&mut self, case: &Case, renderer: &str) -> Result<Output, RunError> {
+        if let Some(path) = case.photographed.clone() {
+            let content = hash_path(&path)?;
+            return Ok(Output { path, content });
+        }
         let scene = case.scene.to_toml().map_err(io::Error::other)?;
         let files = file_contents(&case.scene)?;
         let scene_file = self.out.join("captures").join(format!("{}.toml", case.id));
@@ -264,7 +270,8 @@ impl Stages<'_> {
     ) -> Result<(), RunError> {
         let entrant = ready.entrant;
         let (method, made_from) = self.method_key(ready)?;
-        let secret = case.scene.files().into_iter().chain([self.out.to_path_buf()]).collect();
+        let files = case.scene.files().into_iter().chain(case.photographed.clone());
+        let secret = files.chain([self.out.to_path_buf()]).collect();
         let log = self.out.join("logs").join(format!("{name}.txt"));
         let scratch = program::scratch_prefix(self.out);
         let scales = &self.suite.scales;
@@ -286,14 +293,19 @@ impl Stages<'_> {
                 Ok(Made { usage, ..Made::default() })
             },
         )?;
+        let by = self.suite.relight;
+        let mut how = scales.join(" ");
+        if by != RENDERERS[0] {
+            how = format!("{how} {by}");
+        }
         let inputs: &[&str] =
-            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")];
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &how];
         let relit = self.stage(
             &format!("relit/{name}"),
             inputs,
             self.out.join("relit").join(name),
             |path, tools, step| {
-                relight(&capture.path, &maps.path, path, scales, tools, step)?;
+                relight(by, &capture.path, &maps.path, path, scales, tools, step)?;
                 Ok(Made::default())
             },
         )?;

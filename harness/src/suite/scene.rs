@@ -117,6 +117,15 @@ impl Scene {
         Ok(scene)
     }
 
+    /// A scene that nothing renders: the names of a face and of the light on it.
+    pub fn named(face: &str, light: &str) -> Self {
+        let named = |name: &str| {
+            Value::Table(Table::from_iter([("name".to_owned(), Value::String(name.to_owned()))]))
+        };
+        let table = [("face", face), ("light", light)];
+        Self { table: table.map(|(key, name)| (key.to_owned(), named(name))).into_iter().collect() }
+    }
+
     /// The name of the face, the light or the rig.
     pub fn name_of(&self, section: &str) -> &str {
         self.table

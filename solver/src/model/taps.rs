@@ -10,7 +10,6 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::planes::{BLOCK, Planes, Row};
-use crate::region::Region;
 use crate::simd::widened;
 
 /// The four texels around each sample, with bilinear weights; outside the texture it is clamped.
@@ -80,26 +79,6 @@ impl Taps {
     pub fn place(&self, sample: usize) -> [f32; 2] {
         let (cell, [fx, fy]) = (self.cell[sample] as usize, self.fraction[sample]);
         [(cell % self.size) as f32 + fx, (cell / self.size) as f32 + fy]
-    }
-
-    /// The texels that have part in a sample: of every row, from the first to the last.
-    pub fn region(&self) -> Region {
-        let cells = |row: usize| match &self.cell[self.row_start[row]..self.row_start[row + 1]] {
-            [first, .., last] => first % self.size as u32..last % self.size as u32 + 2,
-            [only] => only % self.size as u32..only % self.size as u32 + 2,
-            [] => 0..0,
-        };
-        let texels = |row: usize| {
-            // Those below a row of cells as well.
-            let [here, above] = [cells(row), if row > 0 { cells(row - 1) } else { 0..0 }];
-            let hull = match (here.is_empty(), above.is_empty()) {
-                (true, _) => above,
-                (_, true) => here,
-                _ => here.start.min(above.start)..here.end.max(above.end),
-            };
-            hull.start as usize..hull.end as usize
-        };
-        Region((0..self.size).map(texels).collect())
     }
 
     /// Samples a texture of `C` interleaved channels.

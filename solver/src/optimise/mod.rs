@@ -6,6 +6,8 @@ mod bent_highlights;
 pub mod checkpoint;
 mod clock;
 mod confidence;
+pub mod deviation;
+pub mod diffuse;
 pub(crate) mod error;
 mod finish;
 mod found;
@@ -32,6 +34,7 @@ mod tint;
 pub mod transported;
 mod vectors;
 mod veil;
+pub mod warm_up;
 
 #[cfg(test)]
 mod tests;

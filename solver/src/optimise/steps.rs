@@ -1,6 +1,8 @@
 //! The steps of a solve: which there are, what they cost, and what each does.
 
 use super::clock::Work;
+use super::deviation::Relief;
+use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::{Solve, Start};
 use super::heights;
@@ -9,9 +11,10 @@ use super::run::Run;
 use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
-use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use super::stage::{Stage, State};
 use super::transported::{albedo, light, light_and_albedo};
 use super::veil;
+use super::warm_up::WarmUp;
 use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES};
 use crate::model::networks::Networks;
 

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::Solve;
 use super::lit::{Lit, bent_shading};
@@ -13,7 +14,7 @@ use super::probed::{Physical, Probed};
 use super::recolour::recolour;
 use super::run::Run;
 use super::site::{Site, Standing};
-use super::stage::{Diffuse, Memory, Stage, State, layers};
+use super::stage::{Memory, Stage, State, layers};
 use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};

@@ -23,7 +23,7 @@ from .scene import ChartMaps
 from .scene_text import scene_text
 from .shots import Shots
 
-_FILES = {
+MAP_FILES = {
     "diffuse_albedo": tuple("RGB"),
     "specular_albedo": ("Y",),
     "diffuse_normal": tuple("RGB"),
@@ -53,7 +53,7 @@ def relight(
     chart_maps = read_maps(maps, warn)
     render = scene.render
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
-    hashes = [content_hash(maps / f"{name}.exr") for name in _FILES]
+    hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
     folder = ResumableFolder(
         out, f"{scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     )
@@ -92,7 +92,7 @@ def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
     """
     path = folder / "coverage.png"
     coverage = read_gray(path) if path.exists() else None
-    found = {name: _read_map(folder / f"{name}.exr", channels, coverage) for name, channels in _FILES.items()}
+    found = {name: _read_map(folder / f"{name}.exr", channels, coverage) for name, channels in MAP_FILES.items()}
     if found["diffuse_albedo"] is None:
         raise MapsError(f"{folder}: diffuse_albedo.exr is missing; a face cannot be relit without it")
     for name in ("diffuse_albedo", "specular_albedo"):

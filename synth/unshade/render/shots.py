@@ -17,6 +17,7 @@ from .camera import Camera
 from .content_key import content_key
 from .denoise import denoised
 from .layers import Layers
+from .lights.found import CellSphere
 from .picture_store import PictureStore
 from .scene import ChartMaps, HeadScene, LitHead
 from .tiers import render_tier
@@ -31,7 +32,7 @@ class Shots:
         self._maps = maps
         self._render = render
         self._store = store
-        self._models: dict[str, lights.AnyLight] = {}
+        self._models: dict[str, lights.AnyLight | CellSphere] = {}
         self._lit: dict[str, LitHead] = {}
         self._shapes_key = content_key(fingerprint(), face.chart, face.parts, render)
         self._maps_key = content_key(maps)
@@ -40,12 +41,16 @@ class Shots:
     def head(self) -> HeadScene:
         return HeadScene(self._face.chart, self._face.parts, self._maps)
 
-    def light(self, light: Light) -> lights.AnyLight:
+    def light(self, light: Light) -> lights.AnyLight | CellSphere:
         """The light, exposed for this face."""
         if light.name not in self._models:
             chart = self._face.chart
             self._models[light.name] = lights.exposed(light, chart.vertices, chart.normals)
         return self._models[light.name]
+
+    def set_light(self, name: str, model: lights.AnyLight | CellSphere) -> None:
+        """Lights called ``name`` are ``model``, with the radiance that it has."""
+        self._models[name] = model
 
     def set_diffuse_albedo(self, albedo: np.ndarray) -> None:
         """Replaces the diffuse albedo [N, N, 3] for the pictures to come."""

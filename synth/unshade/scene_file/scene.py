@@ -24,7 +24,19 @@ else:
     import tomli as tomllib
 
 FORMAT = 1
-_KEYS = ("format", "name", "face", "light", "relight", "rig", "render", "image_formation", "captured_mesh", "labels", "versions")
+_KEYS = (
+    "format",
+    "name",
+    "face",
+    "light",
+    "relight",
+    "rig",
+    "render",
+    "image_formation",
+    "captured_mesh",
+    "labels",
+    "versions",
+)
 
 
 @dataclass(frozen=True)
@@ -51,15 +63,19 @@ class Scene:
 
 def read_scene(path: Path) -> Scene:
     """Opens a resolved scene file. Raises `SceneError` (or `FaceError` for its face)."""
+    return parse_scene(read_table(path), str(path), path.parent)
+
+
+def read_table(path: Path) -> dict[str, Any]:
+    """A TOML file. Raises `SceneError`."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise SceneError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from error
     try:
-        table = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{path}: is not valid TOML: {error}") from error
-    return parse_scene(table, str(path), path.parent)
 
 
 def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
@@ -74,8 +90,7 @@ def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
     if not isinstance(others, list) or not all(isinstance(other, dict) for other in others):
         raise SceneError(f"{place}: relight must be tables [[relight]]")
     relight = tuple(
-        parse_light(other, f"[[relight]] number {number} of {place}", folder)
-        for number, other in enumerate(others, 1)
+        parse_light(other, f"[[relight]] number {number} of {place}", folder) for number, other in enumerate(others, 1)
     )
     names = [one.name for one in (light, *relight)]
     for one in names:

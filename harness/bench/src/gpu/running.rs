@@ -7,7 +7,10 @@ use solver::backend::Backend;
 use solver::backend::gpu::Gpu;
 use solver::backend::resident::{BATCH, DeviceError, Resident};
 use solver::model::deviation::Deviation;
-use solver::optimise::stage::{Diffuse, Relief, Stage, WarmUp};
+use solver::optimise::deviation::Relief;
+use solver::optimise::diffuse::Diffuse;
+use solver::optimise::stage::Stage;
+use solver::optimise::warm_up::WarmUp;
 
 use super::rows::{GpuStep, PassRow};
 use crate::steps::{Kind, Reach};

@@ -239,3 +239,23 @@ pub(super) fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
     (count > 0.0).then(|| sum / count)
 }
+
+#[cfg(test)]
+mod tests {
+    use scoring::metrics::Metric;
+
+    use super::*;
+    use crate::metric;
+
+    #[test]
+    fn every_figure_is_a_metric_of_a_subject_and_knows_which_values_are_better() {
+        for figure in TABLES.iter().flat_map(|(_, figures)| *figures) {
+            let metric = Metric::find(figure.metric).unwrap();
+            assert_eq!(figure.better, metric.direction, "{}", figure.name);
+            assert_ne!(metric::subject(figure.subject), figure.subject, "{}", figure.name);
+            let trivial =
+                figure.against.is_none_or(|id| metric::trivial(figure.subject) == Some(id));
+            assert!(trivial, "{}", figure.name);
+        }
+    }
+}

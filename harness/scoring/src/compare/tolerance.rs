@@ -105,6 +105,20 @@ mod tests {
     }
 
     #[test]
+    fn every_metric_has_a_rule_of_its_own() {
+        let rules = Tolerances::built_in().unwrap();
+        for metric in crate::metrics::METRICS {
+            let rule = rules.rule(&format!("case/method/subject/{}@region:global", metric.id));
+            assert_ne!(
+                rule.unwrap().rows,
+                "*",
+                "{}: write one in scenes/tolerances.toml",
+                metric.id
+            );
+        }
+    }
+
+    #[test]
     fn the_first_rule_that_matches_decides_and_bad_rules_are_refused() {
         let parse = |text: &str| Tolerances::parse(Path::new("t.toml"), text);
         let rules = parse(

@@ -32,6 +32,7 @@ pub(crate) use filter::gaussian;
 pub use pair::Pair;
 pub use quantity::{Quantity, RELATIVE_OFFSET};
 pub use region::{Region, black_outside};
+pub(crate) use registry::scored;
 pub use registry::{Direction, METRICS, Metric};
 pub use resample::resample;
 pub use scale::{Scale, ScaleMode};

@@ -58,7 +58,39 @@ impl Quantity {
             Self::LogErrorAndCause => Some("shading"),
             Self::ErrorAndCause => Some("specular"),
             Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
-            _ => None,
+            Self::SquaredError
+            | Self::SquaredErrorSrgb
+            | Self::RelativeSquaredError
+            | Self::Ssim
+            | Self::Flip
+            | Self::Angle
+            | Self::ColourDifference
+            | Self::Typology
+            | Self::Luminance
+            | Self::Ranks
+            | Self::Projection
+            | Self::HighPass
+            | Self::LowPassError => None,
+        }
+    }
+
+    /// The colour space, or the unit, of the values that are compared; as reports show it.
+    pub fn space(self) -> &'static str {
+        match self {
+            Self::SquaredError | Self::RelativeSquaredError | Self::Ranks | Self::Projection => {
+                "linear"
+            }
+            Self::SquaredErrorSrgb => "sRGB clipped to [0, 1]",
+            Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
+            Self::ColourDifference | Self::Typology => "L*a*b*, D65",
+            Self::Angle => "object space",
+            Self::HighPass
+            | Self::WithinLabel
+            | Self::LowPassError
+            | Self::LogErrorAndCause
+            | Self::TrustAndErrorRanks
+            | Self::TrustedAndWholeError => "log luminance",
+            Self::Luminance | Self::ErrorAndCause => "linear luminance",
         }
     }
 
@@ -145,7 +177,20 @@ impl Quantity {
         let found = pair.truth.channels;
         let (expected, right) = match self {
             Self::Flip | Self::Angle | Self::ColourDifference | Self::Typology => ("3", found == 3),
-            _ => ("1 or 3", found == 1 || found == 3),
+            Self::SquaredError
+            | Self::SquaredErrorSrgb
+            | Self::RelativeSquaredError
+            | Self::Ssim
+            | Self::Luminance
+            | Self::Ranks
+            | Self::Projection
+            | Self::HighPass
+            | Self::WithinLabel
+            | Self::LowPassError
+            | Self::LogErrorAndCause
+            | Self::ErrorAndCause
+            | Self::TrustAndErrorRanks
+            | Self::TrustedAndWholeError => ("1 or 3", found == 1 || found == 3),
         };
         if right { Ok(()) } else { Err(MetricError::Channels { metric, expected, found }) }
     }

@@ -164,6 +164,46 @@ pub static METRICS: &[Metric] = metrics! {
         "https://arxiv.org/abs/1802.07095";
 };
 
+/// What is scored of what, in the order of the rows. A metric in none of these has no row, which
+/// `harness/tests/scores.rs` notices.
+pub(crate) mod scored {
+    /// Of the diffuse albedo; after the median ratio the first five alone.
+    pub(crate) const ALBEDO: [&str; 8] = [
+        "psnr_srgb",
+        "psnr_lin",
+        "relmse",
+        "ciede2000_mean",
+        "ita_error",
+        "ssim",
+        "flip_mean",
+        "flip_p95",
+    ];
+    /// Of the diffuse albedo, blind to its scale.
+    pub(crate) const ALBEDO_UNSCALED: [&str; 4] = ["scale_global", "hc", "wcorr", "lp"];
+    /// Of the diffuse albedo, against the true diffuse shading and the true specular layer.
+    pub(crate) const LEAKAGE: [&str; 2] = ["leakage_shading", "leakage_specular"];
+    /// Of the diffuse albedo in one label region; the last of skin alone.
+    pub(crate) const PART: [&str; 3] = ["psnr_srgb", "ciede2000_mean", "ita_error"];
+    /// Of a normal map.
+    pub(crate) const NORMAL: [&str; 6] = [
+        "normal_mean_deg",
+        "normal_median_deg",
+        "normal_below_5",
+        "normal_below_11_25",
+        "normal_below_22_5",
+        "normal_below_30",
+    ];
+    /// Of the specular albedo; of its best constant the first alone.
+    pub(crate) const SPECULAR: [&str; 3] = ["rmse", "pearson", "spearman"];
+    /// Of the confidence, against the error of the diffuse albedo.
+    pub(crate) const CONFIDENCE: [&str; 2] = ["confidence_rank", "sparsification"];
+    /// Of a view or a relit picture.
+    pub(crate) const PICTURE: [&str; 6] =
+        ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
+    /// Of a layer of it.
+    pub(crate) const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,6 +41,16 @@ impl ScaleMode {
             Self::Median => "median",
         }
     }
+
+    /// As reports name it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::None => "as is",
+            Self::Global => "after one factor",
+            Self::Channel => "after one factor per channel",
+            Self::Median => "after the median ratio per channel",
+        }
+    }
 }
 
 impl Scale {

@@ -56,7 +56,12 @@ impl Statistic {
     pub fn arity(self) -> usize {
         match self {
             Self::MeanDifference | Self::Ratio | Self::Correlation | Self::Explained => 2,
-            _ => 1,
+            Self::Mean
+            | Self::Psnr
+            | Self::RootMean
+            | Self::Spread
+            | Self::Below(_)
+            | Self::Quantile(_) => 1,
         }
     }
 
@@ -113,7 +118,7 @@ impl Statistic {
                 let y = value[1];
                 [x, y, x * x, y * y, x * y]
             }
-            _ => [x, 0.0, 0.0, 0.0, 0.0],
+            Self::Mean | Self::Psnr | Self::RootMean | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
         }
     }
 

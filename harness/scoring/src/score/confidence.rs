@@ -9,10 +9,9 @@ use super::protocol::MAP_BLOCK;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::Row;
 use super::truth::Truth;
-use crate::metrics::{Pair, Scale, ScaleMode, resample};
+use crate::metrics::{Pair, Scale, ScaleMode, resample, scored};
 
 const FILE: &str = "confidence.exr";
-const METRICS: [&str; 2] = ["confidence_rank", "sparsification"];
 
 /// Rows of the confidence against the error of the diffuse albedo after its one factor, which is
 /// no texel's fault; none without a confidence.
@@ -37,7 +36,7 @@ pub(super) fn rows_of_confidence(
     let scale = ScaleMode::Global.id();
     let heading =
         Heading { subject: "confidence", light: None, scale, label: None, block: MAP_BLOCK };
-    rows(heading, &METRICS, &[Compared { frame: None, pair }], &Floors::new())
+    rows(heading, &scored::CONFIDENCE, &[Compared { frame: None, pair }], &Floors::new())
 }
 
 /// The confidence; finite wherever the maps have data.

@@ -11,9 +11,10 @@ use crate::metrics::MetricError;
 /// Why there are no scores; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum ScoreError {
-    /// The capture has no truth.
+    /// The capture has neither a truth nor withheld photographs.
     #[error(
-        "{0}: has no truth; only synthetic captures can be scored, render one with `unshade synth`"
+        "{0}: has no truth and no withheld photographs to score against; import it with --holdout, or \
+         render one with `unshade synth`"
     )]
     NoTruth(PathBuf),
     /// A file that must be there is not.

@@ -9,33 +9,7 @@ use super::protocol::MAP_BLOCK;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
 use super::truth::{LABELS, Truth};
-use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample};
-
-/// Of the diffuse albedo; the median mode has the first five.
-const ALBEDO: [&str; 8] = [
-    "psnr_srgb",
-    "psnr_lin",
-    "relmse",
-    "ciede2000_mean",
-    "ita_error",
-    "ssim",
-    "flip_mean",
-    "flip_p95",
-];
-
-/// Of the diffuse albedo, blind to its scale.
-const ALBEDO_UNSCALED: [&str; 4] = ["scale_global", "hc", "wcorr", "lp"];
-
-const NORMAL: [&str; 6] = [
-    "normal_mean_deg",
-    "normal_median_deg",
-    "normal_below_5",
-    "normal_below_11_25",
-    "normal_below_22_5",
-    "normal_below_30",
-];
-
-const SPECULAR: [&str; 3] = ["rmse", "pearson", "spearman"];
+use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample, scored};
 
 /// The rows of every map that `maps` has, and of the trivial answers.
 pub(super) fn rows_of_maps(
@@ -52,7 +26,7 @@ pub(super) fn rows_of_maps(
         let specular = fit_to(specular, truth);
         all.extend(map_rows(
             "specular_albedo",
-            &SPECULAR,
+            &scored::SPECULAR,
             &specular,
             &truth.specular_albedo,
             truth,
@@ -61,7 +35,7 @@ pub(super) fn rows_of_maps(
     let constant = constant(&truth.specular_albedo, &truth.region);
     all.extend(map_rows(
         "constant_specular_albedo",
-        &["rmse"],
+        &scored::SPECULAR[..1],
         &constant,
         &truth.specular_albedo,
         truth,
@@ -72,9 +46,15 @@ pub(super) fn rows_of_maps(
     ] {
         if let Some(normal) = map {
             // Angles do not depend on length, so nothing is left to renormalise.
-            all.extend(map_rows(subject, &NORMAL, &fit_to(normal, truth), true_normal, truth)?);
+            all.extend(map_rows(
+                subject,
+                &scored::NORMAL,
+                &fit_to(normal, truth),
+                true_normal,
+                truth,
+            )?);
         }
-        all.extend(map_rows(trivial, &NORMAL, &geometry.mesh_normal, true_normal, truth)?);
+        all.extend(map_rows(trivial, &scored::NORMAL, &geometry.mesh_normal, true_normal, truth)?);
     }
     Ok(all)
 }
@@ -126,28 +106,25 @@ fn albedo_rows(
         Ok::<_, ScoreError>(())
     };
     for mode in ScaleMode::ALL {
-        let metrics = if mode == ScaleMode::Median { &ALBEDO[..5] } else { &ALBEDO };
+        let metrics =
+            if mode == ScaleMode::Median { &scored::ALBEDO[..5] } else { &scored::ALBEDO };
         add(metrics, mode, None, pair(&truth.region, mode).map_err(&wrong)?)?;
     }
     add(
-        &ALBEDO_UNSCALED,
+        &scored::ALBEDO_UNSCALED,
         ScaleMode::None,
         None,
         pair(&truth.region, ScaleMode::None).map_err(&wrong)?,
     )?;
-    for (metric, cause) in
-        [("leakage_shading", &geometry.shading), ("leakage_specular", &geometry.specular)]
-    {
+    for (metric, cause) in scored::LEAKAGE.iter().zip([&geometry.shading, &geometry.specular]) {
         let aligned = pair(&truth.region, ScaleMode::Global);
         let pair = aligned.and_then(|pair| pair.with_cause(cause)).map_err(&wrong)?;
-        add(&[metric], ScaleMode::Global, None, pair)?;
+        add(&[*metric], ScaleMode::Global, None, pair)?;
     }
     for (label, region) in &parts {
         for mode in [ScaleMode::None, ScaleMode::Global] {
-            let metrics: &[&str] = match label {
-                Some("skin") => &["psnr_srgb", "ciede2000_mean", "ita_error"],
-                _ => &["psnr_srgb", "ciede2000_mean"],
-            };
+            let metrics: &[&str] =
+                if *label == Some("skin") { &scored::PART } else { &scored::PART[..2] };
             add(metrics, mode, *label, pair(region, mode).map_err(&wrong)?)?;
         }
     }

@@ -6,6 +6,7 @@ mod geometry;
 mod maps;
 mod noise_floor;
 mod oracle;
+mod photographs;
 mod pictures;
 mod protocol;
 mod render;
@@ -22,6 +23,7 @@ use formats::content_hash::hash_path;
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
 pub use oracle::oracle_maps;
+pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
 
@@ -33,10 +35,16 @@ use truth::{Identity, Truth};
 /// Scores a maps folder, and the pictures relit with it, against the capture's truth.
 ///
 /// Maps, views and pictures that a solver did not write have no rows; a folder with none of them
-/// is refused. What is likely wrong with the maps is looked for without the truth, and noted.
+/// is refused. What is likely wrong with the maps is looked for without the truth, and noted. Of a
+/// capture without a truth, pictures are held against its withheld photographs.
 pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
+    if is_photographed(capture) {
+        return photographs::score(capture, maps, relit);
+    }
     let truth = Truth::open(capture)?;
     let Identity { face, light, protocol } = Identity::read(capture)?;
+    let renderer = relit.map(renderer_of).transpose()?.flatten();
+    let protocol = protocol.relit_by(renderer.as_deref());
     let found = Maps::read(maps)?;
     let scale =
         found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
@@ -96,6 +104,18 @@ fn is_empty(maps: &Maps) -> bool {
     [diffuse_albedo, specular_albedo, diffuse_normal, specular_normal]
         .iter()
         .all(|map| map.is_none())
+}
+
+/// What `relit.json` says rendered the pictures; nothing for the truth's own renderer.
+fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
+    let path = relit.join("relit.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
+    let said: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
+    Ok(said["renderer"].as_str().map(str::to_owned))
 }
 
 /// What `solve.json` calls the solver, else the folder's name.

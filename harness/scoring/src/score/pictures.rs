@@ -12,10 +12,8 @@ use super::render::Render;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
 use super::truth::{self, present};
-use crate::metrics::{Pair, Region};
+use crate::metrics::{Pair, Region, scored};
 
-const PICTURE: [&str; 6] = ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
-const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
 const INCOMPLETE: &str = "either all withheld frames are written or none; write the folder again";
 
 /// A withheld frame.
@@ -28,13 +26,18 @@ pub(super) struct Frame {
 impl Frame {
     /// The withheld frames of a capture whose own light is `light`.
     pub fn withheld(capture: &Path, light: &str) -> Result<Vec<Self>, ScoreError> {
+        Self::of(capture, truth::withheld(capture, light)?)
+    }
+
+    /// The frames with these names.
+    pub fn of(capture: &Path, names: Vec<String>) -> Result<Vec<Self>, ScoreError> {
         let open = |name: String| {
             let path = capture.join(format!("masks/{name}.png"));
             let mask = picture::read_png_gray(&present(path, truth::AGAIN)?)?;
             let region = Region::eroded("mask-e5", &mask).map_err(ScoreError::of(&name))?;
             Ok(Self { name, mask, region })
         };
-        truth::withheld(capture, light)?.into_iter().map(open).collect()
+        names.into_iter().map(open).collect()
     }
 
     /// How much of its mask is compared.
@@ -92,6 +95,22 @@ pub(super) fn relit_rows(
     Ok(rows?.concat())
 }
 
+/// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
+/// that it found; none if there is no such folder.
+pub(super) fn photograph_rows(
+    frames: &[Frame],
+    photographs: &Path,
+    folder: &Path,
+    light: Option<&str>,
+) -> Result<Vec<Row>, ScoreError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let subject = if light.is_some() { "relit" } else { "view" };
+    let heading = Heading { subject, light, scale: "none", label: None, block: PICTURE_BLOCK };
+    compare(frames, folder, photographs, heading, [subject, "", ""])
+}
+
 fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
     present(truth::folder(capture)?.join("relit").join(light), truth::AGAIN)
 }
@@ -119,9 +138,9 @@ fn compare(
     }
     type Part = (fn(&Render) -> &Option<Picture>, &'static [&'static str]);
     let parts: [Part; 3] = [
-        (|render| &render.total, &PICTURE),
-        (|render| &render.diffuse, &LAYER),
-        (|render| &render.specular, &LAYER),
+        (|render| &render.total, &scored::PICTURE),
+        (|render| &render.diffuse, &scored::LAYER),
+        (|render| &render.specular, &scored::LAYER),
     ];
     let mut all = Vec::new();
     for (subject, (part, metrics)) in subjects.into_iter().zip(parts) {

@@ -53,9 +53,7 @@ def pictures():
 def normals():
     """True and predicted vectors, not of unit length, float32."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
-    truth = np.stack(
-        [triangle(x, 37) - 0.5, triangle(y, 29) - 0.5, 1.0 + 0.0 * x], axis=-1
-    ).astype(np.float32)
+    truth = np.stack([triangle(x, 37) - 0.5, triangle(y, 29) - 0.5, 1.0 + 0.0 * x], axis=-1).astype(np.float32)
     bend = np.stack([noise(x, y, c) - 0.5 for c in (1, 2, 3)], axis=-1)
     return truth, (truth * 2.0 + 1.8 * bend).astype(np.float32)
 
@@ -75,8 +73,14 @@ def references():
 
     black = lambda v: np.where(mask[..., None] > 127, v, 0.0)
     _, similarity = structural_similarity(
-        srgb(black(t)), srgb(black(p)), channel_axis=-1, data_range=1.0, full=True,
-        gaussian_weights=True, sigma=1.5, use_sample_covariance=False,
+        srgb(black(t)),
+        srgb(black(p)),
+        channel_axis=-1,
+        data_range=1.0,
+        full=True,
+        gaussian_weights=True,
+        sigma=1.5,
+        use_sample_covariance=False,
     )
     eight = lambda v: (np.floor(srgb(black(v)) * 255 + 0.5) / 255).astype(np.float32)
     flip = flip_evaluator.evaluate(eight(t), eight(p), "LDR", inputsRGB=True, applyMagma=False)[0]
@@ -122,17 +126,15 @@ def references():
         "energy_ratio": luminance(pm).sum() / luminance(tm).sum(),
         "normal_mean_deg": degrees.mean(),
         "normal_median_deg": np.median(degrees),
-        **{
-            f"normal_below_{limit}".replace(".", "_"): np.mean(degrees < limit)
-            for limit in (5, 11.25, 22.5, 30)
-        },
+        **{f"normal_below_{limit}".replace(".", "_"): np.mean(degrees < limit) for limit in (5, 11.25, 22.5, 30)},
         "hc": correlation(log(pm) - low_pass(log(pm)), log(tm) - low_pass(log(tm))),
         "wcorr": correlation(within(log(pm)), within(log(tm))),
         "lp": np.std(low_pass(log(pm) - log(tm))),
         "leakage_shading": stats.linregress(log(cause[inside].astype(np.float64)), log(pm) - log(tm)).rvalue ** 2,
         "leakage_specular": stats.linregress(
             luminance(cause[inside].astype(np.float64)), luminance(pm) - luminance(tm)
-        ).rvalue ** 2,
+        ).rvalue
+        ** 2,
         "confidence_rank": stats.spearmanr(trust, error).statistic,
         "sparsification": np.average(error, weights=trusted) / error.mean(),
     }

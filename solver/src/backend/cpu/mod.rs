@@ -19,10 +19,9 @@
 //! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
-//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures bent in
-//! normals costs a texel 80 bytes more: deviation and specular albedo as samples see them, 16, are read twice and
-//! written once, their gradients are written (and fetched before) and read; what goes through the blur is 16 in
-//! each of a quarter as many texels, ten times. A joint step is 7488 FLOP a sample, so that it is bound by
+//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures that bend
+//! normals costs a texel about 400 bytes more: what samples see of it, 32, and gradients by that, 32, are written
+//! and read pass by pass, and both go through the blur. A joint step is 7488 FLOP a sample, so that it is bound by
 //! arithmetic on every machine with more than 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps
 //! are bound by memory.
 
@@ -39,8 +38,7 @@ pub(crate) use self::lanes::exp_plain as exp;
 pub use self::level::Level;
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
-use crate::model::bend::{BentTextures, TexelRows};
-use crate::model::bend_gradient::{BendGradient, RowSums};
+use crate::model::bend::ROWS;
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
@@ -178,15 +176,14 @@ impl Backend for Cpu {
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut BendGradient) -> f64 {
+    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
         let packed = &pack(relief.networks);
-        let scratch = || (Scratch::new(relief.networks), relief.textures.rows());
-        let work = |(scratch, rows): &mut (Scratch, TexelRows), sums: &mut RowSums| {
-            kernels::textured(self.level, packed, relief, rows, scratch, sums)
+        let work = |scratch: &mut Scratch, strip: &mut Strip<ROWS>| {
+            kernels::textured(self.level, packed, relief, scratch, strip)
         };
-        let BentTextures { deviation, region, .. } = relief.textures;
-        let losses = gradient.fill((&relief.samples.taps, deviation.blur(), region), scratch, work);
-        losses.iter().sum()
+        let scratch = || Scratch::new(relief.networks);
+        let (gradient, losses) = relief.samples.taps.by_blocks(scratch, work);
+        (losses.iter().sum(), gradient)
     }
 
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {

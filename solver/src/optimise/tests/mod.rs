@@ -16,10 +16,13 @@ use formats::maps::Maps;
 use formats::picture;
 use glam::{Vec2, Vec3};
 
+use super::deviation::Relief;
+use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::progress::Options;
 use super::solve::solve_on;
-use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use super::stage::{Stage, State};
+use super::warm_up::WarmUp;
 use crate::backend::cpu::{Cpu, Level};
 use crate::config::{Config, TextureSize};
 use crate::model::deviation::Deviation;
@@ -212,8 +215,8 @@ fn relief_gradients_pass_through_reflection_normals_tanh_and_blur() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let stage = || Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-    let found = stage().gradient(&state, &backend);
-    let loss = |state: &State| stage().gradient(state, &backend).loss;
+    let found = stage().gradient(&state, &backend).1;
+    let loss = |state: &State| stage().gradient(state, &backend).0;
     assert_gradient("deviation", &state, &found.deviation, |s| &mut s.deviation, 5e-2, loss);
     assert_gradient("specular", &state, &found.specular, |s| &mut s.specular, 1e-2, loss);
 }
@@ -240,8 +243,8 @@ fn the_stages_see_the_same_loss() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let joint = WarmUp::new(&config, &samples, &state).gradient(&state, &backend).loss;
-    let mut relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-    let relief = relief.gradient(&state, &backend).loss;
+    let relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
+    let relief = relief.gradient(&state, &backend).0;
     let diffuse =
         Diffuse::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state).0;
     assert!((relief / joint - 1.0).abs() < 1e-5, "{relief} {joint}");

@@ -1,0 +1,92 @@
+"""The mesh of an imported capture: read, cut to the face's objects, moved, and written again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _native
+from ..errors import CaptureError
+from .source import Matrix
+
+
+@dataclass(frozen=True)
+class ChartMesh:
+    """Triangles with a UV at every vertex; ``normals`` are None where the file has none.
+
+    ``verbatim`` are the file's bytes while nothing of it was changed.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    uv: NDArray[np.float64]
+    normals: NDArray[np.float64] | None
+    verbatim: bytes | None
+
+    def moved(self, similarity: Matrix) -> ChartMesh:
+        """The mesh after a similarity (4, 4)."""
+        linear = similarity[:3, :3]
+        scale = np.cbrt(abs(np.linalg.det(linear)))
+        normals = None if self.normals is None else self.normals @ (linear / scale).T
+        vertices = self.vertices @ linear.T + similarity[:3, 3]
+        return ChartMesh(vertices, self.triangles, self.uv, normals, None)
+
+    def text(self) -> bytes:
+        """An OBJ file."""
+        if self.verbatim is not None:
+            return self.verbatim
+        lines = ["# imported: metres, +Y up, looking along +Z"]
+        normals = np.zeros((0, 3)) if self.normals is None else self.normals
+        for keyword, values in (("v", self.vertices), ("vt", self.uv), ("vn", normals)):
+            form = keyword + " %.9g" * values.shape[1]
+            lines += [form % tuple(row) for row in values.tolist()]
+        corner = "%d/%d" if self.normals is None else "%d/%d/%d"
+        form = " ".join(["f", corner, corner, corner])
+        each = 2 if self.normals is None else 3
+        corners = np.repeat(self.triangles + 1, each, axis=1)
+        lines += [form % tuple(row) for row in corners.tolist()]
+        return ("\n".join(lines) + "\n").encode()
+
+
+def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
+    """Reads an OBJ file; of its objects those named, or all. Raises `CaptureError`."""
+    if path.suffix.lower() != ".obj":
+        raise CaptureError(f"{path}: is no OBJ file; export the mesh as OBJ with its texture coordinates")
+    try:
+        data = path.read_bytes()
+        pieces = _native.read_obj(data)
+    except OSError as error:
+        raise CaptureError(f"{path}: cannot be read: {error.strerror}; name the mesh, an OBJ file") from error
+    except ValueError as error:
+        raise CaptureError(f"{path}: {error}; export the mesh again") from error
+    names = [piece["name"] for piece in pieces]
+    for name in objects:
+        if name not in names:
+            raise CaptureError(f"{path}: has no object {name!r}; there are {', '.join(map(repr, names))}")
+    chosen = [piece for piece in pieces if not objects or piece["name"] in objects]
+    if not any(len(piece["triangles"]) for piece in chosen):
+        raise CaptureError(f"{path}: has no triangles; export the mesh with its surface")
+    vertices, uvs, triangles, normals, start = [], [], [], [], 0
+    for piece in chosen:
+        uv = piece["uv"]
+        if uv is None:
+            raise CaptureError(f"{path}: object {piece['name']!r} has no texture coordinates; unwrap it, or name the objects of the face")
+        vertices.append(piece["vertices"])
+        uvs.append(uv)
+        triangles.append(piece["triangles"] + start)
+        normals.append(piece["normals"])
+        start += len(piece["vertices"])
+    given = [n for n in normals if n is not None]
+    joined = np.concatenate(vertices)
+    if not np.isfinite(joined).all():
+        raise CaptureError(f"{path}: has a vertex that is not finite; export the mesh again")
+    return ChartMesh(
+        joined,
+        np.concatenate(triangles),
+        np.concatenate(uvs),
+        np.concatenate(given) if len(given) == len(normals) else None,
+        data if len(chosen) == len(pieces) else None,
+    )

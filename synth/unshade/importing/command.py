@@ -1,0 +1,97 @@
+"""``unshade import``: the arguments of the command line."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import warnings
+from pathlib import Path
+
+from ..errors import UnshadeError
+from .importer import FORMATS, import_capture
+from .parser_labels import PARSERS
+from .pictures import CURVES
+from .placement import PLACES, UNITS
+
+_DESCRIPTION = "Bring photographs, cameras and a mesh of other programs into a capture folder."
+_EPILOG = "docs/photographs.md has each format, what is assumed, and what to do when cameras do not fit."
+
+
+def main(arguments: list[str]) -> int:
+    """Runs ``unshade import`` with ``arguments``; returns the exit code."""
+    options = _parser().parse_args(arguments)
+    bar = _Bar()
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = lambda message, *_, **__: bar.line(f"unshade: {message}")
+            warnings.simplefilter("always")
+            out = import_capture(
+                options.format,
+                options.path,
+                options.out,
+                mesh=options.mesh,
+                objects=options.object,
+                pictures=options.pictures,
+                masks=options.masks,
+                labels=options.labels,
+                parser=options.parser,
+                curve=options.curve,
+                brackets=options.brackets,
+                even_exposure=options.even_exposure,
+                holdout=options.holdout,
+                shrink=options.shrink,
+                unit=options.unit,
+                place=options.place,
+                apply=options.apply,
+                progress=bar.step,
+            )
+    except UnshadeError as error:
+        bar.line(f"unshade: {' '.join(str(error).split())}")
+        return error.exit_code
+    bar.line(f"{out}: what was assumed stands in {out / 'import.json'}")
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="unshade import", description=_DESCRIPTION, epilog=_EPILOG)
+    parser.add_argument("format", choices=FORMATS, help="what wrote the cameras; RealityCapture exports colmap")
+    parser.add_argument("path", type=Path, help="transforms.json, the COLMAP model or project, the XML file, the data set's folder")
+    parser.add_argument("-o", "--out", type=Path, required=True, help="the capture's folder")
+    parser.add_argument("--mesh", type=Path, help="the mesh, an OBJ file with texture coordinates")
+    parser.add_argument("--object", action="append", default=[], metavar="NAME", help="an object of the mesh that is the face; may be given again")
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not say it")
+    parser.add_argument("--masks", metavar="DIR|alpha|silhouette", help="masks of the photographs' names, their alpha, or the mesh's silhouette")
+    parser.add_argument("--labels", type=Path, metavar="DIR", help="a face parser's pictures, named as the photographs")
+    parser.add_argument("--parser", metavar="NAME|FILE", help=f"which parser: {', '.join(PARSERS)}, or a JSON file of names by id")
+    parser.add_argument("--curve", default="auto", help=f"the photographs' transfer curve: {', '.join(CURVES)}")
+    parser.add_argument("--brackets", type=int, default=1, metavar="N", help="exposures of each view, one file after the other")
+    parser.add_argument("--even-exposure", action="store_true", help="divide by what the EXIF says the camera let through")
+    parser.add_argument("--holdout", type=_holdout, metavar="N|NAMES", help="withhold every N-th view, or those named: 8, or 003,011")
+    parser.add_argument("--shrink", type=int, default=1, metavar="N", help="average N x N pixels")
+    parser.add_argument("--unit", choices=tuple(UNITS), help="the unit of mesh and cameras")
+    parser.add_argument("--place", choices=PLACES, default="auto", help="stand the head upright by its cameras, or keep its place")
+    parser.add_argument("--apply", action="store_true", help="make the one change after which masks and mesh fit")
+    return parser
+
+
+def _holdout(text: str) -> int | list[str]:
+    # A number of up to two digits is a step: names of frames have more, or are given with a comma.
+    if text.isdigit() and len(text) <= 2:
+        return int(text)
+    return [name for name in text.split(",") if name]
+
+
+class _Bar:
+    """How far it is, on one line of a terminal; nothing elsewhere."""
+
+    def __init__(self) -> None:
+        self._shown = sys.stderr.isatty()
+
+    def step(self, done: int, total: int, what: str) -> None:
+        if self._shown:
+            print(f"\r\x1b[Kimport: {done} of {total}, {what}", end="", file=sys.stderr, flush=True)
+
+    def line(self, text: str) -> None:
+        if self._shown:
+            print("\r\x1b[K", end="", file=sys.stderr)
+        print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,180 @@
+"""The convention detective: does the mesh lie where the masks say, and if not, which one change does it?
+
+Silhouettes of the mesh are compared with the masks. What is said is measured at views spread over all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from statistics import median
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
+from .chart_mesh import ChartMesh
+from .pictures import turned
+from .pinhole import Pinhole
+from .source import Matrix
+
+SOUND = 0.9
+"""Median intersection over union of a capture that fits."""
+
+_NAMED = 0.75
+"""What a single change must reach to be named."""
+
+_GAIN = 0.1
+"""What it must gain."""
+
+_LEAST_VIEWS, _MOST_VIEWS = 3, 6
+_MOST_TRIANGLES = 300_000
+"""Drawn for one change."""
+
+_ROUNDS = 6
+"""In which a factor is fitted."""
+
+_SIZE = 256
+"""Longest side of the small pictures at which changes are tried."""
+
+_WHOLE, _LEAST = 0.98, 0.002
+"""Shares of a picture beyond which a mask says nothing."""
+
+_VIEWS_AGREE = 0.8
+"""Share of views that must gain by half a pixel."""
+
+_OF_OPPOSITE = 0.5
+"""Share of what half a pixel the other way loses that half a pixel must gain."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """A view's camera without its lens, and its mask (height, width), True where the face is."""
+
+    camera: Pinhole
+    mask: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found: intersection over union as it is and with the change, if one is named."""
+
+    views: int
+    union: float
+    change: Change | None = None
+    mended: float | None = None
+
+    @property
+    def sound(self) -> bool:
+        return self.change is None and self.union >= SOUND
+
+
+def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str, Matrix] | None) -> Verdict | None:
+    """The verdict on cameras, mesh and masks; None where no mask says anything."""
+    telling = [e for e in evidence if _LEAST < e.mask.mean() < _WHOLE]
+    if not telling:
+        return None
+    most = min(max(_MOST_TRIANGLES // len(mesh.triangles), _LEAST_VIEWS), _MOST_VIEWS)
+    chosen = [telling[i * len(telling) // most] for i in range(most)] if len(telling) > most else telling
+    small = [_smaller(e) for e in chosen]
+    before = _union(mesh, small, PLAIN)
+    if before >= SOUND:
+        return _finer(mesh, chosen, before)
+    width, height = chosen[0].camera.width, chosen[0].camera.height
+    changes = single_changes(elsewhere, width, square=width == height)
+    found = [(change, _union(mesh, small, change)) for change in changes]
+    if max(union for _, union in found) < SOUND:
+        # Nothing that has a name fits: factors are fitted.
+        found += [(change, _union(mesh, small, change)) for change in _fitted(mesh, small, width)]
+    best, union = max(found, key=lambda pair: pair[1])
+    if union >= _NAMED and union >= before + _GAIN:
+        return Verdict(len(chosen), before, best, union)
+    return Verdict(len(chosen), before)
+
+
+def _fitted(mesh: ChartMesh, evidence: list[Evidence], width: int) -> list[Change]:
+    """Focal lengths, and distances of the cameras, times what makes silhouettes as large as masks."""
+    found: list[Change] = []
+    for make, power, starts in (
+        (focal_factor, 1.0, (1.0, width / 36, float(width))),
+        (distance_factor, -1.0, (1.0, 0.01, 100.0)),
+    ):
+        for start in starts:
+            factor = start
+            for _ in range(_ROUNDS):
+                growth = _growth(mesh, evidence, make(factor))
+                if growth is None:
+                    break
+                factor = min(max(factor * growth**power, 1e-6), 1e6)
+            else:
+                found.append(make(factor))
+    return found
+
+
+def _growth(mesh: ChartMesh, evidence: list[Evidence], change: Change) -> float | None:
+    """How much larger the masks are than the silhouettes, along an edge; None where no mesh is seen."""
+    sizes = [(int(seen.sum()), int(mask.sum())) for seen, mask in (_silhouette(mesh, e, change) for e in evidence)]
+    ratios = [(mask / seen) ** 0.5 for seen, mask in sizes if seen]
+    return median(ratios) if ratios else None
+
+
+def _finer(mesh: ChartMesh, evidence: list[Evidence], union: float) -> Verdict:
+    """Whether half a pixel makes masks fit that fit already, but for their edges.
+
+    What hides the mesh, and masks that are a little wide, make every shift as wrong as any other; a shift that
+    is due gains about what its opposite loses, a shift twice as far gains nothing more, and one across neither.
+    """
+    before = [_wrong(mesh, e, PLAIN) for e in evidence]
+    for change, half in zip(half_pixels(), (0.5, -0.5)):
+        after = [_wrong(mesh, e, change) for e in evidence]
+        gain = sum(before) - sum(after)
+        if gain <= 0 or sum(a < b for a, b in zip(after, before)) < _VIEWS_AGREE * len(evidence):
+            continue
+
+        def losing(dx: float, dy: float) -> int:
+            return sum(_wrong(mesh, e, shift(dx, dy)) for e in evidence) - sum(before)
+
+        if gain < _OF_OPPOSITE * losing(-half, -half) or losing(2 * half, 2 * half) < -_OF_OPPOSITE * gain:
+            continue
+        if min(losing(half, -half), losing(-half, half)) > -_OF_OPPOSITE * gain:
+            area = sum(int(e.mask.sum()) for e in evidence)
+            return Verdict(len(evidence), union, change, min(1.0, union + gain / max(area, 1)))
+    return Verdict(len(evidence), union)
+
+
+def _smaller(evidence: Evidence) -> Evidence:
+    every = max(1, -(-max(evidence.camera.width, evidence.camera.height) // _SIZE))
+    camera = evidence.camera.smaller(every)
+    mask = evidence.mask[every // 2 :: every, every // 2 :: every][: camera.height, : camera.width]
+    # A picture that is no multiple of the step may end before the last small pixel's middle.
+    mask = np.pad(mask, ((0, camera.height - mask.shape[0]), (0, camera.width - mask.shape[1])), mode="edge")
+    return Evidence(camera, mask)
+
+
+def changed(evidence: Evidence, change: Change) -> Evidence:
+    """The view after the change, but for the mesh's size."""
+    mask = turned(evidence.mask, change.orientation)
+    return Evidence(change.camera(evidence.camera), ~mask if change.inverted else mask)
+
+
+def _silhouette(mesh: ChartMesh, evidence: Evidence, change: Change) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    after = changed(evidence, change)
+    camera = after.camera
+    if change.mesh_scale != 1:
+        # Scaling the mesh is scaling the cameras' distances the other way, without another copy of it.
+        matrix = camera.camera_to_world.copy()
+        matrix[:3, 3] /= change.mesh_scale
+        camera = replace(camera, camera_to_world=matrix)
+    return camera.silhouette(mesh.vertices, mesh.triangles), after.mask
+
+
+def _union(mesh: ChartMesh, evidence: list[Evidence], change: Change) -> float:
+    def fit(view: Evidence) -> float:
+        seen, mask = _silhouette(mesh, view, change)
+        return float((seen & mask).sum() / max(int((seen | mask).sum()), 1))
+
+    return median(fit(view) for view in evidence)
+
+
+def _wrong(mesh: ChartMesh, evidence: Evidence, change: Change) -> int:
+    seen, mask = _silhouette(mesh, evidence, change)
+    return int((seen ^ mask).sum())

@@ -1,0 +1,354 @@
+"""From another program's capture to a capture folder like any other."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _native
+from ..errors import CaptureError, StorageError
+from ..render.folder import content_hash
+from .capture_folder import CaptureWriter
+from .changes import PLAIN, Change
+from .chart_mesh import ChartMesh, read_mesh
+from .colmap_model import read_colmap
+from .detective import SOUND, Evidence, Verdict, examine
+from .emily_folder import read_emily
+from .metashape_file import read_metashape
+from .parser_labels import LABELS, name_table
+from .photographs import Reading, Taken, take
+from .pictures import Photograph, check_curve, read_photograph
+from .pinhole import Pinhole
+from .placement import PLACES, UNITS, Placement, place
+from .source import Source, moved
+from .transforms_file import read_transforms
+
+FORMATS = ("transforms", "colmap", "metashape", "emily")
+
+Progress = Callable[[int, int, str], object]
+AnyPath = str | os.PathLike[str]
+
+
+_LOOKED_AT = 8
+"""Views that the detective looks at."""
+
+
+class CaptureWarning(UserWarning):
+    """Something of an imported capture that its maker should know."""
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the files do not say. The fields are those of `import_capture`."""
+
+    mesh: Path | None = None
+    objects: tuple[str, ...] = ()
+    pictures: Path | None = None
+    masks: Path | str | None = None
+    labels: Path | None = None
+    parser: str | None = None
+    curve: str = "auto"
+    brackets: int = 1
+    even_exposure: bool = False
+    holdout: int | tuple[str, ...] | None = None
+    shrink: int = 1
+    unit: str | None = None
+    place: str = "auto"
+    apply: bool = False
+
+
+def import_capture(
+    format: str,
+    path: AnyPath,
+    out: AnyPath,
+    *,
+    mesh: AnyPath | None = None,
+    objects: Sequence[str] = (),
+    pictures: AnyPath | None = None,
+    masks: AnyPath | None = None,
+    labels: AnyPath | None = None,
+    parser: str | None = None,
+    curve: str = "auto",
+    brackets: int = 1,
+    even_exposure: bool = False,
+    holdout: int | Sequence[str] | None = None,
+    shrink: int = 1,
+    unit: str | None = None,
+    place: str = "auto",
+    apply: bool = False,
+    progress: Progress | None = None,
+) -> Path:
+    """Bring a capture of ``format`` (``transforms``, ``colmap``, ``metashape``, ``emily``) at ``path`` into the
+    capture folder ``out``, with ``import.json`` that says what was assumed; returns the folder.
+
+    ``mesh`` is an OBJ with texture coordinates, of which ``objects`` are the face; ``pictures`` the folder of
+    the photographs, where the files do not say it. ``masks`` is a folder of masks, ``alpha`` (that of the
+    photographs) or ``silhouette`` (of the mesh); by default those that the file names, else alpha, else the
+    silhouette. ``labels`` is a folder of a face parser's pictures and ``parser`` its name or a JSON file of
+    names by id. ``curve`` is the photographs' transfer curve (``auto``, ``srgb``, ``linear``, ``rec709``,
+    ``gamma=2.2``), ``brackets`` how many exposures each view has, ``even_exposure`` divides by what EXIF
+    says the camera let through. ``holdout`` withholds every n-th view (from the n-th on) or those named;
+    ``shrink`` averages so many pixels a side. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
+    source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras). If one change of a
+    convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error.
+
+    Raises `CaptureError`, `PictureError` or `StorageError`.
+    """
+
+    def path_of(value: AnyPath | None) -> Path | None:
+        return None if value is None else Path(value)
+
+    choices = Choices(
+        mesh=path_of(mesh),
+        objects=tuple(objects),
+        pictures=path_of(pictures),
+        masks=masks if masks in ("alpha", "silhouette") else path_of(masks),  # type: ignore[arg-type]
+        labels=path_of(labels),
+        parser=parser,
+        curve=curve,
+        brackets=brackets,
+        even_exposure=even_exposure,
+        holdout=holdout if holdout is None or isinstance(holdout, int) else tuple(holdout),
+        shrink=shrink,
+        unit=unit,
+        place=place,
+        apply=apply,
+    )
+    _check(format, choices)
+    source = read_source(format, Path(path), choices.pictures)
+    _Import(format, Path(path), source, choices, progress or (lambda done, total, what: None)).write(Path(out))
+    return Path(out)
+
+
+def read_source(format: str, path: Path, pictures: Path | None = None) -> Source:
+    """The cameras of a capture. Raises `CaptureError`."""
+    if format == "transforms":
+        return read_transforms(path)
+    readers = {"colmap": read_colmap, "metashape": read_metashape, "emily": read_emily}
+    if format not in readers:
+        raise CaptureError(f"format {format!r} is unknown; there are {', '.join(FORMATS)} (RealityCapture exports colmap)")
+    return readers[format](path, pictures)
+
+
+def _check(format: str, choices: Choices) -> None:
+    check_curve(choices.curve)
+    if choices.unit is not None and choices.unit not in UNITS:
+        raise CaptureError(f"unit {choices.unit!r} is unknown; there are {', '.join(UNITS)}")
+    if choices.place not in PLACES:
+        raise CaptureError(f"place {choices.place!r} is unknown; there are {', '.join(PLACES)}")
+    for name, value, most in (("brackets", choices.brackets, 32), ("shrink", choices.shrink, 64)):
+        if not 1 <= value <= most:
+            raise CaptureError(f"{name} is {value}; it must be from 1 to {most}")
+    if isinstance(choices.holdout, int) and choices.holdout < 2:
+        raise CaptureError(f"holdout is {choices.holdout}; every second view is the most that can be withheld")
+    if choices.labels is not None and choices.parser is None:
+        raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
+    for folder in (choices.masks, choices.labels, choices.pictures):
+        if isinstance(folder, Path) and not folder.is_dir():
+            raise CaptureError(f"{folder}: is no folder; name one, or of masks alpha or silhouette")
+
+
+class _Import:
+    """One import: a few views are looked at, then all are taken, placed and written."""
+
+    def __init__(self, format: str, path: Path, source: Source, choices: Choices, progress: Progress) -> None:
+        self.format, self.path, self.source, self.choices, self.progress = format, path, source, choices, progress
+        self.notes: set[str] = set(source.assumed)
+        mesh = choices.mesh or source.mesh
+        if mesh is None:
+            raise CaptureError(f"{source.origin}: names no mesh; name an OBJ file with texture coordinates (mesh)")
+        self.mesh_file = mesh
+        self.mesh = read_mesh(mesh, choices.objects or source.objects)
+        self.withheld = _withheld(source, choices.holdout)
+
+    def write(self, out: Path) -> None:
+        self._keep_apart(out)
+        first = read_photograph(self.source.views[0].picture, self.choices.curve)
+        reading = self._reading(first)
+        verdict = self._look(reading)
+        change = verdict.change if verdict is not None and verdict.change is not None and self.choices.apply else PLAIN
+        mesh = self.mesh
+        if change.mesh_scale != 1:
+            mesh = mesh.moved(np.diag([change.mesh_scale] * 3 + [1.0]))
+        placement = self._place(mesh, change)
+        if not np.array_equal(placement.matrix, np.eye(4)):
+            mesh = mesh.moved(placement.matrix)
+        folder = CaptureWriter(out, self._key())
+        folder.mesh(mesh)
+        report = Sightings()
+        for number, view in enumerate(self.source.views):
+            self.progress(number, len(self.source.views), f"view {view.name}")
+            taken = self._finished(take(self.source, view, reading, self.notes), change, mesh, placement)
+            report.note(taken)
+            folder.view(taken, withheld=view.name in self.withheld)
+        self.notes |= report.notes(even=reading.reference is not None)
+        folder.transforms(sorted({*LABELS.items()}, key=lambda item: item[1]))
+        folder.record(self._record(reading, verdict, placement, report))
+        folder.commit()
+        self.progress(len(self.source.views), len(self.source.views), "capture")
+
+    def _keep_apart(self, out: Path) -> None:
+        """No input is replaced by the output."""
+        target = out.resolve()
+        for view in self.source.views:
+            for file in (self.source.origin, self.mesh_file, view.picture, view.mask, view.label):
+                if file is not None and target in (file.resolve(), *file.resolve().parents):
+                    raise StorageError(f"{out}: holds {file.name}, which is read; choose another folder for the capture")
+
+    def _reading(self, first: Photograph) -> Reading:
+        choices, source = self.choices, self.source
+        own = any(view.mask is not None for view in source.views)
+        alpha = choices.masks == "alpha"
+        if choices.masks is None and not own and first.alpha is not None and first.alpha.min() < 0.5:
+            alpha = True
+            self.notes.add("masks are the photographs' alpha")
+        names = name_table(choices.parser or "unshade")
+        if choices.parser is None and source.label_names:
+            names = {number: name if name in LABELS else "other" for number, name in source.label_names.items()}
+        reference = None
+        if choices.brackets > 1 or choices.even_exposure:
+            if first.exposure is None:
+                raise CaptureError(f"{source.views[0].picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand")
+            reference = first.exposure
+        folder = choices.masks if isinstance(choices.masks, Path) else None
+        return Reading(choices.curve, choices.brackets, reference, folder, alpha, choices.masks == "silhouette", choices.labels, names)
+
+    def _look(self, reading: Reading) -> Verdict | None:
+        """What the detective says of some views; a change that mends them is an error unless it is to be made."""
+        views = self.source.views
+        chosen = views if len(views) <= _LOOKED_AT else [views[i * len(views) // _LOOKED_AT] for i in range(_LOOKED_AT)]
+        evidence = []
+        for view in chosen:
+            self.progress(0, len(views), f"looking at {view.name}")
+            taken = take(self.source, view, reading, self.notes).undistorted()
+            if taken.mask is not None:
+                evidence.append(Evidence(taken.camera, taken.mask > 0))
+        verdict = examine(self.mesh, evidence, self.source.elsewhere)
+        if verdict is None:
+            self.notes.add("masks are the mesh's silhouette, so nothing tells whether the cameras fit it; look at masks over images")
+            return None
+        if verdict.change is not None and not self.choices.apply:
+            raise CaptureError(
+                f"{self.source.origin}: the mesh covers {verdict.union:.3f} of the masks (union, median of {verdict.views} views), "
+                f"but {verdict.mended:.3f} if {verdict.change.words} [{verdict.change.id}]; mend the files, or import with apply"
+            )
+        if verdict.change is not None:
+            self.notes.add(f"applied: {verdict.change.words} [{verdict.change.id}]")
+        elif verdict.union < SOUND:
+            words = f"the mesh covers {verdict.union:.2f} of the masks and no single change mends it"
+            self.notes.add(words)
+            warnings.warn(f"{self.source.origin}: {words}; look at masks over images", CaptureWarning, stacklevel=4)
+        return verdict
+
+    def _place(self, mesh: ChartMesh, change: Change) -> Placement:
+        pinhole = [Pinhole(1, 1, (1.0, 1.0), (0.5, 0.5), view.camera_to_world) for view in self.source.views]
+        metres = UNITS[self.choices.unit] if self.choices.unit else self.source.metres
+        placement = place(mesh.vertices, [change.camera(p).camera_to_world for p in pinhole], metres=metres, how=self.choices.place)
+        self.notes.update(placement.words)
+        return placement
+
+    def _finished(self, taken: Taken, change: Change, mesh: ChartMesh, placement: Placement) -> Taken:
+        """The view as it is written: mended, placed, without its lens where a capture cannot say it, smaller."""
+        taken = taken.turned(change.orientation, inverted=change.inverted)
+        camera = change.camera(taken.camera)
+        camera = replace(camera, camera_to_world=moved(placement.matrix, camera.camera_to_world))
+        taken = replace(taken, camera=camera)
+        if not taken.lens.kept or taken.mask is None or taken.name in self.withheld:
+            taken = taken.undistorted()
+        taken = taken.smaller(self.choices.shrink)
+        if taken.mask is None:
+            seen = taken.camera.silhouette(mesh.vertices, mesh.triangles)
+            taken = replace(taken, mask=np.where(seen, 255, 0).astype(np.uint8))
+        return taken
+
+    def _key(self) -> str:
+        """Everything that decides what is written; of photographs their sizes and times."""
+        parts = [self.format, str(self.path), repr(self.choices), content_hash(self.mesh_file)]
+        for view in self.source.views:
+            parts.append(f"{view!r}")
+            for file in (view.picture, view.mask, view.label):
+                if file is not None and file.is_file():
+                    parts.append(f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}")
+        return "\n".join(parts)
+
+    def _record(self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings) -> dict[str, Any]:
+        choices = self.choices
+        if reading.masks is not None or any(view.mask is not None for view in self.source.views):
+            masks = "files"
+        else:
+            masks = "alpha" if reading.alpha else "silhouette"
+        return {
+            "format": 1,
+            "unshade": _native.__version__,
+            "source": {"format": self.format, "path": str(self.path), "mesh": str(self.mesh_file)},
+            "views": {view.name: str(view.picture) for view in self.source.views},
+            "withheld": sorted(self.withheld),
+            "masks": masks if choices.masks != "silhouette" else "silhouette",
+            "labels": choices.parser if choices.labels else None,
+            "curves": sorted(seen.curves),
+            "profiles": sorted(seen.profiles),
+            "shrink": choices.shrink,
+            "brackets": choices.brackets,
+            "fit": None
+            if verdict is None
+            else {
+                "views": verdict.views,
+                "union": round(verdict.union, 4),
+                "change": verdict.change.id if verdict.change else None,
+                "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
+            },
+            "source_to_capture": placement.matrix.tolist(),
+            "assumed": sorted(self.notes),
+        }
+
+
+class Sightings:
+    """What photographs said of themselves."""
+
+    def __init__(self) -> None:
+        self.curves: set[str] = set()
+        self.profiles: set[str] = set()
+        self._exposures: list[float] = []
+        self._unmasked: list[str] = []
+
+    def note(self, taken: Taken) -> None:
+        self.curves.add(taken.photograph.curve)
+        self.profiles.add(taken.photograph.profile or "none: Rec.709 primaries are assumed")
+        if taken.photograph.exposure is not None:
+            self._exposures.append(taken.photograph.exposure)
+        if taken.mask is None or not taken.mask.any():
+            self._unmasked.append(taken.name)
+
+    def notes(self, *, even: bool) -> set[str]:
+        notes: set[str] = set()
+        if not even and self._exposures and max(self._exposures) > 1.05 * min(self._exposures):
+            factor = max(self._exposures) / min(self._exposures)
+            notes.add(f"exposures differ by a factor of {factor:.3g} between views; even_exposure divides by them")
+        if self._unmasked:
+            notes.add(f"no face in the masks of {', '.join(self._unmasked)}")
+        return notes
+
+
+def _withheld(source: Source, holdout: int | tuple[str, ...] | None) -> set[str]:
+    """The names of the views that are set aside."""
+    names = [view.name for view in source.views]
+    if holdout is None:
+        withheld = set(source.withheld)
+    elif isinstance(holdout, int):
+        withheld = set(names[holdout - 1 :: holdout])
+    else:
+        stems = {view.picture.stem: view.name for view in source.views} | {view.picture.name: view.name for view in source.views}
+        known = {name: name for name in names} | stems
+        strange = [name for name in holdout if name not in known]
+        if strange:
+            raise CaptureError(f"holdout: there is no view {strange[0]!r}; there are {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}")
+        withheld = {known[name] for name in holdout}
+    if len(withheld) >= len(names):
+        raise CaptureError(f"{source.origin}: all {len(names)} views are withheld; leave some to train on")
+    return withheld

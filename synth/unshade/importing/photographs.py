@@ -1,0 +1,201 @@
+"""One view of an imported capture: its photograph, mask and labels, sorted out to agree with its camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import CaptureError
+from .brackets import bracket, merged
+from .lens import undistorted
+from .parser_labels import our_labels
+from .pictures import Floats, Photograph, read_photograph, read_plane, turned
+from .pinhole import Pinhole
+from .source import Lens, Source, SourceView
+
+_ASPECT = 0.01
+"""By how much the sides of pictures of another size than their camera's may disagree on the factor."""
+
+Bytes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Taken:
+    """A view with its pictures, all of the camera's size: radiance [H, W, 3], mask and labels [H, W] or None."""
+
+    name: str
+    camera: Pinhole
+    lens: Lens
+    radiance: Floats
+    mask: Bytes | None
+    labels: Bytes | None
+    photograph: Photograph
+
+    def undistorted(self) -> Taken:
+        """The view as a pinhole would have taken it."""
+        if self.lens.straight:
+            return self
+        focal, centre = self.camera.focal, self.camera.centre
+
+        def straight(picture: NDArray[Any], *, smooth: bool = False) -> NDArray[Any]:
+            return undistorted(picture, self.lens, focal, centre, smooth=smooth)
+
+        return replace(
+            self,
+            lens=Lens(),
+            radiance=straight(self.radiance, smooth=True),
+            mask=None if self.mask is None else straight(self.mask),
+            labels=None if self.labels is None else straight(self.labels),
+        )
+
+    def turned(self, orientation: int, *, inverted: bool) -> Taken:
+        """The view with its pictures turned or mirrored, and its mask inside out."""
+        mask = None if self.mask is None else turned(self.mask, orientation)
+        return replace(
+            self,
+            radiance=turned(self.radiance, orientation),
+            mask=None if mask is None else (255 - mask if inverted else mask),
+            labels=None if self.labels is None else turned(self.labels, orientation),
+        )
+
+    def smaller(self, every: int) -> Taken:
+        """The view with pixels of ``every`` x ``every`` of the camera's; a last part row or column is dropped."""
+        if every == 1:
+            return self
+        camera = self.camera.smaller(every)
+        rows, columns = camera.height * every, camera.width * every
+
+        def nearest(picture: Bytes | None) -> Bytes | None:
+            return None if picture is None else picture[every // 2 : rows : every, every // 2 : columns : every]
+
+        radiance = cv2.resize(self.radiance[:rows, :columns], (camera.width, camera.height), interpolation=cv2.INTER_AREA)
+        return replace(
+            self, camera=camera, radiance=np.asarray(radiance, np.float32), mask=nearest(self.mask), labels=nearest(self.labels)
+        )
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How pictures are to be read: their curve, pictures of one bracket, the exposure that all are brought to,
+    where masks come from (a folder, alpha, or the mesh whatever there is), labels and the names of their ids."""
+
+    curve: str
+    brackets: int
+    reference: float | None
+    masks: Path | None
+    alpha: bool
+    silhouette: bool
+    labels: Path | None
+    names: dict[int, str]
+
+
+def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) -> Taken:
+    """Reads a view. Raises `CaptureError` or `PictureError`; what is assumed is added to ``notes``."""
+    if reading.brackets > 1:
+        radiance, photograph = merged(bracket(view.picture, reading.brackets), reading.curve)
+    else:
+        photograph = read_photograph(view.picture, reading.curve)
+        radiance = photograph.radiance
+    if reading.reference is not None:
+        if photograph.exposure is None:
+            raise CaptureError(f"{view.picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand")
+        # A merged bracket is radiance over exposure already.
+        radiance = radiance * np.float32(reading.reference / (1.0 if reading.brackets > 1 else photograph.exposure))
+    turn = _orientation(source, view, photograph, notes)
+    stored = photograph.radiance.shape[:2]
+    radiance = turned(radiance, turn)
+    camera = _camera(view, radiance.shape[1], radiance.shape[0], notes)
+
+    def beside(plane: NDArray[Any], path: Path) -> NDArray[Any]:
+        """A mask or label picture that is of the photograph's size, as stored or turned."""
+        if plane.shape == stored and turn != 1 and plane.shape != radiance.shape[:2]:
+            plane = turned(plane, turn)
+        if plane.shape != radiance.shape[:2]:
+            size = f"{plane.shape[1]} x {plane.shape[0]}"
+            raise CaptureError(
+                f"{path}: is {size}, but its photograph {camera.width} x {camera.height}; write it in the photograph's size"
+            )
+        return plane
+
+    return Taken(
+        name=view.name,
+        camera=camera,
+        lens=view.lens,
+        radiance=radiance,
+        mask=_mask(view, reading, photograph, turn, beside),
+        labels=_labels(view, reading, beside),
+        photograph=photograph,
+    )
+
+
+def _orientation(source: Source, view: SourceView, photograph: Photograph, notes: set[str]) -> int:
+    """The EXIF orientation that is to be applied for pixels to be those of the camera."""
+    if photograph.orientation == 1:
+        return 1
+    height, width = photograph.radiance.shape[:2]
+    sideways = photograph.orientation >= 5
+    turn = source.turned
+    if view.width is not None and view.height is not None and sideways and width != height:
+        turn = (view.width < view.height) != (width < height)
+    what = "applied" if turn else "left out, as the cameras are those of the pixels as stored"
+    notes.add(f"EXIF orientation {photograph.orientation}: {what}")
+    return photograph.orientation if turn else 1
+
+
+def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinhole:
+    stated = (view.width or width, view.height or height)
+    along, across = width / stated[0], height / stated[1]
+    if abs(along / across - 1) > _ASPECT:
+        raise CaptureError(
+            f"{view.picture}: is {width} x {height}, but its camera says {stated[0]} x {stated[1]}; "
+            "name the pictures that the cameras were fitted to"
+        )
+    if (width, height) != stated:
+        notes.add(f"pictures are {along:.6g} times as large as their cameras say: focal lengths and principal points are scaled")
+    centre = view.centre or (stated[0] / 2, stated[1] / 2)
+    if view.centre is None:
+        notes.add("no principal point is stated: it is the picture's middle")
+    return Pinhole(
+        width, height, (view.focal[0] * along, view.focal[1] * across), (centre[0] * along, centre[1] * across), view.camera_to_world
+    )
+
+
+def _mask(view: SourceView, reading: Reading, photograph: Photograph, turn: int, beside: Any) -> Bytes | None:
+    if reading.silhouette:
+        return None
+    if reading.alpha:
+        if photograph.alpha is None:
+            raise CaptureError(f"{view.picture}: has no alpha; name a folder of masks, or take the mesh's silhouette")
+        alpha = turned(photograph.alpha, turn)
+        return np.where(alpha >= 0.5, 255, 0).astype(np.uint8)
+    path = view.mask
+    if reading.masks is not None:
+        path = _named(reading.masks, view, "mask")
+    if path is None:
+        return None
+    plane = beside(read_plane(path), path)
+    # Masks of 0 and 1, of 8 bits and of 16.
+    most = int(plane.max(initial=0))
+    full = 1 if most <= 1 else 255 if most <= 255 else 65535
+    return np.where(plane.astype(np.int64) * 2 >= full, 255, 0).astype(np.uint8)
+
+
+def _labels(view: SourceView, reading: Reading, beside: Any) -> Bytes | None:
+    path = view.label if reading.labels is None else _named(reading.labels, view, "label picture")
+    if path is None:
+        return None
+    return our_labels(path, beside(read_plane(path), path), reading.names)
+
+
+def _named(folder: Path, view: SourceView, what: str) -> Path:
+    """The picture of a folder that is called as the photograph, with its ending or another."""
+    picture = view.picture
+    for name in (f"{picture.name}.png", f"{picture.stem}.png", picture.name, f"{view.name}.png", f"{picture.stem}_mask.png"):
+        if (folder / name).is_file():
+            return folder / name
+    raise CaptureError(f"{folder}: has no {what} {picture.stem}.png for {picture.name}; add it")

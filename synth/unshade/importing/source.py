@@ -1,0 +1,166 @@
+"""What a stranger's capture says, before a picture is opened: cameras in the mesh's coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import CaptureError
+
+Matrix = NDArray[np.float64]
+
+OPENCV_AXES: Matrix = np.diag([1.0, -1.0, -1.0, 1.0])
+"""From OpenGL camera axes (y up, looking down -z) to OpenCV's (y down, looking along z), and back."""
+
+_RIGID = 1e-3
+"""How far the rotation of a camera may be from one, per entry of its product with its transpose."""
+
+BROWN = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
+"""OpenCV's terms of a lens, in OpenCV's order."""
+
+FISHEYE = ("k1", "k2", "k3", "k4")
+"""OpenCV's terms of an equidistant fisheye, in OpenCV's order."""
+
+
+@dataclass(frozen=True)
+class Lens:
+    """How a lens departs from a pinhole: OpenCV's polynomial, or its fisheye."""
+
+    terms: dict[str, float] = field(default_factory=lambda: dict[str, float]())
+    fisheye: bool = False
+
+    @property
+    def straight(self) -> bool:
+        """Whether it is a pinhole."""
+        return not self.fisheye and not any(self.terms.values())
+
+    @property
+    def kept(self) -> bool:
+        """Whether ``transforms.json`` of a capture can say it: no more than k1, k2, p1, p2."""
+        return not self.fisheye and not any(self.terms.get(name) for name in BROWN[4:])
+
+    def coefficients(self) -> NDArray[np.float64]:
+        """OpenCV's array of them."""
+        names = FISHEYE if self.fisheye else BROWN
+        return np.array([self.terms.get(name, 0.0) for name in names])
+
+
+@dataclass(frozen=True)
+class SourceView:
+    """One photograph and its camera.
+
+    ``focal`` and ``centre`` are in pixels, the top left corner of the picture is (0, 0) and pixel
+    centres lie at +.5; ``camera_to_world`` has OpenGL axes and is rigid. ``width`` and ``height`` are
+    None where the file does not say them; then they are the picture's.
+    """
+
+    name: str
+    picture: Path
+    camera_to_world: Matrix
+    focal: tuple[float, float]
+    centre: tuple[float, float] | None
+    width: int | None
+    height: int | None
+    lens: Lens = field(default_factory=Lens)
+    mask: Path | None = None
+    label: Path | None = None
+
+
+@dataclass(frozen=True)
+class Source:
+    """A capture as another program left it.
+
+    ``origin`` is the file that the cameras came from, ``withheld`` the names that it sets aside.
+    ``metres`` is the length of its unit, if the format fixes it. ``objects`` names the mesh's objects
+    that are the face; none means all. ``label_names`` says what the ids of its label pictures are. ``turned`` says whether the program counts pixels after a
+    photograph's EXIF orientation was applied. ``elsewhere`` is where the cameras would be if the mesh
+    lies in the other of two coordinate systems that the file speaks of: a name, what it would mean, and
+    the similarity of the cameras' world.
+    """
+
+    origin: Path
+    views: tuple[SourceView, ...]
+    mesh: Path | None = None
+    withheld: tuple[str, ...] = ()
+    elsewhere: tuple[str, str, Matrix] | None = None
+    metres: float | None = None
+    objects: tuple[str, ...] = ()
+    turned: bool = True
+    label_names: dict[int, str] = field(default_factory=lambda: dict[int, str]())
+    assumed: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.views:
+            raise CaptureError(f"{self.origin}: holds no camera with a pose; export the cameras again, aligned")
+        for view in self.views:
+            _check(self.origin, view)
+
+
+def _check(origin: Path, view: SourceView) -> None:
+    where = f"{origin}: camera {view.name!r}"
+    numbers = [*view.focal, *(view.centre or ()), *view.lens.terms.values(), *view.camera_to_world.ravel()]
+    if not np.isfinite(numbers).all():
+        raise CaptureError(f"{where}: holds a number that is not finite; export the cameras again")
+    if min(view.focal) <= 0:
+        raise CaptureError(f"{where}: its focal length is {min(view.focal):g}; it must be positive")
+    for side in (view.width, view.height):
+        if side is not None and not 0 < side <= 65535:
+            raise CaptureError(f"{where}: its picture is {view.width} x {view.height}; mend the size")
+    rotation = view.camera_to_world[:3, :3]
+    off = np.abs(rotation.T @ rotation - np.eye(3)).max()
+    if off > _RIGID or np.linalg.det(rotation) < 0:
+        raise CaptureError(f"{where}: its matrix is no rotation and translation; export the cameras again")
+
+
+def rigid(matrix: Matrix) -> Matrix:
+    """A camera's matrix without the scale that its rotation may carry; `Source` refuses what is not rigid then."""
+    result = np.array(matrix, float)
+    scale = np.cbrt(abs(np.linalg.det(result[:3, :3])))
+    if scale > 0 and np.isfinite(scale):
+        result[:3, :3] /= scale
+    return result
+
+
+def moved(similarity: Matrix, camera_to_world: Matrix) -> Matrix:
+    """A camera's matrix after its world was moved, turned and scaled."""
+    return rigid(similarity @ camera_to_world)
+
+
+def frame_names(pictures: list[str]) -> list[str]:
+    """A short name for each picture: its stem, or with its folders where stems are not unique."""
+    plain = [picture.replace("\\", "/") for picture in pictures]
+    stems = [_stem(path.rsplit("/", 1)[-1]) for path in plain]
+    if len({stem.casefold() for stem in stems}) < len(stems):
+        stems = [_stem(path).strip("./").replace("/", "_") for path in plain]
+    names: list[str] = []
+    for stem in stems:
+        clean = "".join(c if c.isalnum() or c in "._-" else "_" for c in stem).lstrip(".") or "frame"
+        name, number = clean, 1
+        while name.casefold() in {other.casefold() for other in names}:
+            number += 1
+            name = f"{clean}_{number}"
+        names.append(name)
+    return names
+
+
+def _stem(path: str) -> str:
+    """A path without its ending, as far as it has one."""
+    head, dot, ending = path.rpartition(".")
+    return head if dot and head and "/" not in ending else path
+
+
+def quaternion_matrix(w: float, x: float, y: float, z: float) -> Matrix:
+    """The rotation of a quaternion of any length above 0."""
+    q = np.array([w, x, y, z], float)
+    length = np.linalg.norm(q)
+    w, x, y, z = q / length if length > 0 else (np.nan,) * 4
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
