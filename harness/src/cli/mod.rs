@@ -10,6 +10,7 @@ macro_rules! say {
     }};
 }
 
+mod alone;
 mod arguments;
 mod bench;
 mod check;
