@@ -83,7 +83,7 @@ def read(file: Path, folder: Path, parent: Module | None = None) -> Module:
     module = Module(file, parent)
     source = file.read_text()
     # Paths of `#[path]` are texts too.
-    named = lambda found: source.endswith("path = ", 0, found.start())  # noqa: E731
+    named = lambda found: source.endswith("path = ", 0, found.start())
     text = without_tests(SILENT.sub(lambda found: found[0] if named(found) else " ", source))
     for path, name in MODULE.findall(text):
         places = [folder / path] if path else [folder / f"{name}.rs", folder / name / "mod.rs"]
@@ -135,8 +135,11 @@ def imports(crate: Module) -> dict[Module, set[Module]]:
 
 
 def named(module: Module) -> list[Module]:
-    paths = [steps for name, steps in module.imported.items()
-             if name not in module.handed_on or re.search(rf"\b{name}\b", module.body)]
+    paths = [
+        steps
+        for name, steps in module.imported.items()
+        if name not in module.handed_on or re.search(rf"\b{name}\b", module.body)
+    ]
     paths += [re.split(r"\s*::\s*", path) for path in PATH.findall(module.body)]
     # A module taken whole counts as imported.
     paths += [[*whole, "*"] for whole in module.whole]
