@@ -3,10 +3,28 @@
 from __future__ import annotations
 
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
-from import_circles import ROOT, circle, crates
+from import_circles import ROOT, Module, circle, crates
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+CRATES = crates(ROOT)
+
+# What a crate may know of the others, at most. Scoring in particular needs no solver, and so no GPU's compiler.
+WALLS = {
+    "formats": set(),
+    "capture": {"formats"},
+    "scoring": {"formats", "capture"},
+    "report": {"formats", "capture", "scoring"},
+    "solver": {"formats", "capture"},
+    "bench": {"formats", "capture", "solver"},
+}
 
 
 def made(root: Path, files: dict[str, str]) -> list[str]:
@@ -20,13 +38,30 @@ def made(root: Path, files: dict[str, str]) -> list[str]:
     return [Path(file).relative_to(root / "one" / "src").as_posix() for file in circle(crate)]
 
 
-@pytest.mark.parametrize("crate", crates(ROOT), ids=lambda crate: crate.file.parent.parent.name)
-def test_no_circle(crate) -> None:
+@pytest.mark.parametrize("crate", CRATES, ids=lambda crate: crate.file.parent.parent.name)
+def test_no_circle(crate: Module) -> None:
     assert circle(crate) == []
 
 
+def dependencies() -> dict[str, set[str]]:
+    """Of each crate of the workspace, the crates that it is built with, its tests too."""
+    manifests = [tomllib.loads((crate.file.parents[1] / "Cargo.toml").read_text()) for crate in CRATES]
+    tables = ("dependencies", "dev-dependencies", "build-dependencies")
+    return {
+        manifest["package"]["name"]: {name for table in tables for name in manifest.get(table, {})}
+        for manifest in manifests
+    }
+
+
+@pytest.mark.parametrize("name", WALLS)
+def test_a_crate_knows_no_more_than_it_may(name: str) -> None:
+    known = dependencies()
+    assert {other for other in known[name] if other in known} <= WALLS[name]
+    assert "wgpu" not in known[name] or name == "solver"
+
+
 def test_every_crate_is_read_whole() -> None:
-    for crate in crates(ROOT):
+    for crate in CRATES:
         files = {module.file for module in crate.walk()}
         tests = {"tests.rs", "testing.rs", "fake.rs", "main.rs"}
         left = [

@@ -1,7 +1,7 @@
 //! Decomposes pictures of a known mesh into reflectance maps (neural shading fields).
 //!
 //! A pixel is read once in [`capture`], becomes a sample of the G-buffer, meets its weights in
-//! [`backend`], and its error ends in a texel of [`maps`].
+//! [`backend`], and its error ends in a texel of [`formats::Maps`].
 
 pub mod backend;
 pub mod baselines;

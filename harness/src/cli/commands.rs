@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use formats::atomic;
@@ -10,6 +9,7 @@ use scoring::compare::{Baseline, Tolerances, compare};
 use scoring::score;
 use solver::Choice;
 
+use super::alone::{alone, tools};
 use super::arguments::{
     BackendName, CompareArgs, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
 };
@@ -17,8 +17,7 @@ use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
 use super::{bench, check, doctor, export};
 use crate::live::{Live, LiveError};
-use crate::suite::{self, BaselineMethod, Observer, RunError, RunOptions, Suite, Tools};
-use crate::synth::{Interpreter, Interrupt};
+use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
@@ -58,32 +57,6 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)
-}
-
-fn tools() -> Tools {
-    let interrupt = Interrupt::default();
-    let flag = interrupt.clone();
-    // A second handler (a caller that set its own) keeps the first: then Ctrl-C is theirs.
-    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
-        tracing::debug!("Ctrl-C is handled elsewhere: {error}");
-    }
-    Tools { interpreter: Interpreter::find(), interrupt }
-}
-
-/// Runs one stage outside a suite, with its bar.
-pub(super) fn alone(
-    id: &str,
-    work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
-) -> Result<(), RunError> {
-    let mut progress = Progress::new();
-    let start = Instant::now();
-    progress.stage_begins(id, 0, 1);
-    let result = work(&tools(), &mut |done, total, what| progress.step(done, total, what));
-    if result.is_ok() {
-        progress.stage_ends(id, Some(start.elapsed().as_secs_f64()));
-    }
-    progress.finish();
-    result
 }
 
 fn synth(arguments: SynthArgs) -> Result<(), RunError> {

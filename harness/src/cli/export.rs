@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::commands::alone;
+use super::alone::alone;
 use crate::suite::{self, RunError};
 
 #[derive(Args)]

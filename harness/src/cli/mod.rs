@@ -10,6 +10,7 @@ macro_rules! say {
     }};
 }
 
+mod alone;
 mod arguments;
 mod bench;
 mod check;
@@ -22,6 +23,7 @@ mod progress;
 use std::ffi::OsString;
 
 use clap::Parser;
+use tracing_subscriber::filter::LevelFilter;
 
 use arguments::Cli;
 use exit::{BAD_INPUT, DONE, INTERRUPTED};
@@ -35,9 +37,10 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return if error.use_stderr() { BAD_INPUT } else { DONE };
         }
     };
-    let level = ["warn", "info", "debug"][usize::from(cli.verbose.min(2))];
+    let level =
+        [LevelFilter::WARN, LevelFilter::INFO, LevelFilter::DEBUG][usize::from(cli.verbose.min(2))];
     let _ = tracing_subscriber::fmt()
-        .with_env_filter(level)
+        .with_max_level(level)
         .with_writer(std::io::stderr)
         .without_time()
         .with_target(false)

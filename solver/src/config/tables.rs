@@ -295,6 +295,16 @@ pub struct HeightConfig {
     pub albedo_damping: f32,
 }
 
+/// The side of the texture on which [`HeightConfig::steps`] are taken.
+const SIDE_OF_STEPS: usize = 256;
+
+impl HeightConfig {
+    /// Conjugate-gradient steps per reweighting on a texture of this side.
+    pub(crate) fn steps_on(&self, side: usize) -> usize {
+        (self.steps * side).div_ceil(SIDE_OF_STEPS)
+    }
+}
+
 /// What a maps folder holds besides the maps, for whoever wants to see how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

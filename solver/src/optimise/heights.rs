@@ -6,7 +6,7 @@ use capture::gbuffer::Atlas;
 use super::bent_highlights::BentHighlights;
 use super::error::SolveError;
 use super::lit::Lit;
-use super::relief::{self, ReliefSolve};
+use super::relief::ReliefSolve;
 use super::site::Site;
 use super::stage::State;
 use crate::config::HeightConfig;
@@ -54,7 +54,7 @@ pub(super) fn heights(
 
 /// Conjugate-gradient steps for textures of side `size`.
 pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
-    let of_side = |side: &usize| config.reweightings * relief::steps(config, *side);
+    let of_side = |side: &usize| config.reweightings * config.steps_on(*side);
     sides(config, size).iter().map(of_side).sum()
 }
 

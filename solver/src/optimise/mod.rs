@@ -1,6 +1,7 @@
 //! The optimisation: Adam, the stages and their order, normalisation.
 
 pub mod adam;
+mod bending_penalty;
 mod bent_highlights;
 pub mod checkpoint;
 mod clock;

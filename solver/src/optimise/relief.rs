@@ -10,6 +10,7 @@ use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::bending_penalty::bending_penalty;
 use super::bent_highlights::BentHighlights;
 use super::error::SolveError;
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
@@ -27,7 +28,6 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
-use crate::simd::widened;
 use crate::transport::CHANNELS;
 
 /// Darkest albedo that a logarithm is taken of.
@@ -40,13 +40,6 @@ const ENOUGH: f64 = 1e-5;
 const SUBMITTED: usize = 5;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
-/// The side of the texture on which [`HeightConfig::steps`] are taken.
-const SIDE_OF_STEPS: usize = 256;
-
-/// Conjugate-gradient steps per reweighting on a texture of this side.
-pub(super) fn steps(config: &HeightConfig, side: usize) -> usize {
-    (config.steps * side).div_ceil(SIDE_OF_STEPS)
-}
 
 /// The linearised problem.
 pub struct ReliefSolve<'a> {
@@ -111,7 +104,7 @@ impl<'a> ReliefSolve<'a> {
             // what the model gets wrong does not.
             flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
             highlights: None,
-            steps: steps(height, size),
+            steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),
         }
     }
@@ -278,8 +271,7 @@ impl<'a> ReliefSolve<'a> {
         gradient
     }
 
-    /// Weights of the reweighted least squares, and the weighted mean absolute residual, both of what is
-    /// [`believed`].
+    /// Weights of the reweighted least squares, and the mean absolute residual, of what is [`believed`].
     fn weights(
         &self,
         slopes: &Planes,
@@ -368,8 +360,8 @@ impl<'a> ReliefSolve<'a> {
         Ok(())
     }
 
-    /// The same steps on a device that takes them. If there is none, or if it fails, the unknowns are as
-    /// they were, and the error is the number of steps that `step` has heard of.
+    /// The same steps on a device. If there is none or it fails, the unknowns are as they were, and the error
+    /// is the number of steps that `step` has heard of.
     fn on_device(
         &self,
         slopes: &Planes,
@@ -404,45 +396,5 @@ impl<'a> ReliefSolve<'a> {
         }
         x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
         Ok(told)
-    }
-}
-
-/// `flatness` times the deviation, plus `smoothness` times the transpose-times-itself of its forward
-/// differences.
-fn bending_penalty(bend: &[f32], size: usize, flatness: f32, smoothness: f32) -> Vec<f32> {
-    let line = 3 * size;
-    let row = |y: usize| &bend[y * line..][..line];
-    let mut out = vec![0.0; bend.len()];
-    out.par_chunks_mut(line).enumerate().for_each(|(y, out)| {
-        let here = row(y);
-        scaled(out, here, flatness);
-        let mut pull = |to: std::ops::Range<usize>, neighbour: &[f32]| {
-            add_difference(&mut out[to.clone()], &here[to], neighbour, smoothness);
-        };
-        pull(3..line, here);
-        pull(0..line - 3, &here[3..]);
-        if y > 0 {
-            pull(0..line, row(y - 1));
-        }
-        if y + 1 < size {
-            pull(0..line, row(y + 1));
-        }
-    });
-    out
-}
-
-widened! {
-    fn scaled(out: &mut [f32], values: &[f32], factor: f32) {
-        for (out, value) in out.iter_mut().zip(values) {
-            *out = factor * value;
-        }
-    }
-}
-
-widened! {
-    fn add_difference(sum: &mut [f32], a: &[f32], b: &[f32], factor: f32) {
-        for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
-            *sum += factor * (a - b);
-        }
     }
 }

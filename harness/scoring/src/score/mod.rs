@@ -4,6 +4,7 @@ mod confidence;
 mod error;
 mod geometry;
 mod maps;
+mod names;
 mod noise_floor;
 mod oracle;
 mod photographs;
@@ -14,7 +15,6 @@ mod rows;
 mod scores;
 mod truth;
 
-use std::fs;
 use std::path::Path;
 
 use formats::Maps;
@@ -29,6 +29,7 @@ pub use scores::{Inputs, RegionSize, Row, Scores};
 
 use crate::check::check;
 use geometry::Geometry;
+use names::{name_of, renderer_of, solver_name};
 use pictures::Frame;
 use truth::{Identity, Truth};
 
@@ -104,32 +105,4 @@ fn is_empty(maps: &Maps) -> bool {
     [diffuse_albedo, specular_albedo, diffuse_normal, specular_normal]
         .iter()
         .all(|map| map.is_none())
-}
-
-/// What `relit.json` says rendered the pictures; nothing for the truth's own renderer.
-fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
-    let path = relit.join("relit.json");
-    if !path.exists() {
-        return Ok(None);
-    }
-    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
-    let said: serde_json::Value =
-        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
-    Ok(said["renderer"].as_str().map(str::to_owned))
-}
-
-/// What `solve.json` calls the solver, else the folder's name.
-fn solver_name(maps: &Path) -> Result<String, ScoreError> {
-    let path = maps.join("solve.json");
-    if !path.exists() {
-        return Ok(name_of(maps));
-    }
-    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
-    let solve: serde_json::Value =
-        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
-    Ok(solve["solver"].as_str().map_or_else(|| name_of(maps), str::to_owned))
-}
-
-fn name_of(folder: &Path) -> String {
-    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -4,14 +4,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::content_hash::hash_path;
 use serde_json::Value;
 
+use super::error::ScoreError;
+use super::names::{name_of, solver_name};
 use super::pictures::{self, Frame};
 use super::protocol::Protocol;
 use super::scores::{Inputs, Scores};
-use super::{ScoreError, name_of, solver_name};
 use crate::check::check;
-use formats::content_hash::hash_path;
 
 /// The light that a method found, in which its maps are relit to be held against photographs.
 pub const FOUND_LIGHT: &str = "found";
