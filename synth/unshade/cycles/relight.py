@@ -74,7 +74,8 @@ def relight(
                 ],
                 views=[
                     description.view(
-                        view, {light.name: seeds(render.seed, seed_offset, light.name, view.name) for light in scene.lights}
+                        view,
+                        {light.name: seeds(render.seed, seed_offset, light.name, view.name) for light in scene.lights},
                     )
                     for view in views
                 ],

@@ -96,7 +96,9 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
     elif mesh is not None:
         shape = _read_mesh(mesh)
     else:
-        raise CaptureError(f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh")
+        raise CaptureError(
+            f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh"
+        )
     surface = Surface(shape, read_maps(maps, warn))
     if not surface.texels.inside.any():
         where = capture / "mesh.obj" if capture else mesh
@@ -154,4 +156,6 @@ def resized(picture: np.ndarray, size: int) -> np.ndarray:
 def require_maps(surface: Surface, maps: Path) -> None:
     """Raises `MapsError` for maps that no asset can hold."""
     if surface.size > 8192:
-        raise MapsError(f"{maps}: maps of {surface.size} texels are larger than other programs take; export 8192 or less")
+        raise MapsError(
+            f"{maps}: maps of {surface.size} texels are larger than other programs take; export 8192 or less"
+        )
