@@ -7,15 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import foreign_captures
 import numpy as np
 import pytest
-import unshade
+from foreign_captures import OPENCV_AXES
 from PIL import Image
 from scipy.spatial import cKDTree
-from unshade.errors import CaptureError
 
-import foreign_captures
-from foreign_captures import OPENCV_AXES
+import unshade
+from unshade.errors import CaptureError
 
 Document = dict[str, Any]
 
@@ -128,7 +128,12 @@ def test_a_planted_mistake_is_named_and_mended(mistake: str, source: Path, tmp_p
 
 @pytest.mark.parametrize(
     ("mistake", "orientation"),
-    [("upside-down-rows", np.flipud), ("mirrored", np.fliplr), ("half-turn", lambda a: a[::-1, ::-1]), ("turn-right", np.rot90)],
+    [
+        ("upside-down-rows", np.flipud),
+        ("mirrored", np.fliplr),
+        ("half-turn", lambda a: a[::-1, ::-1]),
+        ("turn-right", np.rot90),
+    ],
 )
 def test_pictures_that_lie_another_way_are_turned(mistake: str, orientation: Any, source: Path, tmp_path: Path) -> None:
     folder = _planted(source, tmp_path / "planted", lambda document: None)

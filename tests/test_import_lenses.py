@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 import unshade
 from PIL import Image
 from unshade import _native
@@ -42,7 +43,9 @@ def _capture(folder: Path, model: str, parameters: list[float]) -> Path:
     views = [{"name": name, **lens, "world_to_camera": pose} for name in ("a.exr", "b.exr")]
     colmap_child.ask(do="write", folder=str(folder / "sparse"), views=views, binary=True)
     # A wall before the camera, larger than its view.
-    (folder / "wall.obj").write_text("v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+    (folder / "wall.obj").write_text(
+        "v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
+    )
     return folder
 
 
@@ -50,7 +53,9 @@ def _capture(folder: Path, model: str, parameters: list[float]) -> Path:
 def test_a_pinhole_sees_what_the_lens_saw_elsewhere(model: str, tmp_path: Path) -> None:
     folder = _capture(tmp_path / "source", model, LENSES[model])
     mesh = folder / "wall.obj"
-    capture = unshade.import_capture("colmap", folder, tmp_path / "capture", mesh=mesh, holdout=["b"], unit="m", place="keep")
+    capture = unshade.import_capture(
+        "colmap", folder, tmp_path / "capture", mesh=mesh, holdout=["b"], unit="m", place="keep"
+    )
     frames = json.loads((capture / "transforms.json").read_text())["frames"]
     for frame in frames:
         assert frame["camera_model"] == "PINHOLE"
@@ -72,7 +77,16 @@ def test_a_lens_that_a_capture_can_say_is_handed_on(tmp_path: Path) -> None:
     whole = np.full(SIZE[::-1], 255, np.uint8)
     for name in ("a", "b"):
         Image.fromarray(whole).save(masks / f"{name}.png")
-    unshade.import_capture("colmap", folder, tmp_path / "capture", mesh=folder / "wall.obj", masks=masks, holdout=["b"], unit="m", place="keep")
+    unshade.import_capture(
+        "colmap",
+        folder,
+        tmp_path / "capture",
+        mesh=folder / "wall.obj",
+        masks=masks,
+        holdout=["b"],
+        unit="m",
+        place="keep",
+    )
     frames = {f["name"]: f for f in json.loads((tmp_path / "capture" / "transforms.json").read_text())["frames"]}
     assert frames["a"]["camera_model"] == "OPENCV" and frames["a"]["k1"] == -0.1 and frames["a"]["p2"] == -0.004
     assert frames["b"]["camera_model"] == "PINHOLE" and "k1" not in frames["b"]

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import foreign_captures
 import numpy as np
 import pytest
-import unshade
-from unshade.errors import CaptureError, SceneError, ScoreError
 
-import foreign_captures
+import unshade
 from conftest import TINY
 from conftest import unshade as command
+from unshade.errors import CaptureError, SceneError, ScoreError
 
 SOLVERS = TINY.read_text().split("\n\n", 1)[1].split('[[solver]]\nname = "oracle"')[0]
 """Our method, small, and a baseline; there is no oracle of photographs."""
@@ -51,12 +51,16 @@ def test_pictures_are_held_against_withheld_photographs(photographed: Path, tiny
     # The found light is not the true one, but it has to explain the photographs about as well.
     relit = found.value(subject="relit", light="found", **psnr)
     assert relit is not None and relit > (true.value(subject="relit", light="studio", **psnr) or 0) - 2
-    names, planes = unshade._native.read_exr(photographed / "run" / "relit" / "head" / "quick" / "none" / "found" / "004.exr")
+    names, planes = unshade._native.read_exr(
+        photographed / "run" / "relit" / "head" / "quick" / "none" / "found" / "004.exr"
+    )
     assert {"R", "diffuse.R", "specular.R", "variance.R"} <= set(names) and planes.shape[:2] == (96, 96)
 
 
 def test_the_found_light_has_the_photographs_exposure(photographed: Path) -> None:
-    relit = unshade._native.read_colour(photographed / "run" / "relit" / "head" / "quick" / "none" / "found" / "004.exr")
+    relit = unshade._native.read_colour(
+        photographed / "run" / "relit" / "head" / "quick" / "none" / "found" / "004.exr"
+    )
     photograph = unshade._native.read_colour(photographed / "head" / "images" / "004.exr")
     mask = unshade._native.read_gray(photographed / "head" / "masks" / "004.png") > 0
     np.testing.assert_allclose(relit[mask].mean(0) / photograph[mask].mean(0), 1, atol=0.15)
@@ -89,10 +93,10 @@ def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_pa
         assert "\n" not in str(refusal.value)
 
     solver = '[[solver]]\nname = "mean_texture"\n'
-    refused(f'captures = ["head"]\n[[solver]]\nname = "oracle"\n', "photographs have no true maps")
+    refused('captures = ["head"]\n[[solver]]\nname = "oracle"\n', "photographs have no true maps")
     refused(f'captures = ["nothing"]\n{solver}', "nothing is no capture without a truth")
     refused(f'captures = ["{tiny_run}/captures/tiny-studio"]\n{solver}', "is no capture without a truth")
-    refused(f'captures = []\n{solver}', "must be a list of captures' folders")
+    refused(f"captures = []\n{solver}", "must be a list of captures' folders")
     refused(f'captures = ["head", "head"]\n{solver}', "head occurs twice")
     refused(f'captures = ["head"]\n{solver}[render]\nwidth = 64\n', "render.* has no use for captures")
     refused(solver, "scene: is missing")
@@ -106,7 +110,12 @@ def test_halves_of_the_views_are_compared(photographed: Path, tmp_path: Path) ->
     found = unshade.consistency(photographed / "head", config=config, out=tmp_path / "halves")
     assert found["views"] == (2, 2) and 0.3 < found["common"] <= 1
     first, second = (unshade.Maps.read(tmp_path / "halves" / half) for half in ("first", "second"))
-    assert first.coverage is not None and second.coverage is not None and first.diffuse_albedo is not None and second.diffuse_albedo is not None
+    assert (
+        first.coverage is not None
+        and second.coverage is not None
+        and first.diffuse_albedo is not None
+        and second.diffuse_albedo is not None
+    )
     both = (first.coverage > 0) & (second.coverage > 0)
     expected = unshade.metrics.psnr_srgb(first.diffuse_albedo, second.diffuse_albedo, both, scale="global")
     assert found["diffuse_albedo_psnr"] == pytest.approx(expected)

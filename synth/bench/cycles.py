@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy.ndimage import binary_erosion
+
 from unshade.render import llvm
 
 llvm.activate(llvm.choose())
@@ -55,7 +56,9 @@ def row(capture: Path, relit: Path, light: str) -> str:
     return f"| {light} | " + " | ".join([*cells, f"{excess:.1%}"]) + " |"
 
 
-def gathered(capture: Path, relit: Path, light: str) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
+def gathered(
+    capture: Path, relit: Path, light: str
+) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Labels, the variance of the difference, and both renderers' layers (N,3) inside the masks of all withheld views."""
     columns: list[tuple[np.ndarray, ...]] = []
     for path in sorted((relit / light).glob("*.exr")):

@@ -17,9 +17,10 @@ import json
 from pathlib import Path
 
 import numpy as np
+from scipy.stats import kendalltau
+
 import unshade
 from unshade import _native
-from scipy.stats import kendalltau
 
 SCALE = "global"
 

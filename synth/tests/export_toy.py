@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import render_toy
-from unshade.errors import RendererError
+
 from unshade.cycles import interpreter
+from unshade.errors import RendererError
 from unshade.export import fidelity
 from unshade.export.assets import Options, export
 from unshade.face.ita import Tone
@@ -40,7 +41,9 @@ def exported(capture: Path, out: Path, format: str, maps: Path | None = None, **
     """The rows of the fidelity of maps, or the truth's, as an asset."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fidelity, "build_head", render_toy.toy_face)
-        return export(maps or capture / "truth", out, capture, None, Options(format, **options), no_progress, no_warning)[0]
+        return export(
+            maps or capture / "truth", out, capture, None, Options(format, **options), no_progress, no_warning
+        )[0]
 
 
 def needs_blender() -> None:

@@ -10,6 +10,7 @@ import export_toy
 import numpy as np
 import pytest
 import render_toy
+
 from unshade.cycles import description, interpreter
 from unshade.cycles import relight as judge
 from unshade.errors import RendererError
@@ -94,7 +95,7 @@ def test_without_blender_the_mend_is_named(monkeypatch, tmp_path):
 
 def test_a_renderer_that_dies_leaves_its_last_words(monkeypatch, tmp_path):
     program = tmp_path / "python"
-    program.write_text("#!/bin/sh\necho '{\"done\": \"one\"}'\necho no space left\nexit 7\n")
+    program.write_text('#!/bin/sh\necho \'{"done": "one"}\'\necho no space left\nexit 7\n')
     program.chmod(0o755)
     monkeypatch.setenv("UNSHADE_BLENDER", str(program))
     heard = []

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+
 from unshade.export import fidelity, layered_bsdf, read_gltf, surface
 from unshade.render.pictures import read_exr
 
@@ -68,7 +69,11 @@ def test_another_reader_finds_shape_and_colours(made, capture):
 def test_it_states_what_it_uses(made):
     document = document_of(made[0] / "face.glb")
     material = document["materials"][0]
-    assert set(material["extensions"]) == set(document["extensionsUsed"]) == {"KHR_materials_ior", "KHR_materials_specular"}
+    assert (
+        set(material["extensions"])
+        == set(document["extensionsUsed"])
+        == {"KHR_materials_ior", "KHR_materials_specular"}
+    )
     said = json.loads((made[0] / "asset.json").read_text())
     # The toy's specular albedo reaches 0.05.
     assert said["ior"] == material["extensions"]["KHR_materials_ior"]["ior"] == pytest.approx(1.576, abs=2e-3)

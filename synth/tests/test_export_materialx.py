@@ -4,6 +4,7 @@ import export_toy
 import MaterialX as mx
 import numpy as np
 import pytest
+
 from unshade import _native
 from unshade.render.pictures import read_exr
 

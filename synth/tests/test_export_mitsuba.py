@@ -9,6 +9,7 @@ import export_toy
 import mitsuba as mi
 import numpy as np
 import pytest
+
 from unshade.render import llvm
 
 

@@ -6,6 +6,7 @@ import shutil
 import export_toy
 import numpy as np
 import pytest
+
 from unshade import _native
 from unshade.errors import CaptureError, ExportError, MapsError, StorageError
 from unshade.export.assets import Options, export

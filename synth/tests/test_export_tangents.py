@@ -7,6 +7,7 @@ import export_toy
 import numpy as np
 import pytest
 import render_toy
+
 from unshade import _native
 from unshade.cycles import interpreter
 from unshade.export.surface import Mesh, Surface
@@ -32,7 +33,9 @@ print("TANGENTS", json.dumps([[*loop.tangent, loop.bitangent_sign] for loop in m
 def toy():
     face = render_toy.toy_face()
     chart = face.chart
-    return Surface(Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64)), ChartMaps.truth(face))
+    return Surface(
+        Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64)), ChartMaps.truth(face)
+    )
 
 
 def plane(turn=None):

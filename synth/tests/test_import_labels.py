@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from unshade.errors import CaptureError
 from unshade.importing.parser_labels import LABELS, PARSERS, name_table, our_labels
 
@@ -14,7 +15,11 @@ from unshade.importing.parser_labels import LABELS, PARSERS, name_table, our_lab
 @pytest.mark.parametrize(
     ("parser", "count", "some"),
     [
-        ("celebamask-hq", 19, {1: "skin", 2: "nose", 3: "glasses", 6: "brow", 8: "ear", 12: "lips", 13: "hair", 17: "neck"}),
+        (
+            "celebamask-hq",
+            19,
+            {1: "skin", 2: "nose", 3: "glasses", 6: "brow", 8: "ear", 12: "lips", 13: "hair", 17: "neck"},
+        ),
         ("bisenet", 19, {1: "skin", 2: "brow", 4: "eye", 6: "glasses", 7: "ear", 10: "nose", 13: "lips", 17: "hair"}),
         ("lapa", 11, {1: "skin", 2: "brow", 4: "eye", 6: "nose", 7: "lips", 8: "mouth", 9: "lips", 10: "hair"}),
         ("farl", 19, {1: "neck", 2: "skin", 4: "ear", 6: "brow", 10: "nose", 11: "mouth", 14: "hair"}),

@@ -139,7 +139,11 @@ def add_mesh(scene, given, material):
     mesh.materials.append(material)
     thing = bpy.data.objects.new(given["name"], mesh)
     thing.matrix_world = UP
-    for name in ("shadow_terminator_geometry_offset", "shadow_terminator_shading_offset", "shadow_terminator_normal_offset"):
+    for name in (
+        "shadow_terminator_geometry_offset",
+        "shadow_terminator_shading_offset",
+        "shadow_terminator_normal_offset",
+    ):
         if hasattr(thing, name):
             setattr(thing, name, 0.0)
     scene.collection.objects.link(thing)
@@ -174,7 +178,9 @@ class Graph:
         image = bpy.data.images.load(path)
         image.colorspace_settings.name = "Non-Color"
         image.alpha_mode = "NONE"
-        return self.node("ShaderNodeTexImage", {"image": image, "interpolation": "Linear", "extension": "EXTEND"}).outputs["Color"]
+        return self.node(
+            "ShaderNodeTexImage", {"image": image, "interpolation": "Linear", "extension": "EXTEND"}
+        ).outputs["Color"]
 
     def parts(self, colour):
         return self.node("ShaderNodeSeparateColor", Color=colour).outputs

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..export.surface import Surface
 from ..face import Part
 from ..render.camera import Camera
 from ..render.lights import AnyLight, Ball, Dome, Environment, Panels, SunSky
@@ -16,7 +17,6 @@ from ..render.lights.sun import APERTURE_DEGREES
 from ..render.pictures import write_exr, write_text
 from ..render.scene import WET_ALPHA
 from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
-from ..export.surface import Surface
 
 _STANDARD = [*LOBE_ALPHAS, LOBE_WEIGHTS[0]]
 _SUN_METRES = 1000.0
@@ -39,7 +39,9 @@ def write_meshes(folder: Path, surface: Surface, parts: Sequence[Part]) -> list[
         if getattr(surface.maps, f"{layer}_normal") is None:
             del face[f"{layer}_normal"]
     mesh = surface.mesh
-    meshes = [_mesh(folder, "face", face, vertices=mesh.vertices, normals=mesh.normals, triangles=mesh.triangles, uv=mesh.uv)]
+    meshes = [
+        _mesh(folder, "face", face, vertices=mesh.vertices, normals=mesh.normals, triangles=mesh.triangles, uv=mesh.uv)
+    ]
     return meshes + [write_part(folder, part) for part in parts]
 
 
@@ -48,7 +50,14 @@ def write_part(folder: Path, part: Part) -> dict[str, Any]:
     shape = {"vertices": part.vertices, "normals": part.normals, "triangles": part.triangles}
     if part.uv is None:
         material: dict[str, Any] = {name: {"attribute": name} for name in ("diffuse", "specular")}
-        return _mesh(folder, part.name, {**material, "roughness": _STANDARD}, **shape, diffuse=part.diffuse, specular=part.specular)
+        return _mesh(
+            folder,
+            part.name,
+            {**material, "roughness": _STANDARD},
+            **shape,
+            diffuse=part.diffuse,
+            specular=part.specular,
+        )
     material = {
         "diffuse": _picture(folder / f"{part.name}_diffuse.exr", part.diffuse),
         "specular": _picture(folder / f"{part.name}_specular.exr", part.specular),
@@ -83,7 +92,12 @@ def write_light(folder: Path, name: str, light: AnyLight) -> dict[str, Any]:
     elif isinstance(light, Panels):
         for number, panel in enumerate(light.panels):
             c, r, u = panel.centre, panel.right, panel.up
-            lamp(number, np.array([c - r - u, c + r - u, c + r + u, c - r + u]), np.array([[0, 1, 2], [0, 2, 3]]), panel.radiance)
+            lamp(
+                number,
+                np.array([c - r - u, c + r - u, c + r + u, c - r + u]),
+                np.array([[0, 1, 2], [0, 2, 3]]),
+                panel.radiance,
+            )
     elif isinstance(light, SunSky):
         said["background"] = _picture(folder / f"{name}.exr", equirectangular(light.sky.picture))
         radius = _SUN_METRES * np.tan(np.radians(APERTURE_DEGREES / 2))
@@ -128,7 +142,9 @@ def _disc(direction: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]
 def _ball(ball: Ball) -> tuple[np.ndarray, np.ndarray]:
     """A sphere of facets whose mean outline has the area of the ball's."""
     rows, columns = 24, 48
-    theta, phi = np.meshgrid(np.pi * np.arange(rows + 1) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij")
+    theta, phi = np.meshgrid(
+        np.pi * np.arange(rows + 1) / rows, 2 * np.pi * np.arange(columns) / columns, indexing="ij"
+    )
     points = np.stack([np.sin(theta) * np.sin(phi), np.cos(theta), np.sin(theta) * np.cos(phi)], -1).reshape(-1, 3)
     corner = np.arange(rows * columns).reshape(rows, columns)
     right = np.roll(corner, -1, 1)

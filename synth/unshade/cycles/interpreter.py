@@ -33,7 +33,9 @@ def command() -> list[str]:
     blender = shutil.which("blender")
     if blender:
         return _started_by(blender)
-    raise RendererError(f"Blender is missing: run `make cycles`, or name a Python that has bpy (or blender) in {VARIABLE}")
+    raise RendererError(
+        f"Blender is missing: run `make cycles`, or name a Python that has bpy (or blender) in {VARIABLE}"
+    )
 
 
 def _started_by(program: str) -> list[str]:

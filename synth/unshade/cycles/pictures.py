@@ -49,5 +49,6 @@ def _split(path: Path) -> tuple[np.ndarray, np.ndarray]:
             raise RendererError(f"{path}: Blender wrote no channel {missing}; use Blender 5.0") from missing
 
     return tuple(  # type: ignore[return-value]
-        (colour(f"{layer} Direct") + colour(f"{layer} Indirect")) * colour(f"{layer} Color") for layer in ("Diffuse", "Glossy")
+        (colour(f"{layer} Direct") + colour(f"{layer} Indirect")) * colour(f"{layer} Color")
+        for layer in ("Diffuse", "Glossy")
     )

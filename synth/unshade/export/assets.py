@@ -82,7 +82,9 @@ def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -
     raise ExportError(f"{options.format}: is no format; use one of {', '.join(FORMATS)}")
 
 
-def _compare(surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report) -> list[dict[str, Any]]:
+def _compare(
+    surface: Surface, setting: Setting, folder: Path, options: Options, progress: Report
+) -> list[dict[str, Any]]:
     ours, pictures = fidelity.reference(setting, surface), folder / "fidelity"
     if options.format == "blender":
         rows = fidelity.compare_blend(setting, ours, folder / BLEND, pictures, progress)

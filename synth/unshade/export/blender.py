@@ -21,7 +21,9 @@ from .surface import Surface
 FILE = "face.blend"
 
 
-def write_blender(surface: Surface, folder: Path, light_name: str, light: AnyLight, camera: Camera, depth: int) -> dict[str, Any]:
+def write_blender(
+    surface: Surface, folder: Path, light_name: str, light: AnyLight, camera: Camera, depth: int
+) -> dict[str, Any]:
     """Writes ``face.blend``; returns what the asset says of itself. Raises `RendererError` where Blender is missing."""
     with tempfile.TemporaryDirectory(prefix="unshade-blender-") as temporary:
         work = Path(temporary)

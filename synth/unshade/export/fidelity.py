@@ -104,7 +104,9 @@ def compare(
     return rows
 
 
-def compare_blend(setting: Setting, ours: HeadScene, blend: Path, pictures: Path, report: Report) -> list[dict[str, Any]]:
+def compare_blend(
+    setting: Setting, ours: HeadScene, blend: Path, pictures: Path, report: Report
+) -> list[dict[str, Any]]:
     """The row of a .blend in its own light, rendered by Cycles."""
     name, light = next(iter(setting.lights.items()))
     mask = view_through_centres(ours, setting.camera).mask

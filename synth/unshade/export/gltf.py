@@ -138,7 +138,9 @@ def _glb(mesh: TangentMesh, textures: dict[str, bytes], ior: float, generator: s
     words = json.dumps(document, separators=(",", ":")).encode()
     words += b" " * (-len(words) % 4)
     binary.extend(b"\0" * (-len(binary) % 4))
-    chunks = struct.pack("<II", len(words), _JSON_CHUNK) + words + struct.pack("<II", len(binary), _BINARY_CHUNK) + binary
+    chunks = (
+        struct.pack("<II", len(words), _JSON_CHUNK) + words + struct.pack("<II", len(binary), _BINARY_CHUNK) + binary
+    )
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 

@@ -86,7 +86,12 @@ def document() -> str:
     output("geometry_normal", "vector3", "geometry_normal")
 
     shader = ElementTree.SubElement(root, "open_pbr_surface", name="skin", type="surfaceshader")
-    kinds = {"base_color": "color3", "specular_weight": "float", "specular_roughness": "float", "geometry_normal": "vector3"}
+    kinds = {
+        "base_color": "color3",
+        "specular_weight": "float",
+        "specular_roughness": "float",
+        "geometry_normal": "vector3",
+    }
     for name, kind in kinds.items():
         ElementTree.SubElement(shader, "input", name=name, type=kind, nodegraph="face_maps", output=f"{name}_out")
     for name, value in (("base_weight", 1.0), ("base_metalness", 0.0), ("specular_ior", 1.5)):

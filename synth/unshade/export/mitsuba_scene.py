@@ -132,7 +132,12 @@ def _stock() -> dict[str, Any]:
 
     lambert = {"type": "diffuse", "reflectance": _texture("twice_diffuse")}
     lobes = {"type": "blendbsdf", "weight": _texture("share1"), "bsdf_0": lobe("alpha2"), "bsdf_1": lobe("alpha1")}
-    both = {"type": "blendbsdf", "weight": 0.5, "bsdf_0": bumped("diffuse", lambert), "bsdf_1": bumped("specular", lobes)}
+    both = {
+        "type": "blendbsdf",
+        "weight": 0.5,
+        "bsdf_0": bumped("diffuse", lambert),
+        "bsdf_1": bumped("specular", lobes),
+    }
     return both
 
 

@@ -24,7 +24,9 @@ def bracket(picture: Path, count: int) -> list[Path]:
     start = named.index(picture) if picture in named else len(named)
     found = named[start : start + count]
     if len(found) < count:
-        raise PictureError(f"{picture}: has {max(len(found) - 1, 0)} pictures after it, but brackets are {count} each; copy all of them beside it")
+        raise PictureError(
+            f"{picture}: has {max(len(found) - 1, 0)} pictures after it, but brackets are {count} each; copy all of them beside it"
+        )
     return found
 
 
@@ -38,7 +40,9 @@ def merged(paths: list[Path], curve: str) -> tuple[Floats, Photograph]:
         if photograph.codes is None:
             raise PictureError(f"{path}: is a bracket of more than 8 bits; merge brackets to EXR beforehand")
         if photograph.exposure is None:
-            raise PictureError(f"{path}: has no exposure time in its EXIF; keep it, or merge brackets to EXR beforehand")
+            raise PictureError(
+                f"{path}: has no exposure time in its EXIF; keep it, or merge brackets to EXR beforehand"
+            )
         if photograph.codes.shape != taken[0].radiance.shape or photograph.orientation != taken[0].orientation:
             raise PictureError(f"{path}: has another size than {paths[0].name} of its bracket; mend the order of files")
         codes.append(photograph.codes)

@@ -46,10 +46,18 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
     changes += [
         Change("principal-point", "the principal point is wrong: it is the picture's middle", _centred),
         Change("opencv-axes", "the cameras have OpenCV's axes (y down, looking along z)", _axes(OPENCV_AXES)),
-        Change("pytorch3d-axes", "the cameras have PyTorch3D's axes (x left, looking along z)", _axes(np.diag([-1.0, 1, -1, 1]))),
+        Change(
+            "pytorch3d-axes",
+            "the cameras have PyTorch3D's axes (x left, looking along z)",
+            _axes(np.diag([-1.0, 1, -1, 1])),
+        ),
         Change("inverse", "the matrices are world to camera", _inverted(np.eye(4))),
         Change("inverse-opencv-axes", "the matrices are world to camera, with OpenCV's axes", _inverted(OPENCV_AXES)),
-        Change("inverse-of-world-to-camera", "the poses are camera to world, not world to camera as the format has them", _undone),
+        Change(
+            "inverse-of-world-to-camera",
+            "the poses are camera to world, not world to camera as the format has them",
+            _undone,
+        ),
         Change("inverted-masks", "the masks are inverted: 255 belongs where the face is", inverted=True),
         Change("upside-down-rows", "the rows of pictures and masks run upwards", orientation=4),
         Change("mirrored", "pictures and masks are mirrored, left is right", orientation=2),
@@ -60,10 +68,16 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
         words = f"the focal length is in mm of a sensor {sensor:g} mm wide, not in pixels"
         changes.append(Change(f"{FOCAL}-mm-{sensor:g}", words, _focal(width / sensor)))
     if square:
-        changes.append(Change("turn-right", "pictures and masks lie on their sides: turn them to the right", orientation=6))
-        changes.append(Change("turn-left", "pictures and masks lie on their sides: turn them to the left", orientation=8))
+        changes.append(
+            Change("turn-right", "pictures and masks lie on their sides: turn them to the right", orientation=6)
+        )
+        changes.append(
+            Change("turn-left", "pictures and masks lie on their sides: turn them to the left", orientation=8)
+        )
     changes += [
-        Change(f"{FOCAL}-share", "the focal length is a share of the picture's width, not in pixels", _focal(float(width))),
+        Change(
+            f"{FOCAL}-share", "the focal length is a share of the picture's width, not in pixels", _focal(float(width))
+        ),
         Change(f"{FOCAL}-half", "the focal length is of pictures twice as large", _focal(0.5)),
         Change(f"{FOCAL}-double", "the focal length is of pictures half as large", _focal(2.0)),
     ]
@@ -71,15 +85,27 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
         changes.append(Change(f"mesh-{unit}", f"the mesh is in {unit}, the cameras in metres", mesh_scale=metres))
         changes.append(Change(f"cameras-{unit}", f"the cameras are in {unit}, the mesh in metres", _scaled(metres)))
     for words, matrix in _turns():
-        changes.append(Change(f"mesh-axes-{words}", f"the mesh has other axes than the cameras: its (x, y, z) is their {words}", _world(matrix)))
+        changes.append(
+            Change(
+                f"mesh-axes-{words}",
+                f"the mesh has other axes than the cameras: its (x, y, z) is their {words}",
+                _world(matrix),
+            )
+        )
     return changes
 
 
 def half_pixels() -> list[Change]:
     """The two changes that only many pixels can tell."""
     return [
-        Change("half-pixel", "the principal point counts pixel centres as whole numbers (OpenCV): add .5", _shifted(0.5, 0.5)),
-        Change("half-pixel-back", "half a pixel was added to the principal point twice: take .5 away", _shifted(-0.5, -0.5)),
+        Change(
+            "half-pixel",
+            "the principal point counts pixel centres as whole numbers (OpenCV): add .5",
+            _shifted(0.5, 0.5),
+        ),
+        Change(
+            "half-pixel-back", "half a pixel was added to the principal point twice: take .5 away", _shifted(-0.5, -0.5)
+        ),
     ]
 
 
@@ -90,7 +116,11 @@ def shift(dx: float, dy: float) -> Change:
 
 def focal_factor(factor: float) -> Change:
     """Another focal length, whatever made it wrong."""
-    return Change(f"{FOCAL}-times-{factor:.4g}", f"the focal length in pixels is {factor:.4g} times what is stated", _focal(factor))
+    return Change(
+        f"{FOCAL}-times-{factor:.4g}",
+        f"the focal length in pixels is {factor:.4g} times what is stated",
+        _focal(factor),
+    )
 
 
 def distance_factor(factor: float) -> Change:

@@ -73,7 +73,9 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
     for piece in chosen:
         uv = piece["uv"]
         if uv is None:
-            raise CaptureError(f"{path}: object {piece['name']!r} has no texture coordinates; unwrap it, or name the objects of the face")
+            raise CaptureError(
+                f"{path}: object {piece['name']!r} has no texture coordinates; unwrap it, or name the objects of the face"
+            )
         vertices.append(piece["vertices"])
         uvs.append(uv)
         triangles.append(piece["triangles"] + start)

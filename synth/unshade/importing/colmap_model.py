@@ -93,7 +93,14 @@ def _model(path: Path) -> Path:
 
 def _pictures(path: Path, folder: Path, names: list[str]) -> Path:
     """The folder that has the first picture: ``images`` of the project, or where it lies beside the model."""
-    tried = [path / "images", folder / "images", folder.parent / "images", folder.parent.parent / "images", folder, path]
+    tried = [
+        path / "images",
+        folder / "images",
+        folder.parent / "images",
+        folder.parent.parent / "images",
+        folder,
+        path,
+    ]
     for below in tried:
         if names and (below / names[0].replace("\\", "/")).is_file():
             return below
@@ -113,7 +120,9 @@ def _camera(where: str, model: str, width: int, height: int, values: list[float]
     if model not in known or model in ("FOV", "THIN_PRISM_FISHEYE"):
         raise CaptureError(f"{where}: camera model {model} is not read; undistort with `colmap image_undistorter`")
     if len(values) != len(known[model]):
-        raise CaptureError(f"{where}: {model} has {len(known[model])} parameters, not {len(values)}; export the model again")
+        raise CaptureError(
+            f"{where}: {model} has {len(known[model])} parameters, not {len(values)}; export the model again"
+        )
     return width, height, dict(zip(known[model], values)), model.endswith("FISHEYE")
 
 
@@ -138,7 +147,9 @@ def _text_cameras(path: Path) -> dict[int, _Camera]:
             key, model, width, height = int(words[0]), words[1], int(words[2]), int(words[3])
             values = [float(word) for word in words[4:]]
         except (ValueError, IndexError) as error:
-            raise CaptureError(f"{where}: is no id, model, width, height and parameters; export the model again") from error
+            raise CaptureError(
+                f"{where}: is no id, model, width, height and parameters; export the model again"
+            ) from error
         cameras[key] = _camera(where, model, width, height, values)
     return cameras
 

@@ -55,21 +55,45 @@ def main(arguments: list[str]) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="unshade import", description=_DESCRIPTION, epilog=_EPILOG)
     parser.add_argument("format", choices=FORMATS, help="what wrote the cameras; RealityCapture exports colmap")
-    parser.add_argument("path", type=Path, help="transforms.json, the COLMAP model or project, the XML file, the data set's folder")
+    parser.add_argument(
+        "path", type=Path, help="transforms.json, the COLMAP model or project, the XML file, the data set's folder"
+    )
     parser.add_argument("-o", "--out", type=Path, required=True, help="the capture's folder")
     parser.add_argument("--mesh", type=Path, help="the mesh, an OBJ file with texture coordinates")
-    parser.add_argument("--object", action="append", default=[], metavar="NAME", help="an object of the mesh that is the face; may be given again")
-    parser.add_argument("--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not say it")
-    parser.add_argument("--masks", metavar="DIR|alpha|silhouette", help="masks of the photographs' names, their alpha, or the mesh's silhouette")
+    parser.add_argument(
+        "--object",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="an object of the mesh that is the face; may be given again",
+    )
+    parser.add_argument(
+        "--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not say it"
+    )
+    parser.add_argument(
+        "--masks",
+        metavar="DIR|alpha|silhouette",
+        help="masks of the photographs' names, their alpha, or the mesh's silhouette",
+    )
     parser.add_argument("--labels", type=Path, metavar="DIR", help="a face parser's pictures, named as the photographs")
-    parser.add_argument("--parser", metavar="NAME|FILE", help=f"which parser: {', '.join(PARSERS)}, or a JSON file of names by id")
+    parser.add_argument(
+        "--parser", metavar="NAME|FILE", help=f"which parser: {', '.join(PARSERS)}, or a JSON file of names by id"
+    )
     parser.add_argument("--curve", default="auto", help=f"the photographs' transfer curve: {', '.join(CURVES)}")
-    parser.add_argument("--brackets", type=int, default=1, metavar="N", help="exposures of each view, one file after the other")
-    parser.add_argument("--even-exposure", action="store_true", help="divide by what the EXIF says the camera let through")
-    parser.add_argument("--holdout", type=_holdout, metavar="N|NAMES", help="withhold every N-th view, or those named: 8, or 003,011")
+    parser.add_argument(
+        "--brackets", type=int, default=1, metavar="N", help="exposures of each view, one file after the other"
+    )
+    parser.add_argument(
+        "--even-exposure", action="store_true", help="divide by what the EXIF says the camera let through"
+    )
+    parser.add_argument(
+        "--holdout", type=_holdout, metavar="N|NAMES", help="withhold every N-th view, or those named: 8, or 003,011"
+    )
     parser.add_argument("--shrink", type=int, default=1, metavar="N", help="average N x N pixels")
     parser.add_argument("--unit", choices=tuple(UNITS), help="the unit of mesh and cameras")
-    parser.add_argument("--place", choices=PLACES, default="auto", help="stand the head upright by its cameras, or keep its place")
+    parser.add_argument(
+        "--place", choices=PLACES, default="auto", help="stand the head upright by its cameras, or keep its place"
+    )
     parser.add_argument("--apply", action="store_true", help="make the one change after which masks and mesh fit")
     return parser
 

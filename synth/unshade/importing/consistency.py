@@ -30,7 +30,9 @@ class Consistency(TypedDict):
     views: tuple[int, int]
 
 
-def consistency(capture: AnyPath, *, config: str = "unshade", out: AnyPath | None = None, backend: str = "auto") -> Consistency:
+def consistency(
+    capture: AnyPath, *, config: str = "unshade", out: AnyPath | None = None, backend: str = "auto"
+) -> Consistency:
     """Solve every second training view, and the others, and compare the maps; no truth is needed.
 
     Views are taken alternately in the order of their names. With ``out`` the maps are kept in ``out/first`` and

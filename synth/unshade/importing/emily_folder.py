@@ -49,7 +49,12 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
     if not meshes:
         raise CaptureError(f"{path / _MESH}: holds no OBJ file; name the folder of Digital Emily 2")
     return Source(
-        origin=path / _CALIBRATION, views=tuple(views), mesh=meshes[0], metres=0.01, objects=(_HEAD,), assumed=tuple(assumed)
+        origin=path / _CALIBRATION,
+        views=tuple(views),
+        mesh=meshes[0],
+        metres=0.01,
+        objects=(_HEAD,),
+        assumed=tuple(assumed),
     )
 
 

@@ -132,7 +132,9 @@ def read_source(format: str, path: Path, pictures: Path | None = None) -> Source
         return read_transforms(path)
     readers = {"colmap": read_colmap, "metashape": read_metashape, "emily": read_emily}
     if format not in readers:
-        raise CaptureError(f"format {format!r} is unknown; there are {', '.join(FORMATS)} (RealityCapture exports colmap)")
+        raise CaptureError(
+            f"format {format!r} is unknown; there are {', '.join(FORMATS)} (RealityCapture exports colmap)"
+        )
     return readers[format](path, pictures)
 
 
@@ -199,7 +201,9 @@ class _Import:
         for view in self.source.views:
             for file in (self.source.origin, self.mesh_file, view.picture, view.mask, view.label):
                 if file is not None and target in (file.resolve(), *file.resolve().parents):
-                    raise StorageError(f"{out}: holds {file.name}, which is read; choose another folder for the capture")
+                    raise StorageError(
+                        f"{out}: holds {file.name}, which is read; choose another folder for the capture"
+                    )
 
     def _reading(self, first: Photograph) -> Reading:
         choices, source = self.choices, self.source
@@ -214,10 +218,21 @@ class _Import:
         reference = None
         if choices.brackets > 1 or choices.even_exposure:
             if first.exposure is None:
-                raise CaptureError(f"{source.views[0].picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand")
+                raise CaptureError(
+                    f"{source.views[0].picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand"
+                )
             reference = first.exposure
         folder = choices.masks if isinstance(choices.masks, Path) else None
-        return Reading(choices.curve, choices.brackets, reference, folder, alpha, choices.masks == "silhouette", choices.labels, names)
+        return Reading(
+            choices.curve,
+            choices.brackets,
+            reference,
+            folder,
+            alpha,
+            choices.masks == "silhouette",
+            choices.labels,
+            names,
+        )
 
     def _look(self, reading: Reading) -> Verdict | None:
         """What the detective says of some views; a change that mends them is an error unless it is to be made."""
@@ -231,7 +246,9 @@ class _Import:
                 evidence.append(Evidence(taken.camera, taken.mask > 0))
         verdict = examine(self.mesh, evidence, self.source.elsewhere)
         if verdict is None:
-            self.notes.add("masks are the mesh's silhouette, so nothing tells whether the cameras fit it; look at masks over images")
+            self.notes.add(
+                "masks are the mesh's silhouette, so nothing tells whether the cameras fit it; look at masks over images"
+            )
             return None
         if verdict.change is not None and not self.choices.apply:
             raise CaptureError(
@@ -249,7 +266,9 @@ class _Import:
     def _place(self, mesh: ChartMesh, change: Change) -> Placement:
         pinhole = [Pinhole(1, 1, (1.0, 1.0), (0.5, 0.5), view.camera_to_world) for view in self.source.views]
         metres = UNITS[self.choices.unit] if self.choices.unit else self.source.metres
-        placement = place(mesh.vertices, [change.camera(p).camera_to_world for p in pinhole], metres=metres, how=self.choices.place)
+        placement = place(
+            mesh.vertices, [change.camera(p).camera_to_world for p in pinhole], metres=metres, how=self.choices.place
+        )
         self.notes.update(placement.words)
         return placement
 
@@ -276,7 +295,9 @@ class _Import:
             parts += [f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}" for file in files]
         return "\n".join(parts)
 
-    def _record(self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings) -> dict[str, Any]:
+    def _record(
+        self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings
+    ) -> dict[str, Any]:
         choices = self.choices
         if reading.masks is not None or any(view.mask is not None for view in self.source.views):
             masks = "files"
@@ -342,11 +363,15 @@ def _withheld(source: Source, holdout: int | tuple[str, ...] | None) -> set[str]
     elif isinstance(holdout, int):
         withheld = set(names[holdout - 1 :: holdout])
     else:
-        stems = {view.picture.stem: view.name for view in source.views} | {view.picture.name: view.name for view in source.views}
+        stems = {view.picture.stem: view.name for view in source.views} | {
+            view.picture.name: view.name for view in source.views
+        }
         known = {name: name for name in names} | stems
         strange = [name for name in holdout if name not in known]
         if strange:
-            raise CaptureError(f"holdout: there is no view {strange[0]!r}; there are {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}")
+            raise CaptureError(
+                f"holdout: there is no view {strange[0]!r}; there are {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}"
+            )
         withheld = {known[name] for name in holdout}
     if len(withheld) >= len(names):
         raise CaptureError(f"{source.origin}: all {len(names)} views are withheld; leave some to train on")

@@ -67,7 +67,9 @@ def name_table(parser: str) -> dict[int, str]:
     path = Path(parser)
     known = f"known by name are {', '.join(PARSERS)}"
     if not path.is_file():
-        raise CaptureError(f"labels: {parser!r} is no face parser and no file; {known}, others are a JSON file of names by id")
+        raise CaptureError(
+            f"labels: {parser!r} is no face parser and no file; {known}, others are a JSON file of names by id"
+        )
     try:
         table: Any = json.loads(path.read_bytes().decode("utf-8-sig"))
         names = {int(number): str(name).lower() for number, name in table.items() if int(number)}
@@ -83,7 +85,9 @@ def our_labels(path: Path, ids: NDArray[Any], names: dict[int, str]) -> NDArray[
     present = np.unique(ids)
     strange = [int(number) for number in present if number and int(number) not in names]
     if strange:
-        raise CaptureError(f"{path}: has the id {strange[0]}, which the table of names lacks; name the parser that made it")
+        raise CaptureError(
+            f"{path}: has the id {strange[0]}, which the table of names lacks; name the parser that made it"
+        )
     table = np.zeros(int(present[-1]) + 1, np.uint8)
     for number, name in names.items():
         if number < len(table):

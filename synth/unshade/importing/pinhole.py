@@ -34,5 +34,7 @@ class Pinhole:
     def silhouette(self, vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Which pixels' centres show the mesh (height, width)."""
         matrix = self.camera_to_world.tolist()
-        depth = _native.depth_of(vertices, triangles, (self.width, self.height), list(self.focal), list(self.centre), matrix)
+        depth = _native.depth_of(
+            vertices, triangles, (self.width, self.height), list(self.focal), list(self.centre), matrix
+        )
         return np.isfinite(depth)

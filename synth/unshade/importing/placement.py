@@ -54,7 +54,9 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
         words.append(f"scaled by {metres:g}: one unit of the source is {metres:g} m")
     elif metres is None and not _HEIGHTS[0] <= extent <= _HEIGHTS[1]:
         scale = _USUAL / extent
-        words.append(f"scaled by {scale:.6g}: the mesh extends over {extent:.4g} units, taken for {_USUAL} m; state the unit if it is known")
+        words.append(
+            f"scaled by {scale:.6g}: the mesh extends over {extent:.4g} units, taken for {_USUAL} m; state the unit if it is known"
+        )
     matrix = np.diag([scale, scale, scale, 1.0])
     if how == "keep":
         return Placement(matrix, tuple(words))
@@ -73,9 +75,13 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
     else:
         forward = _unit(front - up * (front @ up))
         if not np.isfinite(forward).all() or abs(front @ up) > 0.99:
-            raise CaptureError("the cameras do not say which way is up; turn the capture upright and keep its place (--place keep)")
+            raise CaptureError(
+                "the cameras do not say which way is up; turn the capture upright and keep its place (--place keep)"
+            )
         rotation = np.stack([np.cross(up, forward), up, forward])
-        words.append("turned: +Y is the mean of the cameras' up, +Z points from the mesh's middle to their mean direction")
+        words.append(
+            "turned: +Y is the mean of the cameras' up, +Z points from the mesh's middle to their mean direction"
+        )
     moved = np.eye(4)
     moved[:3, :3] = rotation * scale
     moved[:3, 3] = -rotation @ middle * scale

@@ -84,7 +84,9 @@ def _undone(path: Path, document: Mapping[str, Any]) -> tuple[Matrix, Matrix | N
     try:
         return np.asarray(np.linalg.inv(whole), np.float64), whole
     except np.linalg.LinAlgError as error:
-        raise CaptureError(f"{path}: applied_transform cannot be undone; drop it if the mesh was moved likewise") from error
+        raise CaptureError(
+            f"{path}: applied_transform cannot be undone; drop it if the mesh was moved likewise"
+        ) from error
 
 
 def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], name: str, undo: Matrix) -> SourceView:
@@ -111,7 +113,9 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
     return SourceView(
         name=name,
         picture=_picture(path, file_path),
-        camera_to_world=moved(undo, rigid(_matrix(path, f"transform_matrix of frame {name!r}", frame.get("transform_matrix")))),
+        camera_to_world=moved(
+            undo, rigid(_matrix(path, f"transform_matrix of frame {name!r}", frame.get("transform_matrix")))
+        ),
         focal=focal,
         centre=centre,
         width=None if width is None else int(width),
@@ -123,7 +127,13 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
 
 
 def _focal(
-    path: Path, name: str, frame: Mapping[str, Any], document: Mapping[str, Any], key: str, angle: str, side: float | None
+    path: Path,
+    name: str,
+    frame: Mapping[str, Any],
+    document: Mapping[str, Any],
+    key: str,
+    angle: str,
+    side: float | None,
 ) -> float | None:
     """A focal length, or what a field of view makes of it; the frame's own go before those for all."""
     for table in (frame, document):
@@ -133,7 +143,9 @@ def _focal(
         field = _number(path, name, table, angle, None)
         if field is not None:
             if side is None:
-                raise CaptureError(f"{path}: frame {name!r}: has {angle} without w and h; state the picture's size in pixels")
+                raise CaptureError(
+                    f"{path}: frame {name!r}: has {angle} without w and h; state the picture's size in pixels"
+                )
             if not 0 < field < math.pi:
                 raise CaptureError(f"{path}: frame {name!r}: {angle} is {field:g}; it is an angle in radians, 0 to pi")
             return side / 2 / math.tan(field / 2)
@@ -168,7 +180,9 @@ def _withheld(path: Path, document: Mapping[str, Any], paths: list[str], names: 
     found = []
     for file_path in map(str, listed):
         if _plain(file_path) not in plain:
-            raise CaptureError(f"{path}: test_filenames names {file_path}, which no frame has; add the frame or drop the name")
+            raise CaptureError(
+                f"{path}: test_filenames names {file_path}, which no frame has; add the frame or drop the name"
+            )
         found.append(plain[_plain(file_path)])
     return tuple(found)
 
@@ -177,7 +191,9 @@ def _label_names(path: Path, table: Any) -> dict[int, str]:
     try:
         return {int(number): str(name).lower() for number, name in (table or {}).items()}
     except (AttributeError, ValueError) as error:
-        raise CaptureError(f'{path}: label_names is no table of names by id, as {{"1": "skin"}}; mend or drop it') from error
+        raise CaptureError(
+            f'{path}: label_names is no table of names by id, as {{"1": "skin"}}; mend or drop it'
+        ) from error
 
 
 def _matrix(path: Path, what: str, value: Any) -> Matrix:
@@ -188,7 +204,9 @@ def _matrix(path: Path, what: str, value: Any) -> Matrix:
     if matrix.shape == (3, 4):
         matrix = np.concatenate([matrix, [[0.0, 0.0, 0.0, 1.0]]])
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or not np.allclose(matrix[3], [0, 0, 0, 1], atol=1e-6):
-        raise CaptureError(f"{path}: {what} is no matrix of four rows of four numbers with 0, 0, 0, 1 last; export it again")
+        raise CaptureError(
+            f"{path}: {what} is no matrix of four rows of four numbers with 0, 0, 0, 1 last; export it again"
+        )
     return matrix
 
 

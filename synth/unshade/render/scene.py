@@ -84,7 +84,8 @@ class HeadScene:
         """The head in a light."""
         # Made one by one: those of one dictionary come in any order, and so would their samples.
         emitters = {
-            name: mi.load_dict(emitter) if isinstance(emitter, dict) else emitter for name, emitter in light.emitters().items()
+            name: mi.load_dict(emitter) if isinstance(emitter, dict) else emitter
+            for name, emitter in light.emitters().items()
         }
         scene = mi.load_dict({"type": "scene", **self._shapes, **emitters})
         return LitHead(scene, self.dark, light.lambert_light)
