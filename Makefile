@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily results test fuzz software-gpu bench lint miri neon clean
+.PHONY: build demo emily cycles validators results test fuzz software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -30,6 +30,21 @@ demo: build
 
 emily: build
 	$(BIN)/unshade run scenes/suites/emily.toml -o runs/emily
+
+# Blender's Cycles as a second renderer and for .blend files, in an environment of its own: Blender's wheel wants
+# an older numpy than ours, and is for one Python alone.
+cycles: .venv-cycles/complete
+
+.venv-cycles/complete: pyproject.toml | $(UV)
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
+	  { echo "unshade: bpy has wheels for Python 3.11 alone; name one: make cycles PYTHON=python3.11" >&2; exit 2; }
+	$(UV) venv --quiet --clear --python "$(PYTHON)" .venv-cycles
+	$(UV) pip install --quiet --python .venv-cycles --group cycles
+	@touch $@
+
+# The Khronos glTF validator, for the tests of exported assets; needs npm.
+validators:
+	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
 # Hours on two cores; needs Debian's blender-data for one of the lights.
 results: build
@@ -65,9 +80,11 @@ bench: build
 lint: build .venv/lint
 	cargo fmt --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
+	$(BIN)/ruff check --quiet
+	$(BIN)/ruff format --check --quiet
 	$(BIN)/python tests/check_types.py
 
-# The checkers of types, apart from what running and testing need.
+# The checkers of style and types, apart from what running and testing need.
 .venv/lint: .venv/complete
 	$(UV) pip install --quiet --python .venv --group lint
 	@touch $@
@@ -89,4 +106,4 @@ neon:
 	  cargo test -p solver --test backends --target aarch64-unknown-linux-gnu
 
 clean:
-	rm -rf target .venv .tools runs
+	rm -rf target .venv .venv-cycles .tools runs

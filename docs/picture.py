@@ -44,7 +44,7 @@ def main(run: Path) -> None:
     relit = picture(run / solver["relit"] / "global" / case["light"] / f"{frame}.exr")
     true, maps = capture.truth(), unshade.Maps.read(run / solver["maps"])
     inside = (capture.truth().coverage > 0)[..., None]
-    normal = lambda n: np.round(255 * (0.5 * n + 0.5)).astype(np.uint8)  # noqa: E731
+    normal = lambda n: np.round(255 * (0.5 * n + 0.5)).astype(np.uint8)
     tiles = [
         srgb(truth), srgb(relit), srgb(4 * np.abs(truth - relit)),
         srgb(true.diffuse_albedo * inside), srgb(maps.diffuse_albedo * inside),

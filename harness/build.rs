@@ -9,8 +9,14 @@ use std::{env, fs};
 fn main() {
     let here = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     for (name, folders) in [
-        ("UNSHADE_SOLVER_SOURCES", vec!["../solver/src"]),
-        ("UNSHADE_SCORE_SOURCES", vec!["src/check", "src/metrics", "src/score"]),
+        (
+            "UNSHADE_SOLVER_SOURCES",
+            vec!["../solver/src", "../solver/capture/src", "../solver/formats/src"],
+        ),
+        (
+            "UNSHADE_SCORE_SOURCES",
+            vec!["scoring/src/check", "scoring/src/metrics", "scoring/src/score"],
+        ),
     ] {
         let mut hasher = DefaultHasher::new();
         for folder in folders {

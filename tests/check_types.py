@@ -33,9 +33,7 @@ def main() -> int:
             files.append(str(file))
         environment = {**os.environ, "MYPYPATH": str(SOURCES), "MYPY_CACHE_DIR": str(ROOT / ".venv" / "mypy")}
         config = folder / "pyrightconfig.json"
-        config.write_text(
-            json.dumps({"include": files, "extraPaths": [str(SOURCES)], "typeCheckingMode": "strict"})
-        )
+        config.write_text(json.dumps({"include": files, "extraPaths": [str(SOURCES)], "typeCheckingMode": "strict"}))
         python = [sys.executable, "-m"]
         checks = [
             [*python, "mypy", "--strict", "--no-error-summary", "--explicit-package-bases", *files],

@@ -15,8 +15,9 @@ import tempfile
 import time
 from pathlib import Path
 
-from conftest import TINY
 from test_run import digest
+
+from conftest import TINY
 
 PROGRAM = """
 import time
@@ -41,7 +42,7 @@ def main(kills: int, seed: int) -> int:
         seconds = time.monotonic() - start
         whole = digest(folder / "whole")
         ends = 0
-        for kill in range(kills):
+        for _ in range(kills):
             process = run(folder, "killed")
             try:
                 process.wait(random.uniform(0, seconds))
@@ -68,7 +69,7 @@ def run(folder: Path, name: str) -> subprocess.Popen[bytes]:
 def compare(folder: Path, whole: dict[str, str]) -> None:
     killed = digest(folder / "killed")
     differ = sorted(name for name in whole.keys() | killed.keys() if whole.get(name) != killed.get(name))
-    partial = [path for path in (folder / "killed").rglob("*.partial")]
+    partial = list((folder / "killed").rglob("*.partial"))
     assert not differ and not partial, (differ, partial)
 
 

@@ -10,8 +10,8 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 import pytest
-import unshade
 
+import unshade
 from conftest import unshade as command
 
 CASE = "tiny-studio"
@@ -121,7 +121,11 @@ FAULTS: dict[str, tuple[str, Callable[[Array], Array], str]] = {
     "coverage 0 and 1": (COVERAGE, lambda x: x // 255, "coverage-values"),
     "coverage as a ramp": (COVERAGE, lambda x: x // 255 * np.arange(x.shape[1])[None, :, None], "coverage-values"),
     "coverage empty": (COVERAGE, lambda x: 0 * x, "coverage-empty"),
-    "coverage of a quarter": (COVERAGE, lambda x: x * (np.arange(x.shape[1]) % 4 == 0)[None, :, None], "coverage-small"),
+    "coverage of a quarter": (
+        COVERAGE,
+        lambda x: x * (np.arange(x.shape[1]) % 4 == 0)[None, :, None],
+        "coverage-small",
+    ),
     "coverage transposed": (COVERAGE, lambda x: x.swapaxes(0, 1), "transposed"),
 }
 
@@ -151,7 +155,7 @@ def test_a_planted_fault_is_found_and_named(fault: str, tiny_run: Path, capture:
     found = [(finding["map"], finding["id"]) for finding in findings]
     assert (file, expected) in found, findings
     # What is planted in one map is not blamed on another; a size may be.
-    assert {map for map, _ in found} == {file} or expected in ("sizes-differ", "not-square"), findings
+    assert {name for name, _ in found} == {file} or expected in ("sizes-differ", "not-square"), findings
 
 
 @pytest.mark.parametrize("method", ["oracle", "quick", "mean_texture", "semantic_initialisation"])

@@ -10,11 +10,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from conftest import HERE, TINY, unshade
 
 CASE = "tiny-studio"
 SCENE = HERE / "scenes" / "tiny-scene.toml"
-MOUNTS = shutil.which("unshare") is not None and subprocess.run(["unshare", "-m", "true"], capture_output=True).returncode == 0
+MOUNTS = (
+    shutil.which("unshare") is not None
+    and subprocess.run(["unshare", "-m", "true"], capture_output=True).returncode == 0
+)
 
 
 @pytest.fixture(scope="module")

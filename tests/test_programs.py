@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from conftest import HERE, unshade
 
 CASE = "tiny-studio"
@@ -19,7 +20,7 @@ CASE = "tiny-studio"
 SUITE = f"""
 format = 1
 name = "programs"
-scene = "{HERE / 'scenes' / 'tiny-scene.toml'}"
+scene = "{HERE / "scenes" / "tiny-scene.toml"}"
 scales = ["global"]
 
 [[solver]]
@@ -121,8 +122,16 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write(folder, "spy.py", SPY)
     write(folder, "broken.sh", "echo about to fail\necho 'no such lens' >&2\nexit 7\n")
     write(folder, "slow.sh", "sleep 60 & echo child $!; sleep 60\n")
-    write(folder, "greedy.py", "import time\nkept = bytearray(600 << 20)\nkept[::4096] = b'x' * len(kept[::4096])\ntime.sleep(60)\n")
-    write(folder, "nothing.py", "import numpy, unshade\ndef solve(capture):\n    return unshade.Maps(specular_albedo=numpy.zeros((4, 4), 'float32'))\n")
+    write(
+        folder,
+        "greedy.py",
+        "import time\nkept = bytearray(600 << 20)\nkept[::4096] = b'x' * len(kept[::4096])\ntime.sleep(60)\n",
+    )
+    write(
+        folder,
+        "nothing.py",
+        "import numpy, unshade\ndef solve(capture):\n    return unshade.Maps(specular_albedo=numpy.zeros((4, 4), 'float32'))\n",
+    )
     done = go(folder)
     assert done.returncode == 1, done.stderr
     return folder
@@ -237,7 +246,10 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
 @pytest.mark.parametrize(
     ("table", "expected"),
     [
-        ('name = "a"\ncommand = ["no-such-program", "{capture}", "{maps}"]', "suite.toml:6: command: there is no program"),
+        (
+            'name = "a"\ncommand = ["no-such-program", "{capture}", "{maps}"]',
+            "suite.toml:6: command: there is no program",
+        ),
         ('name = "a"\ncommand = ["python", "gone.py", "{capture}", "{maps}"]', "gone.py"),
         ('name = "a"\ncommand = ["python", "bad.py", "{capture}", "{maps}"]', "bad.py:2"),
         ('name = "a"\ncommand = ["sh", "x.sh", "{capture}"]', "never says {maps}"),

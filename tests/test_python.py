@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import unshade
+from doc_examples import examples
 from skimage.metrics import peak_signal_noise_ratio
 
-from doc_examples import examples
+import unshade
 
 README = Path(__file__).parents[1] / "README.md"
 CASE = "tiny-studio"
@@ -180,6 +180,8 @@ def test_the_documentations_examples_run(
     solve = unshade.solve
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(unshade, "synth", synth, raising=False)
-    monkeypatch.setattr(unshade, "solve", lambda *given, **named: solve(*given, **{**named, "config": "fast"}), raising=False)
+    monkeypatch.setattr(
+        unshade, "solve", lambda *given, **named: solve(*given, **{**named, "config": "fast"}), raising=False
+    )
     code = examples()[place]
     exec(compile(code, place, "exec"), {"__name__": "example"})

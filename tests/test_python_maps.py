@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 import unshade
 from unshade import Maps
 from unshade.errors import MapsError
@@ -31,7 +32,7 @@ def test_every_map_survives_folder_copy_and_pickle(arrays, tmp_path: Path) -> No
     others = [Maps.read(tmp_path / "maps"), copy.copy(maps), copy.deepcopy(maps)]
     others += [pickle.loads(pickle.dumps(maps, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
     for other in others:
-        assert other == maps and not other != maps and other is not maps
+        assert other == maps and not other != maps and other is not maps  # noqa: SIM202
         for name, array in arrays.items():
             found = getattr(other, name)
             np.testing.assert_array_equal(found, array)

@@ -10,6 +10,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+
 import unshade
 from unshade.errors import MetricError
 from unshade.metrics import DEFINITIONS

@@ -9,6 +9,7 @@ import threading
 from pathlib import Path
 
 import pytest
+
 import unshade
 from unshade.errors import Stopped, UnshadeError
 

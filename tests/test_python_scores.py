@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import unshade
 from PIL import Image
+
+import unshade
 from unshade.errors import ScoreError
 
 CASE = "tiny-studio"

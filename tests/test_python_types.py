@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import unshade
-
 from metric_stub import STUB, stub
+
+import unshade
 
 PACKAGE = Path(unshade.__file__).parent
 

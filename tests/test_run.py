@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from conftest import TINY, unshade
 
 CASE = "tiny-studio"
@@ -85,9 +86,7 @@ def test_the_solver_never_opens_the_truth(tiny_run: Path, tmp_path: Path) -> Non
     config.write_text("\n".join(lines))
     unshade("solve", blind, "-o", tmp_path / "maps", "--config", config)
     for name in ("diffuse_albedo.exr", "specular_normal.exr"):
-        assert (tmp_path / "maps" / name).read_bytes() == (
-            tiny_run / "maps" / CASE / "quick" / name
-        ).read_bytes()
+        assert (tmp_path / "maps" / name).read_bytes() == (tiny_run / "maps" / CASE / "quick" / name).read_bytes()
 
 
 def test_a_second_run_does_nothing(tiny_run: Path) -> None:
@@ -102,9 +101,7 @@ def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -
     run = tmp_path / "run"
     command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", run]
     for attempt in range(3):
-        process = subprocess.Popen(
-            list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
+        process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(4 + 3 * attempt)
         process.send_signal(signal.SIGKILL)
         process.wait()
@@ -115,9 +112,7 @@ def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -
 
 def test_an_interrupt_exits_with_3(tmp_path: Path) -> None:
     command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", tmp_path / "run"]
-    process = subprocess.Popen(
-        list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-    )
+    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     time.sleep(4)
     os.kill(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=60)
@@ -133,9 +128,7 @@ def test_the_report_opens_offline(tiny_run: Path) -> None:
         assert (tiny_run / "report" / name).is_file(), name
 
 
-def test_compare_is_red_on_a_worse_albedo_and_green_on_no_change(
-    tiny_run: Path, tmp_path: Path
-) -> None:
+def test_compare_is_red_on_a_worse_albedo_and_green_on_no_change(tiny_run: Path, tmp_path: Path) -> None:
     baseline = tiny_run / "report" / "baseline.json"
     junit = tmp_path / "junit.xml"
     same = unshade("compare", tiny_run, baseline, "--junit", junit, check=False)

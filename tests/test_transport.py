@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import unshade
 from scipy.ndimage import binary_erosion, map_coordinates
 
+import unshade
 from unshade.render.pictures import read_exr, read_rgb
 
 CASE = "tiny-studio"
@@ -22,7 +22,9 @@ def sampled(texture: np.ndarray, uvs: np.ndarray) -> np.ndarray:
     """Bilinear look-ups, row 0 at v = 1."""
     size = len(texture)
     at = [(1 - uvs[..., 1]) * size - 0.5, uvs[..., 0] * size - 0.5]
-    return np.stack([map_coordinates(channel, at, order=1, mode="nearest") for channel in np.moveaxis(texture, -1, 0)], -1)
+    return np.stack(
+        [map_coordinates(channel, at, order=1, mode="nearest") for channel in np.moveaxis(texture, -1, 0)], -1
+    )
 
 
 def cells(light: np.ndarray, rows: int) -> np.ndarray:
@@ -30,7 +32,7 @@ def cells(light: np.ndarray, rows: int) -> np.ndarray:
     height, width = light.shape[:2]
     edges = np.cos(np.pi * np.arange(height + 1) / height)
     angle = np.broadcast_to((edges[:-1] - edges[1:])[:, None, None], (height, width, 1))
-    summed = lambda a: a.reshape(rows, height // rows, 2 * rows, width // (2 * rows), -1).sum((1, 3))  # noqa: E731
+    summed = lambda a: a.reshape(rows, height // rows, 2 * rows, width // (2 * rows), -1).sum((1, 3))
     return (summed(light * angle) / summed(angle)).astype(np.float32)
 
 

@@ -14,8 +14,8 @@
 //! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
 //!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
-//!   keeps) and 130 bytes a texel (7 values of the state, 8 moments, 4 as samples see them, 4 gradients, 3 of
-//!   the blur; the rest again the allocator's); 170 where heights have been before.
+//!   keeps) and 190 bytes a texel (7 values of the state, 8 moments, 8 as samples see them, 8 gradients, 12 of
+//!   the blur; the rest again the allocator's); 170 where heights have been before and nothing is moved.
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
@@ -39,11 +39,9 @@
 use std::fmt;
 use std::fs;
 
-use crate::capture::Capture;
-use crate::config::Config;
-use crate::error::SolveError;
-use crate::optimise::highlights::MOST_SAMPLES;
-use crate::optimise::site::{map_size, texture_size};
+use capture::Capture;
+
+use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.
 const PROGRAM: f64 = 50e6;
@@ -57,7 +55,7 @@ const TRANSPORT_SAMPLE: f64 = 280.0;
 const HEIGHT_SAMPLE: f64 = 490.0;
 const HEIGHT_TEXEL: f64 = 100.0;
 const FINE_SAMPLE: f64 = 190.0;
-const FINE_TEXEL: f64 = 130.0;
+const FINE_TEXEL: f64 = 190.0;
 const FINE_TEXEL_AFTER_HEIGHTS: f64 = 170.0;
 const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
@@ -76,6 +74,22 @@ pub struct Estimate {
     pub peak: u64,
     /// Of these, what the open capture takes already.
     pub taken: u64,
+}
+
+/// The machine has not the memory.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the solve needs {} of memory more ({estimate} in all), but {} are free; lower \
+     fine_tuning.texture_size, take the pictures at half their size, or fewer views",
+    bytes(*needed), bytes(*available)
+)]
+pub struct NotEnoughMemory {
+    /// What was to be solved.
+    pub estimate: Estimate,
+    /// Bytes on top of what is taken already.
+    pub needed: u64,
+    /// Bytes that there are.
+    pub available: u64,
 }
 
 impl Estimate {
@@ -107,7 +121,7 @@ impl Estimate {
         let transport = match t.enabled {
             true => {
                 let samples = share * covered;
-                let followed = samples.min(MOST_SAMPLES as f64) * cells * 4.0;
+                let followed = samples.min(MOST_HIGHLIGHT_SAMPLES as f64) * cells * 4.0;
                 let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
                 warm_up_pictures + (6.0 * matrix).max(stages)
             }
@@ -131,11 +145,11 @@ impl Estimate {
     }
 
     /// Refuses a solve that would need more than `available` bytes on top of what is taken.
-    pub fn fits(&self, available: Option<u64>) -> Result<(), SolveError> {
+    pub fn fits(&self, available: Option<u64>) -> Result<(), NotEnoughMemory> {
         let needed = self.peak.saturating_sub(self.taken);
         match available {
             Some(available) if needed > available => {
-                Err(SolveError::Memory { estimate: self.clone(), needed, available })
+                Err(NotEnoughMemory { estimate: self.clone(), needed, available })
             }
             _ => Ok(()),
         }

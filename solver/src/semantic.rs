@@ -4,13 +4,14 @@
 mod clusters;
 pub mod colours;
 
+use capture::gbuffer::{Atlas, GBuffer};
+use capture::projection::{Observation, Projection, per_texel};
+use capture::{Mesh, View};
+use formats::fill;
+use formats::picture::Picture;
 use glam::{DVec3, Vec3};
 
-use crate::capture::{Mesh, View};
-use crate::fill;
-use crate::gbuffer::{Atlas, BLUR_SIGMA_PX, GBuffer, view_weights};
-use crate::picture::Picture;
-use crate::projection::{Observation, Projection, per_texel};
+use crate::view_weights::{BLUR_SIGMA_PX, view_weights};
 
 /// Added to every pixel's weight, so that a region seen only at its rim still has a mean.
 const LEAST_WEIGHT: f32 = 1e-4;

@@ -114,7 +114,7 @@ mod tests {
             let uvs: Vec<_> = (0..999).map(|i| glam::Vec2::splat(i as f32 / 999.0)).collect();
             let taps = Taps::sorted(side, &uvs).0;
             all.extend(taps.gather::<3>(&taps.sample::<3>(&moved), 0));
-            all.extend(Pyramid::new(36, 4.2).apply(noise(4 * 36 * 36).as_chunks().0));
+            all.extend(Pyramid::new(36, 4.2).apply(&noise(4 * 36 * 36)));
             all.extend(gradient);
             all
         })

@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use formats::atomic::{self, Folder};
+use formats::maps::{Maps, MapsError};
+use formats::picture::{self, Picture};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::atomic::{self, Folder};
 use crate::config::Config;
-use crate::error::MapsError;
-use crate::maps::Maps;
-use crate::picture::{self, Picture};
 
 /// The result of [`crate::solve`].
 #[derive(Clone, Debug)]

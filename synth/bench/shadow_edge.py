@@ -68,7 +68,15 @@ def _block(blade: float) -> HeadScene:
     corners = np.array([[-0.1, -0.1, blade], [0, -0.1, blade], [0, 0.1, blade], [-0.1, 0.1, blade]], np.float32)
     both = np.array([[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]], np.uint32)
     black = np.zeros((2, 2, 3), np.float32)
-    cover = Part("blade", corners, _normals(4, 1), both, black, black[..., 0], np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32))
+    cover = Part(
+        "blade",
+        corners,
+        _normals(4, 1),
+        both,
+        black,
+        black[..., 0],
+        np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32),
+    )
     return HeadScene(chart, [flesh, cover], ChartMaps(np.full((4, 4, 3), ALBEDO, np.float32)))
 
 

@@ -29,7 +29,6 @@ from unshade.render import llvm
 llvm.activate(llvm.choose("llvm_ad_rgb"))
 from PIL import Image  # noqa: E402
 from scipy.interpolate import RegularGridInterpolator  # noqa: E402
-
 from shadow_edge import ALBEDO, shadow_edges  # noqa: E402
 
 from unshade.face import FaceSpec, build_face  # noqa: E402
@@ -99,7 +98,9 @@ def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--out", type=Path, required=True)
     parser.add_argument("--size", type=int, default=128, help="pixels along the picture's edge")
-    parser.add_argument("--samples", type=int, default=128, help="samples per pixel, of each of the volume's two pictures")
+    parser.add_argument(
+        "--samples", type=int, default=128, help="samples per pixel, of each of the volume's two pictures"
+    )
     parser.add_argument("--face", type=Path, default=ROOT / "scenes/faces/demo.toml")
     parser.add_argument("--no-docs", dest="docs", action="store_false", help="leave docs/ as it is")
     return parser.parse_args()
@@ -161,7 +162,9 @@ def _half_space_level(face, head, camera) -> np.ndarray:
     # A table over albedo and cosine: the H function is slow.
     albedos = np.linspace(0.005, profile.HIGHEST_ALBEDO, 40)
     cosines = np.linspace(0.02, 1, 40)
-    table = np.stack([half_space.radiance_under_even_light(float(profile.single_scattering(a)), cosines) for a in albedos])
+    table = np.stack(
+        [half_space.radiance_under_even_light(float(profile.single_scattering(a)), cosines) for a in albedos]
+    )
     radiance = RegularGridInterpolator((albedos, cosines), table)
     levels = [albedo[..., c] / radiance(np.stack([albedo[..., c], mu], -1)) for c in range(3)]
     return np.where(view.mask[..., None], np.stack(levels, -1), 0)
@@ -206,8 +209,10 @@ def _figures(pictures, regions, expected_level) -> dict:
 
 def _document(options, face, figures, seconds, pictures, regions) -> str:
     lines = [
-        f"Face `{options.face.stem}`, {options.size} x {options.size} pixels, {options.samples} samples (the volume twice), "
-        f"mean free path {', '.join(f'{v:g}' for v in Render.subsurface_mm)} mm, {os.cpu_count()} cores.",
+        (
+            f"Face `{options.face.stem}`, {options.size} x {options.size} pixels, {options.samples} samples (the volume "
+            f"twice), mean free path {', '.join(f'{v:g}' for v in Render.subsurface_mm)} mm, {os.cpu_count()} cores."
+        ),
         "",
         "Half space, without the face (`half_space.py`):",
         "",
@@ -263,9 +268,13 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
 def _edge_lines() -> list[str]:
     """Across a straight shadow: tier over the same tier far in the light."""
     lines = [
-        "", f"A straight shadow on flat skin of albedo {ALBEDO:g}, red channel: radiance over that 7 mm within the light, "
-        "at millimetres from the edge into the light:", "",
-    ]  # fmt: skip
+        "",
+        (
+            f"A straight shadow on flat skin of albedo {ALBEDO:g}, red channel: radiance over that 7 mm within the light, "
+            "at millimetres from the edge into the light:"
+        ),
+        "",
+    ]
     wanted = (-5, -3, -2, -1, 1, 2, 3, 5)
     heads = " | ".join(f"{x:+d}" for x in wanted)
     lines += [f"| light from | tier | {heads} | level over volume |", "|---|---|" + "---|" * (len(wanted) + 1)]
@@ -289,7 +298,9 @@ def _picture(pictures, regions, path: Path) -> None:
         ratio = pictures[light, "diffusion"].diffuse.mean(-1) / np.maximum(volume, 1e-3) - 1
         off = np.where(regions["whole face"], ratio, 0).clip(-0.5, 0.5) / 0.5
         signed = np.stack([1 + off.clip(None, 0), 1 - np.abs(off), 1 - off.clip(0)], -1)
-        rows.append(np.concatenate([*(_display(picture) for picture in shown), signed * regions["whole face"][..., None]], 1))
+        rows.append(
+            np.concatenate([*(_display(picture) for picture in shown), signed * regions["whole face"][..., None]], 1)
+        )
     picture = (255 * np.concatenate(rows)).round().astype(np.uint8)
     Image.fromarray(picture).resize((1280, 640), Image.Resampling.LANCZOS).save(path, quality=90)
 

@@ -37,12 +37,15 @@ def write_exr_file(
         attributes.append(("chromaticities", "chromaticities", struct.pack("<8f", *chromaticities)))
     if envmap is not None:
         attributes.append(("envmap", "envmap", bytes([envmap])))
-    text = b"".join(f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in attributes)
+    text = b"".join(
+        f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in attributes
+    )
     head = struct.pack("<2i", 20000630, 2) + text + b"\0"
     row = 8 + 4 * width * len(planes)
     first = len(head) + 8 * height
     offsets = b"".join(struct.pack("<Q", first + row * y) for y in range(height))
     rows = b"".join(
-        struct.pack("<2i", corner[1] + y, row - 8) + b"".join(plane[y].tobytes() for plane in planes.values()) for y in range(height)
+        struct.pack("<2i", corner[1] + y, row - 8) + b"".join(plane[y].tobytes() for plane in planes.values())
+        for y in range(height)
     )
     path.write_bytes(head + offsets + rows)

@@ -17,7 +17,15 @@ STEPS = 24
 OFFSET = np.array([4.0, -30.0, 150.0])
 """Where the file has what is to become the world's origin (cm)."""
 
-TABLE = {"name": "scan", "units": "cm", "up": "+z", "forward": "-y", "origin": OFFSET.tolist(), "chart": ["head"], "texture_size": 128}
+TABLE = {
+    "name": "scan",
+    "units": "cm",
+    "up": "+z",
+    "forward": "-y",
+    "origin": OFFSET.tolist(),
+    "chart": ["head"],
+    "texture_size": 128,
+}
 
 MARKS = {
     # place on the head (s, t from 0 to 1) and sRGB colour of its texels; two on every island
@@ -33,7 +41,10 @@ def place(s, t) -> np.ndarray:
     azimuth, elevation = (s - 0.5) * 2.6, (t - 0.5) * 2.2
     level = np.cos(elevation)
     nose = 1 + 0.25 * np.exp(-((azimuth / 0.25) ** 2) - (elevation / 0.3) ** 2)
-    return np.stack([0.08 * level * np.sin(azimuth) * nose, 0.11 * np.sin(elevation) * nose, 0.09 * level * np.cos(azimuth) * nose], -1)
+    return np.stack(
+        [0.08 * level * np.sin(azimuth) * nose, 0.11 * np.sin(elevation) * nose, 0.09 * level * np.cos(azimuth) * nose],
+        -1,
+    )
 
 
 def uv_of(island: int, s, t) -> np.ndarray:
@@ -109,7 +120,12 @@ def write_glb(path: Path) -> None:
     for values, kind, shape in arrays:
         data = np.ascontiguousarray(values, kind).tobytes()
         views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)})
-        accessor = {"bufferView": len(views) - 1, "componentType": 5126 if kind == "<f4" else 5125, "count": len(values), "type": shape}
+        accessor = {
+            "bufferView": len(views) - 1,
+            "componentType": 5126 if kind == "<f4" else 5125,
+            "count": len(values),
+            "type": shape,
+        }
         if shape == "VEC3":
             accessor |= {"min": values.min(0).tolist(), "max": values.max(0).tolist()}
         accessors.append(accessor)

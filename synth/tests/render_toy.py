@@ -38,7 +38,7 @@ def toy_face(spec: FaceSpec = SPEC) -> Face:
     """A chart with textured maps, a shoulder that occludes, and a textured ball for an eye."""
     positions, uv, triangles = _bumpy_half(STEPS)
     normals = _normals(positions, triangles)
-    f32 = lambda a: a.astype(np.float32)  # noqa: E731
+    f32 = lambda a: a.astype(np.float32)
     chart = Chart(f32(positions), f32(normals), f32(uv), triangles.astype(np.uint32))
 
     texels = rasterise(uv, triangles, spec.texture_size)

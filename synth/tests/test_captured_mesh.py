@@ -37,7 +37,9 @@ def sheet(height=None, bend=2.2):
     used, local = np.unique(triangles, return_inverse=True)
     uv = (0.05 + 0.9 * np.stack([u, v], 1))[used]
     points, triangles = points[used], local.reshape(-1, 3)
-    return Chart(*(a.astype(np.float32) for a in (points, vertex_normals(points, triangles), uv)), triangles.astype(np.uint32))
+    return Chart(
+        *(a.astype(np.float32) for a in (points, vertex_normals(points, triangles), uv)), triangles.astype(np.uint32)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +77,9 @@ def require_chart(chart, count):
     assert holes(chart) == count
     assert chart.uv.min() >= 0 and chart.uv.max() <= 1
     assert np.abs(np.linalg.norm(chart.normals, axis=1) - 1).max() < 1e-5
-    assert [a.dtype for a in (chart.vertices, chart.normals, chart.uv, chart.triangles)] == [np.float32] * 3 + [np.uint32]
+    assert [a.dtype for a in (chart.vertices, chart.normals, chart.uv, chart.triangles)] == [np.float32] * 3 + [
+        np.uint32
+    ]
 
 
 @pytest.mark.parametrize("share", [0.5, 0.1, 0.03])
@@ -181,5 +185,5 @@ def test_seams_do_not_open():
     seam = left.vertices[:, 0] == left.vertices[:, 0].max()
     spec = CapturedMesh(vertex_share=0.2, bumps_mm=0.3, bumps_wavelength_mm=20.0)
     joined = degrade(both, spec, 1)
-    points, count = np.unique(joined.vertices, axis=0, return_counts=True)
+    _, count = np.unique(joined.vertices, axis=0, return_counts=True)
     assert (count == 2).sum() == seam.sum() and count.max() == 2

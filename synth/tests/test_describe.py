@@ -7,6 +7,7 @@ import colour
 import numpy as np
 import pytest
 import render_toy
+
 from unshade.render import describe as module
 from unshade.render import lights
 from unshade.render.colour_temperature import correlated_kelvin
@@ -59,7 +60,10 @@ def test_what_solvers_get_is_described(described, monkeypatch):
     text = describe(parse_scene(render_toy.toy_table() | faults, "scene", None))
     assert row(text, "labels")[1] == "10 % of the boundary pixels have the label of the other side"
     assert row(text, "mesh")[1] == "smoothing_mm 2" and row(text, "image formation")[1] == "perfect"
-    assert row(describe(parse_scene(render_toy.toy_table() | {"labels": {"omit": True}}, "scene", None)), "labels")[1] == "none"
+    assert (
+        row(describe(parse_scene(render_toy.toy_table() | {"labels": {"omit": True}}, "scene", None)), "labels")[1]
+        == "none"
+    )
 
 
 def test_cameras_and_sizes_are_described(described):

@@ -46,7 +46,9 @@ def test_no_expression_is_the_neutral_face_to_the_last_bit(neutral):
     assert "expression" not in spec.to_table() and pose(head, spec) is None
 
 
-@pytest.mark.parametrize("unit", ["jawOpen", "eyeBlinkLeft", "eyeLookUpRight", "eyeWideLeft", "mouthSmileRight", "eyeSquintLeft"])
+@pytest.mark.parametrize(
+    "unit", ["jawOpen", "eyeBlinkLeft", "eyeLookUpRight", "eyeWideLeft", "mouthSmileRight", "eyeSquintLeft"]
+)
 def test_a_hint_of_an_expression_moves_the_skin_a_hint(neutral, unit):
     assert moved(neutral, **{unit: 0.001}) < 0.15 < moved(neutral, **{unit: 1.0})
 

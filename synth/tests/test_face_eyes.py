@@ -1,8 +1,8 @@
 """What a camera sees of eyes and mouth, by rays: lids that cover, films that lie on, teeth that stay inside."""
 
+import mitsuba as mi
 import numpy as np
 import pytest
-import mitsuba as mi
 from scipy.ndimage import label
 
 from unshade.face import FaceSpec, cache, eyeball, eyes, lids
@@ -74,10 +74,12 @@ def test_a_blink_covers_the_eyeballs(seed):
 
 
 @pytest.mark.parametrize("seed", [7, 101, 202])
-@pytest.mark.parametrize("expression", [{}, {"eyeLookOutLeft": 1.0, "eyeLookDownRight": 1.0}, {"eyeBlinkLeft": 0.5, "eyeBlinkRight": 0.3}])
+@pytest.mark.parametrize(
+    "expression", [{}, {"eyeLookOutLeft": 1.0, "eyeLookDownRight": 1.0}, {"eyeBlinkLeft": 0.5, "eyeBlinkRight": 0.3}]
+)
 def test_eyeballs_show_between_the_lids_alone(seed, expression):
     """Each eye is one patch of the picture: none pokes through a lid."""
-    patches, count = label(seen_eyes(seed, **expression)[0], np.ones((3, 3)))
+    patches, _ = label(seen_eyes(seed, **expression)[0], np.ones((3, 3)))
     size = np.bincount(patches.ravel())[1:]
     assert (size > 50).sum() == 2 and size[size <= 50].sum() <= 3
 
@@ -101,7 +103,9 @@ def test_the_wet_line_lies_on_the_eyeball_along_the_lower_lid(seed):
         gap = eyeball.clearance(line.vertices.astype(float), eye, np.eye(3))
         assert gap.min() > -0.0001 and gap.max() < 0.0004
         near = geometry.positions[head.chart_vertices][margin[head.chart_vertices] < 0.0008]
-        distance = np.linalg.norm(line.vertices[:, None] - near[None, np.abs(near[:, 0] - eye[0]).argsort()[:400]], axis=2).min(axis=1)
+        distance = np.linalg.norm(
+            line.vertices[:, None] - near[None, np.abs(near[:, 0] - eye[0]).argsort()[:400]], axis=2
+        ).min(axis=1)
         assert np.median(distance) < 0.001
         assert np.ptp(line.vertices[:, 0]) > 0.015
         assert line.vertices[:, 1].max() < eye[1] + 0.003

@@ -31,7 +31,16 @@ def test_cielab_agrees_with_a_colour_library():
 
 @pytest.mark.parametrize(
     ("angle", "group"),
-    [(60, "very light"), (55.1, "very light"), (54.9, "light"), (30, "intermediate"), (12, "tan"), (-29, "brown"), (-31, "dark"), (-90, "dark")],
+    [
+        (60, "very light"),
+        (55.1, "very light"),
+        (54.9, "light"),
+        (30, "intermediate"),
+        (12, "tan"),
+        (-29, "brown"),
+        (-31, "dark"),
+        (-90, "dark"),
+    ],
 )
 def test_groups_have_the_published_borders(angle, group):
     assert tone_group(angle) == group

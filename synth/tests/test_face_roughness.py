@@ -77,7 +77,7 @@ def test_pores_scatter_and_age_dries():
     points = np.zeros((50, 3), dtype=np.float32) + np.float32([42, -38, 2])
     regions, none = find_regions(points), np.zeros(50, dtype=np.float32)
     flat = Relief(none, none, none, none)
-    cover, rims = {name: none for name in ("brow", "scalp", "beard")}, {"outer": none + 1, "wet": none, "lash": none}
+    cover, rims = dict.fromkeys(("brow", "scalp", "beard"), none), {"outer": none + 1, "wet": none, "lash": none}
 
     def mean(relief, spec=SPEC):
         return equivalent(draw_roughness(regions, relief, cover, rims, 0.16, spec)).mean()

@@ -9,6 +9,7 @@ from unshade.face.labels import Label
 from unshade.face.normals import relief_normals, tangents
 from unshade.face.texels import rasterise
 
+
 @pytest.mark.parametrize("skin", ["I", "VI"])
 def test_painted_skin_is_even(skin):
     face = build_face(FaceSpec.from_table({"name": "x", "seed": 31, "fitzpatrick": skin, "texture_size": 128}))

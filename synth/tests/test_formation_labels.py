@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import render_toy
+
 from unshade.errors import SceneError
 from unshade.formation import stated_labels
 from unshade.render.rigs import cameras

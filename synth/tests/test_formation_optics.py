@@ -4,10 +4,10 @@ import dataclasses
 import math
 from pathlib import Path
 
+import mitsuba as mi
 import numpy as np
 import pytest
 import render_toy
-import mitsuba as mi
 from scipy.spatial.transform import Rotation
 
 from unshade.errors import SceneError
@@ -153,7 +153,9 @@ def test_motion_smears_an_edge_over_its_pixels_and_across_it_alone(pixels):
     upwards = camera_lens(LOOK, formed(motion_pixels=pixels, motion_direction_degrees=90.0))
     assert np.abs(edge_profile(upwards) - (np.arange(WIDE) < WIDE / 2)).max() < 0.01
     # Degrees are pixels over the focal length.
-    turned = camera_lens(LOOK, formed(motion_degrees=math.degrees(2 * math.atan(pixels / 2 / FOCAL)), motion_direction_degrees=0.0))
+    turned = camera_lens(
+        LOOK, formed(motion_degrees=math.degrees(2 * math.atan(pixels / 2 / FOCAL)), motion_direction_degrees=0.0)
+    )
     assert turned.turn == pytest.approx(lens.turn)
 
 
@@ -206,7 +208,10 @@ def stated(scene, count=150):
 
 
 def test_pose_noise_has_the_stated_scatter():
-    errors = [np.linalg.inv(camera.matrix) @ matrix for camera, matrix in stated(formed(pose_noise_degrees=0.3, pose_noise_mm=2.0))]
+    errors = [
+        np.linalg.inv(camera.matrix) @ matrix
+        for camera, matrix in stated(formed(pose_noise_degrees=0.3, pose_noise_mm=2.0))
+    ]
     turns = np.degrees([Rotation.from_matrix(e[:3, :3]).as_rotvec() for e in errors])
     shifts = 1000 * np.array([e[:3, 3] for e in errors])
     # 450 normal deviates: their standard deviation is known to 3.3 percent.
@@ -218,7 +223,9 @@ def test_pose_noise_has_the_stated_scatter():
 
 def test_pose_noise_in_pixels_is_the_reprojection_error():
     scene, points = formed(pose_noise_pixels=1.5), render_toy.toy_face().chart.vertices.astype(float)
-    moved = [dataclasses.replace(camera, matrix=m).project(points) - camera.project(points) for camera, m in stated(scene)]
+    moved = [
+        dataclasses.replace(camera, matrix=m).project(points) - camera.project(points) for camera, m in stated(scene)
+    ]
     assert np.sqrt(np.mean(np.square(moved))) == pytest.approx(1.5, rel=0.12)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import render_toy
+
 from unshade.errors import PictureError, SceneError
 from unshade.formation import expose, needs_own_rendering
 from unshade.render.scene_text import scene_text
@@ -24,7 +25,9 @@ def ramp(top=1.2):
 def test_photon_transfer(stops):
     """Variance in electrons = signal + read noise squared, at every level and exposure."""
     full_well, read, white = 5000.0, 12.0, 2.0
-    sensor = Formation(exposure_stops=stops, white_level=white, full_well_electrons=full_well, read_noise_electrons=read)
+    sensor = Formation(
+        exposure_stops=stops, white_level=white, full_well_electrons=full_well, read_noise_electrons=read
+    )
     electrons_per_radiance = full_well * 2**stops / white
     for electrons in (100.0, 400.0, 1500.0, 4000.0):
         picture = expose(flat(electrons / electrons_per_radiance), sensor, 3).astype(float) * electrons_per_radiance
@@ -80,7 +83,9 @@ def test_equal_seeds_give_equal_bits_and_nothing_is_the_picture_itself():
 
 
 def test_pictures_stay_finite():
-    sensor = Formation(exposure_stops=16.0, white_level=1e-3, full_well_electrons=1e9, read_noise_electrons=1e6, bits=16)
+    sensor = Formation(
+        exposure_stops=16.0, white_level=1e-3, full_well_electrons=1e9, read_noise_electrons=1e6, bits=16
+    )
     picture = expose(np.array([[[0, 1e-38, 3e38], [-1.0, 1.0, 65504.0]]], np.float32), sensor, 0)
     assert np.isfinite(picture).all() and (picture >= 0).all()
     for bad in (np.nan, np.inf):
@@ -134,7 +139,12 @@ def test_tables_that_make_no_sense_are_refused(table, message):
 
 
 def test_only_optics_need_a_rendering_of_their_own():
-    needy = {"motion_pixels": 1.0, "motion_degrees": 1.0, "aperture_radius_mm": 1.0, "lens_distortion": (0.1, 0.0, 0.0, 0.0)}
+    needy = {
+        "motion_pixels": 1.0,
+        "motion_degrees": 1.0,
+        "aperture_radius_mm": 1.0,
+        "lens_distortion": (0.1, 0.0, 0.0, 0.0),
+    }
     for key, value in needy.items():
         assert needs_own_rendering(dataclasses.replace(Formation(), **{key: value}))
     assert not needs_own_rendering(Formation(white_level=1.0, bits=8, pose_noise_mm=1.0))

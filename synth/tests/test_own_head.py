@@ -2,11 +2,10 @@
 
 import json
 
+import mitsuba as mi
 import numpy as np
 import own_head_files as files
 import pytest
-import render_toy
-import mitsuba as mi
 from PIL import Image
 
 from unshade.face import FaceError
@@ -24,7 +23,6 @@ from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
 from unshade.scene_file import Rig
 from unshade.scene_file.face import parse_face
-
 
 GRID = files.polygons()[0]
 
@@ -72,8 +70,10 @@ def test_indices_from_the_end_of_an_obj_are_read(folder):
     def backwards(text):
         head = text.split("o collar")[0]
         lines = head.splitlines()
-        corner = lambda pair: "/".join(str(int(i) - n - 1) for i, n in zip(pair.split("/"), (places, uvs)))  # noqa: E731
-        return "\r\n".join("f " + " ".join(map(corner, line.split()[1:])) if line[:2] == "f " else line for line in lines)
+        corner = lambda pair: "/".join(str(int(i) - n - 1) for i, n in zip(pair.split("/"), (places, uvs)))
+        return "\r\n".join(
+            "f " + " ".join(map(corner, line.split()[1:])) if line[:2] == "f " else line for line in lines
+        )
 
     files.write_obj(folder / "backwards.obj", backwards)
     assert "f -625/-1875 " in (folder / "backwards.obj").read_text()
@@ -87,7 +87,9 @@ def test_a_file_that_gives_normals_keeps_them(folder):
         "f " + " ".join(f"{corner}/1" for corner in line.split()[1:]) if line.startswith("f ") and "/" in line else line
         for line in text.replace("o head", "o head\nvn 0.6 -0.8 0").splitlines()))  # fmt: skip
     chart = built(folder, mesh="normals.obj").chart
-    np.testing.assert_allclose(chart.normals, np.broadcast_to([tilted[0], tilted[2], -tilted[1]], chart.normals.shape), atol=1e-6)
+    np.testing.assert_allclose(
+        chart.normals, np.broadcast_to([tilted[0], tilted[2], -tilted[1]], chart.normals.shape), atol=1e-6
+    )
 
 
 def test_the_head_stands_where_its_file_says(folder):
@@ -99,7 +101,9 @@ def test_the_head_stands_where_its_file_says(folder):
         nearest = np.linalg.norm(chart.vertices[:, None] - expected, axis=2).min(1)
         assert nearest.max() < 1e-6
         # Seams are split, so that every vertex has one uv, and the normals do not show it.
-        places, number, counts = np.unique(np.round(chart.vertices * 1e6), axis=0, return_inverse=True, return_counts=True)
+        places, number, counts = np.unique(
+            np.round(chart.vertices * 1e6), axis=0, return_inverse=True, return_counts=True
+        )
         assert len(places) == len(grid) and (counts == 2).sum() > files.STEPS
         for place in np.flatnonzero(counts > 1):
             twins = number.ravel() == place
@@ -107,7 +111,10 @@ def test_the_head_stands_where_its_file_says(folder):
             assert np.ptp(chart.normals[twins], axis=0).max() < 1e-6
         s, t = np.array([0.125, 0.25, 0.75, 0.875]), np.array([0.25, 0.75, 0.75, 0.25])
         step = 1e-5
-        across, upwards = files.place(s + step, t) - files.place(s - step, t), files.place(s, t + step) - files.place(s, t - step)
+        across, upwards = (
+            files.place(s + step, t) - files.place(s - step, t),
+            files.place(s, t + step) - files.place(s, t - step),
+        )
         for place, normal in zip(files.place(s, t), unit(np.cross(across, upwards))):
             here = np.linalg.norm(chart.vertices - place, axis=1) < 1e-6
             assert here.any() and (chart.normals[here] @ normal > np.cos(np.radians(2))).all()
@@ -212,7 +219,9 @@ def test_other_maps_and_constants(folder):
         roughness="rough.exr", roughness_space="perceptual", labels="labels.png", diffuse_albedo=[0.4, 0.3, 0.2], diffuse_albedo_space=None,
     ).maps  # fmt: skip
     np.testing.assert_allclose(maps.specular_albedo, 0.2 * 0.15, rtol=1e-5)
-    np.testing.assert_allclose(maps.diffuse_albedo, np.broadcast_to([0.4, 0.3, 0.2], maps.diffuse_albedo.shape), rtol=1e-6)
+    np.testing.assert_allclose(
+        maps.diffuse_albedo, np.broadcast_to([0.4, 0.3, 0.2], maps.diffuse_albedo.shape), rtol=1e-6
+    )
     u = (np.arange(128) + 0.5) / 128
     expected = np.interp(u * 64 - 0.5, np.arange(64), np.linspace(0.2, 0.6, 64)) ** 2
     inner = np.where(maps.inside[64])[0][2:-2]

@@ -23,7 +23,26 @@ from unshade.own_head.mesh_file import read_pieces
 
 SECONDS, BYTES = 5, 2 << 30
 
-EDGES = [0, 1, -1, 2, 3, 0.5, -0.0, 255, 65535, 65536, 2**31, 2**32 - 1, 2**32, 2**63, 1e39, 1e308, float("nan"), float("inf")]
+EDGES = [
+    0,
+    1,
+    -1,
+    2,
+    3,
+    0.5,
+    -0.0,
+    255,
+    65535,
+    65536,
+    2**31,
+    2**32 - 1,
+    2**32,
+    2**63,
+    1e39,
+    1e308,
+    float("nan"),
+    float("inf"),
+]
 """Numbers at which arithmetic turns over."""
 OTHERS = [None, True, False, "", "a", "SCALAR", "VEC3", "MAT4", [], {}, [0], [[]], {"a": 1}]
 """Values of other types."""
@@ -39,7 +58,10 @@ def documents() -> list[tuple[dict, bytes]]:
     small[:, :3] = positions * 32767
     data = b"".join(part.tobytes() for part in (positions, uv, indices, small, np.array([1, 3], "<u4"), positions[:2]))
     ends = np.cumsum([48, 32, 12, 32, 8, 24])
-    views = [{"buffer": 0, "byteOffset": int(end - size), "byteLength": size} for end, size in zip(ends, (48, 32, 12, 32, 8, 24))]
+    views = [
+        {"buffer": 0, "byteOffset": int(end - size), "byteLength": size}
+        for end, size in zip(ends, (48, 32, 12, 32, 8, 24))
+    ]
     views[3]["byteStride"] = 8
     accessors = [
         {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
@@ -50,7 +72,12 @@ def documents() -> list[tuple[dict, bytes]]:
             "count": 2, "indices": {"bufferView": 4, "componentType": 5125}, "values": {"bufferView": 5}}},
     ]  # fmt: skip
     attributes = {"POSITION": 0, "TEXCOORD_0": 1, "NORMAL": 0}
-    base = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data)}], "bufferViews": views, "accessors": accessors}
+    base = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(data)}],
+        "bufferViews": views,
+        "accessors": accessors,
+    }
     plain = base | {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "head", "mesh": 0}],
         "meshes": [{"primitives": [{"attributes": attributes, "indices": 2}]}]}  # fmt: skip
     rich = base | {

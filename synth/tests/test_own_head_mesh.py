@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import own_head_files as files
 import pytest
+
 from unshade.face import FaceError
 from unshade.own_head import HeadFiles, build, placement
 from unshade.own_head.mesh_file import read_pieces
@@ -49,14 +50,19 @@ def with_normals(text):
             places.append(place / np.linalg.norm(place))
     normals = ["vn %.6f %.6f %.6f" % tuple(n) for n in places]
     faces = [
-        "f " + " ".join(f"{c}/{c.split('/')[0]}" if "/" in c else c for c in line.split()[1:]) if line.startswith("f ") else line for line in lines
+        "f " + " ".join(f"{c}/{c.split('/')[0]}" if "/" in c else c for c in line.split()[1:])
+        if line.startswith("f ")
+        else line
+        for line in lines
     ]
     return "\n".join([faces[0], *normals, *faces[1:]])
 
 
 def negated(text, which):
     return "\n".join(
-        "vn " + " ".join("%.6f" % -float(x) for x in line.split()[1:]) if line.startswith("vn ") and which(line) else line
+        "vn " + " ".join("%.6f" % -float(x) for x in line.split()[1:])
+        if line.startswith("vn ") and which(line)
+        else line
         for line in text.splitlines()
     )
 
@@ -64,11 +70,12 @@ def negated(text, which):
 def reversed_faces(text, which):
     faces = iter(range(10**6))
     return "\n".join(
-        "f " + " ".join(line.split()[:0:-1]) if line.startswith("f ") and which(next(faces)) else line for line in text.splitlines()
+        "f " + " ".join(line.split()[:0:-1]) if line.startswith("f ") and which(next(faces)) else line
+        for line in text.splitlines()
     )
 
 
-left = lambda line: float(line.split()[1]) < 0.1  # noqa: E731
+left = lambda line: float(line.split()[1]) < 0.1
 TURNED = {
     "all normals": (with_normals, lambda t: negated(t, lambda _: True), "normals"),
     "half of the normals": (with_normals, lambda t: negated(t, left), "normals"),
@@ -86,10 +93,12 @@ def test_what_points_inwards_is_turned_with_a_warning(name, folder):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         expected = joined(folder, "sound.obj")
-    with pytest.warns(MeshWarning, match=f"turned.obj: .* of .* {said}.* point inwards; they are read as pointing outwards"):
+    with pytest.warns(
+        MeshWarning, match=f"turned.obj: .* of .* {said}.* point inwards; they are read as pointing outwards"
+    ):
         found = joined(folder, "turned.obj")
     # Polygons are cut elsewhere when they run the other way, so the surface is compared by its vertices.
-    rows = lambda mesh: np.unique(np.round(np.concatenate([mesh["points"], mesh["uv"]], 1), 6), axis=0)  # noqa: E731
+    rows = lambda mesh: np.unique(np.round(np.concatenate([mesh["points"], mesh["uv"]], 1), 6), axis=0)
     np.testing.assert_array_equal(rows(found), rows(expected))
     assert ((found["normals"] * found["points"]).sum(1) > 0).all()
     corner = found["points"][found["triangles"]]
@@ -112,7 +121,12 @@ def test_a_twisted_strip_is_named():
 def test_one_obj_however_it_is_written(folder):
     expected = corners(joined(folder, "scan.obj"))
     plain = (folder / "scan.obj").read_text()
-    for text in (plain.replace(" ", "\t"), plain.replace("\n", "\n   "), plain.replace("f ", "usemtl\nl 1 2\np 1\nf "), plain.replace("\n", "\r\n")):
+    for text in (
+        plain.replace(" ", "\t"),
+        plain.replace("\n", "\n   "),
+        plain.replace("f ", "usemtl\nl 1 2\np 1\nf "),
+        plain.replace("\n", "\r\n"),
+    ):
         (folder / "other.obj").write_bytes(b"# f\xfcr sp\xe4ter\n" + text.encode())
         np.testing.assert_array_equal(corners(joined(folder, "other.obj")), expected)
 
@@ -125,9 +139,18 @@ def test_points_in_line_and_concave_polygons_keep_the_area(folder):
         return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
 
     n = files.STEPS + 1
-    corner = lambda i, j: j * n + i + 1  # noqa: E731
+    corner = lambda i, j: j * n + i + 1
     strip = [corner(i, 1) for i in range(9)] + [corner(i, 2) for i in range(8, -1, -1)]
-    u = [corner(0, 8), corner(3, 8), corner(3, 10), corner(2, 10), corner(2, 9), corner(1, 9), corner(1, 10), corner(0, 10)]
+    u = [
+        corner(0, 8),
+        corner(3, 8),
+        corner(3, 10),
+        corner(2, 10),
+        corner(2, 9),
+        corner(1, 9),
+        corner(1, 10),
+        corner(0, 10),
+    ]
     for polygon, cells in ((strip, 8), (u, 5)):
         face = "f " + " ".join(f"{k}/{k}" for k in polygon)
         grid = (folder / "scan.obj").read_text().splitlines()
@@ -166,7 +189,9 @@ class Packed:
         accessor = self.document["accessors"][number]
         view = self.document["bufferViews"][accessor["bufferView"]]
         kind = {5126: "<f4", 5125: "<u4"}[accessor["componentType"]]
-        return np.frombuffer(self.blob, kind, view["byteLength"] // 4, view["byteOffset"]).reshape(accessor["count"], -1)
+        return np.frombuffer(self.blob, kind, view["byteLength"] // 4, view["byteOffset"]).reshape(
+            accessor["count"], -1
+        )
 
     def view(self, values, **more):
         self.blob += b"\0" * (-len(self.blob) % 4)
@@ -245,7 +270,9 @@ def test_a_glb_however_it_is_packed(change, folder):
     change(packed)
     write(folder / "packed.glb", packed.document, packed.blob)
     expected, found = (joined(folder, name) for name in ("scan.glb", "packed.glb"))
-    expected, found = (corners({**mesh, "normals": 0 * mesh["normals"], "uv": np.round(mesh["uv"], 3)}) for mesh in (expected, found))
+    expected, found = (
+        corners({**mesh, "normals": 0 * mesh["normals"], "uv": np.round(mesh["uv"], 3)}) for mesh in (expected, found)
+    )
     near = np.abs(found[:, None, :3] - expected[None, :, :3]).max(2).min(1)
     assert len(found) == len(expected) and near.max() < 2e-5
     np.testing.assert_allclose(found.mean(0), expected.mean(0), atol=1e-3)

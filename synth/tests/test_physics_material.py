@@ -1,7 +1,7 @@
 """The checks of the material pass, and each fails on the fault it is there for."""
 
-import pytest
 import drjit as dr
+import pytest
 
 from unshade.render.physics.formula import check_formula
 from unshade.render.physics.furnace import check_furnace

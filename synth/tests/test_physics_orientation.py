@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from unshade.render.physics.orientation import PROBES, Pipeline, check_orientation
 
 

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+
 from unshade.render import physics
 from unshade.render.layers import Layers
 from unshade.render.passes import render_layers
@@ -112,7 +113,10 @@ FAULTS = {
     "1 % missing": (brighter(np.s_[:], 0.99), "pooled z = -"),
     "3 % in one region": (brighter(np.s_[16:24, 24:32], 1.03), "regional z = +"),
     "half of one pixel": (brighter(np.s_[20, 20], 0.5), "of the pixel in row 20, column 20"),
-    "a third of the variance": (lambda a: dataclasses.replace(a, variance=a.variance / 3), "the stated variance is 0.3"),
+    "a third of the variance": (
+        lambda a: dataclasses.replace(a, variance=a.variance / 3),
+        "the stated variance is 0.3",
+    ),
 }
 
 
@@ -150,7 +154,9 @@ def test_variants_that_differ_are_found(pictures):
 
 
 def test_thread_counts_give_the_same_bytes():
-    small = {name: dataclasses.replace(case, width=32, height=24, samples=16) for name, case in settings((1, 3)).items()}
+    small = {
+        name: dataclasses.replace(case, width=32, height=24, samples=16) for name, case in settings((1, 3)).items()
+    }
     verdict = check_determinism(small)
     assert verdict.ok and "1 thread, 3 threads" in verdict.found, verdict.found
 
@@ -184,10 +190,22 @@ def test_examine_reports_every_check(monkeypatch):
     """Names, order and mends; the checks themselves take minutes."""
     from unshade.render.physics import verdict as verdicts
 
-    names = ("orientation", "formula", "reciprocity", "furnace", "sampling", "layers", "noise", "variants", "determinism")
+    names = (
+        "orientation",
+        "formula",
+        "reciprocity",
+        "furnace",
+        "sampling",
+        "layers",
+        "noise",
+        "variants",
+        "determinism",
+    )
     for name in names:
         module = __import__(f"unshade.render.physics.{name}", fromlist=["check"])
-        monkeypatch.setattr(module, f"check_{name}", lambda name=name: verdicts.Verdict(name, name != "noise", "x", "y.py"))
+        monkeypatch.setattr(
+            module, f"check_{name}", lambda name=name: verdicts.Verdict(name, name != "noise", "x", "y.py")
+        )
     steps = []
     entries = physics.examine(lambda done, total, what: steps.append((done, total)))
     assert tuple(entry["name"] for entry in entries) == names

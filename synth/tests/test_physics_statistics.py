@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from unshade.render.layers import Layers
 from unshade.render.physics import statistics
 from unshade.render.physics.statistics import Comparison, Estimate
@@ -12,7 +13,9 @@ SEEN = np.hypot(*(np.indices(SHAPE) - 23.5)) < 22
 
 def noisy(rng, expected, noise=0.05):
     """A picture's mean and variance as ``PASSES`` passes tell them."""
-    return Estimate.of_runs([np.repeat((expected + noise * rng.standard_normal(SHAPE))[..., None], 3, 2) for _ in range(PASSES)])
+    return Estimate.of_runs(
+        [np.repeat((expected + noise * rng.standard_normal(SHAPE))[..., None], 3, 2) for _ in range(PASSES)]
+    )
 
 
 def compare(rng, bias, noise=0.05):
@@ -56,7 +59,9 @@ def test_a_pixel_is_found_where_it_is_said_to_be_found_half_the_time():
     rng = np.random.default_rng(4)
     bias = np.zeros(SHAPE)
     bias[24, 24] = compare(rng, 0.0).pixel_bias()
-    found = np.mean([any("pixel in row 24, column 24" in fault for fault in compare(rng, bias).rejections()) for _ in range(120)])
+    found = np.mean(
+        [any("pixel in row 24, column 24" in fault for fault in compare(rng, bias).rejections()) for _ in range(120)]
+    )
     assert found == pytest.approx(0.5, abs=0.2)
 
 

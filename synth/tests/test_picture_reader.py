@@ -1,10 +1,10 @@
 """Pictures of all stages read by one rule; files are written by others than the reader's own writer."""
 
+import colour
+import mitsuba as mi
 import numpy as np
 import own_head_files as files
 import pytest
-import colour
-import mitsuba as mi
 from exr_files import ACESCG, XYZ, write_exr_file
 from PIL import Image
 
@@ -36,7 +36,9 @@ def test_mitsubas_files_are_read_to_the_bit(tmp_path):
     np.testing.assert_array_equal(read_rgb(tmp_path / "a.exr"), picture)
     bitmap = mi.Bitmap(picture).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float16, False)
     bitmap.write(str(tmp_path / "half.exr"))
-    np.testing.assert_array_equal(read_rgb(tmp_path / "half.exr"), np.array(mi.Bitmap(str(tmp_path / "half.exr")), np.float32))
+    np.testing.assert_array_equal(
+        read_rgb(tmp_path / "half.exr"), np.array(mi.Bitmap(str(tmp_path / "half.exr")), np.float32)
+    )
     mi.Bitmap(picture).write(str(tmp_path / "a.hdr"))
     np.testing.assert_array_equal(read_rgb(tmp_path / "a.hdr"), np.array(mi.Bitmap(str(tmp_path / "a.hdr"))))
 
@@ -101,7 +103,9 @@ def test_own_heads_state_their_primaries(tmp_path):
     table = files.TABLE | {"mesh": "scan.obj", "diffuse_albedo": "xyz.exr", "diffuse_albedo_space": "linear"}
     head = build_head(parse_face(table, "[face]", tmp_path))
     expected = colour.XYZ_to_RGB(albedo[0, 0], "ITU-R BT.709", apply_cctf_encoding=False)
-    np.testing.assert_allclose(head.maps.diffuse_albedo[head.maps.inside], np.broadcast_to(expected, (head.maps.inside.sum(), 3)), atol=2e-3)
+    np.testing.assert_allclose(
+        head.maps.diffuse_albedo[head.maps.inside], np.broadcast_to(expected, (head.maps.inside.sum(), 3)), atol=2e-3
+    )
 
 
 def test_pictures_that_are_no_normals_are_named(tmp_path):

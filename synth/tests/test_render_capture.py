@@ -1,15 +1,13 @@
 """Captures and relighting as folders: complete, repeatable, resumable, and true."""
 
 import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import render_toy
+
 from unshade.errors import CaptureError, MapsError, PictureError, StorageError
 from unshade.face.ita import Tone
 from unshade.render import capture, llvm, relight, shots
@@ -62,9 +60,16 @@ def captured(tmp_path_factory):
 def test_the_folder_is_complete(captured):
     frames, test = ["000", "001", "002", "003"], "003"
     expected = {"transforms.json", "mesh.obj", "truth/scene.toml", "truth/light.exr"}
-    expected |= {f"{kind}/{name}.{end}" for name in frames for kind, end in (("images", "exr"), ("masks", "png"), ("labels", "png"))}
+    expected |= {
+        f"{kind}/{name}.{end}"
+        for name in frames
+        for kind, end in (("images", "exr"), ("masks", "png"), ("labels", "png"))
+    }
     expected |= {f"truth/layers/{name}.exr" for name in frames}
-    expected |= {f"truth/{name}.exr" for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal", "roughness")}
+    expected |= {
+        f"truth/{name}.exr"
+        for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal", "roughness")
+    }
     expected |= {"truth/skin_tone.json"}
     expected |= {f"truth/{name}.png" for name in ("labels", "coverage", "views")}
     expected |= {f"truth/relit/{light}/{test}.exr" for light in ("studio", "uniform")}
@@ -165,14 +170,24 @@ def scene_cameras():
 def test_image_formation_leaves_the_truth_alone(captured, tmp_path):
     formed = replace(
         scene(),
-        formation=Formation(white_level=1.0, full_well_electrons=500.0, bits=8, lens_distortion=(0.3, 0.0, 0.0, 0.0), pose_noise_pixels=0.5),
+        formation=Formation(
+            white_level=1.0,
+            full_well_electrons=500.0,
+            bits=8,
+            lens_distortion=(0.3, 0.0, 0.0, 0.0),
+            pose_noise_pixels=0.5,
+        ),
         captured_mesh=CapturedMesh(smoothing_mm=4.0),
     )
     out = tmp_path / "capture"
     capture.synthesise(formed, out, CHOICE, no_progress)
     made, perfect = files(out), files(captured)
     same = {name for name in perfect if made[name] == perfect[name]}
-    changed = {f"images/{name}.exr" for name in ("000", "001", "002")} | {"mesh.obj", "transforms.json", "truth/scene.toml"}
+    changed = {f"images/{name}.exr" for name in ("000", "001", "002")} | {
+        "mesh.obj",
+        "transforms.json",
+        "truth/scene.toml",
+    }
     lensed = {f"{kind}/{name}.png" for kind in ("masks", "labels") for name in ("000", "001", "002")}
     # Which texels the distorted views see may change, too; the truth of pictures and maps does not.
     seen = {"truth/views.png", "truth/coverage.png"}
@@ -182,7 +197,9 @@ def test_image_formation_leaves_the_truth_alone(captured, tmp_path):
     assert poses["camera_model"] == "OPENCV" and [frame.get("k1") for frame in poses["frames"]] == [0.3, 0.3, 0.3, None]
     moved = [a["transform_matrix"] != b["transform_matrix"] for a, b in zip(poses["frames"], exact["frames"])]
     assert moved == [True, True, True, False]
-    assert captured_scene(out).formation == formed.formation and captured_scene(out).captured_mesh == formed.captured_mesh
+    assert (
+        captured_scene(out).formation == formed.formation and captured_scene(out).captured_mesh == formed.captured_mesh
+    )
 
 
 def test_faulty_labels_change_labels_alone_and_render_nothing_anew(captured, tmp_path, monkeypatch):
@@ -197,7 +214,9 @@ def test_faulty_labels_change_labels_alone_and_render_nothing_anew(captured, tmp
     assert set(made) == set(perfect) and {name for name in perfect if made[name] != perfect[name]} == changed
     for name in ("000", "001", "002"):
         labels, mask = (read_gray(tmp_path / "mistaken" / kind / f"{name}.png") for kind in ("labels", "masks"))
-        assert (labels[mask == 0] == 0).all() and set(np.unique(labels)) == set(np.unique(read_gray(captured / f"labels/{name}.png")))
+        assert (labels[mask == 0] == 0).all() and set(np.unique(labels)) == set(
+            np.unique(read_gray(captured / f"labels/{name}.png"))
+        )
     made = files(tmp_path / "none")
     assert set(perfect) - set(made) == {f"labels/{name}.png" for name in ("000", "001", "002", "003")}
     assert {name for name in made if made[name] != perfect[name]} == {"transforms.json", "truth/scene.toml"}
@@ -260,7 +279,8 @@ def test_true_maps_relit_differ_from_the_truth_by_noise_alone(captured, oracle, 
         # A tenth less albedo is no noise, and is seen in the diffuse layer alone.
         assert z_score(out / f"global/{light}/003.exr", truth) < -8
         diffuse, specular = (
-            rgb(out / f"global/{light}/003.exr", layer).sum() / rgb(truth, layer).sum() for layer in ("diffuse", "specular")
+            rgb(out / f"global/{light}/003.exr", layer).sum() / rgb(truth, layer).sum()
+            for layer in ("diffuse", "specular")
         )
         assert 0.88 < diffuse < 0.94 and 0.85 < specular < 1.15
     document = json.loads((out / "relit.json").read_text())
@@ -332,56 +352,3 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(StorageError, match="cannot be written"):
         capture.synthesise(scene(), tmp_path / "file" / "capture", CHOICE, no_progress)
-
-
-def stage(*arguments, **options):
-    command = [sys.executable, "-m", "unshade.stage", *map(str, arguments)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
-
-
-def events(output):
-    return [json.loads(line) for line in output.splitlines()]
-
-
-def test_the_child_process_says_what_is_wrong(tmp_path):
-    (tmp_path / "scene.toml").write_text(scene_text(scene()).replace("samples", "sampels"))
-    child = stage("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture")
-    (error,) = events(child.communicate()[0])
-    assert child.returncode == 2
-    assert error["event"] == "error" and error["kind"] == "SceneError"
-    assert "unknown key 'sampels' in [render]" in error["message"] and "'samples'" in error["message"]
-    assert os.listdir(tmp_path) == ["scene.toml"]
-
-
-def test_the_child_process_examines_the_machine():
-    child = stage("doctor")
-    (result,) = events(child.communicate()[0])
-    checks = {check["name"]: check for check in result["checks"]}
-    assert child.returncode == 0 and checks["llvm"]["ok"] and checks["variant"]["found"] == "llvm_ad_rgb"
-    assert all("mend" in check for check in checks.values() if not check["ok"])
-
-
-def test_the_child_process_leaves_with_its_parent_and_goes_on_later(tmp_path):
-    """The whole way with the painted head: killed in the middle, then finished."""
-    (tmp_path / "scene.toml").write_text(scene_text(scene(width=16, height=16, samples=4)))
-    arguments = ("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture", "--watch-stdin")
-    child = stage(*arguments, stdin=subprocess.PIPE)
-    for line in child.stdout:
-        if json.loads(line)["what"].startswith("view 001"):
-            break
-    child.communicate()
-    assert child.returncode == 3
-    assert (tmp_path / "capture.partial/images/000.exr").exists() and not (tmp_path / "capture").exists()
-    child = stage(*arguments, stdin=subprocess.PIPE)
-    output = wait(child)
-    said = events(output)
-    assert child.returncode == 0 and said[-1]["event"] == "result" and said[-1]["variant"] == "llvm_ad_rgb"
-    assert (tmp_path / "capture/truth/scene.toml").exists() and not (tmp_path / "capture.partial").exists()
-
-
-def wait(child):
-    """Reads a child whose standard input stays open."""
-    output = child.stdout.read()
-    child.wait()
-    child.stdin.close()
-    return output

@@ -2,21 +2,21 @@
 
 import math
 
+import drjit as dr
+import mitsuba as mi
 import numpy as np
 import pytest
 import render_toy
-import drjit as dr
-import mitsuba as mi
 
 from unshade.errors import PictureError, SceneError
 from unshade.render import lights
+from unshade.render.camera import Camera, look_at
 from unshade.render.lights import envmap
 from unshade.render.lights.conventions import around, directions, solid_angles
 from unshade.render.passes import render_layers
 from unshade.render.pictures import write_exr
-from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
-from unshade.scene_file import Light
+from unshade.scene_file import LIGHT_KINDS, Light
 from unshade.scene_file.light import Gradient, KeyLight, Pattern, PointLight, Sun, TwoColours
 
 FACE = render_toy.toy_face()
@@ -36,7 +36,11 @@ def light(kind, tmp_path, **keys):
     return Light(name=kind, kind=kind, path=path, **keys)
 
 
-@pytest.mark.parametrize("kind", ["dome", "studio", "flash", "envmap"])
+PLAIN = ["dome", "studio", "flash", "envmap"]
+"""Kinds without settings of their own."""
+
+
+@pytest.mark.parametrize("kind", PLAIN)
 def test_a_white_face_is_just_well_exposed(kind, tmp_path):
     """The brightest pixel of a white Lambert face without its bounces is exposure x 1:
     the largest irradiance is pi. A ball of all normals takes the face's place."""
@@ -172,7 +176,9 @@ def rendered_irradiance(emitters, samples=256):
                 "sensor": {
                     "type": "perspective",
                     "fov": 1.0,
-                    "to_world": mi.ScalarTransform4f().look_at(origin=eye.tolist(), target=point.tolist(), up=side.tolist()),
+                    "to_world": mi.ScalarTransform4f().look_at(
+                        origin=eye.tolist(), target=point.tolist(), up=side.tolist()
+                    ),
                     "film": {"type": "hdrfilm", "width": 8, "height": 8, "rfilter": {"type": "box"}},
                     "sampler": {"type": "multijitter", "sample_count": samples},
                 },
@@ -181,6 +187,16 @@ def rendered_irradiance(emitters, samples=256):
         )
         found.append(math.pi * np.array(mi.render(scene, seed=1)).reshape(-1, 3).mean(0))
     return np.array(found)
+
+
+@pytest.mark.parametrize("kind", LIGHT_KINDS)
+def test_every_kind_has_a_model_and_stands_beside_mitsubas_renders(kind, tmp_path):
+    """A kind that a scene may name, but that has no model or no test beside it, fails here."""
+    model = lights.exposed(light(kind, tmp_path), POINTS, NORMALS)
+    assert model.irradiance(POINTS, NORMALS).shape == (3, 3) and model.latlong().shape[2] == 3
+    assert model.emitters() and (model.brightest() > 0).any()
+    rendered = {"pattern" if isinstance(settings, Pattern) else name for name, settings in SETTINGS.items()}
+    assert kind in {*PLAIN, *rendered}
 
 
 @pytest.mark.parametrize("name", SETTINGS)
@@ -220,7 +236,8 @@ def test_the_ground_returns_a_share_of_what_falls_on_it():
 def test_gradients_are_those_of_the_formula():
     """E(n) = pi/2 + pi/3 n.x for (1 + d.x)/2; opposite gradients add up to the full sphere."""
     plus, minus, full = (
-        lights.exposed(Light("g", "gradient", settings=Gradient(axis)), POINTS, NORMALS) for axis in ("x+", "x-", "full")
+        lights.exposed(Light("g", "gradient", settings=Gradient(axis)), POINTS, NORMALS)
+        for axis in ("x+", "x-", "full")
     )
     at = plus.irradiance(POINTS, NORMALS)
     np.testing.assert_allclose(at, np.repeat((math.pi / 2 + math.pi / 3 * NORMALS[:, :1]), 3, 1), rtol=1e-3)
@@ -263,7 +280,9 @@ def test_parts_of_a_light_stage_share_its_exposure():
 def test_colours_fall_on_their_own_side():
     model = of("two-colour")
     left, right = model.irradiance(np.zeros((2, 3)), np.array([[1.0, 0.0, 0.2], [-1.0, 0.0, 0.2]]) / math.sqrt(1.04))
-    assert left[0] / left[2] == pytest.approx(1 / 0.16, rel=1e-3) and right[0] / right[2] == pytest.approx(0.22, rel=1e-3)
+    assert left[0] / left[2] == pytest.approx(1 / 0.16, rel=1e-3) and right[0] / right[2] == pytest.approx(
+        0.22, rel=1e-3
+    )
 
 
 def test_small_sources_keep_their_energy_and_place_in_the_latlong():

@@ -18,7 +18,7 @@ from unshade.scene_file import parse_scene, read_scene
 def table():
     return {
         "format": 1,
-        "name": "a \"b\" \\ ü",
+        "name": 'a "b" \\ ü',
         "face": {"name": "f", "seed": 3},
         "light": {"name": "sky", "kind": "envmap", "path": "sky.exr", "rotation_degrees": 30, "clamp": 50.0},
         "relight": [{"name": "uniform", "kind": "dome", "exposure": 0.5}, {"name": "flash", "kind": "flash"}],
@@ -44,7 +44,7 @@ def test_old_texts_keep_their_keys():
     """Scenes of before: no key appears that their authors did not know."""
     old = table() | {"light": {"name": "studio", "kind": "studio"}, "relight": []}
     text = scene_text(parse_scene(old, "scene", Path()))
-    between = lambda start, end: text.split(start)[1].split(end)[0].split("\n")  # noqa: E731
+    between = lambda start, end: text.split(start)[1].split(end)[0].split("\n")
     assert between("[light]\n", "\n\n") == ['name = "studio"', 'kind = "studio"', "exposure = 1.0"]
     assert [line.split(" = ")[0] for line in between("[rig]\n", "\n\n")] == [
         "name", "kind", "train", "test", "max_angle_degrees", "seed", "distance_metres", "fov_degrees",
@@ -74,7 +74,9 @@ def test_every_light_survives_writing_and_reading(folder):
     scene = parse_scene(table() | {"relight": relight}, "scene", folder)
     for light, given in zip(scene.relight, relight):
         assert {key: getattr(light.settings, key) for key in given if key not in ("name", "kind")} == {
-            key: tuple(value) if isinstance(value, list) else value for key, value in given.items() if key not in ("name", "kind")
+            key: tuple(value) if isinstance(value, list) else value
+            for key, value in given.items()
+            if key not in ("name", "kind")
         }
     (folder / "scene.toml").write_text(scene_text(scene))
     assert read_scene(folder / "scene.toml") == scene
@@ -138,19 +140,33 @@ FAULTS = {
     "train in [rig] of scene is True": broken(rig__train=True),
     "rotation_degrees in [light] of scene is nan": broken(light__rotation_degrees=float("nan")),
     "unknown key 'sed' in [face] of scene; did you mean 'seed'": broken(face__sed=1),
-    "turbidity in [light] of scene is 11; use a number from 1 to 10": broken(light={"name": "s", "kind": "sun", "turbidity": 11}),
-    "unknown key 'azimut' in [light] of scene; did you mean 'azimuth_degrees'": broken(light={"name": "k", "kind": "key", "azimut": 1}),
-    "left in [light] of scene is [0, 0, 0]; use three": broken(light={"name": "t", "kind": "two-colour", "left": [0, 0, 0]}),
-    "axis in [light] of scene is 'w+'; use one of full, x+": broken(light={"name": "g", "kind": "gradient", "axis": "w+"}),
-    "order in [light] of scene is 12; use one of 2, 4": broken(light={"name": "p", "kind": "pattern", "pattern": "hadamard", "order": 12}),
-    "but order 8 has rows 0 to 7": broken(light={"name": "p", "kind": "pattern", "pattern": "hadamard", "order": 8, "index": 8}),
+    "turbidity in [light] of scene is 11; use a number from 1 to 10": broken(
+        light={"name": "s", "kind": "sun", "turbidity": 11}
+    ),
+    "unknown key 'azimut' in [light] of scene; did you mean 'azimuth_degrees'": broken(
+        light={"name": "k", "kind": "key", "azimut": 1}
+    ),
+    "left in [light] of scene is [0, 0, 0]; use three": broken(
+        light={"name": "t", "kind": "two-colour", "left": [0, 0, 0]}
+    ),
+    "axis in [light] of scene is 'w+'; use one of full, x+": broken(
+        light={"name": "g", "kind": "gradient", "axis": "w+"}
+    ),
+    "order in [light] of scene is 12; use one of 2, 4": broken(
+        light={"name": "p", "kind": "pattern", "pattern": "hadamard", "order": 12}
+    ),
+    "but order 8 has rows 0 to 7": broken(
+        light={"name": "p", "kind": "pattern", "pattern": "hadamard", "order": 8, "index": 8}
+    ),
     "inverse in [light] of scene is 1; use true or false": broken(light={"name": "p", "kind": "pattern", "inverse": 1}),
     "withheld in [rig] of scene names '040', but the views are 000 to 005": broken(rig__withheld=["040"]),
     "withheld in [rig] of scene is '003'; use a list": broken(rig__withheld="003"),
     "names a view twice": broken(rig__withheld=["003", "003"]),
     "names all 9 views": broken(rig={"name": "e", "kind": "emily", "withheld": [f"00{i}" for i in range(9)]}),
     "unknown key 'train' in [rig] of scene": broken(rig={"name": "d", "kind": "desktop", "train": 3}),
-    "max_angle_degrees in [rig] of scene is 88; use at most 85": broken(rig={"name": "d", "kind": "dome", "max_angle_degrees": 88}),
+    "max_angle_degrees in [rig] of scene is 88; use at most 85": broken(
+        rig={"name": "d", "kind": "dome", "max_angle_degrees": 88}
+    ),
     "both equivalent_mm and fov_degrees": broken(rig__equivalent_mm=26, rig__fov_degrees=20),
     "name in scene is missing": broken(name=None),
 }

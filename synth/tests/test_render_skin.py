@@ -1,11 +1,11 @@
 """The skin material: what its maps mean. (`test_physics_material` has what any material must
 obey: sampling that matches its density, no energy made, the same light both ways.)"""
 
+import drjit as dr
+import mitsuba as mi
 import numpy as np
 import pytest
 import render_toy
-import drjit as dr
-import mitsuba as mi
 
 PARTS = {"all": None, "diffuse": +mi.BSDFFlags.DiffuseReflection, "specular": +mi.BSDFFlags.GlossyReflection}
 
@@ -20,7 +20,11 @@ def constant(values):
 
 def skin(diffuse=0.5, specular=0.04, roughness=None, **others):
     """``roughness``: a constant, or a picture [H, W, 3]."""
-    others |= {} if roughness is None else {"roughness": constant(roughness) if np.ndim(roughness) == 1 else bitmap(roughness)}
+    others |= (
+        {}
+        if roughness is None
+        else {"roughness": constant(roughness) if np.ndim(roughness) == 1 else bitmap(roughness)}
+    )
     return mi.load_dict(
         {"type": "skin", "diffuse": constant([diffuse] * 3), "specular": constant([specular]), **others}
     )
@@ -75,9 +79,9 @@ def test_specular_albedo_reads_as_reflectance_at_normal_incidence():
 def test_furnace_on_a_head():
     """In even white light a near-white head is nearly white; lobes that add without
     coupling exceed it at grazing angles only."""
+    from unshade.render.camera import Camera, look_at
     from unshade.render.lights import Dome
     from unshade.render.passes import render_layers
-    from unshade.render.camera import Camera, look_at
     from unshade.render.scene import ChartMaps, HeadScene
 
     face = render_toy.toy_face()
@@ -100,8 +104,9 @@ def test_a_map_without_direction_means_the_mesh_normal():
         np.testing.assert_allclose(zero.eval(ctx, interaction(wi, 1), wo), expected, rtol=1e-6)
 
 
-def values(bsdf, u=0.5, wo=direction(50, 200)):
+def values(bsdf, u=0.5, wo=None):
     """Value and density towards one direction."""
+    wo = direction(50, 200) if wo is None else wo
     value, pdf = bsdf.eval_pdf(context("specular"), interaction(direction(30, 10), 1, u), wo)
     return float(value.x[0]), float(pdf[0])
 
@@ -154,7 +159,9 @@ def test_the_true_roughness_of_a_face_reaches_its_picture():
         picture = None if roughness is None else np.broadcast_to(np.float32(roughness), (4, 4, 3))
         maps = dataclasses.replace(face.maps, roughness=picture, specular_normal=np.zeros((2, 2, 3), np.float32))
         head = HeadScene(face.chart, [], ChartMaps.truth(dataclasses.replace(face, paint=lambda: maps)))
-        return render_layers(head.lit(lights.studio().scaled(8.0)), camera.sensor(64), samples=64, depth=2, seed=1).specular
+        return render_layers(
+            head.lit(lights.studio().scaled(8.0)), camera.sensor(64), samples=64, depth=2, seed=1
+        ).specular
 
     standard = highlights(None)
     np.testing.assert_allclose(highlights([0.15, 0.35, 0.5]), standard, rtol=1e-3, atol=1e-6)

@@ -2,14 +2,14 @@
 
 import dataclasses
 
+import mitsuba as mi
 import numpy as np
 import pytest
 import render_toy
-import mitsuba as mi
 
 from unshade.render import lights
-from unshade.render.passes import render_layers
 from unshade.render.camera import Camera, look_at
+from unshade.render.passes import render_layers
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import passes_for
 
@@ -111,6 +111,8 @@ def test_the_background_is_black_even_before_a_lamp():
     assert (layers.total[0, 0] == 0).all() and (layers.total[-1, 0] == 0).all()
 
 
-@pytest.mark.parametrize(("samples", "passes"), [(128, 8), (64, 4), (32, 4), (16, 4), (4, 4), (7, 7), (52, 13), (11, 11), (17, None)])
+@pytest.mark.parametrize(
+    ("samples", "passes"), [(128, 8), (64, 4), (32, 4), (16, 4), (4, 4), (7, 7), (52, 13), (11, 11), (17, None)]
+)
 def test_passes_share_samples_evenly(samples, passes):
     assert passes_for(samples) == passes

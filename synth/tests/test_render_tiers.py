@@ -5,11 +5,11 @@ import sys
 import weakref
 from pathlib import Path
 
+import drjit as dr
+import mitsuba as mi
 import numpy as np
 import pytest
 import render_toy
-import drjit as dr
-import mitsuba as mi
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "bench"))
 import half_space
@@ -83,7 +83,9 @@ class EvenAlbedo:
 @pytest.mark.parametrize("way", LambertLight)
 def test_walks_in_a_slab_are_chandrasekhars(way):
     """Even light, sampled in each way, on a slab a hundred free paths thick."""
-    block = mi.load_dict({"type": "cube", "to_world": mi.ScalarTransform4f().scale([0.2, 0.05, 0.2]).translate([0, -1, 0])})
+    block = mi.load_dict(
+        {"type": "cube", "to_world": mi.ScalarTransform4f().scale([0.2, 0.05, 0.2]).translate([0, -1, 0])}
+    )
     scene = mi.load_dict({"type": "scene", "block": block, "light": {"type": "constant", "radiance": 1.0}})
     albedo = (0.2, 0.45, 0.7)
     lanes = 60_000
@@ -94,7 +96,9 @@ def test_walks_in_a_slab_are_chandrasekhars(way):
         ray = mi.Ray3f(mi.Point3f(-0.1 * across, 0.1 * mu, 0), mi.Vector3f(across, -mu, 0))
         si = scene.ray_intersect(ray, dr.full(mi.Bool, True, lanes))
         extinction = [dr.opaque(mi.Float, 1000.0)] * 3
-        found = np.array(walk(scene, mi.ShapePtr(block), EvenAlbedo(albedo), extinction, sampler, si, ray.d, si.is_valid(), way))
+        found = np.array(
+            walk(scene, mi.ShapePtr(block), EvenAlbedo(albedo), extinction, sampler, si, ray.d, si.is_valid(), way)
+        )
         error = found.std(1) / np.sqrt(lanes)
         exact = [half_space.radiance_under_even_light(float(profile.single_scattering(a)), mu)[0] for a in albedo]
         assert (error < 0.006).all()
@@ -182,7 +186,8 @@ def test_long_blur_keeps_the_light_and_short_blur_the_picture():
     head = toy_head()
     lit = head.lit(lights.studio().scaled(8.0))
     tiny, opaque = (
-        draw(head, lit, dataclasses.replace(RENDER, samples=64, tier=tier, subsurface_mm=(1e-3,) * 3)) for tier in ("diffusion", "opaque")
+        draw(head, lit, dataclasses.replace(RENDER, samples=64, tier=tier, subsurface_mm=(1e-3,) * 3))
+        for tier in ("diffusion", "opaque")
     )
     variance = (tiny.variance + opaque.variance).sum()
     difference = (tiny.total - opaque.total).sum()
@@ -216,7 +221,8 @@ def test_variance_counts_the_noise_of_the_bake():
     head = toy_head(dataclasses.replace(TRUTH, specular_albedo=None))
     lit = head.lit(lights.studio().scaled(8.0))
     own, shared = (
-        [tiers.render_tier(head, lit, camera.sensor(16), RENDER, seed, shared_seed=seed * own) for seed in range(8)] for own in (1, 0)
+        [tiers.render_tier(head, lit, camera.sensor(16), RENDER, seed, shared_seed=seed * own) for seed in range(8)]
+        for own in (1, 0)
     )
     measured, alike = (np.stack([run.total for run in runs]).var(0, ddof=1).mean() for runs in (own, shared))
     assert np.mean([run.variance.mean() for run in own]) == pytest.approx(measured, rel=0.25)
@@ -246,7 +252,9 @@ def enclosed(closed):
 
 def test_parts_are_welded_and_open_rims_capped():
     vertices, triangles = box()
-    halves = [Mesh(name, vertices, vertices, triangles[part]) for name, part in (("a", slice(0, 5)), ("b", slice(5, 12)))]
+    halves = [
+        Mesh(name, vertices, vertices, triangles[part]) for name, part in (("a", slice(0, 5)), ("b", slice(5, 12)))
+    ]
     closed = body.close(halves)
     assert len(closed.vertices) == 8 and enclosed(closed) == pytest.approx(1)
     vertices, triangles = box(drop=[0])

@@ -19,6 +19,7 @@ from importlib import import_module
 os.environ.setdefault("NODEVICE_SELECT", "1")
 
 _HOMES = {
+    "Fidelity": "stages",
     "Finding": "stages",
     "Capture": "_native",
     "Maps": "_native",
@@ -29,6 +30,7 @@ _HOMES = {
     "check": "stages",
     "compare": "stages",
     "consistency": "importing",
+    "export": "stages",
     "import_capture": "importing",
     "relight": "stages",
     "report": "stages",

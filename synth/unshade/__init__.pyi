@@ -9,9 +9,11 @@ from unshade.importing import consistency as consistency
 from unshade.importing import import_capture as import_capture
 from unshade.scores import Score as Score
 from unshade.scores import Scores as Scores
+from unshade.stages import Fidelity as Fidelity
 from unshade.stages import Finding as Finding
 from unshade.stages import check as check
 from unshade.stages import compare as compare
+from unshade.stages import export as export
 from unshade.stages import relight as relight
 from unshade.stages import report as report
 from unshade.stages import run as run

@@ -12,9 +12,22 @@ __all__ = [
     "Capture",
     "Maps",
     "__version__",
+    "begin_folder",
+    "check_json",
+    "commit_folder",
     "compare",
+    "export",
+    "exr_channels",
     "measure",
     "metric_definitions",
+    "outward_turns",
+    "read_colour",
+    "read_exr",
+    "read_gray",
+    "read_ids",
+    "read_light",
+    "read_obj",
+    "read_png",
     "read_scores",
     "relight",
     "report",
@@ -77,7 +90,7 @@ class Capture:
     def camera(self, name: str) -> _Camera:
         """Any view's camera: pixels, and camera to world with OpenGL axes (4, 4)."""
     def gbuffer(self, name: str) -> _GBuffer:
-        """What any view sees of the mesh at its pixels' centres: positions and normals
+        """The mesh at the pixel centres of any view: positions (metres) and unit normals
         (height, width, 3), uvs (height, width, 2); NaN where it sees nothing of it."""
     def shading(
         self,
@@ -189,8 +202,16 @@ def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
 def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
 def relight(
-    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None
+    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None, renderer: str = "mitsuba"
 ) -> Path: ...
+def export(
+    maps: _Path,
+    out: _Path,
+    options: list[str],
+    capture: _Path | None = None,
+    mesh: _Path | None = None,
+    progress: _Progress | None = None,
+) -> str: ...
 def run(
     suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None
 ) -> Path: ...
@@ -210,6 +231,14 @@ def measure(
     scale: str = "none",
     beside: dict[str, ArrayLike] | None = None,
 ) -> float | None: ...
+
+def mikktspace(
+    vertices: NDArray[np.float32],
+    normals: NDArray[np.float32],
+    uv: NDArray[np.float32],
+    triangles: NDArray[np.int64],
+) -> NDArray[np.float32]:
+    """Tangents (F, 3, 4) of a mesh: xyz unit, and the sign of the bitangent; raises ValueError."""
 
 class _Object(TypedDict):
     name: str
@@ -240,7 +269,9 @@ def depth_of(
 def exr_channels(path: _Path) -> list[str]:
     """Names of an EXR's channels, from its header; raises ``errors.PictureError``, as all readers here."""
 
-def read_exr(path: _Path, names: list[str] | None = None, *, colour: bool = False, finite: bool = True) -> tuple[list[str], _Float]:
+def read_exr(
+    path: _Path, names: list[str] | None = None, *, colour: bool = False, finite: bool = True
+) -> tuple[list[str], _Float]:
     """Channels (all without ``names``) and their names; (height, width, channels), in the display window."""
 
 def read_colour(path: _Path) -> _Float:

@@ -1,4 +1,4 @@
-"""What can go wrong, by name; Rust and Python raise the same classes.
+"""Exceptions, named for what went wrong; Rust and Python raise the same classes.
 
 Each message is one line: what is wrong, where, and the mend. ``exit_code`` is what
 the child process returns for it (see :mod:`unshade.stage`).
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 
 class UnshadeError(Exception):
-    """What a user can meet and mend."""
+    """Base of all exceptions of the package: a fault that a user can meet and mend."""
 
     exit_code = 2
 
@@ -73,3 +73,7 @@ class ReportError(UnshadeError):
 
 class CompareError(UnshadeError):
     """A run cannot be compared with a baseline."""
+
+
+class ExportError(UnshadeError):
+    """An asset cannot be written, or the program that writes or renders it is missing."""

@@ -1,4 +1,4 @@
-"""What decides whether a rendering is still valid: the renderer's versions and sources.
+"""Hash of the renderer's versions and sources, by which kept renderings are valid or not.
 
 ``python -m unshade.fingerprint`` prints one line; equal lines mean equal pictures.
 """

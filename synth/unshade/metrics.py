@@ -25,7 +25,7 @@ from unshade._native import metric_definitions as _metric_definitions
 
 
 class Definition(NamedTuple):
-    """What a metric is; ``needs`` names the argument that it takes beside the mask, or is empty."""
+    """Id, words, unit and direction of a metric; ``needs`` names an argument beside the mask, or is empty."""
 
     id: str
     name: str

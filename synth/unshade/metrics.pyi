@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 _Scale = Literal["none", "global", "channel", "median"]
 
 class Definition(NamedTuple):
-    """What a metric is; ``needs`` names the argument that it takes beside the mask, or is empty."""
+    """Id, words, unit and direction of a metric; ``needs`` names an argument beside the mask, or is empty."""
 
     id: str
     name: str

@@ -32,7 +32,7 @@ class Score:
     """One number with its protocol; the metric's unit is in ``unshade.metrics.DEFINITIONS``."""
 
     subject: str
-    """What is compared: ``diffuse_albedo``, ``view``, ``relit``, ..."""
+    """Subject of the comparison: ``diffuse_albedo``, ``view``, ``relit``, ..."""
     metric: str
     scale: str
     """``none``, ``global``, ``channel`` or ``median``."""

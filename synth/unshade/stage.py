@@ -56,7 +56,19 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--out", type=Path, required=True)
     relight.add_argument("--scale", type=_scale, action="append", required=True, metavar="NAME=FACTOR")
     relight.add_argument("--seed-offset", type=int, default=0)
+    relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
+
+    export = verbs.add_parser("export", help="write maps as an asset of another program")
+    export.add_argument("--maps", type=Path, required=True)
+    export.add_argument("--out", type=Path, required=True)
+    export.add_argument("--format", required=True)
+    export.add_argument("--capture", type=Path)
+    export.add_argument("--mesh", type=Path)
+    export.add_argument("--bits", type=int, choices=(8, 16), default=16)
+    export.add_argument("--normal-y", choices=("plus", "minus"), default="plus")
+    export.add_argument("--no-fidelity", action="store_true")
+    export.set_defaults(stage=_export)
 
     check = verbs.add_parser("check", help="read a scene and render nothing")
     check.add_argument("--scene", type=Path, required=True)
@@ -76,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, check, describe, sheet, doctor, physics):
+    for verb in (synth, relight, export, check, describe, sheet, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -113,13 +125,27 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
 
     scene = captured_scene(options.capture)
     choice = _activate(llvm.choose(scene.versions["variant"]))
-    from .render.relight import relight
+    if options.renderer == "cycles":
+        from .cycles.relight import relight
+    else:
+        from .render.relight import relight
 
     relight(
         scene, options.maps, options.out,
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _export(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+
+    _activate(llvm.choose())
+    from .export.assets import Options, export
+
+    chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
+    rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
+    return {"asset": str(options.out), "fidelity": rows, "lines": lines}
 
 
 def _relight_photographed(options: argparse.Namespace) -> dict[str, Any]:

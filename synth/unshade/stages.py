@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypedDict
+from typing import Literal, TypedDict
 
 from unshade import _native
 from unshade._native import Capture, Maps
@@ -32,14 +32,63 @@ def synth(scene: _Path, out: _Path, *, progress: _Progress | None = None) -> Cap
 
 
 def relight(
-    capture: Capture | _Path, maps: Maps | _Path, out: _Path, *, progress: _Progress | None = None
+    capture: Capture | _Path,
+    maps: Maps | _Path,
+    out: _Path,
+    *,
+    renderer: Literal["mitsuba", "cycles"] = "mitsuba",
+    progress: _Progress | None = None,
 ) -> Path:
     """Render maps in the capture's lights into the folder ``out``, as they are and after one factor.
 
-    ``maps`` is a maps folder, or the maps themselves.
+    ``maps`` is a maps folder, or the maps themselves. ``cycles`` is Blender's path tracer, a second judge.
     """
     with _folder_of(maps) as folder:
-        return _native.relight(_path_of(capture), folder, out, progress)
+        return _native.relight(_path_of(capture), folder, out, progress, renderer)
+
+
+class Fidelity(TypedDict):
+    """What an asset loses, in one light: the asset as its files say it beside the relit maps."""
+
+    material: str
+    """Which of the asset's materials, or what rendered it."""
+    light: str
+    view: str
+    psnr_srgb: float | None
+    """dB inside the mask; None where nothing differs."""
+    psnr_noise: float | None
+    """What noise alone would allow, where the pictures do not share theirs."""
+    diffuse_ratio: float | None
+    """Mean of the asset's diffuse layer over that of the maps; None without light in it."""
+    specular_ratio: float | None
+
+
+def export(
+    maps: Maps | _Path,
+    out: _Path,
+    *,
+    format: Literal["gltf", "mitsuba", "blender", "materialx", "png"],
+    capture: Capture | _Path | None = None,
+    mesh: _Path | None = None,
+    bits: Literal[8, 16] = 16,
+    normal_y: Literal["plus", "minus"] = "plus",
+    fidelity: bool = True,
+    progress: _Progress | None = None,
+) -> list[Fidelity]:
+    """Write maps as an asset of another program into the folder ``out``; returns what it loses.
+
+    The mesh is that of ``capture``, or the OBJ ``mesh``. ``bits`` are those of the normal maps, and of all
+    maps of ``png``, whose green points where ``normal_y`` says. The list is also in ``fidelity.json``; it is
+    empty without ``fidelity`` and for ``materialx`` and ``png``, which nothing here renders. Raises
+    `ExportError`, `MapsError`, `CaptureError`, and `RendererError` where Blender is missing.
+    """
+    options = ["--format", format, "--bits", str(bits), "--normal-y", normal_y]
+    options += [] if fidelity else ["--no-fidelity"]
+    with _folder_of(maps) as folder:
+        place = None if capture is None else _path_of(capture)
+        said = json.loads(_native.export(folder, out, options, place, mesh, progress))
+    rows: list[Fidelity] = said["fidelity"]
+    return rows
 
 
 def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None) -> Scores:
@@ -51,9 +100,7 @@ def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None =
         return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit)))
 
 
-def run(
-    suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None
-) -> Path:
+def run(suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None) -> Path:
     """Run a suite in the folder ``out``, resuming it; returns its report's page.
 
     ``redo`` names methods whose maps are made anew. Raises `SolveError` at the end if a method
@@ -65,7 +112,7 @@ def run(
 
 
 class Finding(TypedDict):
-    """What is likely wrong with one file of a maps folder."""
+    """A likely fault of one file of a maps folder, with the numbers that speak for it and the mend."""
 
     id: str
     level: str
@@ -77,14 +124,17 @@ class Finding(TypedDict):
 
 
 def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list[Finding]:
-    """What is likely wrong with maps, a folder or the maps themselves; empty for sound maps.
+    """Likely faults of maps (a folder, or `Maps`); empty for sound maps.
 
     With the capture, maps are also compared with its photographs, cameras and mesh; its ``truth/``
     is never opened.
     """
     with _folder_of(maps) as folder:
         text = _native.check_json(folder, None if capture is None else _path_of(capture))
-    return [{**finding, "evidence": finding.get("evidence", {})} for finding in json.loads(text)]
+    findings: list[Finding] = json.loads(text)
+    for finding in findings:
+        finding.setdefault("evidence", {})
+    return findings
 
 
 def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path:

@@ -4,11 +4,11 @@ use std::env;
 use std::fs;
 use std::path::PathBuf;
 
+use bench::{Options, markdown, run};
 use clap::Args;
-use solver::atomic;
+use formats::atomic;
 use solver::backend::gpu::{Adapter, VARIABLE};
 
-use crate::bench::{Options, markdown, run};
 use crate::suite::RunError;
 
 /// What to measure, and where to put it. The GPU is the best real one; a software adapter only if

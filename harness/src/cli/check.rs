@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::{CHECK_FAILED, DONE};
-use crate::check::{self, CheckError};
+use scoring::check::{self, CheckError};
+
+use super::exit::{CHECK_FAILED, DONE};
 
 /// Prints each finding on a line of its own; the exit code says whether there is any.
 pub(super) fn check(maps: &Path, capture: Option<&Path>) -> Result<u8, CheckError> {

@@ -5,16 +5,18 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::{Choice, atomic};
+use formats::atomic;
+use scoring::compare::{Baseline, Tolerances, compare};
+use scoring::score;
+use solver::Choice;
 
-use super::progress::Progress;
-use super::{
-    BackendName, CHECK_FAILED, CompareArgs, DONE, SolveArgs, SolverName, SynthArgs, Verb, bench,
-    check, doctor,
+use super::arguments::{
+    BackendName, CompareArgs, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
 };
-use crate::compare::{Baseline, Tolerances, compare};
-use crate::report::{self, ReportError};
-use crate::score;
+use super::exit::{CHECK_FAILED, DONE};
+use super::progress::Progress;
+use super::{bench, check, doctor, export};
+use crate::live::{Live, LiveError};
 use crate::suite::{self, BaselineMethod, Observer, RunError, RunOptions, Suite, Tools};
 use crate::synth::{Interpreter, Interrupt};
 
@@ -22,11 +24,16 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => solve(&arguments)?,
-        Verb::Relight { capture, maps, out } => {
+        Verb::Relight { capture, maps, out, renderer } => {
+            let renderer = match renderer {
+                RendererName::Mitsuba => "mitsuba",
+                RendererName::Cycles => "cycles",
+            };
             alone("relight", |tools, step| {
-                suite::relight(&capture, &maps, &out, &suite::SCALES, tools, step)
+                suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
         }
+        Verb::Export(arguments) => export::export(&arguments)?,
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
@@ -64,7 +71,7 @@ fn tools() -> Tools {
 }
 
 /// Runs one stage outside a suite, with its bar.
-fn alone(
+pub(super) fn alone(
     id: &str,
     work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
 ) -> Result<(), RunError> {
@@ -109,12 +116,12 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     }
     if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
         let reason = "a baseline has no steps to show; leave it out".to_owned();
-        return Err(ReportError::Live(reason).into());
+        return Err(LiveError(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
         SolverName::Fields => {
-            let capture = solver::Capture::open(capture)?;
+            let capture = capture::Capture::open(capture)?;
             eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
             let backend = match arguments.backend {
                 BackendName::Auto => Choice::Auto,
@@ -123,7 +130,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
             };
             let backend = backend.open()?;
             eprintln!("solve: {}", backend.name());
-            let live = arguments.rerun.as_deref().map(|place| report::Live::open(place, &capture));
+            let live = arguments.rerun.as_deref().map(|place| Live::open(place, &capture));
             let mut live = live.transpose()?;
             alone("solve", |tools, bar| {
                 let solution =

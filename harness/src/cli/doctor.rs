@@ -4,8 +4,8 @@ use serde_json::Value;
 use solver::Choice;
 use solver::backend::gpu::{VARIABLE, adapters};
 
+use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{CHECK_FAILED, DONE};
 use crate::suite::{Observer, RunError, Tools};
 use crate::synth::{StageError, run_stage};
 

@@ -1,51 +1,56 @@
-//! The baselines: answers that need no optimisation, as solvers of a suite.
+//! The baselines: answers that need no optimisation, as methods of a suite.
 
 use std::path::Path;
 
-use solver::baselines;
+use capture::Capture;
+use capture::mean_texture::mean_texture;
+use formats::{MapsError, atomic};
+use solver::baselines::semantic_initialisation;
 
 use super::error::RunError;
 
-/// A method that every solver has to beat.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BaselineMethod {
+/// Variant, name in a suite, title in tables, and what makes its maps from a capture and a texture's
+/// side in texels. All that there is to say of a baseline outside the solver.
+macro_rules! baselines {
+    ($($(#[$doc:meta])* $variant:ident, $name:literal, $title:literal, $make:path;)*) => {
+        /// A method that every solver has to beat.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum BaselineMethod { $($(#[$doc])* $variant,)* }
+
+        impl BaselineMethod {
+            /// Every one of them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$variant),*];
+
+            /// As a suite names it.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// As tables name it.
+            pub fn title(self) -> &'static str {
+                match self { $(Self::$variant => $title,)* }
+            }
+
+            /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
+            pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
+                atomic::apart(maps, &[capture]).map_err(MapsError::from)?;
+                let capture = Capture::open(capture)?;
+                let made = match self { $(Self::$variant => $make(&capture, size)?,)* };
+                Ok(made.write(maps)?)
+            }
+        }
+    };
+}
+
+baselines! {
     /// The mean of the projected colours as diffuse albedo: shading and highlights stay in it.
-    MeanTexture,
+    MeanTexture, "mean_texture", "mean projected texture", mean_texture;
     /// What our solver starts from: one colour for each label region.
-    SemanticInitialisation,
+    SemanticInitialisation, "semantic_initialisation", "semantic initialisation",
+        semantic_initialisation;
 }
 
 impl BaselineMethod {
-    /// Every one of them.
-    pub const ALL: [Self; 2] = [Self::MeanTexture, Self::SemanticInitialisation];
-
     /// Side of the textures where a suite names no other, texels.
     pub const TEXTURE_SIZE: usize = 512;
-
-    /// As a suite names it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MeanTexture => "mean_texture",
-            Self::SemanticInitialisation => "semantic_initialisation",
-        }
-    }
-
-    /// As tables name it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::MeanTexture => "mean projected texture",
-            Self::SemanticInitialisation => "semantic initialisation",
-        }
-    }
-
-    /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
-    pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
-        solver::atomic::apart(maps, &[capture]).map_err(solver::MapsError::from)?;
-        let capture = solver::Capture::open(capture)?;
-        let made = match self {
-            Self::MeanTexture => baselines::mean_texture(&capture, size)?,
-            Self::SemanticInitialisation => baselines::semantic_initialisation(&capture, size)?,
-        };
-        Ok(made.write(maps)?)
-    }
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use super::place;
 use super::scene::{self, Scene, SceneError};
-use crate::score;
+use scoring::score;
 
 /// One capture: a face in a light, in a variant of the scene.
 #[derive(Clone, Debug)]
@@ -127,7 +128,7 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
     let names = names.ok_or_else(|| wrong("must be a list of captures' folders".to_owned()))?;
     let mut cases: Vec<Case> = Vec::new();
     for name in names {
-        let folder = scene::beside(path, name);
+        let folder = place::beside(path, name);
         let folder = std::path::absolute(&folder).unwrap_or(folder);
         if !score::is_photographed(&folder) {
             let reason =

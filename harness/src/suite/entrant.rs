@@ -6,14 +6,14 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use indicatif::HumanDuration;
+use scoring::score;
 
-use super::SOLVER_SOURCES;
 use super::error::RunError;
 use super::method::Method;
 use super::preflight::Ready;
 use super::program::{Place, Usage};
+use super::sources::SOLVER_SOURCES;
 use super::tools::Tools;
-use crate::score;
 
 /// Ends what is said of a step that knows better than its share how long the rest takes.
 pub const TIME_LEFT: &str = " left";
@@ -34,7 +34,7 @@ pub(super) fn make_maps(
         (Method::Fields { config, backend }, _) => {
             let config = solver::Config::from_toml(config)?;
             let backend = backend.open()?;
-            let capture = solver::Capture::open(capture)?;
+            let capture = capture::Capture::open(capture)?;
             solve(&*backend, &capture, &config, maps, tools, &mut |step| {
                 progress(step.iteration as u64, step.total as u64, &in_words(step));
             })?;
@@ -51,7 +51,7 @@ pub(super) fn make_maps(
 /// error nevertheless, so that nobody takes them for finished.
 pub fn solve(
     backend: &dyn solver::Backend,
-    capture: &solver::Capture,
+    capture: &capture::Capture,
     config: &solver::Config,
     maps: &Path,
     tools: &Tools,

@@ -3,12 +3,13 @@
 use std::io;
 use std::path::PathBuf;
 
-use solver::atomic::FolderError;
+use formats::atomic::FolderError;
+use report::ReportError;
+use scoring::compare::CompareError;
+use scoring::score::ScoreError;
 
 use super::scene::SceneError;
-use crate::compare::CompareError;
-use crate::report::ReportError;
-use crate::score::ScoreError;
+use crate::live::LiveError;
 use crate::synth::{InterpreterError, StageError};
 
 /// How a run can end badly; each message is one line.
@@ -22,7 +23,7 @@ pub enum RunError {
     #[error(transparent)]
     Stage(StageError),
     #[error(transparent)]
-    Capture(#[from] solver::CaptureError),
+    Capture(#[from] capture::CaptureError),
     #[error(transparent)]
     Config(#[from] solver::ConfigError),
     #[error(transparent)]
@@ -30,17 +31,19 @@ pub enum RunError {
     #[error(transparent)]
     Solve(#[from] solver::SolveError),
     #[error(transparent)]
-    Maps(#[from] solver::MapsError),
+    Maps(#[from] formats::MapsError),
     #[error(transparent)]
     Score(#[from] ScoreError),
     #[error(transparent)]
-    Check(#[from] crate::check::CheckError),
+    Check(#[from] scoring::check::CheckError),
     #[error(transparent)]
     Report(ReportError),
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
-    Torch(#[from] crate::bench::TorchError),
+    Live(#[from] LiveError),
+    #[error(transparent)]
+    Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },
     #[error("solver {name}: {reason}")]

@@ -6,11 +6,12 @@ use toml::{Table, Value};
 
 use super::cases::{self, Case};
 use super::method::{self, Entrant, Method};
+use super::place;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
-    "scales", "solver",
+    "scales", "relight", "solver",
 ];
 
 /// Keys that say something of a scene.
@@ -19,6 +20,9 @@ const OF_SCENES: [&str; 5] = ["faces", "lights", "face", "render", "variant"];
 /// What the diffuse albedo can be multiplied by before maps are relit: nothing, and the one factor that
 /// aligns it with the truth.
 pub const SCALES: [&str; 2] = ["none", "global"];
+
+/// What can relight maps: the renderer of the truth, or a second judge.
+pub const RENDERERS: [&str; 2] = ["mitsuba", "cycles"];
 
 /// A suite with its cases spelt out.
 #[derive(Clone, Debug)]
@@ -35,6 +39,8 @@ pub struct Suite {
     pub entrants: Vec<Entrant>,
     /// Those of [`SCALES`] under which maps are relit.
     pub scales: Vec<&'static str>,
+    /// What relights maps: one of [`RENDERERS`].
+    pub relight: &'static str,
     /// The file's text, kept with the results.
     pub text: String,
 }
@@ -69,18 +75,19 @@ impl Suite {
         }
         cases.extend(photographed);
         let scales = scales_of(path, &table)?;
+        let relight = relight_of(path, &table)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
         let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Ok(Self { path: path.to_path_buf(), name, title, cases, entrants, scales, text })
+        Ok(Self { path: path.to_path_buf(), name, title, cases, entrants, scales, relight, text })
     }
 }
 
 /// The cases of the suite's scene.
 fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
-    let mut base = Scene::open(&scene::beside(path, &text_of(path, table, "scene")?))?;
+    let mut base = Scene::open(&place::beside(path, &text_of(path, table, "scene")?))?;
     match table.get("render") {
         None => {}
         Some(Value::Table(_)) => {
@@ -102,6 +109,13 @@ fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError
         return Err(SceneError::value(path, "scales", reason));
     }
     Ok(known)
+}
+
+fn relight_of(path: &Path, table: &Table) -> Result<&'static str, SceneError> {
+    let Some(wanted) = table.get("relight") else { return Ok(RENDERERS[0]) };
+    RENDERERS.into_iter().find(|known| wanted.as_str() == Some(known)).ok_or_else(|| {
+        SceneError::value(path, "relight", format!("must be one of {}", RENDERERS.join(", ")))
+    })
 }
 
 fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> {
@@ -140,6 +154,23 @@ mod tests {
              relight = [\"lights/hall.toml\"]\nrig = { name = \"r\", kind = \"phone\" }\n\
              [render]\nwidth = 8\nheight = 8\n",
         );
+    }
+
+    #[test]
+    fn what_relights_is_one_of_the_renderers() {
+        let root = tempfile::tempdir().unwrap();
+        scenes(root.path());
+        let open = |line: &str| {
+            let text = format!(
+                "format = 1\nname = \"s\"\nscene = \"scene.toml\"\n{line}\n\
+                 [[solver]]\nname = \"oracle\"\n"
+            );
+            Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.relight)
+        };
+        assert_eq!(open("").unwrap(), "mitsuba");
+        assert_eq!(open("relight = \"cycles\"").unwrap(), "cycles");
+        let error = open("relight = \"arnold\"").unwrap_err().to_string();
+        assert!(error.contains("must be one of mitsuba, cycles"), "{error}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::file::Suite;
+use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 
 /// The content of `run.json`. `failed` says why, by `<case>/<method>`: what an earlier run left of such
 /// a method is not named.
@@ -47,7 +48,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
         "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
         "versions": {
             "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
-            "solver sources": super::SOLVER_SOURCES, "scoring sources": super::SCORE_SOURCES,
+            "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
         },
         "suite_toml": suite.text,
     })

@@ -8,6 +8,7 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
+use super::place;
 use super::program::{Limits, Program, Start};
 use super::scene::{self, SceneError};
 
@@ -51,7 +52,7 @@ impl Entrant {
         match self.method {
             Method::Oracle => "oracle",
             Method::Baseline { .. } => "baseline",
-            _ => "solver",
+            Method::Fields { .. } | Method::Program(_) => "solver",
         }
     }
 }
@@ -139,7 +140,7 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     let title = solver.title.unwrap_or_else(|| match method {
         Method::Oracle => "oracle (true maps)".to_owned(),
         Method::Baseline { method, .. } => method.title().to_owned(),
-        _ => solver.name.clone(),
+        Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
     });
     Ok(Entrant { id: solver.name, title, method })
 }
@@ -169,7 +170,7 @@ impl SolverTable {
             return wrong("threads", "must be 1 or more");
         }
         let Self { timeout_s, memory_gib, threads, .. } = *self;
-        let folder = scene::beside(path, "");
+        let folder = place::beside(path, "");
         Ok(Some(Program {
             start,
             inputs: self.inputs.iter().flatten().map(|input| folder.join(input)).collect(),
@@ -182,27 +183,44 @@ impl SolverTable {
 
     /// Refuses keys that would do nothing.
     fn check_keys(&self, path: &Path) -> Result<(), SceneError> {
+        // Named one by one, so that a new key does not compile before it is said whose it is.
+        let Self {
+            name,
+            title: _,
+            config,
+            set,
+            backend,
+            command,
+            python,
+            texture_size,
+            timeout_s,
+            memory_gib,
+            threads,
+            version,
+            inputs,
+            environment,
+        } = self;
         let refused = |reason: String| {
-            let reason = format!("{:?} {reason}", self.name);
-            Err(SceneError::in_table(path, &self.name, "solver", reason))
+            let reason = format!("{name:?} {reason}");
+            Err(SceneError::in_table(path, name, "solver", reason))
         };
-        let foreign = self.command.is_some() || self.python.is_some();
-        if self.command.is_some() && self.python.is_some() {
+        let foreign = command.is_some() || python.is_some();
+        if command.is_some() && python.is_some() {
             return refused("has both a command and a python function".to_owned());
         }
-        let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == self.name);
-        let fields = !foreign && !baseline && self.name != "oracle";
+        let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
+        let fields = !foreign && !baseline && name != "oracle";
         for (key, given, means) in [
-            ("config", self.config.is_some(), fields),
-            ("set", !self.set.is_empty(), fields),
-            ("backend", self.backend.is_some(), fields),
-            ("texture_size", self.texture_size.is_some(), baseline && !foreign),
-            ("timeout_s", self.timeout_s.is_some(), foreign),
-            ("memory_gib", self.memory_gib.is_some(), foreign),
-            ("threads", self.threads.is_some(), foreign),
-            ("version", self.version.is_some(), foreign),
-            ("inputs", self.inputs.is_some(), foreign),
-            ("environment", self.environment.is_some(), foreign),
+            ("config", config.is_some(), fields),
+            ("set", !set.is_empty(), fields),
+            ("backend", backend.is_some(), fields),
+            ("texture_size", texture_size.is_some(), baseline && !foreign),
+            ("timeout_s", timeout_s.is_some(), foreign),
+            ("memory_gib", memory_gib.is_some(), foreign),
+            ("threads", threads.is_some(), foreign),
+            ("version", version.is_some(), foreign),
+            ("inputs", inputs.is_some(), foreign),
+            ("environment", environment.is_some(), foreign),
         ] {
             if given && !means {
                 let mend = match key {
@@ -227,7 +245,7 @@ fn config_text(
     let key = if config.is_some() { "config" } else { "name" };
     let config = config.unwrap_or(name);
     let mut table = if config.ends_with(".toml") {
-        scene::read_toml(&scene::beside(path, config))?
+        scene::read_toml(&place::beside(path, config))?
     } else {
         Table::from_iter([("base".to_owned(), Value::String(config.to_owned()))])
     };

@@ -2,7 +2,6 @@
 
 mod baseline;
 mod cases;
-mod content;
 mod entrant;
 mod error;
 mod file;
@@ -14,22 +13,19 @@ mod program;
 mod record;
 mod run;
 mod scene;
+mod sources;
 mod stages;
 mod tools;
 
-/// What the solver's and the scoring's code was when this program was built.
-pub(crate) const SOLVER_SOURCES: &str = env!("UNSHADE_SOLVER_SOURCES");
-const SCORE_SOURCES: &str = env!("UNSHADE_SCORE_SOURCES");
-
 pub use baseline::BaselineMethod;
 pub use cases::Case;
-pub use content::hash_path;
 pub use entrant::{TIME_LEFT, in_words, solve};
 pub use error::RunError;
-pub use file::{SCALES, Suite};
+pub use file::{RENDERERS, SCALES, Suite};
 pub use method::{Entrant, Method};
 pub use program::{Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};
-pub use stages::{contact_sheet, describe, relight, synth};
+pub use sources::SOLVER_SOURCES;
+pub use stages::{Export, contact_sheet, describe, export, relight, synth};
 pub use tools::{Observer, Tools};

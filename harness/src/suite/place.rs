@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::error::RunError;
 use crate::synth::StageError;
 
 /// The line, from 1, of a byte of a text.
@@ -45,7 +44,7 @@ pub(super) fn sources(suite: &Path) -> Vec<PathBuf> {
         let mut names = Vec::new();
         table.into_iter().for_each(|table| toml_names(&Value::Table(table), &mut names));
         for name in names {
-            let file = super::scene::beside(&path, &name);
+            let file = beside(&path, &name);
             if file.is_file() && !found.contains(&file) {
                 found.push(file);
             }
@@ -65,8 +64,8 @@ fn toml_names(value: &Value, names: &mut Vec<String>) {
 
 /// An error of the renderer that speaks of the file `generated`, in terms of the user's `file` and of
 /// those that it leads to.
-pub(super) fn blamed(error: StageError, generated: &Path, file: &Path) -> RunError {
-    let StageError::Input { kind, message } = error else { return error.into() };
+pub(super) fn blamed(error: StageError, generated: &Path, file: &Path) -> StageError {
+    let StageError::Input { kind, message } = error else { return error };
     let (generated, shown) = (generated.to_string_lossy(), file.to_string_lossy());
     let message = message.replace(&*generated, &shown);
     // "unknown key 'samples' in [render]; ..." or "width in [render] is ...".
@@ -78,7 +77,7 @@ pub(super) fn blamed(error: StageError, generated: &Path, file: &Path) -> RunErr
         None if message.contains(&*shown) => message,
         None => format!("{shown}: {message}"),
     };
-    StageError::Input { kind, message }.into()
+    StageError::Input { kind, message }
 }
 
 /// The one line of `sources` that `states` picks, as `file:line`; none if there are more or none.
@@ -90,6 +89,11 @@ pub(super) fn only(sources: &[PathBuf], states: impl Fn(&str) -> bool) -> Option
     });
     let first = places.next()?;
     places.next().is_none().then_some(first)
+}
+
+/// A file that `path` names, which lies beside it.
+pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use solver::atomic;
+use formats::atomic;
 
 use super::cases::Case;
 use super::error::RunError;
@@ -44,7 +44,7 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
                 backend.open().map_err(|error| wrong("backend", error.to_string()))?;
                 None
             }
-            _ => None,
+            Method::Oracle | Method::Baseline { .. } => None,
         };
         Ok(Ready { entrant, files })
     };

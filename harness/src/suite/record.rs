@@ -6,10 +6,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use formats::atomic;
+use formats::content_hash::hash_path;
 use serde::{Deserialize, Serialize};
-use solver::atomic;
 
-use super::content::hash_path;
 use super::program::Usage;
 
 /// A finished stage: what went in, what came out.

@@ -10,24 +10,23 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use solver::atomic;
+use formats::atomic;
+use formats::content_hash::{hash_parts, hash_path};
+use scoring::score;
 
 use super::cases::Case;
-use super::content::{hash_parts, hash_path};
 use super::entrant;
 use super::error::RunError;
-use super::file::Suite;
+use super::file::{RENDERERS, Suite};
 use super::manifest::manifest;
 use super::method::Method;
 use super::preflight::{self, Ready};
 use super::program::{self, Place};
 use super::record::{Made, Records};
 use super::scene::{Scene, SceneError};
+use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::stages::{relight, words};
 use super::tools::{Observer, Tools};
-use super::{SCORE_SOURCES, SOLVER_SOURCES};
-use crate::report;
-use crate::score;
 use crate::synth::run_stage;
 
 /// The stage that comes last.
@@ -294,14 +293,19 @@ impl Stages<'_> {
                 Ok(Made { usage, ..Made::default() })
             },
         )?;
+        let by = self.suite.relight;
+        let mut how = scales.join(" ");
+        if by != RENDERERS[0] {
+            how = format!("{how} {by}");
+        }
         let inputs: &[&str] =
-            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &scales.join(" ")];
+            &["relit", &capture.content, &maps.content, renderer, SCORE_SOURCES, &how];
         let relit = self.stage(
             &format!("relit/{name}"),
             inputs,
             self.out.join("relit").join(name),
             |path, tools, step| {
-                relight(&capture.path, &maps.path, path, scales, tools, step)?;
+                relight(by, &capture.path, &maps.path, path, scales, tools, step)?;
                 Ok(Made::default())
             },
         )?;

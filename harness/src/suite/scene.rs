@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use super::place;
+use super::place::{self, beside};
 
 /// What can be wrong with a scene or suite file.
 #[derive(Debug, thiserror::Error)]
@@ -237,11 +237,6 @@ pub(super) fn overlay(below: &mut Table, above: &Table) {
             _ => drop(below.insert(key.clone(), value.clone())),
         }
     }
-}
-
-/// A file that `path` names, which lies beside it.
-pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
-    path.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// Ids become folder names.

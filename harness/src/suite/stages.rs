@@ -4,13 +4,14 @@ use std::ffi::{OsStr, OsString};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use solver::atomic;
+use formats::atomic;
+use scoring::score;
 
 use super::error::RunError;
+use super::file::RENDERERS;
 use super::place;
 use super::scene::Scene;
 use super::tools::Tools;
-use crate::score;
 use crate::synth::run_stage;
 
 /// Renders the scene file `scene` into the capture folder `out`.
@@ -63,7 +64,10 @@ fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
 }
 
 /// Renders `maps` in the capture's lights, under each of `scales` (of [`SCALES`](super::SCALES)).
+///
+/// `renderer` is one of [`RENDERERS`](super::RENDERERS).
 pub fn relight(
+    renderer: &str,
     capture: &Path,
     maps: &Path,
     out: &Path,
@@ -85,8 +89,43 @@ pub fn relight(
         let factor = if *name == "global" { global } else { 1.0 };
         arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
     }
+    if renderer != RENDERERS[0] {
+        arguments.extend(words(&[("--renderer", OsStr::new(renderer))]));
+    }
     run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
     Ok(())
+}
+
+/// Where maps go as an asset, and what decides how.
+pub struct Export<'a> {
+    /// The maps' folder.
+    pub maps: &'a Path,
+    /// The asset's folder.
+    pub out: &'a Path,
+    /// Their capture: its mesh, its light and its withheld views.
+    pub capture: Option<&'a Path>,
+    /// A mesh that has no capture.
+    pub mesh: Option<&'a Path>,
+    /// Everything else, as the stage takes it.
+    pub options: Vec<OsString>,
+}
+
+/// Writes maps as an asset; the result is what the asset says of itself.
+pub fn export(
+    export: &Export,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<serde_json::Value, RunError> {
+    let inputs: Vec<&Path> =
+        [Some(export.maps), export.capture, export.mesh].into_iter().flatten().collect();
+    atomic::apart(export.out, &inputs)?;
+    let mut arguments =
+        words(&[("--maps", export.maps.as_os_str()), ("--out", export.out.as_os_str())]);
+    for (flag, path) in [("--capture", export.capture), ("--mesh", export.mesh)] {
+        arguments.extend(path.into_iter().flat_map(|path| words(&[(flag, path.as_os_str())])));
+    }
+    arguments.extend(export.options.iter().cloned());
+    Ok(run_stage(&tools.interpreter, "export", &arguments, &tools.interrupt, step)?)
 }
 
 pub(super) fn words(pairs: &[(&str, &OsStr)]) -> Vec<OsString> {

@@ -12,14 +12,14 @@ mod texts;
 
 use std::path::Path;
 
+use capture::outward::outward;
+use capture::{Capture, Mesh};
+use formats::picture::{Content, ExrFile, Picture, Png, read_radiance_bytes};
 use glam::Vec3;
-use harness::compare::{Baseline, Tolerances, compare};
-use harness::score::Scores;
 use harness::suite::{Scene, Suite};
 use mutate::{Mutator, repair_png};
-use solver::capture::outward::outward;
-use solver::picture::{Content, ExrFile, Picture, Png, read_radiance_bytes};
-use solver::{Capture, Mesh};
+use scoring::compare::{Baseline, Tolerances, compare};
+use scoring::score::Scores;
 
 use guard::{Counting, REFUSED, fuzz};
 

@@ -54,7 +54,7 @@ pub struct Mutator {
     /// Words that the format knows; none for binary formats.
     pub words: &'static [&'static str],
     /// Makes checksums right again.
-    pub repair: Option<fn(&mut Vec<u8>)>,
+    pub repair: Option<fn(&mut [u8])>,
 }
 
 impl Mutator {
@@ -176,7 +176,7 @@ fn bytes_changed(bytes: &mut Vec<u8>, other: &[u8], random: &mut Pcg64Mcg) {
 }
 
 /// Puts the right CRC behind every chunk of a PNG.
-pub fn repair_png(bytes: &mut Vec<u8>) {
+pub fn repair_png(bytes: &mut [u8]) {
     let mut at = 8;
     while let Some(length) = bytes.get(at..at + 4) {
         let length = u32::from_be_bytes([length[0], length[1], length[2], length[3]]) as usize;

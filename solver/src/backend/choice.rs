@@ -5,7 +5,8 @@ use std::str::FromStr;
 
 use super::Backend;
 use super::cpu::Cpu;
-use super::gpu::{Adapter, Gpu, VARIABLE};
+use super::error::BackendError;
+use super::gpu::{Adapter, Gpu};
 
 /// What the user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,46 +18,6 @@ pub enum Choice {
     Cpu,
     /// A real GPU, or the adapter that the environment names; an error without one.
     Gpu,
-}
-
-/// A backend that cannot be had.
-#[derive(Debug, thiserror::Error)]
-pub enum BackendError {
-    /// There are no real GPUs.
-    #[error(
-        "no GPU was found ({}); install its Vulkan driver, or take the backend cpu or auto",
-        listed(there)
-    )]
-    NoGpu {
-        /// Adapters that there are.
-        there: Vec<String>,
-    },
-    /// The environment names an adapter that is not there.
-    #[error(
-        "no adapter is called {named:?} ({}); correct {VARIABLE} or take it away",
-        listed(there)
-    )]
-    NotThere {
-        /// What was asked for.
-        named: String,
-        /// Adapters that there are.
-        there: Vec<String>,
-    },
-    /// The adapter gives no device.
-    #[error("{name} cannot be used: {reason}; take the backend cpu")]
-    Refused {
-        /// The adapter.
-        name: String,
-        /// What the driver said.
-        reason: String,
-    },
-    /// No such backend.
-    #[error("no backend is named {0:?}; there are auto, cpu and gpu")]
-    Unknown(String),
-}
-
-fn listed(adapters: &[String]) -> String {
-    if adapters.is_empty() { "no adapter at all".to_owned() } else { adapters.join(", ") }
 }
 
 impl Choice {

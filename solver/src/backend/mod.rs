@@ -10,18 +10,19 @@
 
 mod choice;
 pub mod cpu;
+mod error;
 pub mod gpu;
 pub mod resident;
 
-pub use choice::{BackendError, Choice};
+pub use choice::Choice;
+pub use error::BackendError;
 
-use crate::model::bend::{BentTextures, ROWS};
-use crate::model::bend_gradient::{BendGradient, RowSums};
+use crate::model::bend::{BentTextures, ROWS, SPECULAR};
 use crate::model::networks::Networks;
-use crate::model::normals::DIRECTIONS;
-use crate::model::planes::{Planes, Row};
+use crate::model::normals::{DIRECTIONS, DirectionScale};
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
-use crate::model::strips::blocks;
+use crate::model::strips::{Strip, blocks};
 use crate::transport::Glints;
 use resident::{Descent, Job, NormalEquations, Resident};
 
@@ -78,29 +79,23 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> (f64, Planes);
 
-    /// The same with the directions and the specular albedo of textures; gradients go to texels, which are
-    /// zero outside of what the samples see. The albedo's last row is not read.
-    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut BendGradient) -> f64 {
-        let TexturedRelief { networks, samples, light, albedo, textures } = *relief;
-        let (bent, scale) = (textures.sample(&samples.taps), &textures.deviation.scale);
+    /// The same with the directions and the specular albedo of textures, and gradients by their texels
+    /// ([`ROWS`] values each). The albedo's last row is not read.
+    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
+        let TexturedRelief { networks, samples, light, albedo, scale, textures } = *relief;
+        let bent = textures.sample(&samples.taps);
         let directions = scale.directions(samples, Some(&bent));
         let mut albedo = albedo.clone();
-        albedo.copy_row(3, &bent, 6);
+        albedo.copy_row(ALBEDOS - 1, &bent, SPECULAR);
         let (loss, by_sample) = self.bend(networks, samples, light, &directions, &albedo);
-        let by_deviation = scale.adjoint(samples, &bent, &by_sample);
-        let add = |rows: &mut [Row; ROWS], sums: &mut RowSums| {
-            for (block, _) in blocks(sums.samples.clone()) {
-                rows[..DIRECTIONS].copy_from_slice(by_deviation.block(block));
-                rows[DIRECTIONS] = by_sample.block(block)[DIRECTIONS];
-                sums.add(block, rows);
+        let mut by_bent = scale.adjoint(samples, &bent, &by_sample);
+        by_bent.copy_row(SPECULAR, &by_sample, DIRECTIONS);
+        let add = |(): &mut (), strip: &mut Strip<ROWS>| {
+            for (block, lanes) in blocks(strip.samples.clone()) {
+                strip.add_vectors(block, lanes, by_bent.block(block));
             }
         };
-        gradient.fill(
-            (&samples.taps, textures.deviation.blur(), textures.region),
-            || [Row::ZERO; ROWS],
-            add,
-        );
-        loss
+        (loss, samples.taps.by_blocks(|| (), add).0)
     }
 
     /// S_d and S_s of every sample (2 rows).
@@ -134,8 +129,10 @@ pub struct TexturedRelief<'a> {
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one is read.
     pub albedo: &'a Planes,
+    /// Of the directions.
+    pub scale: &'a DirectionScale,
     /// Deviations and specular albedo.
-    pub textures: BentTextures<'a>,
+    pub textures: &'a BentTextures,
 }
 
 /// What [`Backend::joint`] finds.

@@ -1,7 +1,8 @@
+use capture::View;
+use capture::mean_texture::mean_texture;
 use glam::Vec3;
 
 use super::*;
-use crate::capture::View;
 use crate::testing;
 
 fn capture(shade: impl Fn(Vec3) -> (Vec3, u8)) -> Capture {

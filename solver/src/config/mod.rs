@@ -1,5 +1,6 @@
 //! Every number of the method, named, with its source; and the named configurations.
 
+mod error;
 mod presets;
 mod ranges;
 mod tables;
@@ -7,7 +8,7 @@ mod tables;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use crate::error::ConfigError;
+pub use error::ConfigError;
 use ranges::range;
 pub use tables::*;
 

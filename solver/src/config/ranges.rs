@@ -1,7 +1,7 @@
 //! Ranges of the values.
 
+use super::error::ConfigError;
 use super::{HeightConfig, TransportConfig};
-use crate::error::ConfigError;
 
 /// Refuses a value outside its range, which `range` states in words.
 pub(super) fn range<T: ToString + Copy>(

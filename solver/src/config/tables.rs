@@ -36,7 +36,7 @@ pub struct RenderingConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewWeightConfig {
-    /// Divide the cosine by the blurred depth derivative, see [`crate::gbuffer::view_weights`].
+    /// Divide the cosine by the blurred depth derivative, see [`capture::gbuffer::view_weights`].
     pub depth: bool,
     /// Standard deviation of the blur, pixels of the full picture. Not published.
     pub depth_blur: f32,
@@ -132,6 +132,26 @@ pub enum TextureSize {
 pub enum TextureRule {
     /// The power of two nearest to one texel per pixel.
     Auto,
+}
+
+/// The side of the fine-tuned textures for training views of so many pixels.
+pub(crate) fn texture_size(size: TextureSize, pixels: usize) -> usize {
+    match size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => {
+            let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
+            2usize.pow(exponent.clamp(7, 11))
+        }
+    }
+}
+
+/// The side of the maps. From few pixels they are larger than what was solved, for the sake of the mesh
+/// normal in them.
+pub(crate) fn map_size(size: TextureSize, solved: usize) -> usize {
+    match size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => solved.max(512),
+    }
 }
 
 /// Kingma and Ba's optimiser with the defaults of the framework that the paper uses.
@@ -284,3 +304,7 @@ pub struct RecordConfig {
     /// `layers/`: every training view as the model sees it.
     pub layers: bool,
 }
+
+/// Of more samples than this, the highlights are followed on a part: a cell of the sky and a texel of the
+/// transport are far coarser than pixels.
+pub(crate) const MOST_HIGHLIGHT_SAMPLES: usize = 40_000;

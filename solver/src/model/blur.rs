@@ -1,7 +1,6 @@
 //! A separable Gaussian blur and its exact adjoint.
 
 use crate::convolution::{Shape, convolve, gaussian};
-use crate::region::Region;
 use crate::simd::widened;
 
 /// Gaussian blur of square interleaved textures; near the border the weights that remain are
@@ -16,7 +15,6 @@ pub struct Blur {
     norms: Vec<f32>,
     /// The same for every value of a row.
     scales: Vec<f32>,
-    whole: Region,
 }
 
 impl Blur {
@@ -30,7 +28,7 @@ impl Blur {
         };
         let norms: Vec<f32> = (0..size).map(|at| 1.0 / inside(at)).collect();
         let scales = norms.iter().flat_map(|norm| vec![*norm; channels]).collect();
-        Self { size, channels, kernel, norms, scales, whole: Region::whole(size, size) }
+        Self { size, channels, kernel, norms, scales }
     }
 
     /// Weights from the centre outwards, before they are scaled.
@@ -50,24 +48,29 @@ impl Blur {
 
     /// The blurred texture.
     pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
-        let after = |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
-        convolve(texture, &self.kernel, self.shape(), &self.whole, |_, _, _| {}, after)
+        let line = self.size * self.channels;
+        let read =
+            |row: usize, out: &mut [f32]| out.copy_from_slice(&texture[row * line..][..line]);
+        convolve(&self.kernel, self.shape(), read, |row, values| self.scale(row, values))
     }
 
     /// The transpose of [`Blur::apply`]: carries a gradient from the blurred texture to the texture.
     pub fn adjoint(&self, gradient: &[f32]) -> Vec<f32> {
         // apply = N K with K symmetric and N diagonal, so the transpose is K N.
-        let before =
-            |row: usize, column: usize, values: &mut [f32]| self.scale(row, column, values);
-        convolve(gradient, &self.kernel, self.shape(), &self.whole, before, |_, _, _| {})
+        let line = self.size * self.channels;
+        let read = |row: usize, out: &mut [f32]| {
+            out.copy_from_slice(&gradient[row * line..][..line]);
+            self.scale(row, out);
+        };
+        convolve(&self.kernel, self.shape(), read, |_, _| {})
     }
 
     fn shape(&self) -> Shape {
         Shape { width: self.size, height: self.size, channels: self.channels }
     }
 
-    fn scale(&self, row: usize, column: usize, values: &mut [f32]) {
-        scale(values, &self.scales[column * self.channels..], self.norms[row]);
+    fn scale(&self, row: usize, values: &mut [f32]) {
+        scale(values, &self.scales, self.norms[row]);
     }
 }
 

@@ -7,7 +7,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::gbuffer::Atlas;
+use capture::gbuffer::Atlas;
 
 /// Texels in which a unit step of the height would bend the normal more than this hold no relief:
 /// the chart is squeezed there.

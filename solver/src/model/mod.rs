@@ -1,15 +1,13 @@
 //! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
 pub mod bend;
-pub mod bend_gradient;
 pub mod blur;
 pub mod deviation;
-pub mod halving;
+mod gather;
 pub mod height;
 pub mod layer;
 pub mod networks;
 pub mod normals;
-mod pairs;
 pub mod planes;
 pub mod prior;
 pub mod pyramid;

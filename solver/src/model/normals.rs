@@ -4,7 +4,8 @@
 
 use glam::Vec3;
 
-use super::planes::{BLOCK, Planes, Row, first_rows};
+use super::bend::{BLURRED, ROWS};
+use super::planes::{BLOCK, Planes, Row, first_rows, first_rows_mut};
 use super::samples::Samples;
 use crate::config::NetworkConfig;
 use crate::simd::widened;
@@ -28,7 +29,7 @@ impl From<&NetworkConfig> for DirectionScale {
 }
 
 impl DirectionScale {
-    /// Directions of every sample. `deviation` has the rows d (3) and blur(d) (3), and maybe more;
+    /// Directions of every sample. `deviation` has the rows of [`BentTextures::sample`](super::bend::BentTextures);
     /// without it, the mesh normal serves for both.
     pub fn directions(&self, samples: &Samples, deviation: Option<&Planes>) -> Planes {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
@@ -39,9 +40,9 @@ impl DirectionScale {
     }
 
     /// Carries gradients of the directions (the first six rows of `gradient`) to the deviation and
-    /// its blur.
+    /// its blur; the rows between them stay zero.
     pub fn adjoint(&self, samples: &Samples, deviation: &Planes, gradient: &Planes) -> Planes {
-        Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
+        Planes::from_blocks(ROWS, samples.len(), |block, out| {
             let (normal, view) = (samples.normal.block(block), samples.view.block(block));
             bend_adjoint(self, normal, view, deviation.block(block), gradient.block(block), out);
         })
@@ -49,18 +50,19 @@ impl DirectionScale {
 }
 
 /// No deviation.
-static STILL: [Row; DIRECTIONS] = [Row::ZERO; DIRECTIONS];
+static STILL: [Row; ROWS] = [Row::ZERO; ROWS];
 
 widened! {
     fn bend(scale: &DirectionScale, normal: &[Row], view: &[Row], deviation: &[Row], out: &mut [Row]) {
         let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
-        let (deviation, out) = (first_rows::<DIRECTIONS>(deviation), rows_mut(out));
+        let (deviation, out) = (first_rows::<ROWS>(deviation), first_rows_mut::<DIRECTIONS>(out));
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
             let specular = (normal + vector(deviation, 0, lane)).normalize();
             let reflected = 2.0 * specular.dot(view) * specular - view;
-            let diffuse = (normal + vector(deviation, 3, lane)).normalize() * scale.normal;
-            store(out, lane, diffuse, reflected * scale.reflection);
+            let diffuse = (normal + vector(deviation, BLURRED, lane)).normalize() * scale.normal;
+            store(out, 0, lane, diffuse);
+            store(out, 3, lane, reflected * scale.reflection);
         }
     }
 }
@@ -75,8 +77,8 @@ widened! {
         out: &mut [Row],
     ) {
         let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
-        let (deviation, gradient) = (first_rows::<DIRECTIONS>(deviation), first_rows::<DIRECTIONS>(gradient));
-        let out = rows_mut(out);
+        let (deviation, gradient) = (first_rows::<ROWS>(deviation), first_rows::<DIRECTIONS>(gradient));
+        let out = first_rows_mut::<ROWS>(out);
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
             let bent = normal + vector(deviation, 0, lane);
@@ -85,15 +87,11 @@ widened! {
             let by_specular = 2.0 * (specular.dot(g) * view + specular.dot(view) * g);
             let by_d = normalize_adjoint(bent, by_specular);
             let by_diffuse = vector(gradient, 0, lane) * scale.normal;
-            let by_b = normalize_adjoint(normal + vector(deviation, 3, lane), by_diffuse);
-            store(out, lane, by_d, by_b);
+            let by_b = normalize_adjoint(normal + vector(deviation, BLURRED, lane), by_diffuse);
+            store(out, 0, lane, by_d);
+            store(out, BLURRED, lane, by_b);
         }
     }
-}
-
-#[inline(always)]
-fn rows_mut(rows: &mut [Row]) -> &mut [Row; DIRECTIONS] {
-    rows.first_chunk_mut().unwrap_or_else(|| unreachable!("planes have rows for two vectors"))
 }
 
 #[inline(always)]
@@ -102,8 +100,8 @@ fn vector<const R: usize>(rows: &[Row; R], first: usize, lane: usize) -> Vec3 {
 }
 
 #[inline(always)]
-fn store(rows: &mut [Row; DIRECTIONS], lane: usize, a: Vec3, b: Vec3) {
-    for (row, value) in rows.iter_mut().zip([a.x, a.y, a.z, b.x, b.y, b.z]) {
+fn store<const R: usize>(rows: &mut [Row; R], first: usize, lane: usize, vector: Vec3) {
+    for (row, value) in rows[first..].iter_mut().zip(vector.to_array()) {
         row.0[lane] = value;
     }
 }

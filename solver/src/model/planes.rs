@@ -6,35 +6,11 @@ use std::mem::MaybeUninit;
 use rayon::prelude::*;
 
 use super::rows::Rows;
+pub use super::rows::{BLOCK, Row, first_rows, first_rows_mut};
 
-/// Samples per block.
-pub const BLOCK: usize = 256;
 /// Blocks that one task works through; sums are formed per chunk and added in chunk order, so that
 /// results do not depend on the number of threads.
 pub const CHUNK_BLOCKS: usize = 32;
-
-/// One quantity of the samples of a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
-pub struct Row(pub [f32; BLOCK]);
-
-impl Row {
-    /// All zero.
-    pub const ZERO: Self = Self([0.0; BLOCK]);
-}
-
-/// The first `R` rows: with their number known, a compiler keeps them apart.
-#[inline(always)]
-pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
-    // Planes are made with the rows that are asked of them.
-    rows.first_chunk().unwrap_or_else(|| unreachable!("{} rows instead of {R}", rows.len()))
-}
-
-/// The same, to be written.
-#[inline(always)]
-pub fn first_rows_mut<const R: usize>(rows: &mut [Row]) -> &mut [Row; R] {
-    rows.first_chunk_mut().unwrap_or_else(|| unreachable!("fewer rows than {R}"))
-}
 
 /// `rows` quantities of `len` samples; the samples that fill up the last block are zero.
 #[derive(Clone, Debug, PartialEq)]

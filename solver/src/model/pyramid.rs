@@ -8,27 +8,25 @@
 //! standard deviations is within .4 %. A value costs 8 operations and its share of a coarse convolution, instead
 //! of 12 multiply-adds for every texel of the standard deviation.
 
-use std::ops::Range;
+use glam::Vec4;
 
-use super::halving::{
-    CHANNELS, FAR, Lines, NEAR, ROWS, Texel, double, doubled_row, even, halve, halved_region,
-    neighbours, texels,
-};
+use super::texels::{CHANNELS, Texel};
 use crate::convolution::{Shape, convolve, gaussian};
 use crate::parallel::from_parts;
-use crate::region::Region;
 use crate::simd::widened;
 
 /// Texels of the blur's standard deviation, at least, where it is convolved on a coarser texture.
 const LEAST_SIGMA: f32 = 2.0;
 /// What halving and interpolating once blur by: squared texels of the finer texture.
 const VARIANCE: f32 = 1.5;
+/// Weights of the nearer and the further texel, where a texture is interpolated to twice its side.
+const NEAR: f32 = 0.75;
+const FAR: f32 = 0.25;
 
 /// Blurs square textures of four channels; near the border the weights that remain are scaled to sum to one.
 ///
-/// The blur is N K: K is symmetric, halves once ([`Sums`](super::halving::Sums) of rows), convolves the *base*
-/// ([`Pyramid::convolved`]) and interpolates its rows ([`Pyramid::row`]); N is diagonal ([`Pyramid::scale`]), so
-/// that the adjoint is K N.
+/// The blur is N K: K is symmetric (halves, convolves, interpolates), and N is diagonal, so that the adjoint is
+/// K N.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     size: usize,
@@ -104,107 +102,124 @@ impl Pyramid {
         &self.norms
     }
 
-    /// Side of the base.
-    pub fn base_size(&self) -> usize {
-        self.size >> self.levels.min(1)
+    /// The blurred texture.
+    pub fn apply(&self, texture: &[f32]) -> Vec<f32> {
+        self.symmetric(texture, 0, &|row, values| self.scale(row, values))
     }
 
-    /// What depends on a region, and what it depends on: of the texture, and of every level.
-    pub fn reach(&self, region: &Region) -> Vec<Region> {
-        let reach = (self.kernel.len() + 3) << self.levels;
-        let mut regions = vec![region.dilated(reach, self.size)];
-        for level in 0..self.levels {
-            regions.push(halved_region(&regions[level], self.size >> level));
-        }
-        regions
+    /// The transpose of [`Pyramid::apply`], of a gradient whose rows `read` fills in.
+    pub fn adjoint(&self, read: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
+        let line = CHANNELS * self.size;
+        let scaled = |row: usize, out: &mut [f32]| {
+            read(row, out);
+            self.scale(row, out);
+        };
+        let gradient = from_parts(self.size * line, line, scaled).0;
+        self.symmetric(&gradient, 0, &|_, _| {})
     }
 
-    /// A texture halved to the base, in what is reached; if it is halved at all.
-    pub fn halved(&self, texture: &[Texel], reach: &[Region]) -> Option<Vec<Texel>> {
-        (self.levels > 0).then(|| {
-            let mut out = vec![[0.0; CHANNELS]; self.base_size() * self.base_size()];
-            halve(texture, self.size, &reach[0], &mut out);
-            out
-        })
-    }
-
-    /// K between the halving to the base and the interpolation from there, in what is reached.
-    pub fn convolved(&self, base: &[Texel], reach: &[Region]) -> Vec<f32> {
-        self.convolved_from(base, self.levels.min(1), reach)
-    }
-
-    fn convolved_from(&self, texture: &[Texel], level: usize, reach: &[Region]) -> Vec<f32> {
+    /// K from a level on. Rows of the result are passed to `after`.
+    fn symmetric(&self, texture: &[f32], level: usize, after: &After) -> Vec<f32> {
         let size = self.size >> level;
         if level < self.levels {
-            let mut coarse = vec![[0.0; CHANNELS]; size / 2 * (size / 2)];
-            halve(texture, size, &reach[level], &mut coarse);
-            let coarse = self.convolved_from(&coarse, level + 1, reach);
-            return double(&coarse, size, &reach[level]);
+            let coarse = self.symmetric(&halve(texture, size), level + 1, &|_, _| {});
+            return double(&coarse, size, after);
         }
-        if self.kernel.len() == 1 {
-            return texture.as_flattened().to_vec();
-        }
+        let line = CHANNELS * size;
         let shape = Shape { width: size, height: size, channels: CHANNELS };
-        let nothing = |_: usize, _: usize, _: &mut [f32]| {};
-        let values = texture.as_flattened();
-        convolve(values, &self.kernel, shape, &reach[level], nothing, nothing)
+        let read =
+            |row: usize, out: &mut [f32]| out.copy_from_slice(&texture[row * line..][..line]);
+        convolve(&self.kernel, shape, read, after)
     }
 
-    /// Multiplies columns of a row as N does.
-    pub fn scale(&self, row: usize, columns: &Range<usize>, texels: &mut [Texel]) {
-        scale(texels, &self.scales[CHANNELS * columns.start..], self.norms[row]);
+    /// Multiplies a row as N does.
+    fn scale(&self, row: usize, values: &mut [f32]) {
+        scale(values, &self.scales, self.norms[row]);
     }
+}
 
-    /// Columns of a row of the blurred texture, from its base.
-    pub fn blurred_row<'a>(
-        &self,
-        base: &[f32],
-        row: usize,
-        columns: &Range<usize>,
-        lines: &'a mut Lines,
-    ) -> &'a [Texel] {
-        let texels = self.row(base, row, columns, lines);
-        self.scale(row, columns, texels);
-        texels
-    }
+/// What is done to the values of a row.
+type After<'a> = dyn Fn(usize, &mut [f32]) + Sync + 'a;
 
-    /// Columns of a row of a texture, from its base.
-    pub fn row<'a>(
-        &self,
-        base: &[f32],
-        row: usize,
-        columns: &Range<usize>,
-        lines: &'a mut Lines,
-    ) -> &'a mut [Texel] {
-        let wide = even(columns, self.size);
-        match self.levels {
-            0 => lines.fine[wide.clone()].copy_from_slice(&texels(base)[row * self.size..][wide]),
-            _ => doubled_row(base, self.size, row, &wide, lines),
+/// The coarse row that a row lies in, and the nearest other one, of `count`; beyond the border, the last one.
+fn neighbours(row: usize, count: usize) -> [usize; 2] {
+    let near = row / 2;
+    [near, if row.is_multiple_of(2) { near.saturating_sub(1) } else { (near + 1).min(count - 1) }]
+}
+
+/// A texture of side `size` at half its side, the transpose of [`double`]: weighted means of 4 x 4 texels.
+fn halve(texture: &[f32], size: usize) -> Vec<f32> {
+    let (half, line) = (size / 2, CHANNELS * size);
+    let task = |row: usize, out: &mut [f32]| {
+        let rows = [(2 * row).saturating_sub(1), 2 * row, 2 * row + 1, (2 * row + 2).min(size - 1)];
+        let rows = rows.map(|row| &texture[row * line..][..line]);
+        let mut padded = vec![[0.0; CHANNELS]; size + 2];
+        mean(padded[1..=size].as_flattened_mut(), rows);
+        (padded[0], padded[size + 1]) = (padded[1], padded[size]);
+        halve_row(out.as_chunks_mut().0, &padded);
+    };
+    from_parts(half * half * CHANNELS, half * CHANNELS, task).0
+}
+
+/// A texture interpolated bilinearly to twice its side, `size`. Rows of the result are passed to `after`.
+fn double(coarse: &[f32], size: usize, after: &After) -> Vec<f32> {
+    let (half, line) = (size / 2, CHANNELS * size);
+    let task = |row: usize, out: &mut [f32]| {
+        let rows = neighbours(row, half).map(|row| &coarse[row * line / 2..][..line / 2]);
+        let mut padded = vec![[0.0; CHANNELS]; half + 2];
+        between(padded[1..=half].as_flattened_mut(), rows);
+        (padded[0], padded[half + 1]) = (padded[1], padded[half]);
+        double_row(out.as_chunks_mut().0.as_chunks_mut().0, &padded);
+        after(row, out);
+    };
+    from_parts(size * line, line, task).0
+}
+
+widened! {
+    /// The weighted mean of four rows.
+    fn mean(out: &mut [f32], rows: [&[f32]; 4]) {
+        let values = out.iter_mut().zip(rows[0]).zip(rows[1]).zip(rows[2]).zip(rows[3]);
+        for ((((out, a), b), c), d) in values {
+            *out = FAR * (a + d) + NEAR * (b + c);
         }
-        &mut lines.fine[columns.clone()]
     }
+}
 
-    /// The blurred texture, texel by texel.
-    pub fn apply(&self, texture: &[Texel]) -> Vec<f32> {
-        let reach = &self.reach(&Region::whole(self.size, self.size));
-        let halved = self.halved(texture, reach);
-        let base = self.convolved(halved.as_deref().unwrap_or(texture), reach);
-        let line = CHANNELS * self.size;
-        let task = |number: usize, out: &mut [f32]| {
-            let mut lines = Lines::new(self.size);
-            for (row, out) in (number * ROWS..).zip(out.chunks_exact_mut(line)) {
-                let texels = self.blurred_row(&base, row, &(0..self.size), &mut lines);
-                out.copy_from_slice(texels.as_flattened());
-            }
-        };
-        from_parts(self.size * line, ROWS * line, task).0
+widened! {
+    /// Between a near row and a far one.
+    fn between(out: &mut [f32], rows: [&[f32]; 2]) {
+        for ((out, near), far) in out.iter_mut().zip(rows[0]).zip(rows[1]) {
+            *out = NEAR * near + FAR * far;
+        }
+    }
+}
+
+widened! {
+    /// Weighted means of four texels of a row, of which two are in the next one too. The row has one more texel at
+    /// either end.
+    fn halve_row(out: &mut [Texel], row: &[Texel]) {
+        for (k, out) in out.iter_mut().enumerate() {
+            let at = |place: usize| Vec4::from_array(row[2 * k + place]);
+            *out = (FAR * (at(0) + at(3)) + NEAR * (at(1) + at(2))).to_array();
+        }
+    }
+}
+
+widened! {
+    /// Interpolates a row, which has one more texel at either end.
+    fn double_row(out: &mut [[Texel; 2]], row: &[Texel]) {
+        for (k, out) in out.iter_mut().enumerate() {
+            let at = |place: usize| Vec4::from_array(row[k + place]);
+            let near = NEAR * at(1);
+            *out = [(FAR * at(0) + near).to_array(), (near + FAR * at(2)).to_array()];
+        }
     }
 }
 
 widened! {
     /// Multiplies with what the row and the columns are scaled by.
-    fn scale(texels: &mut [Texel], columns: &[f32], row: f32) {
-        for (value, column) in texels.as_flattened_mut().iter_mut().zip(columns) {
+    fn scale(values: &mut [f32], columns: &[f32], row: f32) {
+        for (value, column) in values.iter_mut().zip(columns) {
             *value *= row * column;
         }
     }
@@ -212,48 +227,19 @@ widened! {
 
 #[cfg(test)]
 mod tests {
-    use super::super::halving::{Sums, add_edges};
     use super::*;
 
-    fn noise(size: usize, seed: u32) -> Vec<Texel> {
+    fn noise(size: usize, seed: u32) -> Vec<f32> {
         let value = |i: usize| {
             let mixed = (i as u32 ^ seed << 24).wrapping_mul(0x9e37_79b9);
             let mixed = (mixed ^ mixed >> 15).wrapping_mul(0x85eb_ca6b);
             ((mixed ^ mixed >> 13) as f32 / u32::MAX as f32) - 0.5
         };
-        (0..size * size).map(|i| std::array::from_fn(|c| value(CHANNELS * i + c))).collect()
+        (0..CHANNELS * size * size).map(value).collect()
     }
 
-    fn dot(a: &[Texel], b: &[Texel]) -> f64 {
-        let pairs = a.as_flattened().iter().zip(b.as_flattened());
-        pairs.map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
-    }
-
-    /// K N, by the rows of the texture in two parts.
-    fn adjoint(pyramid: &Pyramid, texture: &[Texel]) -> Vec<Texel> {
-        let size = pyramid.size();
-        let all = 0..size;
-        let mut lines = Lines::new(size);
-        let width = pyramid.base_size();
-        let mut base = vec![[0.0; CHANNELS]; width * width];
-        let cut = size / 4 * 2;
-        let (upper, lower) = base.split_at_mut(cut * width / size * width);
-        let mut edges = vec![];
-        for (rows, own) in [(0..cut, upper), (cut..size, lower)] {
-            let mut sums = Sums::new(size, width, rows.start, own);
-            for row in rows {
-                let fill = |out: &mut [Texel]| {
-                    out.copy_from_slice(&texture[row * size..][..size]);
-                    pyramid.scale(row, &all, out);
-                };
-                sums.add(row, &all, &mut lines, fill);
-            }
-            edges.extend(sums.edges());
-        }
-        add_edges(&mut base, &edges);
-        let reach = &pyramid.reach(&Region::whole(size, size));
-        let base = pyramid.convolved(&base, reach);
-        (0..size).flat_map(|row| pyramid.row(&base, row, &all, &mut lines).to_vec()).collect()
+    fn dot(a: &[f32], b: &[f32]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
     }
 
     #[test]
@@ -263,7 +249,7 @@ mod tests {
             assert_eq!(pyramid.levels(), levels);
             let texture = noise(size, 0);
             let blurred = pyramid.apply(&texture);
-            let blurred = texels(&blurred);
+            let [texture, blurred] = [&texture, &blurred].map(|t| t.as_chunks::<CHANNELS>().0);
             let weight = |d: usize| (-0.5 * (d as f64 / f64::from(sigma)).powi(2)).exp();
             let axis = |at: usize| -> Vec<f64> {
                 let weights: Vec<_> = (0..size).map(|other| weight(at.abs_diff(other))).collect();
@@ -289,10 +275,10 @@ mod tests {
     #[test]
     fn constants_stay_and_zero_sigma_is_the_identity() {
         for (size, sigma) in [(9, 1.5), (40, 5.0), (64, 9.0)] {
-            let blurred = Pyramid::new(size, sigma).apply(&vec![[0.7; CHANNELS]; size * size]);
+            let blurred = Pyramid::new(size, sigma).apply(&vec![0.7; CHANNELS * size * size]);
             assert!(blurred.iter().all(|v| (v - 0.7).abs() < 1e-6), "{size}");
         }
-        assert_eq!(texels(&Pyramid::new(5, 0.0).apply(&noise(5, 0))), noise(5, 0));
+        assert_eq!(Pyramid::new(5, 0.0).apply(&noise(5, 0)), noise(5, 0));
     }
 
     #[test]
@@ -300,37 +286,10 @@ mod tests {
         for (size, sigma) in [(7, 1.3), (42, 4.1), (64, 8.5)] {
             let pyramid = Pyramid::new(size, sigma);
             let (x, y) = (noise(size, 0), noise(size, 1));
-            let (left, right) =
-                (dot(texels(&pyramid.apply(&x)), &y), dot(&x, &adjoint(&pyramid, &y)));
+            let line = CHANNELS * size;
+            let adjoint = pyramid.adjoint(|row, out| out.copy_from_slice(&y[row * line..][..line]));
+            let (left, right) = (dot(&pyramid.apply(&x), &y), dot(&x, &adjoint));
             assert!((left - right).abs() < 1e-5 * size as f64, "{size}: {left} {right}");
-        }
-    }
-
-    /// Of a part of the texture, what the whole gives there.
-    #[test]
-    fn what_is_reached_is_enough() {
-        let (size, part) = (128, 40..75);
-        for sigma in [2.0, 4.1, 8.5] {
-            let pyramid = Pyramid::new(size, sigma);
-            let texture = noise(size, 0);
-            let blurred = pyramid.apply(&texture);
-            let blurred = texels(&blurred);
-            let mut rows = vec![0..0; size];
-            rows[30..50].fill(part.clone());
-            let reach = &pyramid.reach(&Region(rows));
-            // What is not reached does not matter.
-            let mut texture = texture.clone();
-            for (row, columns) in texture.chunks_mut(size).zip(&reach[0].0) {
-                row[..columns.start].fill([1e3; CHANNELS]);
-                row[columns.end..].fill([1e3; CHANNELS]);
-            }
-            let halved = pyramid.halved(&texture, reach);
-            let base = pyramid.convolved(halved.as_deref().unwrap_or(&texture), reach);
-            let mut lines = Lines::new(size);
-            for row in 30..50 {
-                let got = pyramid.blurred_row(&base, row, &part, &mut lines);
-                assert_eq!(got, &blurred[row * size..][part.clone()], "{sigma}");
-            }
         }
     }
 }

@@ -4,7 +4,31 @@ use std::fmt;
 use std::mem::MaybeUninit;
 use std::ops::{Deref, DerefMut};
 
-use super::planes::Row;
+/// Samples per block.
+pub const BLOCK: usize = 256;
+
+/// One quantity of the samples of a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Row(pub [f32; BLOCK]);
+
+impl Row {
+    /// All zero.
+    pub const ZERO: Self = Self([0.0; BLOCK]);
+}
+
+/// The first `R` rows: with their number known, a compiler keeps them apart.
+#[inline(always)]
+pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
+    // Planes are made with the rows that are asked of them.
+    rows.first_chunk().unwrap_or_else(|| unreachable!("{} rows instead of {R}", rows.len()))
+}
+
+/// The same, to be written.
+#[inline(always)]
+pub fn first_rows_mut<const R: usize>(rows: &mut [Row]) -> &mut [Row; R] {
+    rows.first_chunk_mut().unwrap_or_else(|| unreachable!("fewer rows than {R}"))
+}
 
 /// A plain allocation with some room to move its beginning in. An allocator that is asked for the
 /// alignment instead wants more than it has got back from the same request before, and a step's planes

@@ -1,12 +1,13 @@
 //! The samples of an optimisation: every usable pixel, with what the model needs of it.
 
+use capture::gbuffer::GBuffer;
+use capture::{Mesh, View};
 use glam::{Vec2, Vec3};
 
 use super::planes::Planes;
 use super::taps::Taps;
-use crate::capture::{Mesh, View};
 use crate::config::{Config, ViewWeightConfig};
-use crate::gbuffer::{self, GBuffer};
+use crate::view_weights;
 
 /// Samples in texel order; see [`Taps`].
 #[derive(Clone, Debug)]
@@ -74,8 +75,8 @@ impl SampleSpace {
         let mut samples = vec![];
         for (number, (view, gbuffer)) in views.iter().zip(gbuffers).enumerate() {
             let weights = match weights.depth {
-                true => gbuffer::view_weights(gbuffer, weights.depth_blur),
-                false => gbuffer::cosine_weights(gbuffer),
+                true => view_weights::view_weights(gbuffer, weights.depth_blur),
+                false => view_weights::cosine_weights(gbuffer),
             };
             let target = |pixel: u32| Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);

@@ -38,6 +38,25 @@ impl Taps {
         (texels, results)
     }
 
+    /// The same, of whole blocks: one belongs to the strip that its first sample begins in.
+    pub fn by_blocks<const D: usize, S, T: Send>(
+        &self,
+        scratch: impl Fn() -> S + Send + Sync,
+        work: impl Fn(&mut S, &mut Strip<D>) -> T + Sync,
+    ) -> (Vec<f32>, Vec<T>) {
+        let line = self.size() * D;
+        let mut texels = vec![0.0; self.size() * line];
+        let task = |scratch: &mut S, (number, texels): (usize, &mut [f32])| {
+            let first = number * self.strip();
+            let samples = self.blocks_of(first..first + texels.len() / line);
+            self.in_strip(number, texels, samples, |strip| work(scratch, strip))
+        };
+        let strips = texels.par_chunks_mut(self.strip() * line).enumerate();
+        let results = strips.map_init(scratch, task).collect();
+        let results = self.join::<D, T>(&mut texels, results);
+        (texels, results)
+    }
+
     /// Texels of `D` channels that `work` adds to, chunk by chunk of whole blocks of samples; and its
     /// results, in order. Chunks have texels of their own, which are added in their order.
     pub fn by_chunk<const D: usize, S, T: Send>(
@@ -65,7 +84,7 @@ impl Taps {
     }
 
     /// The blocks of samples whose first one's upper texels are in some rows.
-    pub(super) fn blocks_of(&self, rows: Range<usize>) -> Range<usize> {
+    fn blocks_of(&self, rows: Range<usize>) -> Range<usize> {
         let Range { start, end } = self.samples_in(rows);
         let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
         whole(start)..whole(end)
@@ -119,7 +138,7 @@ fn slices(parts: &[(usize, Vec<f32>)]) -> impl Iterator<Item = (usize, &[f32])> 
 
 /// Adds to values, of which the first has number `start`, what parts have of them: the first one's number, and
 /// values.
-pub(super) fn add_parts<'a>(
+fn add_parts<'a>(
     start: usize,
     values: &mut [f32],
     parts: impl IntoIterator<Item = (usize, &'a [f32])>,

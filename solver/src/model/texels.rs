@@ -5,11 +5,15 @@ use std::ops::Range;
 
 use glam::{Mat4, Vec4};
 
-use super::halving::{CHANNELS, Texel};
 use super::planes::{BLOCK, Planes, Row};
 use super::strips::{Strip, blocks};
 use super::taps::Taps;
 use crate::simd::{prefetch, widened};
+
+/// Values of a texel.
+pub const CHANNELS: usize = 4;
+/// A texel.
+pub type Texel = [f32; CHANNELS];
 
 /// Samples whose texels are asked for ahead of those of the one at hand.
 const AHEAD: usize = 32;
@@ -42,13 +46,20 @@ impl Taps {
     }
 }
 
-impl Strip<'_, CHANNELS> {
-    /// Adds the gradients of some lanes of a block.
+impl<const D: usize> Strip<'_, D> {
+    /// Adds the gradients of some lanes of a block, a row for each of the channels, which are one texel of four
+    /// or several.
     pub fn add_vectors(&mut self, block: usize, lanes: Range<usize>, rows: &[Row]) {
-        let mut values = [Vec4::ZERO; BLOCK];
-        side_by_side(rows, &mut values);
         let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
-        gather(self.taps, self.first, samples, &values[lanes], self.texels, self.below);
+        let here = self.texels.as_flattened_mut().as_chunks_mut().0;
+        let below = self.below.as_flattened_mut().as_chunks_mut().0;
+        let stride = D / CHANNELS;
+        for (part, rows) in rows.chunks_exact(CHANNELS).enumerate() {
+            let mut values = [Vec4::ZERO; BLOCK];
+            side_by_side(rows, &mut values);
+            let values = &values[lanes.clone()];
+            gather(self.taps, self.first, samples.clone(), values, part, stride, here, below);
+        }
     }
 }
 
@@ -115,19 +126,22 @@ widened! {
 
 /// Four values of four samples.
 #[inline(always)]
-pub(super) fn turned([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
+fn turned([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
     let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
     [x_axis, y_axis, z_axis, w_axis]
 }
 
 widened! {
     /// Adds what samples have to the texels of their cells, in rows of a texture from `first` on and in
-    /// those below. The sums of a cell stay in registers while its samples pass.
+    /// those below; of each `stride` texels in a place, to number `part`. The sums of a cell stay in registers
+    /// while its samples pass.
     fn gather(
         taps: &Taps,
         first: usize,
         samples: Range<usize>,
         values: &[Vec4],
+        part: usize,
+        stride: usize,
         here: &mut [Texel],
         below: &mut [Texel],
     ) {
@@ -149,9 +163,10 @@ widened! {
             }
             let at = cell as usize - first * size;
             for (at, sums) in [(at, upper), (at + size, lower)] {
+                let at = at * stride + part;
                 match at.checked_sub(here.len()) {
-                    None => add(&mut here[at..at + 2], sums),
-                    Some(at) => add(&mut below[at..at + 2], sums),
+                    None => add(&mut here[at..], stride, sums),
+                    Some(at) => add(&mut below[at..], stride, sums),
                 }
             }
         }
@@ -159,9 +174,9 @@ widened! {
 }
 
 #[inline(always)]
-fn add(texels: &mut [Texel], sums: [Vec4; 2]) {
-    for (texel, sum) in texels.iter_mut().zip(sums) {
-        *texel = (Vec4::from_array(*texel) + sum).to_array();
+fn add(texels: &mut [Texel], stride: usize, sums: [Vec4; 2]) {
+    for (at, sum) in [0, stride].into_iter().zip(sums) {
+        texels[at] = (Vec4::from_array(texels[at]) + sum).to_array();
     }
 }
 

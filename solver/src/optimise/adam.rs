@@ -1,7 +1,5 @@
 //! Adam (Kingma and Ba 2015), in the exact form of the framework that the paper uses.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -95,46 +93,12 @@ impl Adam {
             });
     }
 
-    /// The same, in rows of so many parameters. Where a gradient is zero, and was zero before, nothing would
-    /// move.
-    pub fn rows<'a>(
-        &'a mut self,
-        parameters: &'a mut [f32],
-        length: usize,
-        share: f32,
-        least: f32,
-    ) -> impl Iterator<Item = Part<'a>> {
-        let factors = self.next(share, least);
-        let moments = self.first.chunks_mut(length).zip(self.second.chunks_mut(length));
-        let part = move |(parameters, (first, second))| Part { parameters, first, second, factors };
-        parameters.chunks_mut(length).zip(moments).map(part)
-    }
-
     /// Counts a step; its factors.
     fn next(&mut self, share: f32, least: f32) -> Factors {
         self.steps += 1;
         let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
         let [rate, root] = self.factors(self.steps, share);
         Factors { beta1, beta2, epsilon, rate, root, least }
-    }
-}
-
-/// Some parameters in the midst of a step.
-pub struct Part<'a> {
-    /// Moved or not.
-    pub parameters: &'a mut [f32],
-    first: &'a mut [f32],
-    second: &'a mut [f32],
-    factors: Factors,
-}
-
-impl Part<'_> {
-    /// Moves some of them.
-    pub fn step(&mut self, range: Range<usize>, gradient: &[f32]) {
-        let Self { parameters, first, second, factors } = self;
-        let [parameters, first, second] =
-            [parameters, first, second].map(|values| &mut values[range.clone()]);
-        step(parameters, gradient, first, second, factors);
     }
 }
 

@@ -9,16 +9,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use capture::Capture;
+use formats::atomic;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
-use super::run::Log;
-use super::solve::Solve;
+use super::found::Solve;
+use super::log::Log;
 use super::stage::{Memory, Stage, State};
-use crate::atomic;
 use crate::backend::Backend;
-use crate::capture::Capture;
 use crate::config::Config;
 
 /// Counts the changes of what is written.

@@ -1,25 +1,29 @@
 //! The end of a solve: maps, withheld views and the record of what has been found.
 
+use capture::Camera;
+use capture::gbuffer::{Atlas, GBuffer};
+use capture::projection::{Projection, per_texel};
+use formats::fill;
+use formats::maps::Maps;
+use formats::picture::{GrayImage, Picture};
+
 use super::clock::Work;
+use super::error::SolveError;
+use super::found::Solve;
 use super::gloss;
 use super::lit::Highlights;
 use super::normalise::Scales;
+use super::progress::LayerSink;
 use super::run::Run;
-use super::site::{Site, map_size};
+use super::site::Site;
 use super::snapshot::stage_maps;
-use super::solve::{LayerSink, Solve, albedo};
 use super::stage::{State, layers};
-use crate::capture::Camera;
-use crate::error::SolveError;
-use crate::fill;
-use crate::gbuffer::{Atlas, GBuffer};
-use crate::maps::Maps;
+use super::transported::albedo;
+use crate::config::map_size;
 use crate::model::bend::Bend;
 use crate::model::deviation::Deviation;
 use crate::model::planes::Planes;
 use crate::model::texture::resample;
-use crate::picture::{GrayImage, Picture};
-use crate::projection::{Projection, per_texel};
 use crate::solution::{Record, Solution, ViewLayers};
 
 /// What this takes.

@@ -1,8 +1,9 @@
 //! The specular albedo of the maps. Within a region of the face pictures tell next to nothing of it,
 //! so that it is pooled; and only up to a factor, so that the skin's comes from its index of refraction.
 
+use capture::gbuffer::Atlas;
+
 use crate::config::NormalisationConfig;
-use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
 
 /// `specular` on the chart of `atlas`, pooled over the regions or, without any, over the configured
@@ -58,11 +59,12 @@ fn texel_length(atlas: &Atlas) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use capture::View;
+    use capture::gbuffer::GBuffer;
+    use capture::projection::Projection;
+    use formats::picture::GrayImage;
+
     use super::*;
-    use crate::capture::View;
-    use crate::gbuffer::GBuffer;
-    use crate::picture::GrayImage;
-    use crate::projection::Projection;
     use crate::semantic::region_map;
     use crate::testing;
 
@@ -84,7 +86,7 @@ mod tests {
         let gbuffers = GBuffer::of_views(&mesh, &views);
         let projections = Projection::of_views(&views, &gbuffers);
         let atlas = Atlas::new(&mesh, SIZE);
-        let seen = crate::projection::per_texel(&atlas, &projections, |_| true);
+        let seen = capture::projection::per_texel(&atlas, &projections, |_| true);
         let specular: Vec<f32> = (0..SIZE * SIZE).map(specular).collect();
         let config = crate::Config::default().normalisation;
         let config = NormalisationConfig { specular_pooling: 0.2, ..config };

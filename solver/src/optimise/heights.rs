@@ -1,14 +1,15 @@
 //! Heights, coarse to fine: every linearisation on a texture of twice the side of the one before, which
 //! conjugate gradients would not fill with what is coarse in as many steps.
 
+use capture::gbuffer::Atlas;
+
 use super::bent_highlights::BentHighlights;
+use super::error::SolveError;
 use super::lit::Lit;
 use super::relief::{self, ReliefSolve};
 use super::site::Site;
 use super::stage::State;
 use crate::config::HeightConfig;
-use crate::error::SolveError;
-use crate::gbuffer::Atlas;
 use crate::model::texture::resample;
 
 /// Least side of a texture of heights.

@@ -6,24 +6,21 @@
 //! what colour the lamp has, and what glows at the sides of a face is no light from behind.
 
 use super::adam::Adam;
+use super::error::SolveError;
 use super::lit::Lit;
+use super::probed::Probed;
 use super::run::Run;
 use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State};
 use super::tint::tint;
-use super::transported::{Probed, reflectance};
+use super::transported::reflectance;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
-use crate::config::{Config, TransportConfig};
-use crate::error::SolveError;
+use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Reflection, Transport};
-
-/// Of more samples than this, the highlights are followed on a part: a cell of the sky and a texel of the
-/// transport are far coarser than pixels.
-pub(crate) const MOST_SAMPLES: usize = 40_000;
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures; then the colour
@@ -86,7 +83,7 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run, site, &samples, state, gloss, lit.standing, light);
+    *lit = Lit::new(run.backend, site, &samples, state, gloss, lit.standing, light);
     lit.explained = true;
     Ok(0)
 }
@@ -141,7 +138,7 @@ impl<'a> Highlights<'a> {
         found: Found,
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
-        let samples = samples.thinned(MOST_SAMPLES);
+        let samples = samples.thinned(MOST_HIGHLIGHT_SAMPLES);
         let gloss = samples.taps.sample::<1>(found.gloss);
         let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);

@@ -3,7 +3,6 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::run::Run;
 use super::site::{Site, Standing};
 use super::stage::{State, layers};
 use super::veil::{unveiled, veil};
@@ -39,7 +38,7 @@ pub(super) struct Lit {
 impl Lit {
     /// What a light makes of the textures of `state`; `gloss` is [`Lit::gloss`].
     pub fn new(
-        run: &Run,
+        backend: &dyn Backend,
         site: &Site,
         samples: &Samples,
         state: State,
@@ -50,9 +49,7 @@ impl Lit {
         let (config, transport) = (site.config, site.transport(standing));
         let veil = match gloss.is_empty() {
             true => vec![],
-            false => {
-                veil(&config.networks, transport, samples, &state, run.backend, &radiance, &gloss)
-            }
+            false => veil(&config.networks, transport, samples, &state, backend, &radiance, &gloss),
         };
         let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
         Self {

@@ -1,13 +1,14 @@
 //! What the pictures leave around every sample: what of it is too coarse for relief, and what is too much.
 
+use capture::gbuffer::GBuffer;
 use glam::Vec3;
 
 use super::linear_colour::SLOPES;
 use crate::config::HeightConfig;
 use crate::convolution::Shape;
-use crate::gbuffer::{GBuffer, blurred};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
+use crate::view_weights::blurred;
 
 /// What skin's relief (radians) and the detail of its albedo (relative) usually amount to.
 const RELIEF: f32 = 0.05;

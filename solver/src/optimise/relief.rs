@@ -6,10 +6,12 @@
 //! n_d the same blurred) and damped relative changes of the diffuse albedo; L1 by reweighting, conjugate
 //! gradients on the normal equations; linearised anew on every texture, coarse to fine.
 
+use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::bent_highlights::BentHighlights;
+use super::error::SolveError;
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
 use super::lit::{LIT, Lit, bent_shading};
 use super::nearby::Nearby;
@@ -18,8 +20,6 @@ use super::vectors::{add, add_scaled, dot};
 use crate::backend::resident::NormalEquations;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
-use crate::error::SolveError;
-use crate::gbuffer::{Atlas, GBuffer};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;

@@ -1,18 +1,17 @@
 //! The bookkeeping of a solve: progress, losses, times, interrupts, checkpoints.
 
-use std::fmt;
 use std::time::{Duration, Instant};
-
-use serde::{Deserialize, Serialize};
 
 use super::checkpoint::{Open, StageMemory};
 use super::clock::{Clock, Work};
-use super::solve::{Callback, Progress, Solve};
+use super::error::SolveError;
+use super::found::Solve;
+use super::log::{Cut, Log};
+use super::progress::{Callback, Progress};
 use super::stage::{Stage, State};
 use crate::backend::Backend;
 use crate::backend::resident::{BATCH, DeviceError, Resident};
 use crate::config::Config;
-use crate::error::SolveError;
 use crate::solution::{StageRecord, Timing};
 
 /// Between two copies of what a device moves: a failure costs no more than that.
@@ -35,32 +34,6 @@ pub(super) struct Run<'a, 'b> {
     lap: Instant,
     /// Seconds of this lap before the checkpoint that the run goes on from.
     earlier: f64,
-}
-
-/// What has been noted so far.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Log {
-    /// Steps done.
-    done: usize,
-    /// Steps that turned out not to be needed.
-    spared: usize,
-    pub stages: Vec<StageRecord>,
-    seconds: Vec<(String, f64)>,
-}
-
-/// Where the caller stopped the solve.
-#[derive(Clone, Debug)]
-pub(super) struct Cut {
-    pub stage: String,
-    /// Steps of the stage that were done, of how many.
-    pub step: usize,
-    pub of: usize,
-}
-
-impl fmt::Display for Cut {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{} at step {} of {}", self.stage, self.step, self.of)
-    }
 }
 
 impl<'a, 'b> Run<'a, 'b> {

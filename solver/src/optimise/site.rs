@@ -3,18 +3,18 @@
 
 use std::cell::OnceCell;
 
+use capture::gbuffer::{Atlas, GBuffer};
+use capture::projection::Projection;
+use capture::{Capture, View};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::stage::State;
 use crate::backend::Backend;
-use crate::capture::{Capture, View};
-use crate::config::{Config, TextureRule, TextureSize, TransportConfig, ViewWeightConfig};
-use crate::gbuffer::{Atlas, GBuffer};
+use crate::config::{Config, TransportConfig, ViewWeightConfig, texture_size};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::projection::Projection;
 use crate::semantic::{self, colours::ColourRegions};
 use crate::transport::{Beside, Sky, Transport};
 
@@ -236,25 +236,5 @@ impl WarmUpPictures {
     /// The usable pixels, for textures of side `size`.
     pub fn samples(&self, space: &SampleSpace, size: usize) -> Samples {
         space.training(&self.views, &self.gbuffers, &self.weights, size)
-    }
-}
-
-/// The power of two nearest to one texel per pixel.
-pub(crate) fn texture_size(size: TextureSize, pixels: usize) -> usize {
-    match size {
-        TextureSize::Side(texels) => texels,
-        TextureSize::Rule(TextureRule::Auto) => {
-            let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
-            2usize.pow(exponent.clamp(7, 11))
-        }
-    }
-}
-
-/// Maps from few pixels are written larger than they were solved, for the sake of the mesh normal
-/// in them.
-pub(crate) fn map_size(size: TextureSize, solved: usize) -> usize {
-    match size {
-        TextureSize::Side(texels) => texels,
-        TextureSize::Rule(TextureRule::Auto) => solved.max(512),
     }
 }

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use capture::Mesh;
+use capture::gbuffer::Atlas;
+use capture::projection::{Projection, per_texel};
+use formats::fill;
+use formats::maps::Maps;
+use formats::picture::Picture;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::normalise::Scales;
-use crate::capture::Mesh;
-use crate::fill;
-use crate::gbuffer::Atlas;
-use crate::maps::Maps;
 use crate::model::texture::resample;
-use crate::picture::Picture;
-use crate::projection::{Projection, per_texel};
 use crate::solution::StageMaps;
 
 /// Largest side, texels.

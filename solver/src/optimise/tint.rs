@@ -95,9 +95,10 @@ fn full(samples: &Samples) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use capture::gbuffer::GBuffer;
+
     use super::*;
     use crate::config::Config;
-    use crate::gbuffer::GBuffer;
     use crate::model::samples::SampleSpace;
     use crate::testing;
 

@@ -3,49 +3,28 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::diffuse::Diffuse;
+use super::error::SolveError;
+use super::found::Solve;
 use super::lit::{Lit, bent_shading};
+use super::probed::{Physical, Probed};
 use super::recolour::recolour;
 use super::run::Run;
 use super::site::{Site, Standing};
-use super::stage::{Diffuse, Memory, Stage, State, layers};
+use super::stage::{Memory, Stage, State, layers};
 use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
-use crate::error::SolveError;
 use crate::model::deviation::Deviation;
-use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Transport};
-
-/// The diffuse albedo of the maps, and the factor that makes it a reflectance.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Physical {
-    pub diffuse: Vec<f32>,
-    pub scale: f32,
-    /// Of every texel, 0 to 1.
-    pub confidence: Vec<f32>,
-}
-
-/// The light as the semantic colours show it.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Probed {
-    pub log_light: Vec<f32>,
-    pub standing: Standing,
-    pub networks: Networks,
-    /// The specular albedo by which the light makes highlights; empty if the networks make them.
-    pub gloss: Vec<f32>,
-    /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
-    /// with is to be divided by it.
-    pub tint: [f32; CHANNELS],
-}
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
 pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Probed, SolveError> {
@@ -89,7 +68,7 @@ pub(super) fn light_and_albedo(
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
     let gloss = gloss(site, &state);
-    Ok(Lit::new(run, site, &samples, state, gloss, probed.standing, light))
+    Ok(Lit::new(run.backend, site, &samples, state, gloss, probed.standing, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
@@ -146,6 +125,17 @@ pub(super) fn refined(
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(samples, &planes, &albedo, prior);
     Ok(Physical { diffuse: own.diffuse, scale: lit.peak, confidence })
+}
+
+/// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
+pub(super) fn albedo(site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
+    if let (Some(lit), None) = (&solve.lit, &solve.physical) {
+        solve.state.resize(site.size);
+        let (fine, state) = (site.fine(), &solve.state);
+        let (samples, deviation) = (&fine.samples, &fine.deviation);
+        solve.physical = Some(refined(run, site.config, samples, deviation, state, lit)?);
+    }
+    Ok(())
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.

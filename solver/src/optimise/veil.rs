@@ -1,6 +1,8 @@
 //! What all views share of the highlights. No picture tells it from diffuse colour, so that the
 //! networks leave it there, but the found light does, with the reflectance that skin is known to have.
 
+use capture::gbuffer::Atlas;
+use capture::projection::{Projection, per_texel};
 use rayon::prelude::*;
 
 use super::gloss;
@@ -8,13 +10,11 @@ use super::site::Site;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::config::{Config, NetworkConfig};
-use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::projection::{Projection, per_texel};
 use crate::transport::{CHANNELS, Transport};
 
 /// Standard deviation of the blur over the texture, texels.

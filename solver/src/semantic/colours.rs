@@ -5,16 +5,16 @@
 //! two regions must be an edge: where colours change slowly it is the light that changes, and the two
 //! are one.
 
+use capture::Mesh;
+use capture::gbuffer::Atlas;
+use capture::projection::{Observation, Projection, per_texel};
+use formats::fill;
+use formats::picture::Picture;
 use glam::{DVec3, Vec3};
 
 use super::clusters::{centres, clusters, lloyd};
-use crate::capture::Mesh;
 use crate::config::TransportConfig;
-use crate::fill;
-use crate::gbuffer::Atlas;
 use crate::model::blur::Blur;
-use crate::picture::Picture;
-use crate::projection::{Observation, Projection, per_texel};
 use crate::transport::{self, Beside, Sky, Transport};
 
 /// Side of the chart on which regions are found, texels.
@@ -233,10 +233,11 @@ fn merged(seen: &[usize], albedo: &[Vec3], regions: Vec<u8>, count: usize) -> Ve
 
 #[cfg(test)]
 mod tests {
+    use capture::View;
+    use capture::gbuffer::GBuffer;
+
     use super::*;
     use crate::Config;
-    use crate::capture::View;
-    use crate::gbuffer::GBuffer;
     use crate::testing;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);

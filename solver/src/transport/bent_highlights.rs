@@ -164,9 +164,10 @@ widened! {
 
 #[cfg(test)]
 mod tests {
+    use capture::gbuffer::GBuffer;
+
     use super::*;
     use crate::config::{Config, TransportConfig};
-    use crate::gbuffer::GBuffer;
     use crate::model::samples::SampleSpace;
     use crate::testing;
     use crate::transport::{Beside, Sky};

@@ -2,9 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::{Bounces, CHANNELS};
+use super::CHANNELS;
 use crate::config::TransportConfig;
 use crate::simd::widened;
+
+/// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
+pub(super) type Bounces = Vec<(u32, f32)>;
 
 /// Rows whose contributions to the gradient are summed by one task, in their order.
 const CHUNK: usize = 256;

@@ -13,28 +13,27 @@
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
 mod bent_highlights;
+mod channels;
 mod gloss;
 mod matrix;
 mod rays;
 mod sky;
 
+use capture::Mesh;
+use capture::gbuffer::Atlas;
+use formats::fill;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::capture::Mesh;
 use crate::config::TransportConfig;
-use crate::fill;
-use crate::gbuffer::Atlas;
 pub use bent_highlights::{Glints, HIGHLIGHT_ROWS};
+pub use channels::CHANNELS;
+pub(crate) use channels::LUMINANCE;
 pub use gloss::Reflection;
-use matrix::Matrix;
+use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
 pub use sky::{Sky, SkyRay, contrast};
 
-/// Colour channels of the light.
-pub const CHANNELS: usize = 3;
-/// Rec.709.
-pub(crate) const LUMINANCE: [f32; CHANNELS] = [0.2126, 0.7152, 0.0722];
 /// A ray starts this far from the surface, as a share of the mesh's longest side: clear of the
 /// facets next to its own.
 const LIFT: f32 = 1.6e-3;
@@ -272,9 +271,6 @@ pub(crate) struct Parts<'a> {
     /// Of every texel of the square.
     pub row: &'a [u32],
 }
-
-/// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
-type Bounces = Vec<(u32, f32)>;
 
 /// What a texel sees of every cell.
 struct Seen<'a> {

@@ -1,9 +1,9 @@
 //! The height solve's conjugate gradients, against the same written out with the processor's operators.
 
+use capture::gbuffer::Atlas;
 use solver::Config;
 use solver::backend::Backend;
 use solver::backend::resident::NormalEquations;
-use solver::gbuffer::Atlas;
 use solver::model::blur::Blur;
 use solver::model::height::HeightField;
 use solver::model::planes::Planes;

@@ -14,7 +14,7 @@ mod sizes;
 mod solves;
 mod stages;
 #[allow(dead_code, reason = "shared with the unit tests, which need more of it")]
-#[path = "../../src/testing.rs"]
+#[path = "../../capture/src/testing.rs"]
 mod testing;
 mod textured;
 
@@ -22,7 +22,6 @@ use std::sync::LazyLock;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 // What `testing` calls its own crate's.
-use solver::{capture, gbuffer, picture};
 
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::{Adapter, Gpu, VARIABLE, adapters};

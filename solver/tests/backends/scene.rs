@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use capture::gbuffer::GBuffer;
+use capture::{Capture, View};
 use glam::Vec3;
+use solver::Config;
 use solver::config::TextureSize;
-use solver::gbuffer::GBuffer;
 use solver::model::networks::Networks;
 use solver::model::samples::{SampleSpace, Samples};
 use solver::optimise::stage::State;
-use solver::{Capture, Config, View};
 
 use super::testing;
 

@@ -9,10 +9,13 @@ use solver::backend::cpu::Cpu;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::model::deviation::Deviation;
 use solver::model::planes::Planes;
+use solver::optimise::deviation::Relief;
+use solver::optimise::diffuse::Diffuse;
 use solver::optimise::highlights::{Found, Highlights};
 use solver::optimise::specular::Specular;
-use solver::optimise::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use solver::optimise::stage::{Stage, State};
 use solver::optimise::transported::Transported;
+use solver::optimise::warm_up::WarmUp;
 use solver::transport::{Beside, HIGHLIGHT_ROWS, Sky, Transport};
 
 use super::scene::problem;

@@ -3,15 +3,15 @@
 use solver::Config;
 use solver::backend::cpu::Cpu;
 use solver::backend::{Backend, JointGradient, TexturedRelief};
-use solver::model::bend::BentTextures;
-use solver::model::bend_gradient::BendGradient;
+use solver::model::bend::ROWS;
 use solver::model::deviation::Deviation;
 use solver::model::networks::Networks;
 use solver::model::normals::DirectionScale;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
 use solver::model::texture::interleave;
-use solver::optimise::stage::{Relief, Stage, State};
+use solver::optimise::deviation::Relief;
+use solver::optimise::stage::{Stage, State};
 
 use super::scene::problem;
 use super::testing;
@@ -59,48 +59,38 @@ pub fn joint(backend: &dyn Backend) {
     }
 }
 
-/// Loss and gradients of a bent dome; the texels that nothing sees have none. With narrow and wide blurs.
+/// Loss and gradients of a bent dome; the texels that nothing sees have none. With a narrow blur and a wide one.
 pub fn relief(backend: &dyn Backend) {
     for blur in [0.05, 0.14] {
         let mut config = Config::preset("paper").unwrap();
         config.fine_tuning.deviation_blur = blur;
         let (samples, state) = problem(&config);
         let deviation = Deviation::new(&config, state.size);
-        assert_eq!(deviation.blur().levels(), usize::from(blur > 0.1));
         let t: Vec<f32> =
             (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
-        let region = &samples.taps.region();
-        let reach = deviation.reach(region);
-        let seen = deviation.seen(&t, &state.specular, &reach);
-        let base = &deviation.base(&seen, &reach);
         let relief = TexturedRelief {
             networks: &state.networks,
             samples: &samples,
             light: &backend.light(&state.networks, &samples.position),
             albedo: &state.albedo(&samples),
-            textures: BentTextures { deviation: &deviation, texels: &seen.texels, base, region },
+            scale: &deviation.scale,
+            textures: &deviation.bent(&t, &state.specular),
         };
-        let [fused, split] = [backend, &ByPlanes(backend)].map(|backend| {
-            // What an earlier step has left.
-            let mut gradient = BendGradient::new(deviation.blur());
-            for (row, columns) in gradient.own.chunks_mut(state.size).zip(&region.0) {
-                row[columns.clone()].fill([1.0; 4]);
-            }
-            gradient.base.fill([1.0; 4]);
-            (backend.bend_textures(&relief, &mut gradient), gradient)
-        });
+        let [fused, split] =
+            [backend, &ByPlanes(backend)].map(|backend| backend.bend_textures(&relief));
         assert!((fused.0 / split.0 - 1.0).abs() < 1e-6, "{} {}", fused.0, split.0);
-        for (fused, split) in [(&fused.1.own, &split.1.own), (&fused.1.base, &split.1.base)] {
-            let size = split.as_flattened().iter().fold(0.0f32, |m, g| m.max(g.abs()));
-            assert!(size > 0.0 && size < 1.0);
-            let pairs = fused.as_flattened().iter().zip(split.as_flattened());
-            for (at, (got, expected)) in pairs.enumerate() {
-                assert!((got - expected).abs() < 1e-5 * size, "{at}: {got} {expected}");
-            }
+        let size = split.1.iter().fold(0.0f32, |m, g| m.max(g.abs()));
+        assert!(size > 0.0 && size < 1.0 && fused.1.len() == split.1.len());
+        for (at, (got, expected)) in fused.1.iter().zip(&split.1).enumerate() {
+            assert!((got - expected).abs() < 1e-5 * size, "{at}: {got} {expected}");
         }
-        for (at, own) in fused.1.own.iter().enumerate() {
-            let (row, column) = (at / state.size, at % state.size);
-            assert!(region.0[row].contains(&column) || *own == [0.0; 4], "{at}");
+        let mut seen = vec![false; state.size * state.size];
+        for cell in samples.taps.cells() {
+            let at = *cell as usize;
+            [at, at + 1, at + state.size, at + state.size + 1].map(|at| seen[at] = true);
+        }
+        for (gradient, seen) in fused.1.chunks_exact(ROWS).zip(seen) {
+            assert!(seen || gradient.iter().all(|value| *value == 0.0));
         }
     }
 }

@@ -98,7 +98,11 @@ def scene() -> Arrays:
         bumps = 0.15 * np.sin(7 * position + [0, 1, 2])
         normal = position + bumps
         normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-        light = np.maximum(normal @ [0.5, 0.5, 0.7], 0)[..., None] * [1.0, 0.9, 0.8] + 0.2 * (1 + normal[..., 1:2]) * [0.5, 0.6, 0.9]
+        light = np.maximum(normal @ [0.5, 0.5, 0.7], 0)[..., None] * [1.0, 0.9, 0.8] + 0.2 * (1 + normal[..., 1:2]) * [
+            0.5,
+            0.6,
+            0.9,
+        ]
         half = unit * -1 + [0.5, 0.5, 0.7]
         half /= np.linalg.norm(half, axis=-1, keepdims=True)
         shine = 0.4 * np.maximum((normal * half).sum(-1), 0) ** 40
@@ -130,7 +134,12 @@ def resized(texture: torch.Tensor) -> torch.Tensor:
         return texture
     image = texture.double().permute(2, 0, 1)[None]
     size = (FINE_SIZE, FINE_SIZE)
-    return functional.interpolate(image, size, mode="bilinear", align_corners=False)[0].permute(1, 2, 0).float().contiguous()
+    return (
+        functional.interpolate(image, size, mode="bilinear", align_corners=False)[0]
+        .permute(1, 2, 0)
+        .float()
+        .contiguous()
+    )
 
 
 def view_weights(arrays: Arrays) -> np.ndarray:
@@ -139,7 +148,7 @@ def view_weights(arrays: Arrays) -> np.ndarray:
     tap = np.exp(-0.5 * (np.arange(-reach, reach + 1) / WEIGHT_BLUR) ** 2)
 
     def blurred(plane: np.ndarray) -> np.ndarray:
-        smooth = lambda line: np.convolve(line, tap)[reach:-reach]  # noqa: E731
+        smooth = lambda line: np.convolve(line, tap)[reach:-reach]
         return np.apply_along_axis(smooth, 0, np.apply_along_axis(smooth, 1, plane))
 
     weights = []
@@ -163,7 +172,7 @@ class Training:
     """The stages of the optimisation on one scene, in one precision."""
 
     def __init__(self, arrays: Arrays, kind: torch.dtype) -> None:
-        tensor = lambda values: torch.tensor(np.asarray(values, np.float64)).to(kind)  # noqa: E731
+        tensor = lambda values: torch.tensor(np.asarray(values, np.float64)).to(kind)
         weight = view_weights(arrays)
         used = weight > 0
         low, high = arrays["position"].min(0).astype(float), arrays["position"].max(0).astype(float)
@@ -222,10 +231,14 @@ class Training:
         rest = state["networks"].reshape(3, -1)[number]
         for layer, (inputs, outputs) in enumerate([(3, 16), (16, 16), (16, 8)]):
             weight, bias, rest = rest.split([inputs * outputs, outputs, len(rest) - (inputs + 1) * outputs])
-            values = functional.linear(functional.relu(values) if layer else values, weight.reshape(outputs, inputs), bias)
+            values = functional.linear(
+                functional.relu(values) if layer else values, weight.reshape(outputs, inputs), bias
+            )
         return values
 
-    def shading(self, state: State, light: torch.Tensor, normal: torch.Tensor, reflection: torch.Tensor) -> tuple[torch.Tensor, ...]:
+    def shading(
+        self, state: State, light: torch.Tensor, normal: torch.Tensor, reflection: torch.Tensor
+    ) -> tuple[torch.Tensor, ...]:
         """S_d, and F A_s S_s."""
         diffuse = (light * functional.softplus(self.network(state, 1, normal))).sum(-1, keepdim=True)
         specular = (light * functional.softplus(self.network(state, 2, reflection))).sum(-1, keepdim=True)
@@ -244,7 +257,9 @@ class Training:
 
     def sampled(self, texture: torch.Tensor) -> torch.Tensor:
         image = texture.permute(2, 0, 1)[None]
-        return functional.grid_sample(image, self.grid, mode="bilinear", padding_mode="border", align_corners=False)[0, :, 0].T
+        return functional.grid_sample(image, self.grid, mode="bilinear", padding_mode="border", align_corners=False)[
+            0, :, 0
+        ].T
 
 
 def reflected(view: torch.Tensor, normal: torch.Tensor) -> torch.Tensor:
@@ -264,7 +279,7 @@ def blurred(texture: torch.Tensor) -> torch.Tensor:
     tap = torch.exp(-0.5 * (torch.arange(-reach, reach + 1, dtype=texture.dtype) / sigma) ** 2)
     kernel = (tap[:, None] * tap).expand(3, 1, -1, -1)
     image = texture.permute(2, 0, 1)[None]
-    smooth = lambda values: functional.conv2d(values, kernel, padding=reach, groups=3)  # noqa: E731
+    smooth = lambda values: functional.conv2d(values, kernel, padding=reach, groups=3)
     return (smooth(image) / smooth(torch.ones_like(image)))[0].permute(1, 2, 0)
 
 
@@ -274,7 +289,11 @@ def write(path: Path, arrays: Arrays, notes: dict) -> None:
     content = b""
     for name, array in arrays.items():
         data = np.ascontiguousarray(array, "<f4").tobytes()
-        header[name] = {"dtype": "F32", "shape": list(array.shape), "data_offsets": [len(content), len(content) + len(data)]}
+        header[name] = {
+            "dtype": "F32",
+            "shape": list(array.shape),
+            "data_offsets": [len(content), len(content) + len(data)],
+        }
         content += data
     text = json.dumps(header).encode()
     text += b" " * (-len(text) % 8)

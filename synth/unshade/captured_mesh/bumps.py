@@ -8,7 +8,9 @@ _WAVES = 200
 """Enough that their sum is Gaussian (central limit theorem)."""
 
 
-def bump_heights(positions: np.ndarray, triangles: np.ndarray, rms: float, wavelength: float, rng: np.random.Generator) -> np.ndarray:
+def bump_heights(
+    positions: np.ndarray, triangles: np.ndarray, rms: float, wavelength: float, rng: np.random.Generator
+) -> np.ndarray:
     """Heights (V,) at positions (V,3), all in metres: zero mean and ``rms`` over the surface.
 
     Random plane waves in space: isotropic directions and phases, one wavelength. A surface

@@ -30,7 +30,12 @@ _LEAST_COSINE = 0.3
 
 
 def decimate(
-    positions: np.ndarray, uv: np.ndarray, triangles: np.ndarray, target: int, fixed: np.ndarray, rng: np.random.Generator
+    positions: np.ndarray,
+    uv: np.ndarray,
+    triangles: np.ndarray,
+    target: int,
+    fixed: np.ndarray,
+    rng: np.random.Generator,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Old indices (W,) of the vertices that are kept and the new triangles (G,3).
 
@@ -124,8 +129,8 @@ class _Round:
         return shared != np.where(self.outline.member, 1, 2)
 
     def independent(self, wanted: np.ndarray) -> np.ndarray:
-        """Those of ``wanted`` that win a lottery in their neighbourhood of two edges, in the
-        order of their cost: their closed rings are disjoint, so none spoils another's checks."""
+        """Vertices of ``wanted`` (indices, in the order of their cost) that win a lottery in their
+        neighbourhood of two edges: their closed rings are disjoint, so none spoils another's checks."""
         rank = np.full(self.size, self.size)
         rank[wanted] = self.rng.permutation(len(wanted))
         least = rank

@@ -45,7 +45,10 @@ def degrade(chart: Chart, spec: CapturedMesh, seed: int) -> Chart:
             )
     normals = _normals(positions[kept], triangles, point_of[kept])
     return Chart(
-        positions[kept].astype(np.float32), normals.astype(np.float32), chart.uv[kept], triangles.astype(chart.triangles.dtype)
+        positions[kept].astype(np.float32),
+        normals.astype(np.float32),
+        chart.uv[kept],
+        triangles.astype(chart.triangles.dtype),
     )
 
 

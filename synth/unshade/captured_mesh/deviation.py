@@ -10,7 +10,7 @@ from ..face.chart import signed_areas
 
 
 def deviation(perfect: Chart, captured: Chart) -> dict[str, float | int]:
-    """What the captured mesh became: vertices, and distances between the surfaces in mm.
+    """Size of the captured mesh, and distances between its surface and the perfect one (mm).
 
     ``to_truth`` goes from the captured vertices, ``from_truth`` from the perfect ones (which
     meet what decimation cut away) to the nearest point of the other surface.

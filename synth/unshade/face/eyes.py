@@ -79,7 +79,9 @@ def _dented(surface: np.ndarray, centre: np.ndarray, fold: np.ndarray) -> np.nda
     distance, nearest = cKDTree(fold).query(surface)
     outward = surface - centre
     radius = np.linalg.norm(outward, axis=1)
-    depth = np.maximum(radius - np.linalg.norm(fold[nearest] - centre, axis=1) + _DENT, 0) * smoothstep(*_DENT_REACH[::-1], distance)
+    depth = np.maximum(radius - np.linalg.norm(fold[nearest] - centre, axis=1) + _DENT, 0) * smoothstep(
+        *_DENT_REACH[::-1], distance
+    )
     return surface - outward * (depth / radius)[:, None]
 
 
@@ -101,7 +103,9 @@ def _paint(spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:
 
     # White, yellower with melanin and age; redder towards the corners.
     sclera = np.array([0.60, 0.55, 0.50]) * (1 - 0.10 * spec.age)
-    vessels = np.clip(smooth_noise(np.column_stack([np.cos(p) * t, np.sin(p) * t, t]).astype(np.float32), 6.0, rng), 0, 2)
+    vessels = np.clip(
+        smooth_noise(np.column_stack([np.cos(p) * t, np.sin(p) * t, t]).astype(np.float32), 6.0, rng), 0, 2
+    )
     corner = (smoothstep(35, 75, t) * (0.6 + 0.4 * vessels))[:, None]
     sclera = sclera * (1 - corner * np.array([0.12, 0.42, 0.45]))
 

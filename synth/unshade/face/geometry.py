@@ -88,7 +88,9 @@ def place(head: Head, neutral: np.ndarray, pose: Pose | None = None) -> Geometry
     return Geometry(positions, vertex_normals(positions, triangles), eyes, gaze, base - origin)
 
 
-def _posed(head: Head, resting: np.ndarray, moved: np.ndarray, pose: Pose, eyes: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+def _posed(
+    head: Head, resting: np.ndarray, moved: np.ndarray, pose: Pose, eyes: np.ndarray, gaze: np.ndarray
+) -> np.ndarray:
     """Positions (V,3) of an expression with lids that neither sink into the eyeballs nor miss each other."""
     socket = np.unique(head.part_sockets)
     for eye, turn, weight, offset in zip(eyes, gaze, pose.blink, pose.closing):

@@ -76,7 +76,9 @@ def beard_cover(regions: Regions, style: HairStyle) -> np.ndarray:
     lip = bump(points, (0, -54, 36), (22, 6, 16))
     # Little grows beside the middle of the lower lip.
     bare = pair(points, (16, -84, 26), (9, 5, 14))
-    return (style.beard * np.clip(np.maximum(0.85 * regions.jaw, lip) - 0.3 * bare, 0, 1) * (1 - regions.lips)).astype(np.float32)
+    return (style.beard * np.clip(np.maximum(0.85 * regions.jaw, lip) - 0.3 * bare, 0, 1) * (1 - regions.lips)).astype(
+        np.float32
+    )
 
 
 def draw_brows(sketch: Sketch, points: np.ndarray, texel: float, spec: FaceSpec) -> tuple[np.ndarray, np.ndarray]:
@@ -122,7 +124,9 @@ class Brow:
 
     def arch(self, t: np.ndarray) -> np.ndarray:
         """Height of the ridge at a share of the way from nose to temple."""
-        return self.base + self.rise * np.sin(0.5 * np.pi * np.minimum(t / 0.72, 1.0)) - 24.0 * np.maximum(t - 0.70, 0.0)
+        return (
+            self.base + self.rise * np.sin(0.5 * np.pi * np.minimum(t / 0.72, 1.0)) - 24.0 * np.maximum(t - 0.70, 0.0)
+        )
 
     def half_height(self, t: np.ndarray) -> np.ndarray:
         return self.half * (1 - 0.66 * t**1.5) * (0.75 + 0.25 * np.minimum(t / 0.15, 1.0))

@@ -1,4 +1,4 @@
-"""What all faces share: subdivided head, its parts, the chart, the morph targets."""
+"""The head that all faces begin with: subdivided head, its parts, the chart, the morph targets."""
 
 from __future__ import annotations
 
@@ -22,7 +22,13 @@ ETHNIC = ("african", "asian", "caucasian")
 LOCAL_FOLDERS = ("head", "nose", "mouth", "eyes", "chin", "cheek", "forehead", "ears", "eyebrows")
 
 # A point in the native UV inside each island that is used.
-_ISLANDS = {"head": (0.82, 0.5), "mouth": (0.84, 0.07), "socket_l": (0.04, 0.59), "socket_r": (0.12, 0.59), "body": (0.4, 0.6)}
+_ISLANDS = {
+    "head": (0.82, 0.5),
+    "mouth": (0.84, 0.07),
+    "socket_l": (0.04, 0.59),
+    "socket_r": (0.12, 0.59),
+    "body": (0.4, 0.6),
+}
 # Neck and shoulders: the body above this height and within this half width (m).
 _SHOULDER_HEIGHT, _SHOULDER_HALF_WIDTH = 0.52, 0.17
 # Left half of the teeth bands from the midline back, counted in their own groups: the rim in the gum, the biting edge.
@@ -94,7 +100,9 @@ class Head:
 def average_weights() -> dict[str, float]:
     """Morph weights of the template: young, of average build, every ethnicity and gender alike."""
     weights = {f"macrodetails/{e}-{g}-young": 1 / 6 for e in ETHNIC for g in ("female", "male")}
-    return weights | {f"macrodetails/universal-{g}-young-averagemuscle-averageweight": 1 / 2 for g in ("female", "male")}
+    return weights | {
+        f"macrodetails/universal-{g}-young-averagemuscle-averageweight": 1 / 2 for g in ("female", "male")
+    }
 
 
 def fit_sphere(points: np.ndarray) -> np.ndarray:
@@ -219,6 +227,8 @@ def _targets(compact: np.ndarray, count: int) -> tuple[np.ndarray, sp.csr_matrix
         columns.append((3 * compact[index[kept], None] + np.arange(3)).ravel())
         values.append(offset[kept].ravel())
         starts.append(starts[-1] + columns[-1].size)
-    table = sp.csr_matrix((np.concatenate(values), np.concatenate(columns), np.array(starts)), shape=(len(names), 3 * count))
+    table = sp.csr_matrix(
+        (np.concatenate(values), np.concatenate(columns), np.array(starts)), shape=(len(names), 3 * count)
+    )
     table.sort_indices()
     return np.array(names), table

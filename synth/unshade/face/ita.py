@@ -17,7 +17,14 @@ from .labels import Label
 from .paint import Maps
 from .regions import bump
 
-GROUPS = (("very light", 55.0), ("light", 41.0), ("intermediate", 28.0), ("tan", 10.0), ("brown", -30.0), ("dark", -90.0))
+GROUPS = (
+    ("very light", 55.0),
+    ("light", 41.0),
+    ("intermediate", 28.0),
+    ("tan", 10.0),
+    ("brown", -30.0),
+    ("dark", -90.0),
+)
 """Groups of skin tone and the angle (degrees) above which each lies."""
 
 # Centres in template mm and radius: a few colorimeter readings side by side.

@@ -29,7 +29,9 @@ _COLUMNS, _SMOOTH = 64, 4.0
 """Columns over the width of the eye, and the standard deviation in columns by which their stretches are blurred."""
 
 
-def close_lids(moved: np.ndarray, offset: np.ndarray, weight: float, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+def close_lids(
+    moved: np.ndarray, offset: np.ndarray, weight: float, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray
+) -> np.ndarray:
     """Positions (V,3) with the lids of one eye closed by `weight`, 0 to 1.
 
     `offset` (V,3): where the morph target moves the lids of the average face. Its angles
@@ -46,11 +48,15 @@ def close_lids(moved: np.ndarray, offset: np.ndarray, weight: float, triangles: 
     angle = angle + reach * turn[near]
     radius = radius + reach * (np.hypot(end[:, 1], end[:, 2]) - radius)
     closed = moved.copy()
-    closed[near] = eye[:3] + np.column_stack([start[:, 0] + reach * (end[:, 0] - start[:, 0]), radius * np.sin(angle), radius * np.cos(angle)])
+    closed[near] = eye[:3] + np.column_stack(
+        [start[:, 0] + reach * (end[:, 0] - start[:, 0]), radius * np.sin(angle), radius * np.cos(angle)]
+    )
     return closed
 
 
-def _stretch(points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _stretch(
+    points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """By what factor the turns (V,) about the eyeball's x axis close the lids, as a curve over x (m)."""
     crossing, share, hidden = margin(triangles, gap)
     edge, closing = between(points, crossing, share), between(turn, crossing, share)
@@ -70,7 +76,9 @@ def _stretch(points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: n
     return x, gaussian_filter1d(np.clip(stretch, 0, 2), _SMOOTH, mode="nearest")
 
 
-def lift_lids(resting: np.ndarray, moved: np.ndarray, triangles: np.ndarray, socket: np.ndarray, eye: np.ndarray, gaze: np.ndarray) -> np.ndarray:
+def lift_lids(
+    resting: np.ndarray, moved: np.ndarray, triangles: np.ndarray, socket: np.ndarray, eye: np.ndarray, gaze: np.ndarray
+) -> np.ndarray:
     """Positions (V,3) `moved` by an expression, held to the eyeball they slide over.
 
     Morph targets move vertices on straight lines, through the eyeball rather than round it,

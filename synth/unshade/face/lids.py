@@ -41,7 +41,9 @@ def margin(triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return crossing, gap[crossing[:, 0]] / (gap[crossing[:, 0]] - gap[crossing[:, 1]]), hidden
 
 
-def margin_sides(triangles: np.ndarray, crossing: np.ndarray, hidden: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def margin_sides(
+    triangles: np.ndarray, crossing: np.ndarray, hidden: np.ndarray, edge: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Upper and lower lid's share of a margin: indices into its `crossing` edges (K,2) and points `edge` (K,3).
 
     The margin is one curve round the opening, split in the corners of the eye.

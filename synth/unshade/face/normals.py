@@ -24,7 +24,8 @@ def tangents(positions: np.ndarray, uv: np.ndarray, triangles: np.ndarray) -> tu
 
     def gather(values: np.ndarray) -> np.ndarray:
         summed = [
-            sum(np.bincount(triangles[:, k], share * values[:, axis], minlength=len(positions)) for k in range(3)) for axis in range(3)
+            sum(np.bincount(triangles[:, k], share * values[:, axis], minlength=len(positions)) for k in range(3))
+            for axis in range(3)
         ]
         return np.stack(summed, axis=1) / total[:, None]
 
@@ -39,7 +40,12 @@ def smoothed(height: np.ndarray, texels: Texels, sigma: float) -> np.ndarray:
 
 
 def relief_normals(
-    height: np.ndarray, texels: Texels, nearest: tuple[np.ndarray, np.ndarray], normal: np.ndarray, du: np.ndarray, dv: np.ndarray
+    height: np.ndarray,
+    texels: Texels,
+    nearest: tuple[np.ndarray, np.ndarray],
+    normal: np.ndarray,
+    du: np.ndarray,
+    dv: np.ndarray,
 ) -> np.ndarray:
     """Unit normals (M,3) f32 of the surface raised by `height` (M,) metres along the smooth `normal` (M,3).
 

@@ -60,7 +60,16 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     # What varies slowly is computed at the vertices and interpolated.
     coarse = base_pigments(sites, spec)
     melanin, blood, scalp, x, y, z, s, t, u, v = texels.sample(
-        np.column_stack([coarse.melanin, coarse.blood, scalp_cover(sites.points, style, spec.seed), sites.points, head.native_uv, uv])
+        np.column_stack(
+            [
+                coarse.melanin,
+                coarse.blood,
+                scalp_cover(sites.points, style, spec.seed),
+                sites.points,
+                head.native_uv,
+                uv,
+            ]
+        )
     ).T
     points = np.stack([x, y, z], axis=1)
     regions = find_regions(points, sample_masks(np.stack([s, t], axis=1)))

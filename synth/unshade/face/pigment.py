@@ -42,9 +42,10 @@ _D65 = np.array([
 # scattering in it, and the power of the rest.
 _SCATTERING_AT_500, _RAYLEIGH_SHARE, _MIE_POWER = 48.0, 0.409, 0.702
 
+
 @dataclasses.dataclass(frozen=True)
 class Tissue:
-    """What lies over the blood: share of the epidermis' scattering that is left, and the oxygenation under it."""
+    """Skin over blood: share of the epidermis' scattering that is left, oxygenation below (both 0 to 1)."""
 
     scattering: float
     oxygenation: float
@@ -103,7 +104,9 @@ def reflectance(melanin: np.ndarray, blood: np.ndarray, tissue: Tissue = SKIN) -
     whole_blood = np.log(10) * extinction * _HAEMOGLOBIN_GRAMS / _HAEMOGLOBIN_MOLAR
     absorption = blood * whole_blood + (1 - blood) * baseline
     scattering = reduced_scattering(WAVELENGTHS)
-    return _layer(epidermis, tissue.scattering * scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption)))
+    return _layer(
+        epidermis, tissue.scattering * scattering, _EPIDERMIS_CM, _dipole(scattering / (scattering + absorption))
+    )
 
 
 def reduced_scattering(wavelengths: np.ndarray) -> np.ndarray:

@@ -43,7 +43,11 @@ def draw_fine_relief(regions: Regions, places: np.ndarray, texel: float, spec: F
     grain = _grain(regions, spec)
     person = float(stream(spec.seed, "pore size").uniform(0.65, 1.15)) * (0.9 + 0.15 * spec.gender + 0.1 * spec.age)
     amount = 0.28 + 1.0 * regions.nose + 0.75 * regions.cheek + 0.35 * regions.forehead + 0.3 * regions.chin
-    amount = np.clip(amount, 0, 1.3) * (1 - 0.9 * np.clip(regions.upper_lid + 0.8 * regions.under_eye, 0, 1)) * (1 - regions.lips)
+    amount = (
+        np.clip(amount, 0, 1.3)
+        * (1 - 0.9 * np.clip(regions.upper_lid + 0.8 * regions.under_eye, 0, 1))
+        * (1 - regions.lips)
+    )
     pores = pits(places, Cells(SPACING_MM, stream(spec.seed, "pores")), _RADII_MM, _SHARE, texel, grain)
     net = furrows(places, Cells(_PLATEAU_MM, stream(spec.seed, "furrows")), _FURROW_MM, texel, grain)
     return FineRelief(pores * (amount * np.float32(person)), net * (1 - regions.lips) * (1 - 0.6 * regions.nose))

@@ -33,7 +33,9 @@ class Relief:
     creases: np.ndarray
 
 
-def draw_relief(regions: Regions, places: np.ndarray, sketch: Sketch, brows: np.ndarray, texel: float, spec: FaceSpec) -> Relief:
+def draw_relief(
+    regions: Regions, places: np.ndarray, sketch: Sketch, brows: np.ndarray, texel: float, spec: FaceSpec
+) -> Relief:
     """Relief at the texels of the chart.
 
     `places` (M,2) are chart coordinates in mm, `texel` the side of a texel in mm; detail

@@ -42,7 +42,12 @@ _WET = (0.07, 0.20, 0.75)
 
 
 def draw_roughness(
-    regions: Regions, relief: Relief, cover: dict[str, np.ndarray], rims: dict[str, np.ndarray], texel: float, spec: FaceSpec
+    regions: Regions,
+    relief: Relief,
+    cover: dict[str, np.ndarray],
+    rims: dict[str, np.ndarray],
+    texel: float,
+    spec: FaceSpec,
 ) -> np.ndarray:
     """Lobes (M,3) f32 at the texels of the chart, `NOMINAL` at its outer rim.
 

@@ -47,7 +47,11 @@ def base_pigments(regions: Regions, spec: FaceSpec) -> Pigments:
     melanin = 1 + _evenness(spec) * 0.045 * patches
     melanin += sun * (0.14 * regions.forehead + 0.08 * regions.temple) - 0.09 * regions.cheek + 0.05 * regions.jaw
     melanin += 0.26 * rings * regions.under_eye + 0.14 * regions.upper_lid + 0.12 * rings * regions.perioral
-    blood = 1 + 0.10 * glow + flush * (0.70 * regions.nose + 0.75 * regions.cheek + 0.25 * regions.chin + 0.30 * regions.wings)
+    blood = (
+        1
+        + 0.10 * glow
+        + flush * (0.70 * regions.nose + 0.75 * regions.cheek + 0.25 * regions.chin + 0.30 * regions.wings)
+    )
     blood += 0.45 * regions.ear_flush + 0.35 * thin * regions.under_eye + 0.40 * regions.upper_lid
     blood -= 0.16 * regions.forehead + 0.12 * regions.perioral
     return Pigments(MELANOSOMES[spec.fitzpatrick] * tone * melanin, BLOOD[spec.fitzpatrick] * blood)
@@ -105,7 +109,9 @@ def chart_colour(
 
     specular = _specular_base(regions, cover["scalp"], spec)
     specular = specular + fade * (0.006 * lips + 0.001 * mottle)
-    specular = specular * (1 - fade * (0.45 * relief.pores + 0.15 * relief.furrows + 0.30 * relief.creases + 0.7 * cover["brow"]))
+    specular = specular * (
+        1 - fade * (0.45 * relief.pores + 0.15 * relief.furrows + 0.30 * relief.creases + 0.7 * cover["brow"])
+    )
     specular = specular * (1 - 0.6 * rims["lash"]) + 0.012 * rims["wet"]
     return colour.astype(np.float32), np.clip(specular, 0, SPECULAR_LIMIT).astype(np.float32)
 
@@ -135,7 +141,9 @@ def _specular_base(regions: Regions, scalp: np.ndarray, spec: FaceSpec) -> np.nd
     return (skin * (1 - 0.6 * scalp)).astype(np.float32)
 
 
-def draw_marks(points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.ndarray, texel: float, spec: FaceSpec) -> np.ndarray:
+def draw_marks(
+    points: np.ndarray, texels: Texels, sites: Regions, site_uv: np.ndarray, texel: float, spec: FaceSpec
+) -> np.ndarray:
     """Melanin (M,) of freckles, age spots and moles: round spots at template points (M,3) mm.
 
     Their centres are drawn among `sites` (the chart's vertices, at `site_uv`), so that they

@@ -1,4 +1,4 @@
-"""What a face is asked to be: the `[face]` table of a scene."""
+"""The `[face]` table of a scene as checked data."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ class FaceSpec:
 def _name(table: Mapping[str, Any], place: str) -> str:
     name = table.get("name")
     if not isinstance(name, str) or not name:
-        raise FaceError(f"name in {place} is missing or no text; give the face a name, as name = \"demo\"")
+        raise FaceError(f'name in {place} is missing or no text; give the face a name, as name = "demo"')
     return name
 
 
@@ -141,7 +141,9 @@ def _number(value: Any, key: str, low: float, high: float, place: str) -> float:
 
 def _expression(units: Any, place: str) -> Expression:
     if not isinstance(units, Mapping):
-        raise FaceError(f"expression in {place} is no table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}")
+        raise FaceError(
+            f"expression in {place} is no table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}"
+        )
     for unit in units:
         if unit not in UNITS:
             # Case and underscores are the usual slips.
@@ -157,7 +159,9 @@ def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, 
         return tuple(map(float, stream(seed, "ethnicity").dirichlet([0.6] * 3)))
     shares = table["ethnicity"]
     if not isinstance(shares, Mapping):
-        raise FaceError(f"ethnicity in {place} is no table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}")
+        raise FaceError(
+            f"ethnicity in {place} is no table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}"
+        )
     for key in shares:
         if key not in ETHNICITIES:
             raise FaceError(f"unknown key '{key}' in ethnicity of {place}; use {', '.join(ETHNICITIES)}")

@@ -1,4 +1,4 @@
-"""What an open mouth shows: teeth, gums and tongue.
+"""Teeth, gums and tongue of an open mouth.
 
 The head data holds bands where the teeth are and a coarse tongue, all moved by its morph
 targets. Teeth are shaped one by one along the bands' biting edges.
@@ -90,7 +90,9 @@ class _Arch:
         t = np.linspace(0, 1, _RINGS) ** 1.3
         # Front teeth are blades that thicken towards the neck and taper to it; those behind are blocks.
         half = 0.5 * width * np.interp(t, [0, 0.04, 0.25, 1], [0.80, 0.94, 1.0, 0.80])
-        deep = np.interp(t, [0, 0.04, 0.4, 1], [0.0004, 0.0007, 0.0022, 0.0032] if front else [0.0026, 0.0034, 0.0042, 0.0038])
+        deep = np.interp(
+            t, [0, 0.04, 0.4, 1], [0.0004, 0.0007, 0.0022, 0.0032] if front else [0.0026, 0.0034, 0.0042, 0.0038]
+        )
         phi = np.arange(_SEGMENTS) / _SEGMENTS * 2 * np.pi
         square = 2 / 3.2
         a = np.sign(np.cos(phi)) * np.abs(np.cos(phi)) ** square
@@ -146,12 +148,14 @@ def _tube(rings: int, segments: int) -> np.ndarray:
 
 
 def _outward(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """The same triangles, turned so that the solid's volume is positive."""
+    """Triangles [F, 3] of a closed solid, all turned over if its signed volume is negative."""
     a, b, c = (positions[triangles[:, k]] - positions.mean(axis=0) for k in range(3))
     return triangles if (a * np.cross(b, c)).sum() > 0 else triangles[:, [0, 2, 1]]
 
 
-def _part(name: str, pieces: list[tuple[np.ndarray, np.ndarray, np.ndarray]], diffuse: np.ndarray, specular: float) -> Part:
+def _part(
+    name: str, pieces: list[tuple[np.ndarray, np.ndarray, np.ndarray]], diffuse: np.ndarray, specular: float
+) -> Part:
     starts = np.cumsum([0, *(len(positions) for positions, _, _ in pieces[:-1])])
     positions, uv = (np.concatenate([piece[k] for piece in pieces]) for k in (0, 1))
     triangles = np.concatenate([piece[2] + start for piece, start in zip(pieces, starts)])

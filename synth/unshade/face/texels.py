@@ -30,7 +30,9 @@ class Texels:
     def _matrix(self) -> sp.csr_matrix:
         ends = np.arange(0, 3 * len(self.triangle) + 1, 3)
         corners = self.triangles[self.triangle].ravel()
-        return sp.csr_matrix((self.weights.ravel(), corners, ends), shape=(len(self.triangle), int(self.triangles.max()) + 1))
+        return sp.csr_matrix(
+            (self.weights.ravel(), corners, ends), shape=(len(self.triangle), int(self.triangles.max()) + 1)
+        )
 
     def sample(self, values: np.ndarray) -> np.ndarray:
         """Values per chart vertex (C,) or (C,K) interpolated at the texels: (M,) or (M,K) f32."""

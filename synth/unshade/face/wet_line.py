@@ -40,7 +40,9 @@ def make_wet_lines(head: Head, geometry: Geometry) -> list[Part]:
     return parts
 
 
-def _wet_line(name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray) -> Part | None:
+def _wet_line(
+    name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray
+) -> Part | None:
     crossing, share, hidden = margin(triangles, clearance(positions, eye, gaze))
     edge = between(positions, crossing, share)
     # From the hidden rim out over the lid's edge.
@@ -72,7 +74,9 @@ def _wet_line(name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.n
     strip = surface.reshape(-1, 3)
     i, k = (grid.ravel() for grid in np.meshgrid(np.arange(_COLUMNS - 1), np.arange(_PROFILE - 1), indexing="ij"))
     a = i * _PROFILE + k
-    faces = np.concatenate([np.stack([a, a + _PROFILE, a + _PROFILE + 1], 1), np.stack([a, a + _PROFILE + 1, a + 1], 1)])
+    faces = np.concatenate(
+        [np.stack([a, a + _PROFILE, a + _PROFILE + 1], 1), np.stack([a, a + _PROFILE + 1, a + 1], 1)]
+    )
     if (vertex_normals(strip, faces) * (strip - eye[:3])).sum() < 0:
         faces = faces[:, [0, 2, 1]]
     uv = np.stack(np.meshgrid(np.linspace(0, 1, _COLUMNS), np.linspace(0, 1, _PROFILE), indexing="ij"), axis=-1)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -52,7 +53,9 @@ def draw_crinkle(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
     x, y, z = points[there].T
     for slope, name in ((-62.0, "crinkle down"), (24.0, "crinkle across")):
         along, across = np.cos(np.radians(slope)), np.sin(np.radians(slope))
-        turned = np.stack([0.34 * (np.abs(x) * along + y * across), y * along - np.abs(x) * across, 0.5 * z + 200 * (x > 0)], axis=1)
+        turned = np.stack(
+            [0.34 * (np.abs(x) * along + y * across), y * along - np.abs(x) * across, 0.5 * z + 200 * (x > 0)], axis=1
+        )
         # Lines are where smooth noise, drawn out along them, changes its sign.
         lines[there] += np.exp(-((smooth_noise(turned.astype(np.float32), 1.5, stream(spec.seed, name)) / 0.5) ** 2))
     return amount * lines
@@ -71,15 +74,21 @@ def _taper(along: np.ndarray, rng: np.random.Generator) -> np.ndarray:
 def _folds(rng: np.random.Generator, age: float) -> Iterator[Fold]:
     def wavy(x: np.ndarray, y: np.ndarray, sway: float) -> np.ndarray:
         phase, pitch = rng.uniform(0, 2 * np.pi, 2), rng.uniform(14, 26)
-        return np.stack([x, y + sway * (np.sin(x / pitch + phase[0]) + 0.5 * np.sin(2.7 * x / pitch + phase[1]))], axis=1)
+        return np.stack(
+            [x, y + sway * (np.sin(x / pitch + phase[0]) + 0.5 * np.sin(2.7 * x / pitch + phase[1]))], axis=1
+        )
 
     for k in range(6):  # forehead: each line is in two or three pieces that miss each other a little
         level = 33 + 7.5 * k + rng.normal(0, 1.5)
         deep, arch = (0.015 + 0.36 * age) * rng.uniform(0.25, 1) * (1 - 0.09 * k), rng.normal(2.5, 0.8)
         ends = np.cumsum(np.r_[rng.uniform(-44, -30), rng.uniform(22, 40, 3)])
-        for left, right in zip(ends[:-1], ends[1:]):
+        for left, right in pairwise(ends):
             x = np.linspace(left - 4, min(right, 44.0) + 4, 26)
-            yield Fold(wavy(x, level + rng.normal(0, 1.0) + arch * np.cos(x / 17), 0.7), deep * rng.uniform(0.5, 1), rng.uniform(0.55, 1.0))
+            yield Fold(
+                wavy(x, level + rng.normal(0, 1.0) + arch * np.cos(x / 17), 0.7),
+                deep * rng.uniform(0.5, 1),
+                rng.uniform(0.55, 1.0),
+            )
     for side in (-1.0, 1.0):
         mirror = np.array([side, 1.0])
         for k in range(7):  # crow's feet

@@ -9,4 +9,13 @@ from .lens import Lens, camera_lens, needs_own_rendering
 from .poses import camera_model, capture_camera, stated_frame
 from .sensor import expose
 
-__all__ = ["Lens", "camera_lens", "camera_model", "capture_camera", "expose", "needs_own_rendering", "stated_frame", "stated_labels"]
+__all__ = [
+    "Lens",
+    "camera_lens",
+    "camera_model",
+    "capture_camera",
+    "expose",
+    "needs_own_rendering",
+    "stated_frame",
+    "stated_labels",
+]

@@ -15,7 +15,7 @@ them is wrong, their runs are four pixels long in the mean (Rice's formula)."""
 
 
 def stated_labels(labels: np.ndarray, camera: Camera, scene: Scene) -> np.ndarray | None:
-    """What the capture says of a view's labels [H, W] (uint8, 0 where there is none); ``None`` for nothing."""
+    """Label ids of a view as the capture states them, [H, W] uint8, 0 for none; ``None`` if it has none."""
     if scene.labels.omit:
         return None
     share = scene.labels.boundary_error

@@ -20,13 +20,17 @@ def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
     Equal seeds give equal bytes. Raises `PictureError` where ``radiance`` is not finite.
     """
     if not np.isfinite(radiance).all():
-        raise PictureError("a rendered picture holds NaN or infinity, which no sensor can be exposed to; render it again with another seed")
+        raise PictureError(
+            "a rendered picture holds NaN or infinity, which no sensor can be exposed to; render it again with another seed"
+        )
     if formation.white_level is None:
         return radiance
     scale = 2.0**formation.exposure_stops / formation.white_level
     signal = radiance.astype(np.float64) * scale
     if formation.full_well_electrons is not None:
-        signal = _read(signal, formation.full_well_electrons, formation.read_noise_electrons, np.random.default_rng(seed))
+        signal = _read(
+            signal, formation.full_well_electrons, formation.read_noise_electrons, np.random.default_rng(seed)
+        )
     signal = signal.clip(0, 1)
     if formation.bits is not None:
         signal = _quantised(signal, formation.bits, formation.transfer)

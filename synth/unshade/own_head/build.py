@@ -60,7 +60,9 @@ def _divide(pieces: list[Piece], head: HeadFiles) -> tuple[list[Piece], list[Pie
     names = [piece.name for piece in pieces]
     for name in head.chart:
         if name not in names:
-            raise FaceError(f"{head.mesh}: there is no object {name!r} for chart; there are {', '.join(map(repr, names))}")
+            raise FaceError(
+                f"{head.mesh}: there is no object {name!r} for chart; there are {', '.join(map(repr, names))}"
+            )
     return [p for p in pieces if p.name in head.chart], [p for p in pieces if p.name not in head.chart]
 
 
@@ -96,7 +98,9 @@ def _check_uv(points: np.ndarray, uv: np.ndarray, triangles: np.ndarray, head: H
     if not len(triangles):
         raise FaceError(f"{head.mesh}: all triangles of the chart are without area; export the mesh again")
     if not np.isfinite(uv).all():
-        raise FaceError(f"{head.mesh}: {int((~np.isfinite(uv).all(axis=1)).sum())} UVs are not finite; unwrap the mesh again")
+        raise FaceError(
+            f"{head.mesh}: {int((~np.isfinite(uv).all(axis=1)).sum())} UVs are not finite; unwrap the mesh again"
+        )
     if uv.min() < -1e-5 or uv.max() > 1 + 1e-5:
         low, high = uv.min(axis=0), uv.max(axis=0)
         raise FaceError(
@@ -112,7 +116,9 @@ def _check_uv(points: np.ndarray, uv: np.ndarray, triangles: np.ndarray, head: H
     covered = rasterise(uv, triangles[unwrapped], _COUNTING_SIZE).inside.sum() / _COUNTING_SIZE**2
     twice = 1 - covered / areas.sum()
     if twice > _OVERLAP:
-        raise FaceError(f"{head.mesh}: {100 * twice:.1f} % of the UV area overlaps; unwrap it so that every texel has one place")
+        raise FaceError(
+            f"{head.mesh}: {100 * twice:.1f} % of the UV area overlaps; unwrap it so that every texel has one place"
+        )
 
 
 def _unwrapped(uv: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -154,15 +160,21 @@ def _occluder(number: int, piece: Piece, head: HeadFiles, start: np.ndarray) -> 
 class _Painter:
     """The maps of one head: read, resampled, checked where the chart is."""
 
-    def __init__(self, head: HeadFiles, points: np.ndarray, normals: np.ndarray, uv: np.ndarray, triangles: np.ndarray) -> None:
+    def __init__(
+        self, head: HeadFiles, points: np.ndarray, normals: np.ndarray, uv: np.ndarray, triangles: np.ndarray
+    ) -> None:
         self._head = head
         # Slivers without texels also have no tangents.
         triangles = triangles[_unwrapped(uv, triangles)]
         self._mesh = points, uv, triangles
         self._texels: Texels = rasterise(uv, triangles, head.texture_size)
         if not self._texels.inside.any():
-            raise FaceError(f"{head.mesh}: no texel of {head.texture_size} x {head.texture_size} lies in the UVs; raise texture_size")
-        self._nearest_inside: dict[int, tuple[np.ndarray, np.ndarray]] = {head.texture_size: self._texels.nearest_inside()}
+            raise FaceError(
+                f"{head.mesh}: no texel of {head.texture_size} x {head.texture_size} lies in the UVs; raise texture_size"
+            )
+        self._nearest_inside: dict[int, tuple[np.ndarray, np.ndarray]] = {
+            head.texture_size: self._texels.nearest_inside()
+        }
         self._smooth = unit(self._texels.sample(normals))
 
     def maps(self) -> Maps:
@@ -206,7 +218,9 @@ class _Painter:
         values = self._texel_values("specular_albedo", self._head.specular_albedo_space)[:, 1]
         if isinstance(self._head.specular_albedo, str):
             values = values * np.float32(self._head.specular_albedo_scale)
-        mend = f"state specular_albedo_scale (now {self._head.specular_albedo_scale:g}) so that reflectance stays within"
+        mend = (
+            f"state specular_albedo_scale (now {self._head.specular_albedo_scale:g}) so that reflectance stays within"
+        )
         self._within("specular_albedo", values, 0, _LARGEST_SPECULAR * 1.001, mend)
         return values.clip(0, _LARGEST_SPECULAR)
 

@@ -90,4 +90,8 @@ class Accessors:
         needed = offset + (count - 1) * stride + size if count else 0
         if needed > length or start + length > len(data):
             raise ValueError(f"bufferViews[{number}] ends before its {count} elements do")
-        return np.ndarray((count, width), kind, data, start + offset, (stride, np.dtype(kind).itemsize)) if count else np.zeros((0, width), kind)
+        return (
+            np.ndarray((count, width), kind, data, start + offset, (stride, np.dtype(kind).itemsize))
+            if count
+            else np.zeros((0, width), kind)
+        )

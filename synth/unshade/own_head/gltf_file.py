@@ -16,7 +16,15 @@ from .gltf_accessor import Accessors, item
 _JSON_CHUNK, _BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 """Types of a GLB's chunks (glTF 2.0 specification, 4.4.3)."""
 
-_NO_GEOMETRY = ("KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_xmp")
+_NO_GEOMETRY = (
+    "KHR_mesh_quantization",
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "KHR_lights_",
+    "EXT_lights_",
+    "KHR_xmp",
+)
 """Beginnings of extensions that a reader of shapes may leave out; the first one is read."""
 
 _MENDS = {
@@ -25,7 +33,7 @@ _MENDS = {
 }
 
 _MOST_VERTICES = 1 << 25
-"""Of all objects together: instances may ask for more than any memory holds."""
+"""Most vertices of all objects together: instances may ask for more than any memory holds."""
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
@@ -50,7 +58,9 @@ def read_gltf(path: Path) -> list[Surface]:
         raise FaceError(f"{path}: is no glTF 2.0; export it again")
     for name in document.get("extensionsRequired", []):
         if not str(name).startswith(_NO_GEOMETRY):
-            raise FaceError(f"{path}: requires the extension {name}, which is not read; {_MENDS.get(name, 'export it without')}")
+            raise FaceError(
+                f"{path}: requires the extension {name}, which is not read; {_MENDS.get(name, 'export it without')}"
+            )
     accessors = Accessors(document, _buffers(path, document, binary))
     surfaces, vertices = [], 0
     for name, transform, node in _nodes(document):

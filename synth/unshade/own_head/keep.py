@@ -11,7 +11,7 @@ from .spec import HeadFiles
 
 
 def kept(head: HeadFiles, folder: Path) -> HeadFiles:
-    """The same head with its files named as `keep` names them in ``folder``."""
+    """``head`` with its files named as `keep` names them in ``folder``."""
     return dataclasses.replace(head, **{key: str(folder / _name(key, path)) for key, path in head.files().items()})
 
 
@@ -22,7 +22,9 @@ def keep(head: HeadFiles, folder: Path) -> None:
         for key, path in head.files().items():
             shutil.copyfile(path, folder / _name(key, path))
     except OSError as error:
-        raise StorageError(f"{folder}: cannot be written: {error.strerror}; make room or choose another folder") from error
+        raise StorageError(
+            f"{folder}: cannot be written: {error.strerror}; make room or choose another folder"
+        ) from error
 
 
 def _name(key: str, path: str) -> str:

@@ -33,7 +33,9 @@ def read_normals(path: str) -> np.ndarray:
     if _is_png(path):
         return 2 * vectors - 1
     if _coded(vectors):
-        raise FaceError(f"{path}: holds n/2 + 1/2, not unit vectors n; write 2 v - 1 as float EXR, or a 16-bit PNG, which is decoded")
+        raise FaceError(
+            f"{path}: holds n/2 + 1/2, not unit vectors n; write 2 v - 1 as float EXR, or a 16-bit PNG, which is decoded"
+        )
     return vectors
 
 
@@ -59,7 +61,9 @@ def linear(values: np.ndarray, space: str) -> np.ndarray:
     """Linear values of sRGB-coded ones (IEC 61966-2-1)."""
     if space == "linear":
         return values
-    return np.where(values <= 0.04045, values / 12.92, ((values.clip(0.04045) + 0.055) / 1.055) ** 2.4).astype(np.float32)
+    return np.where(values <= 0.04045, values / 12.92, ((values.clip(0.04045) + 0.055) / 1.055) ** 2.4).astype(
+        np.float32
+    )
 
 
 def resampled(values: np.ndarray, nearest: Callable[[int], tuple[np.ndarray, np.ndarray]], size: int) -> np.ndarray:
@@ -78,7 +82,11 @@ def _resized(values: np.ndarray, size: int) -> np.ndarray:
     if values.shape[:2] == (size, size):
         return np.ascontiguousarray(values, dtype=np.float32)
     planes = [
-        np.asarray(Image.fromarray(np.ascontiguousarray(plane, dtype=np.float32)).resize((size, size), Image.Resampling.BILINEAR))
+        np.asarray(
+            Image.fromarray(np.ascontiguousarray(plane, dtype=np.float32)).resize(
+                (size, size), Image.Resampling.BILINEAR
+            )
+        )
         for plane in np.moveaxis(values, -1, 0)
     ]
     return np.stack(planes, -1)

@@ -25,7 +25,9 @@ def turned_outwards(
     from unshade import _native
 
     inward, against, one_sided = _native.outward_turns(
-        points - middle(points), np.ascontiguousarray(triangles, np.int64), None if normals is None else np.ascontiguousarray(normals)
+        points - middle(points),
+        np.ascontiguousarray(triangles, np.int64),
+        None if normals is None else np.ascontiguousarray(normals),
     )
     said = []
     if inward.any():
@@ -35,7 +37,11 @@ def turned_outwards(
         normals = np.where(against[:, None], -normals, normals)
         said.append(f"{int(against.sum())} of {len(normals)} normals")
     if said:
-        warnings.warn(f"{head.mesh}: {' and '.join(said)} point inwards; they are read as pointing outwards", MeshWarning, stacklevel=2)
+        warnings.warn(
+            f"{head.mesh}: {' and '.join(said)} point inwards; they are read as pointing outwards",
+            MeshWarning,
+            stacklevel=2,
+        )
     if one_sided:
         text = f"{one_sided} of {len(triangles)} triangles lie on surfaces that have one side only; mend the mesh where it is twisted"
         warnings.warn(f"{head.mesh}: {text}", MeshWarning, stacklevel=2)

@@ -28,7 +28,7 @@ def in_metres(piece: Piece, head: HeadFiles) -> np.ndarray:
 
 
 def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
-    """What to subtract from the chart's points (V,3) of `in_metres`, and from the occluders'.
+    """Origin (3,) in metres, to subtract from the chart's points (V,3) of `in_metres` and the occluders'.
 
     Without a stated origin it lies amid the chart sideways and in height, and behind its
     foremost point as far as behind a nose's tip. Raises `FaceError` for a size that no head has.
@@ -37,7 +37,7 @@ def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
     size = float((high - low).max())
     if not _SIZES[0] <= size <= _SIZES[1]:
         raise FaceError(
-            f"{head.mesh}: the chart measures {size:.3g} m in units = \"{head.units}\"; "
+            f'{head.mesh}: the chart measures {size:.3g} m in units = "{head.units}"; '
             f"heads measure {_SIZES[0]:g} to {_SIZES[1]:g} m, so state other units or name the head's object in chart"
         )
     if head.origin is not None:

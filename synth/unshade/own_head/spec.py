@@ -121,7 +121,9 @@ class _Reader:
                 raise FaceError(f"unknown key '{key}' in {self.place}; did you mean '{near}'?")
         up, forward = self._choice("up", AXES, "+y"), self._choice("forward", AXES, "+z")
         if up[1] == forward[1]:
-            raise FaceError(f"up and forward in {self.place} are {up} and {forward}, which lie in one line; name two axes")
+            raise FaceError(
+                f"up and forward in {self.place} are {up} and {forward}, which lie in one line; name two axes"
+            )
         if "diffuse_albedo" not in self.table:
             raise FaceError(
                 f"diffuse_albedo in {self.place} is missing; name an EXR or PNG, or a linear colour as [0.5, 0.35, 0.3]"
@@ -135,7 +137,9 @@ class _Reader:
             origin=self._three("origin", -math.inf, math.inf) if "origin" in self.table else None,
             chart=self._names("chart"),
             diffuse_albedo=self._map("diffuse_albedo", lambda: self._three("diffuse_albedo", 0, 1)),
-            specular_albedo=self._map("specular_albedo", lambda: self._number("specular_albedo", 0, 0.05, SKIN_REFLECTANCE)),
+            specular_albedo=self._map(
+                "specular_albedo", lambda: self._number("specular_albedo", 0, 0.05, SKIN_REFLECTANCE)
+            ),
             specular_albedo_scale=self._number("specular_albedo_scale", 1e-6, 1e6, 1.0),
             diffuse_normal=self._map("diffuse_normal", lambda: None),
             specular_normal=self._map("specular_normal", lambda: None),
@@ -150,17 +154,21 @@ class _Reader:
         """The file of a map, or its constant."""
         value = self.table.get(key)
         if key.endswith("_normal") and value is not None and not isinstance(value, str):
-            raise FaceError(f"{key} in {self.place} is {value!r}; name an EXR or PNG, or leave it out for the mesh's normals")
+            raise FaceError(
+                f"{key} in {self.place} is {value!r}; name an EXR or PNG, or leave it out for the mesh's normals"
+            )
         return self._file(key, PICTURE_FILES) if isinstance(value, str) else constant()
 
     def _space(self, name: str) -> str:
         key, allowed = f"{name}_space", _MAPS[name]
         if isinstance(self.table.get(name), str):
             if key not in self.table:
-                raise FaceError(f"{key} in {self.place} is missing; state what {self.table[name]} holds: {' or '.join(allowed)}")
+                raise FaceError(
+                    f"{key} in {self.place} is missing; state what {self.table[name]} holds: {' or '.join(allowed)}"
+                )
             return self._choice(key, allowed, allowed[0])
         if key in self.table:
-            raise FaceError(f"{key} in {self.place} is without a file; name {name} = \"...\" or leave the key out")
+            raise FaceError(f'{key} in {self.place} is without a file; name {name} = "..." or leave the key out')
         return allowed[0]
 
     def _lobes(self) -> Colour:
@@ -180,7 +188,7 @@ class _Reader:
     def _text(self, key: str) -> str:
         value = self.table.get(key)
         if not isinstance(value, str) or not value:
-            raise FaceError(f"{key} in {self.place} is missing or no text; write {key} = \"...\"")
+            raise FaceError(f'{key} in {self.place} is missing or no text; write {key} = "..."')
         return value
 
     def _choice(self, key: str, allowed: tuple[str, ...], default: str) -> str:
@@ -214,7 +222,7 @@ class _Reader:
             return None
         names = self.table[key]
         if not isinstance(names, (list, tuple)) or not names or not all(isinstance(name, str) for name in names):
-            raise FaceError(f"{key} in {self.place} is {names!r}; list the objects that carry the maps, as [\"head\"]")
+            raise FaceError(f'{key} in {self.place} is {names!r}; list the objects that carry the maps, as ["head"]')
         return tuple(names)
 
 

@@ -121,7 +121,9 @@ class Capture:
         write_exr(self.truth / "roughness.exr", dict(zip(ROUGHNESS_CHANNELS, np.moveaxis(maps.roughness, -1, 0))))
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
         if isinstance(face.spec, FaceSpec):
-            _write_json(self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table())
+            _write_json(
+                self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table()
+            )
         else:
             keep(face.spec, self.truth / _HEAD)
         for light in self.scene.lights:
@@ -152,7 +154,7 @@ class Capture:
             write_exr(image, {"": self._photograph(shots, camera, layers)})
 
     def _photograph(self, shots: Shots, camera: Camera, perfect: Layers) -> np.ndarray:
-        """What solvers get of a view: for withheld ones, the truth itself."""
+        """The picture of a view [H, W, 3] that solvers get: the perfect one if it is withheld."""
         if not camera.train:
             return perfect.total
         seed = seed_of("photograph", self.scene.render.seed, camera.name)

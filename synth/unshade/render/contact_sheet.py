@@ -35,7 +35,7 @@ SIDE = 256
 _SAMPLES, _DEPTH, _TEXTURE = 64, 6, 512
 _CAPTION, _GAP = 34, 4
 _AIM, _DISTANCE, _HALF_HEIGHT = np.array([0.0, -0.006, 0.02]), 1.0, 0.135
-"""What the cameras look at, from how far, and half the height (m) that they show there."""
+"""Point that the cameras look at, their distance, half the height that they show there (all m)."""
 
 _BACKDROP = 0.10
 """Linear grey behind the heads."""
@@ -77,7 +77,9 @@ def sitters(count: int, seed: int) -> list[Sitter]:
     return chosen
 
 
-def contact_sheet(count: int, out: Path, seed: int = 0, progress: Callable[[int, int, str], None] = lambda done, total, what: None) -> None:
+def contact_sheet(
+    count: int, out: Path, seed: int = 0, progress: Callable[[int, int, str], None] = lambda done, total, what: None
+) -> None:
     """Renders `count` sampled faces to one PNG, captioned with seed, skin type, age and light.
 
     Equal counts and seeds give the same picture. Written beside `out` and renamed.
@@ -129,7 +131,7 @@ def srgb(linear: np.ndarray) -> np.ndarray:
 
 
 def _columns(count: int) -> int:
-    """Of the wide grids the one that wastes the fewest places: 6 x 4 for 24."""
+    """Columns of the wide grid that wastes the fewest places: 6 (x 4) for 24."""
     widest = max(1, math.ceil(math.sqrt(1.6 * count)))
     return min(range(max(1, widest - 2), widest + 1), key=lambda n: (-count % n, -n))
 
@@ -156,4 +158,6 @@ def _save(page: Image.Image, out: Path) -> None:
     except OSError as error:
         with contextlib.suppress(OSError):
             partial.unlink()
-        raise StorageError(f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder") from error
+        raise StorageError(
+            f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder"
+        ) from error

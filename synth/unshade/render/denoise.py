@@ -30,15 +30,21 @@ def denoised(layers: Layers, head: HeadScene, sensor, lens: Lens | None = None) 
     Raises `SceneError` where the denoiser is missing.
     """
     if importlib.util.find_spec("mitsuba_oidn") is None:
-        raise SceneError('denoise = "oidn" in [render] needs the Python package mitsuba-oidn; install unshade[denoise], or set denoise = "none"')
+        raise SceneError(
+            'denoise = "oidn" in [render] needs the Python package mitsuba-oidn; install unshade[denoise], or set denoise = "none"'
+        )
     if not dr.is_jit_v(mi.Float):
-        raise SceneError(f'denoise = "oidn" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set denoise = "none"')
+        raise SceneError(
+            f'denoise = "oidn" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set denoise = "none"'
+        )
     import mitsuba_oidn
 
     albedo, normal = _guides(head, sensor, lens)
 
     def clean(layer: np.ndarray) -> np.ndarray:
-        picture = mitsuba_oidn.denoise(np.ascontiguousarray(layer), hdr=True, albedo=albedo, normal=normal, clean_aux=True)
+        picture = mitsuba_oidn.denoise(
+            np.ascontiguousarray(layer), hdr=True, albedo=albedo, normal=normal, clean_aux=True
+        )
         # Where no head is seen there is nothing, whatever a network makes of it.
         return np.where(normal.any(-1, keepdims=True), np.array(picture, np.float32).clip(0), 0).astype(np.float32)
 

@@ -1,4 +1,4 @@
-"""What a scene will be, in words and numbers, before anything is rendered."""
+"""A scene in words and numbers, before anything is rendered."""
 
 from __future__ import annotations
 
@@ -46,8 +46,10 @@ def _face(scene: Scene, face: Face) -> list[str]:
     lines = [f"  {key:<16} {_words(value)}" for key, value in head.to_table().items()]
     return [
         *lines,
-        f"  chart            {len(face.chart.vertices)} vertices, {len(face.chart.triangles)} triangles, "
-        f"{size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm",
+        (
+            f"  chart            {len(face.chart.vertices)} vertices, {len(face.chart.triangles)} triangles, "
+            f"{size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm"
+        ),
         f"  other parts      {', '.join(part.name for part in face.parts) or 'none'}",
     ]
 
@@ -69,7 +71,16 @@ def _cameras(views: list[Camera]) -> list[str]:
         wide, high = (math.degrees(2 * math.atan(side / 2 / view.focal)) for side in (view.width, view.height))
         azimuth, elevation = math.degrees(math.atan2(x, z)), math.degrees(math.asin(y / distance))
         use = "training" if view.train else "withheld"
-        rows.append((view.name, use, f"{azimuth:+.1f}°", f"{elevation:+.1f}°", f"{distance:.3f} m", f"{wide:.1f}° x {high:.1f}°"))
+        rows.append(
+            (
+                view.name,
+                use,
+                f"{azimuth:+.1f}°",
+                f"{elevation:+.1f}°",
+                f"{distance:.3f} m",
+                f"{wide:.1f}° x {high:.1f}°",
+            )
+        )
     return _table(rows)
 
 
@@ -123,10 +134,12 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
 
 
 def _faults(scene: Scene) -> list[str]:
-    """What pictures, cameras, mesh and labels lack."""
+    """Lines on the faults of pictures, cameras, mesh and labels, as the scene asks for them."""
     share = scene.labels.boundary_error
     labels = f"{100 * share:.3g} % of the boundary pixels have the label of the other side" if share else "perfect"
-    formation, mesh = (_words(table) if table else "perfect" for table in (scene.formation.to_table(), scene.captured_mesh.to_table()))
+    formation, mesh = (
+        _words(table) if table else "perfect" for table in (scene.formation.to_table(), scene.captured_mesh.to_table())
+    )
     return [
         f"  image formation  {formation}",
         f"  mesh             {mesh}",

@@ -1,4 +1,4 @@
-"""What rendering finds on this machine, and what is missing with its mend."""
+"""Checks of this machine for rendering; each that fails names its mend."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Probe:
-    """What a child process made of a library: its version, or why it failed."""
+    """An LLVM library as a child process found it: its version, or why it failed."""
 
     path: str
     origin: str
@@ -190,9 +190,7 @@ def activate(choice: Choice) -> None:
     import mitsuba as mi
 
     if mi.variant() not in (None, choice.variant):
-        raise VariantError(
-            f"this process already renders with {mi.variant()}; start another one for {choice.variant}"
-        )
+        raise VariantError(f"this process already renders with {mi.variant()}; start another one for {choice.variant}")
     if mi.variant() is None:
         mi.set_variant(choice.variant)
     if choice.llvm:

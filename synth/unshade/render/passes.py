@@ -124,7 +124,7 @@ def _band(estimator, sensor, lens, samples, passes, seed, top, rows) -> np.ndarr
 
 
 def _band_slowly(lit, depth, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:
-    """The same, sample by sample, for variants without a compiler."""
+    """Means [rows, width, passes, 6] of a band, sample by sample: for variants without a compiler."""
     width, height = sensor.film().size()
     sampler = sensor.sampler()
     sampler.set_sample_count(samples)
@@ -138,9 +138,7 @@ def _band_slowly(lit, depth, sensor, lens, samples, passes, seed, top, rows) -> 
                 ray, _ = sensor.sample_ray(0.0, 0.5, mi.Point2f(x / width, y / height), mi.Point2f(0.5))
             else:
                 ray = lens.ray(x, y, sampler)
-            layers = split_radiance_scalar(
-                lit.scene, lit.dark, sampler, ray, depth, lit.lambert_light
-            )
+            layers = split_radiance_scalar(lit.scene, lit.dark, sampler, ray, depth, lit.lambert_light)
             sums[row, column, number] += layers.ravel()
             sampler.advance()
     return sums / samples

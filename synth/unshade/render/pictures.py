@@ -16,7 +16,7 @@ from .. import _native
 from ..errors import PictureError, StorageError
 
 ROUGHNESS_CHANNELS = ("alpha1", "alpha2", "share1")
-"""Of a roughness map: GGX alphas of the two lobes, and the share of the first."""
+"""Channels of a roughness map: GGX alphas of the two lobes, share of the first (all 0 to 1)."""
 
 _OPENEXR = mi.Bitmap.FileFormat.OpenEXR
 
@@ -51,7 +51,12 @@ def write_gray(path: Path, picture: np.ndarray) -> None:
 
 def write_text(path: Path, text: str) -> None:
     """Writes a UTF-8 text file with Unix line ends."""
-    _replace(path, lambda partial: Path(partial).write_bytes(text.encode()))
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Writes a file, completely or not at all. Raises `StorageError`."""
+    _replace(path, lambda partial: Path(partial).write_bytes(data))
 
 
 def read_exr(path: Path, *, colour: bool = False, finite: bool = True) -> dict[str, np.ndarray]:

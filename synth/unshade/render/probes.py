@@ -22,7 +22,7 @@ _LIFT = 2e-5
 
 @dataclass(frozen=True)
 class CentreView:
-    """What the pixel centres of a camera see of the chart."""
+    """The chart at the pixel centres of a camera."""
 
     mask: np.ndarray
     """[H, W] bool: the chart is the first surface."""

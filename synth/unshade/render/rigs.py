@@ -1,4 +1,4 @@
-"""What cameras a scene's rig stands for, and where they stand."""
+"""Cameras of a scene's rig: names, poses and lenses."""
 
 from __future__ import annotations
 
@@ -15,14 +15,21 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
     of the names. Naming other withheld views leaves every camera where it is."""
     poses = _POSES[rig.kind](rig, width, height)
     views = [
-        Camera(name, width, height, focal, look_at(position, target), train if rig.withheld is None else name not in rig.withheld)
+        Camera(
+            name,
+            width,
+            height,
+            focal,
+            look_at(position, target),
+            train if rig.withheld is None else name not in rig.withheld,
+        )
         for name, (position, target, focal, train) in zip(rig.view_names(), poses, strict=True)
     ]
     return sorted(views, key=lambda view: not view.train)
 
 
 FACE_CENTRE = np.array([0.0, 0.0, 0.06])
-"""What cameras are pointed at: the middle of the face, seen from the head's centre (m)."""
+"""Point that cameras aim at: the middle of the face, from the head's centre (m)."""
 
 _ELEVATION_SHARE = 0.6
 """A walk around a face moves more sideways than up and down."""
@@ -47,7 +54,12 @@ def _phone(rig: Rig, width: int, height: int):
             # An ellipse, so that no corner view leaves the permitted angle.
             elevation = reach * _ELEVATION_SHARE * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
-            yield FACE_CENTRE + distance * _away(azimuth, elevation), FACE_CENTRE + rng.uniform(-0.008, 0.008, 3), focal, train
+            yield (
+                FACE_CENTRE + distance * _away(azimuth, elevation),
+                FACE_CENTRE + rng.uniform(-0.008, 0.008, 3),
+                focal,
+                train,
+            )
 
 
 _DESKTOP = (

@@ -12,13 +12,13 @@ from ..face import Chart, Face, Part
 from .lights import AnyLight
 from .split import LambertLight
 
-_WET_ALPHA = 0.06
+WET_ALPHA = 0.06
 """GGX alpha of the eyes, which are smoother than any skin."""
 
 
 @dataclass(frozen=True)
 class ChartMaps:
-    """What the chart is made of; square arrays of any size, texel row 0 at v = 1.
+    """Maps of the chart; square arrays of any size, texel row 0 at v = 1.
 
     ``diffuse_albedo`` [N, N, 3] linear Rec.709, ``specular_albedo`` [N, N] (0 to 0.05),
     normals [N, N, 3] in object space, ``roughness`` [N, N, 3]: GGX alpha of lobe 1, of lobe 2,
@@ -65,8 +65,19 @@ class HeadScene:
         if maps.roughness is not None:
             skin["roughness"] = _texture(maps.roughness)
         self.skin = mi.load_dict(skin)
-        self.chart = _mesh("chart", chart, self.skin, uv=chart.uv)
-        self._shapes = {"chart": self.chart} | {part.name: _part(part) for part in parts}
+        self._join(mesh_shape("chart", chart, self.skin, uv=chart.uv), parts)
+
+    @classmethod
+    def around(cls, chart: Any, parts: list[Part]) -> HeadScene:
+        """The head whose chart is a Mitsuba shape with a material of its own."""
+        head = cls.__new__(cls)
+        head.skin = chart.bsdf()
+        head._join(chart, parts)
+        return head
+
+    def _join(self, chart: Any, parts: list[Part]) -> None:
+        self.chart = chart
+        self._shapes = {"chart": chart} | {part.name: _part(part) for part in parts}
         self.dark = mi.load_dict({"type": "scene", **self._shapes})
 
     def lit(self, light: AnyLight) -> LitHead:
@@ -92,7 +103,7 @@ def _part(part: Part):
             "diffuse": {"type": "mesh_attribute", "name": "vertex_diffuse"},
             "specular": {"type": "mesh_attribute", "name": "vertex_specular"},
         }
-        mesh = _mesh(part.name, part, mi.load_dict(bsdf))
+        mesh = mesh_shape(part.name, part, mi.load_dict(bsdf))
         mesh.add_attribute("vertex_diffuse", 3, _flat(part.diffuse))
         mesh.add_attribute("vertex_specular", 1, _flat(part.specular))
         return mesh
@@ -100,12 +111,13 @@ def _part(part: Part):
         "type": "skin",
         "diffuse": _texture(part.diffuse),
         "specular": _texture(part.specular),
-        "alpha": _WET_ALPHA,
+        "alpha": WET_ALPHA,
     }
-    return _mesh(part.name, part, mi.load_dict(bsdf), uv=part.uv)
+    return mesh_shape(part.name, part, mi.load_dict(bsdf), uv=part.uv)
 
 
-def _mesh(name: str, shape: Chart | Part, bsdf, uv: np.ndarray | None = None):
+def mesh_shape(name: str, shape: Any, bsdf: Any, uv: np.ndarray | None = None) -> Any:
+    """A Mitsuba mesh of anything with ``vertices``, ``normals`` and ``triangles``; UV with v up."""
     properties = mi.Properties()
     properties["bsdf"] = bsdf
     mesh = mi.Mesh(

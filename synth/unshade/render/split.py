@@ -44,7 +44,7 @@ class LambertLight(Enum):
     BLEND = 2
     """Both, weighed by the power heuristic: environment maps."""
     FROM_SURFACE = 3
-    """The same light from everywhere: only its occlusion is left to chance."""
+    """Even radiance from all directions: only its occlusion is left to chance."""
 
 
 @dr.syntax
@@ -86,9 +86,7 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
             everything, si, wo, sampler.next_1d(), sampler.next_2d(), following
         )
         at_first = following & (depth == 0)
-        light_share = dr.select(
-            at_first, _share(bsdf.eval(lambert, si, wo, at_first), value), share
-        )
+        light_share = dr.select(at_first, _share(bsdf.eval(lambert, si, wo, at_first), value), share)
         weight = _mis(light.pdf, pdf)
         lambert_weight = dr.select(depth == 0, _lambert_weight(lambert_light, weight, 1, 0), weight)
         direct = dr.select(lit, throughput * value * radiance, 0)

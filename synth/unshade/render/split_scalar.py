@@ -25,9 +25,7 @@ def split_radiance_scalar(scene, head, sampler, ray, max_depth: int, lambert_lig
         bsdf = si.bsdf(ray)
         light, radiance = scene.sample_emitter_direction(si, sampler.next_2d(), True)
         wo = si.to_local(light.d)
-        value, pdf, scattered, albedo = bsdf.eval_pdf_sample(
-            everything, si, wo, sampler.next_1d(), sampler.next_2d()
-        )
+        value, pdf, scattered, albedo = bsdf.eval_pdf_sample(everything, si, wo, sampler.next_1d(), sampler.next_2d())
         value, albedo = np.array(value), np.array(albedo)
         if light.pdf > 0:
             light_share = _share(bsdf.eval(lambert, si, wo), value) if depth == 0 else share

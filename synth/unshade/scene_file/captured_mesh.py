@@ -12,7 +12,7 @@ from .checks import known_keys, number
 
 @dataclass(frozen=True)
 class CapturedMesh:
-    """What is wrong with the mesh that solvers get; nothing by default. The truth keeps the perfect one."""
+    """Faults of the mesh that solvers get; none by default. The truth keeps the perfect one."""
 
     vertex_share: float = 1.0
     """Share of the vertices that decimation leaves."""
@@ -24,11 +24,16 @@ class CapturedMesh:
     """Their typical wavelength."""
 
     def to_table(self) -> dict[str, Any]:
-        """What differs from the defaults; empty where nothing does."""
+        """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(CapturedMesh(), key)}
 
 
-_RANGES = {"vertex_share": (0.01, 1.0), "smoothing_mm": (0.0, 30.0), "bumps_mm": (0.0, 5.0), "bumps_wavelength_mm": (0.5, 200.0)}
+_RANGES = {
+    "vertex_share": (0.01, 1.0),
+    "smoothing_mm": (0.0, 30.0),
+    "bumps_mm": (0.0, 5.0),
+    "bumps_wavelength_mm": (0.5, 200.0),
+}
 
 
 def parse_captured_mesh(table: Mapping[str, Any], place: str) -> CapturedMesh:

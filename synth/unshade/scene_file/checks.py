@@ -28,7 +28,7 @@ def subtable(table: Mapping[str, Any], key: str, place: str) -> Mapping[str, Any
 def text(table: Mapping[str, Any], key: str, place: str) -> str:
     value = table.get(key)
     if not isinstance(value, str) or not value:
-        raise SceneError(f"{key} in {place} is missing or no text; write {key} = \"...\"")
+        raise SceneError(f'{key} in {place} is missing or no text; write {key} = "..."')
     return value
 
 
@@ -55,9 +55,7 @@ def whole(table: Mapping[str, Any], key: str, place: str, default: int | None, l
     return value
 
 
-def number(
-    table: Mapping[str, Any], key: str, place: str, default: float, *, above: float = -math.inf
-) -> float:
+def number(table: Mapping[str, Any], key: str, place: str, default: float, *, above: float = -math.inf) -> float:
     value = table.get(key, default)
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not number or math.isnan(value) or (key in table and math.isinf(value)) or not value > above:

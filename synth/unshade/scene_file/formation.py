@@ -37,7 +37,7 @@ class Formation:
     motion_pixels: float = 0.0
     """Length of the streak that a point in the middle of the picture leaves (pixels)."""
     motion_degrees: float = 0.0
-    """The same as a turn of the camera, in place of ``motion_pixels``."""
+    """Turn of the camera while the shutter is open (degrees), in place of ``motion_pixels``."""
     motion_direction_degrees: float | None = None
     """Direction of the streak, from right towards up; ``None`` draws one for every view."""
     aperture_radius_mm: float = 0.0
@@ -54,7 +54,7 @@ class Formation:
     """Error of the stated poses: standard deviation of the shift along each camera axis."""
 
     def to_table(self) -> dict[str, Any]:
-        """What differs from the defaults; empty where nothing does."""
+        """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(Formation(), key)}
 
 
@@ -100,7 +100,9 @@ def _require_sense(formation: Formation, table: Mapping[str, Any], place: str) -
     if formation.motion_pixels and formation.motion_degrees:
         raise SceneError(f"motion_pixels and motion_degrees in {place} say the same thing; keep one")
     if formation.pose_noise_pixels and (formation.pose_noise_degrees or formation.pose_noise_mm):
-        raise SceneError(f"pose_noise_pixels in {place} stands for pose_noise_degrees and pose_noise_mm; keep it or them")
+        raise SceneError(
+            f"pose_noise_pixels in {place} stands for pose_noise_degrees and pose_noise_mm; keep it or them"
+        )
 
 
 def _between(table: Mapping[str, Any], key: str, place: str, default: float, low: float, high: float) -> float:

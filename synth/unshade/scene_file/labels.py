@@ -12,7 +12,7 @@ from .checks import known_keys, number, yes_or_no
 
 @dataclass(frozen=True)
 class LabelFaults:
-    """What is wrong with the label pictures that solvers get; nothing by default. The truth keeps the perfect ones."""
+    """Faults of the label pictures that solvers get; none by default. The truth keeps the perfect ones."""
 
     boundary_error: float = 0.0
     """Share of the boundary pixels of every training view that take the label of the other side.
@@ -25,7 +25,7 @@ class LabelFaults:
     """The capture has no label pictures, and ``transforms.json`` names none."""
 
     def to_table(self) -> dict[str, Any]:
-        """What differs from the defaults; empty where nothing does."""
+        """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(LabelFaults(), key)}
 
 

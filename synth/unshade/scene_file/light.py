@@ -141,7 +141,9 @@ class Light:
 
 def parse_light(table: Mapping[str, Any], place: str, folder: Path) -> Light:
     kind = choice(table, "kind", LIGHT_KINDS, place)
-    own = ("path", "rotation_degrees", "clamp") if kind == "envmap" else names(SETTINGS[kind]) if kind in SETTINGS else ()
+    own = (
+        ("path", "rotation_degrees", "clamp") if kind == "envmap" else names(SETTINGS[kind]) if kind in SETTINGS else ()
+    )
     known_keys(table, ("name", "kind", "exposure", *own), place)
     path = None
     if kind == "envmap":
@@ -168,6 +170,8 @@ def _check_pattern(pattern: Pattern, place: str) -> None:
     if pattern.order not in HADAMARD_ORDERS:
         raise SceneError(f"order in {place} is {pattern.order}; use one of {', '.join(map(str, HADAMARD_ORDERS))}")
     if pattern.index >= pattern.order:
-        raise SceneError(f"index in {place} is {pattern.index}, but order {pattern.order} has rows 0 to {pattern.order - 1}")
+        raise SceneError(
+            f"index in {place} is {pattern.index}, but order {pattern.order} has rows 0 to {pattern.order - 1}"
+        )
     if pattern.index == 0 and pattern.inverse:
         raise SceneError(f"index 0 in {place} is the full sphere, and its inverse is dark; use another row")

@@ -73,9 +73,13 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
             f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out'
         )
     if render.tier != "opaque" and render.variant == "scalar_rgb":
-        raise SceneError(f'tier = "{render.tier}" in {place} needs LLVM; set variant = "llvm_ad_rgb" or tier = "opaque"')
+        raise SceneError(
+            f'tier = "{render.tier}" in {place} needs LLVM; set variant = "llvm_ad_rgb" or tier = "opaque"'
+        )
     if render.denoise != "none" and render.variant == "scalar_rgb":
-        raise SceneError(f'denoise = "{render.denoise}" in {place} needs LLVM for its guides; set variant = "llvm_ad_rgb" or denoise = "none"')
+        raise SceneError(
+            f'denoise = "{render.denoise}" in {place} needs LLVM for its guides; set variant = "llvm_ad_rgb" or denoise = "none"'
+        )
     if passes_for(render.samples) is None:
         near = next(n for n in range(render.samples, 1 << 17) if passes_for(n))
         raise SceneError(f"samples in {place} is {render.samples}, which stratified passes cannot share; use {near}")

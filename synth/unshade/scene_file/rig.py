@@ -117,7 +117,7 @@ def _withheld(table: Mapping[str, Any], place: str) -> tuple[str, ...] | None:
         return None
     names = table["withheld"]
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise SceneError(f"withheld in {place} is {names!r}; use a list of views, as withheld = [\"003\", \"007\"]")
+        raise SceneError(f'withheld in {place} is {names!r}; use a list of views, as withheld = ["003", "007"]')
     if len(set(names)) < len(names):
         raise SceneError(f"withheld in {place} names a view twice; name it once")
     return tuple(names)

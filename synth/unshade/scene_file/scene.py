@@ -24,7 +24,19 @@ else:
     import tomli as tomllib
 
 FORMAT = 1
-_KEYS = ("format", "name", "face", "light", "relight", "rig", "render", "image_formation", "captured_mesh", "labels", "versions")
+_KEYS = (
+    "format",
+    "name",
+    "face",
+    "light",
+    "relight",
+    "rig",
+    "render",
+    "image_formation",
+    "captured_mesh",
+    "labels",
+    "versions",
+)
 
 
 @dataclass(frozen=True)
@@ -78,8 +90,7 @@ def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
     if not isinstance(others, list) or not all(isinstance(other, dict) for other in others):
         raise SceneError(f"{place}: relight must be tables [[relight]]")
     relight = tuple(
-        parse_light(other, f"[[relight]] number {number} of {place}", folder)
-        for number, other in enumerate(others, 1)
+        parse_light(other, f"[[relight]] number {number} of {place}", folder) for number, other in enumerate(others, 1)
     )
     names = [one.name for one in (light, *relight)]
     for one in names:

@@ -60,7 +60,9 @@ def colour(*default: float) -> Any:
     def read(table: Mapping[str, Any], key: str, place: str) -> tuple[float, float, float]:
         value = table[key]
         good = isinstance(value, (list, tuple)) and len(value) == 3
-        good = good and all(isinstance(v, (int, float)) and not isinstance(v, bool) and 0 <= v < math.inf for v in value)
+        good = good and all(
+            isinstance(v, (int, float)) and not isinstance(v, bool) and 0 <= v < math.inf for v in value
+        )
         if not good or not any(value):
             raise SceneError(f"{key} in {place} is {value!r}; use three numbers of 0 or more, as [1.0, 0.5, 0.2]")
         return tuple(float(v) for v in value)

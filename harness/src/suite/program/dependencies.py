@@ -52,6 +52,7 @@ def of_module(folder, spec):
 
 def names(path):
     """What a module defines at its top level, as far as its text says; everything, after a star."""
+
     class Everything:
         def __contains__(self, _):
             return True

@@ -5,11 +5,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use formats::content_hash::{hash_parts, hash_path};
 use serde::Deserialize;
 
 use super::confine::is_system;
-use super::{Program, Start};
-use crate::suite::content::{hash_parts, hash_path};
+use super::start::{Program, Start};
 use crate::synth::Interpreter;
 
 /// Says what a Python program is made of; for any Python from 3.8 on.

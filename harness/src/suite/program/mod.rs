@@ -7,22 +7,23 @@
 mod blind;
 mod confine;
 mod files;
+mod start;
 mod watch;
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 
-use solver::atomic::Folder;
+use formats::atomic::Folder;
+use formats::content_hash::hash_parts;
 
-use super::content::hash_parts;
 use super::error::RunError;
 use crate::synth::Interrupt;
 use confine::Permissions;
 pub use files::ProgramFiles;
+pub use start::{Program, Start};
 use watch::{End, watch};
 pub use watch::{Limits, Usage};
 
@@ -35,32 +36,6 @@ const THREADS: [&str; 6] = [
     "RAYON_NUM_THREADS",
     "NUMBA_NUM_THREADS",
 ];
-
-/// How a program is started.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Start {
-    /// Arguments with `{capture}` and `{maps}` replaced.
-    Command(Vec<String>),
-    /// A Python function `module:function`.
-    Python(String),
-}
-
-/// A `[[solver]]` that names a program.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Program {
-    /// What is started.
-    pub start: Start,
-    /// Where it is started, and what relative paths start from: the suite's folder.
-    pub folder: PathBuf,
-    /// What it may take.
-    pub limits: Limits,
-    /// Variables of its environment, replacing those of unshade's own.
-    pub environment: BTreeMap<String, String>,
-    /// What the user calls this state of it.
-    pub version: Option<String>,
-    /// Files and folders that it reads, beside its own.
-    pub inputs: Vec<PathBuf>,
-}
 
 /// Where a program works.
 pub(super) struct Place<'a> {
@@ -209,7 +184,7 @@ fn check(maps: &Path) -> Result<(), String> {
     if !maps.join("diffuse_albedo.exr").is_file() {
         return Err("left no diffuse_albedo.exr in its maps folder".to_owned());
     }
-    solver::Maps::read(maps)
+    formats::Maps::read(maps)
         .map(drop)
         .map_err(|error| error.to_string().replace(&*maps.to_string_lossy(), "its maps folder"))
 }

@@ -1,6 +1,7 @@
 //! From deviations to directions and back, as [`crate::model::normals`], in the passes' own vectors.
 
 use super::lanes::Lanes;
+use crate::model::bend::BLURRED;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{BLOCK, Row};
 
@@ -43,7 +44,7 @@ fn times_plus<S: Lanes>(a: Vector<S>, factor: S, b: Vector<S>) -> Vector<S> {
     [a[0].mul_add(factor, b[0]), a[1].mul_add(factor, b[1]), a[2].mul_add(factor, b[2])]
 }
 
-/// The directions of a block's samples under the deviations d and blur(d), the first six rows of `deviation`.
+/// The directions of a block's samples under the deviations d and blur(d), rows as samples see them.
 #[inline(always)]
 pub fn bend<S: Lanes>(
     scale: &DirectionScale,
@@ -57,7 +58,7 @@ pub fn bend<S: Lanes>(
     while at < BLOCK {
         let (normal, view) = (load::<S>(normal, 0, at), load::<S>(view, 0, at));
         let specular = sum(normal, load(deviation, 0, at));
-        let diffuse = sum(normal, load(deviation, 3, at));
+        let diffuse = sum(normal, load(deviation, BLURRED, at));
         let by_specular = dot(specular, specular).reciprocal_root();
         let by_diffuse = dot(diffuse, diffuse).reciprocal_root();
         by_specular.store(&mut lengths[0], at);
@@ -89,14 +90,14 @@ pub fn adjoint<S: Lanes>(
         let (normal, view) = (load::<S>(normal, 0, at), load::<S>(view, 0, at));
         let [by_specular, by_diffuse] = [S::load(&lengths[0], at), S::load(&lengths[1], at)];
         let specular = times(sum(normal, load(deviation, 0, at)), by_specular);
-        let diffuse = times(sum(normal, load(deviation, 3, at)), by_diffuse);
+        let diffuse = times(sum(normal, load(deviation, BLURRED, at)), by_diffuse);
         let factor = S::load(to_specular, at).mul(S::splat(2.0 * scale.reflection));
         let twice = times(load(gradient, 3, at), factor);
         let by_normal = times_plus(view, dot(specular, twice), times(twice, dot(specular, view)));
         store(across(specular, by_normal, by_specular), out, 0, at);
         let factor = S::load(to_diffuse, at).mul(S::splat(scale.normal));
         let by_normal = times(load(gradient, 0, at), factor);
-        store(across(diffuse, by_normal, by_diffuse), out, 3, at);
+        store(across(diffuse, by_normal, by_diffuse), out, BLURRED, at);
         at += S::WIDTH;
     }
 }

@@ -1,15 +1,14 @@
 //! The passes over a chunk of samples, written once for all vector types, and the entry points
 //! that compile them for each instruction set.
 
-use super::Level;
 use super::ahead::Ahead;
 use super::directions::{adjoint, bend as bend_directions};
 use super::lanes::{Lanes, Portable};
+use super::level::Level;
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
 use crate::backend::{ALBEDOS, BENT, TexturedRelief};
-use crate::model::bend::TexelRows;
-use crate::model::bend_gradient::RowSums;
+use crate::model::bend::{ROWS, SPECULAR};
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
@@ -180,19 +179,17 @@ fn bend_body<S: Lanes, const C: usize>(
 fn textured_body<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
     relief: &TexturedRelief,
-    rows: &mut TexelRows,
     s: &mut Scratch,
-    sums: &mut RowSums,
+    strip: &mut Strip<ROWS>,
 ) -> f64 {
-    let TexturedRelief { samples, light, albedo, textures, .. } = *relief;
-    let scale = &textures.deviation.scale;
+    let TexturedRelief { samples, light, albedo, scale, textures, .. } = *relief;
     let inputs = Inputs { packed, samples, directions: light, albedo };
     let mut loss = 0.0;
-    let (mut bent, mut directions) = ([Row::ZERO; BENT], [Row::ZERO; DIRECTIONS]);
-    let (mut gradient, mut by_texture) = ([Row::ZERO; BENT], [Row::ZERO; BENT]);
+    let (mut bent, mut directions) = ([Row::ZERO; ROWS], [Row::ZERO; DIRECTIONS]);
+    let (mut gradient, mut by_bent) = ([Row::ZERO; BENT], [Row::ZERO; ROWS]);
     let mut lengths = [Row::ZERO; 2];
-    for (block, _) in blocks(sums.samples.clone()) {
-        rows.sample(&samples.taps, block, &mut bent);
+    for (block, lanes) in blocks(strip.samples.clone()) {
+        textures.sample_block(&samples.taps, block, &mut bent);
         let known = [samples.normal.block(block), samples.view.block(block)];
         bend_directions::<S>(scale, known, &bent, &mut lengths, &mut directions);
         let filled = samples.len() - block * BLOCK;
@@ -200,16 +197,16 @@ fn textured_body<S: Lanes, const C: usize>(
             // A normal of zero has no direction.
             directions.iter_mut().for_each(|row| row.0[filled..].fill(0.0));
         }
-        let pixels = Pixels { specular: &bent[DIRECTIONS], ..inputs.pixels(block) };
+        let pixels = Pixels { specular: &bent[SPECULAR], ..inputs.pixels(block) };
         let Samples { normal, view, fresnel, target, weight, .. } = samples;
         let ahead = [light, albedo, normal, view, fresnel, target, weight];
         let ahead = &mut Ahead::new(&ahead, block + 1);
         let light = light.block(block);
         loss += bend_block::<S, C>(packed, &pixels, light, &directions, s, &mut gradient, ahead);
         let factors = &s.gradient.shading;
-        adjoint::<S>(scale, known, &bent, &lengths, &gradient, factors, &mut by_texture);
-        by_texture[DIRECTIONS] = gradient[DIRECTIONS];
-        sums.add(block, &by_texture);
+        adjoint::<S>(scale, known, &bent, &lengths, &gradient, factors, &mut by_bent);
+        by_bent[SPECULAR] = gradient[DIRECTIONS];
+        strip.add_vectors(block, lanes, &by_bent);
     }
     loss
 }
@@ -325,7 +322,7 @@ macro_rules! entry {
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(joint_textured, joint_textured_body(inputs: &Inputs, texture: &[f32], s: &mut Scratch, strip: &mut Strip<ALBEDOS>) -> f64);
 entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
-entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, rows: &mut TexelRows, s: &mut Scratch, sums: &mut RowSums) -> f64);
+entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, s: &mut Scratch, strip: &mut Strip<ROWS>) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(peak, peak_body(rounds: usize) -> f32);

@@ -19,10 +19,9 @@
 //! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
-//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures bent in
-//! normals costs a texel 80 bytes more: deviation and specular albedo as samples see them, 16, are read twice and
-//! written once, their gradients are written (and fetched before) and read; what goes through the blur is 16 in
-//! each of a quarter as many texels, ten times. A joint step is 7488 FLOP a sample, so that it is bound by
+//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures that bend
+//! normals costs a texel about 400 bytes more: what samples see of it, 32, and gradients by that, 32, are written
+//! and read pass by pass, and both go through the blur. A joint step is 7488 FLOP a sample, so that it is bound by
 //! arithmetic on every machine with more than 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps
 //! are bound by memory.
 
@@ -30,71 +29,20 @@ mod ahead;
 mod directions;
 mod kernels;
 mod lanes;
+mod level;
 mod perceptron;
 mod shade;
 
-use std::fmt;
-
 use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
+pub use self::level::Level;
 use self::perceptron::Packed;
 use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
-use crate::model::bend::{BentTextures, TexelRows};
-use crate::model::bend_gradient::{BendGradient, RowSums};
+use crate::model::bend::ROWS;
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::strips::Strip;
-
-/// An instruction set that this machine has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// Any machine.
-    Portable,
-    /// AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-    /// AVX-512 F.
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
-    /// NEON, which every aarch64 has.
-    #[cfg(target_arch = "aarch64")]
-    Neon,
-}
-
-impl Level {
-    /// The levels this machine has, the slowest first.
-    pub fn available() -> Vec<Self> {
-        #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), expect(unused_mut))]
-        let mut levels = vec![Self::Portable];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                levels.push(Self::Avx2);
-            }
-            if is_x86_feature_detected!("avx512f") {
-                levels.push(Self::Avx512);
-            }
-        }
-        #[cfg(target_arch = "aarch64")]
-        levels.push(Self::Neon);
-        levels
-    }
-}
-
-impl fmt::Display for Level {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => "AVX2 + FMA",
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => "AVX-512",
-            #[cfg(target_arch = "aarch64")]
-            Self::Neon => "NEON",
-        })
-    }
-}
 
 /// The processor at its fastest level.
 #[derive(Clone, Copy, Debug)]
@@ -116,21 +64,6 @@ impl Cpu {
     pub fn at(level: Level) -> Self {
         assert!(Level::available().contains(&level));
         Self { level }
-    }
-}
-
-impl Level {
-    /// Floating-point operations in a vector's multiply-add.
-    pub fn flops_per_multiply_add(self) -> usize {
-        2 * match self {
-            Self::Portable => 8,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => 8,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => 16,
-            #[cfg(target_arch = "aarch64")]
-            Self::Neon => 4,
-        }
     }
 }
 
@@ -243,15 +176,14 @@ impl Backend for Cpu {
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief, gradient: &mut BendGradient) -> f64 {
+    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
         let packed = &pack(relief.networks);
-        let scratch = || (Scratch::new(relief.networks), relief.textures.rows());
-        let work = |(scratch, rows): &mut (Scratch, TexelRows), sums: &mut RowSums| {
-            kernels::textured(self.level, packed, relief, rows, scratch, sums)
+        let work = |scratch: &mut Scratch, strip: &mut Strip<ROWS>| {
+            kernels::textured(self.level, packed, relief, scratch, strip)
         };
-        let BentTextures { deviation, region, .. } = relief.textures;
-        let losses = gradient.fill((&relief.samples.taps, deviation.blur(), region), scratch, work);
-        losses.iter().sum()
+        let scratch = || Scratch::new(relief.networks);
+        let (gradient, losses) = relief.samples.taps.by_blocks(scratch, work);
+        (losses.iter().sum(), gradient)
     }
 
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {

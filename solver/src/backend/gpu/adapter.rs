@@ -1,9 +1,6 @@
 //! Which adapters there are, and which of them computes.
 
-use crate::backend::BackendError;
-
-/// Names the adapter to take, by a part of its name: the only way to a software adapter.
-pub const VARIABLE: &str = "UNSHADE_ADAPTER";
+use crate::backend::error::{BackendError, VARIABLE};
 
 /// A graphics adapter that wgpu sees.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Shading under frozen networks, and its gradients.
 
 use super::device::Device;
-use super::kernel::Pass;
 use super::layout::{Layout, TILE};
+use super::pass::Pass;
 use super::pieces::{Pieces, pixels};
 use crate::backend::BENT;
 use crate::backend::resident::DeviceError;

@@ -1,7 +1,7 @@
 //! Blurs of textures of 3 channels, and their adjoints.
 
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use crate::model::blur::Blur;
 use crate::model::pyramid::Pyramid;
 

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use crate::backend::resident::DeviceError;
 
 /// Threads of the multiply-adds, enough for the largest device; operations of each.

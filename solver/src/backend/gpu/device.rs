@@ -3,11 +3,18 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::kernel::{AXIS, Kernel, Pass, Slots};
-use super::pieces::largest_piece;
-use super::stamps::Timings;
+use super::kernel::Kernel;
+use super::timings::Timings;
 use super::unroll::unrolled;
 use crate::backend::resident::DeviceError;
+use crate::model::planes::BLOCK;
+
+/// Workgroups along one axis; a limit of WebGPU.
+const AXIS: usize = 65535;
+/// Rows that a piece may have.
+pub(super) const PIECE_ROWS: usize = 16;
+/// Most samples of a piece: bindings of 512 MiB. More would save no time.
+const LARGEST: usize = 1 << 23;
 
 /// An open device.
 pub(super) struct Device {
@@ -143,20 +150,6 @@ impl Device {
         buffer
     }
 
-    /// Submits `steps` rounds of passes, with the slots of each round.
-    pub fn submit(&self, passes: &[Pass], slots: Option<&Slots>, steps: usize) {
-        if locked(&self.timings).is_some() {
-            return self.submit_timed(passes, slots, steps);
-        }
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        for step in 0..steps {
-            passes.iter().for_each(|one| one.encode(&mut pass, slots, step));
-        }
-        drop(pass);
-        self.queue.submit([encoder.finish()]);
-    }
-
     /// Until everything that was submitted is done.
     pub fn wait(&self) -> Result<(), DeviceError> {
         self.check()?;
@@ -194,6 +187,14 @@ impl Device {
         };
         copies.iter().map(content).collect()
     }
+}
+
+/// Samples of a piece on a device that has bindings of this size: 2 million where there are 128 MiB, as
+/// every adapter has them.
+fn largest_piece(binding: u64) -> usize {
+    usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * PIECE_ROWS)).min(LARGEST))
+        / BLOCK
+        * BLOCK
 }
 
 const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE

@@ -1,7 +1,7 @@
 //! Highlights of a light on any normals.
 
 use super::device::Device;
-use super::kernel::Pass;
+use super::pass::Pass;
 use super::pieces::Pieces;
 use crate::backend::resident::DeviceError;
 use crate::model::planes::Planes;

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::Gpu;
 use super::blurs::blurring;
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::{Pass, THREADS};
+use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
 use crate::backend::resident::{Descent, DeviceError, NormalEquations};
 

@@ -1,8 +1,8 @@
 //! Light, its nearness and diffuse albedo with the highlights that the light itself makes.
 
-use super::Gpu;
-use super::kernel::{Pass, THREADS};
+use super::computing::Gpu;
 use super::matrix::{Matrix, Shading, by_light};
+use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program, prior, total};
 use crate::backend::resident::HighlightsJob;

@@ -1,9 +1,9 @@
 //! Networks and albedos together: once, or step after step.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::Pass;
 use super::layout::{Layout, TILE};
+use super::pass::Pass;
 use super::pieces::{DeviceTaps, Pieces, padded, pixels};
 use super::program::{Moved, Program, prior};
 use crate::backend::resident::DeviceError;

@@ -1,24 +1,13 @@
-//! Compute kernels, their bindings, and dispatches that are recorded once and submitted often.
+//! Compute kernels and their bindings.
 
-use std::sync::Arc;
-
-use super::device::Device;
-use crate::backend::resident::Variable;
-
-/// Threads of a workgroup of the kernels that have one thread per value.
-pub(super) const THREADS: usize = 256;
-/// Workgroups along one axis; a limit of WebGPU.
-pub(super) const AXIS: usize = 65535;
-/// Distance of uniforms with dynamic offsets; the default limit of WebGPU.
-const SLOT: usize = 256;
 /// In every kernel: where samples lie in planes, and workgroups in a grid of two axes.
 const COMMON: &str = include_str!("wgsl/common.wgsl");
 
 /// A compiled kernel.
 pub(super) struct Kernel {
-    name: &'static str,
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
+    pub name: &'static str,
+    pub pipeline: wgpu::ComputePipeline,
+    pub layout: wgpu::BindGroupLayout,
 }
 
 impl Kernel {
@@ -51,7 +40,7 @@ impl Kernel {
             label: Some(name),
             entries: &entries,
         });
-        let slots = Slots::layout(device);
+        let slots = slot_layout(device);
         let groups = [Some(&layout), Some(&slots)];
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(name),
@@ -87,179 +76,19 @@ impl Kernel {
     }
 }
 
-/// What a dispatch has to do at least.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Work {
-    /// Floating-point operations, a multiply-add being two.
-    pub flops: f64,
-    /// From and to memory, every value read once and written once.
-    pub bytes: f64,
-}
-
-/// A dispatch with its buffers.
-pub(super) struct Pass {
-    kernel: Arc<Kernel>,
-    buffers: wgpu::BindGroup,
-    slot: Option<usize>,
-    grid: [u32; 2],
-    pub work: Work,
-}
-
-impl Pass {
-    /// Of `workgroups` workgroups, whatever their number.
-    pub fn new(
-        device: &Device,
-        kernel: &Arc<Kernel>,
-        buffers: &[&wgpu::Buffer],
-        workgroups: usize,
-    ) -> Self {
-        let entries: Vec<_> = buffers
-            .iter()
-            .enumerate()
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding: binding as u32,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
-        let buffers = device.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(kernel.name),
-            layout: &kernel.layout,
-            entries: &entries,
-        });
-        let rows = workgroups.div_ceil(device.axis).max(1);
-        let grid = [workgroups.div_ceil(rows) as u32, rows as u32];
-        Self { kernel: Arc::clone(kernel), buffers, slot: None, grid, work: Work::default() }
-    }
-
-    /// One thread for each of `count` values.
-    pub fn over(
-        device: &Device,
-        kernel: &Arc<Kernel>,
-        buffers: &[&wgpu::Buffer],
-        count: usize,
-    ) -> Self {
-        Self::new(device, kernel, buffers, count.div_ceil(THREADS))
-    }
-
-    /// Reads the step's slot number `slot`.
-    #[must_use]
-    pub fn with_slot(self, slot: usize) -> Self {
-        Self { slot: Some(slot), ..self }
-    }
-
-    /// Also does for each of `count` things: operations, and values read or written.
-    #[must_use]
-    pub fn doing(self, count: usize, flops: usize, values: usize) -> Self {
-        let (flops, bytes) = ((count * flops) as f64, (4 * count * values) as f64);
-        let work = Work { flops: self.work.flops + flops, bytes: self.work.bytes + bytes };
-        Self { work, ..self }
-    }
-
-    pub fn name(&self) -> &'static str {
-        self.kernel.name
-    }
-
-    pub fn encode(&self, pass: &mut wgpu::ComputePass, slots: Option<&Slots>, step: usize) {
-        pass.set_pipeline(&self.kernel.pipeline);
-        pass.set_bind_group(0, &self.buffers, &[]);
-        if let (Some(slot), Some(slots)) = (self.slot, slots) {
-            let offset = (step * slots.per_step + slot) * SLOT;
-            pass.set_bind_group(1, &slots.bindings, &[offset as u32]);
-        }
-        pass.dispatch_workgroups(self.grid[0], self.grid[1], 1);
-    }
-}
-
-/// What differs from step to step: factors of the optimisers, and where the loss belongs.
-pub(super) struct Slots {
-    buffer: wgpu::Buffer,
-    bindings: wgpu::BindGroup,
-    per_step: usize,
-}
-
-impl Slots {
-    fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("slots"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: true,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        })
-    }
-
-    /// `per_step` slots for each of `steps` steps.
-    pub fn new(device: &Device, per_step: usize, steps: usize) -> Self {
-        let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("slots"),
-            size: (per_step * steps * SLOT) as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let bindings = device.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("slots"),
-            layout: &Self::layout(&device.device),
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &buffer,
-                    offset: 0,
-                    size: std::num::NonZeroU64::new(4 * Factors::WORDS as u64),
-                }),
-            }],
-        });
-        Self { buffer, bindings, per_step }
-    }
-
-    /// Writes the slots, step by step.
-    pub fn write(&self, device: &Device, slots: &[Factors]) {
-        let mut bytes = vec![0u8; slots.len() * SLOT];
-        for (slot, factors) in bytes.chunks_exact_mut(SLOT).zip(slots) {
-            slot[..4 * Factors::WORDS].copy_from_slice(bytemuck::cast_slice(&factors.0));
-        }
-        device.queue.write_buffer(&self.buffer, 0, &bytes);
-    }
-}
-
-/// A slot's content; see `struct Factors` in `adam.wgsl`.
-#[derive(Clone, Copy)]
-pub(super) struct Factors([u32; Self::WORDS]);
-
-impl Factors {
-    const WORDS: usize = 12;
-
-    /// Of a variable's step number `number`, from 1.
-    pub fn adam(variable: &AdamFactors, number: usize, share: f32, step: usize) -> Self {
-        let [rate, root] = variable.optimiser.factors(number as i32, share);
-        let c = variable.optimiser.config();
-        let floats = [rate, root, c.beta1, c.beta2, c.epsilon, variable.least].map(f32::to_bits);
-        let [a, b, c, d, e, f] = floats;
-        Self([a, b, c, d, e, f, 1, step as u32, variable.most.to_bits(), 0, 0, 0])
-    }
-
-    /// Of a variable that stays where it is.
-    pub fn still(step: usize) -> Self {
-        Self([0, 0, 0, 0, 0, 0, 0, step as u32, 0, 0, 0, 0])
-    }
-}
-
-/// What a device needs to know of a variable's optimiser.
-pub(super) struct AdamFactors {
-    optimiser: crate::optimise::adam::Adam,
-    least: f32,
-    most: f32,
-}
-
-impl AdamFactors {
-    pub fn of(variable: &Variable) -> Self {
-        // Large numbers instead of infinity, which shaders may take for impossible.
-        let (least, most) = (variable.least.max(f32::MIN), variable.most.min(f32::MAX));
-        Self { optimiser: variable.adam.without_moments(), least, most }
-    }
+/// How the slots of a step are bound.
+pub(super) fn slot_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("slots"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: true,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
 }

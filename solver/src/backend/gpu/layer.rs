@@ -1,7 +1,7 @@
 //! One of the albedos under known shading.
 
-use super::Gpu;
-use super::kernel::{Pass, THREADS};
+use super::computing::Gpu;
+use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program, prior};
 use crate::model::planes::Planes;

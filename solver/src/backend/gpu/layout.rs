@@ -2,7 +2,8 @@
 //! matrices and vectors, forwards and, from the left, backwards.
 
 use super::device::Device;
-use super::kernel::{Kernel, Pass};
+use super::kernel::Kernel;
+use super::pass::Pass;
 use crate::model::networks::{Network, Networks};
 
 /// Bytes of a uniform buffer; a limit of WebGPU.

@@ -1,7 +1,7 @@
 //! Matrices from a light to texels or samples, their products and their adjoint.
 
 use super::device::Device;
-use super::kernel::{Pass, THREADS};
+use super::pass::{Pass, THREADS};
 use crate::transport::{CHANNELS, Parts};
 
 /// Rows that one thread adds up.

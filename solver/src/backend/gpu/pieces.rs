@@ -3,23 +3,12 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::device::Device;
-use super::kernel::{Kernel, Pass};
+use super::device::{Device, PIECE_ROWS};
+use super::kernel::Kernel;
+use super::pass::Pass;
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
-
-/// Rows that a piece may have.
-const ROWS: usize = 16;
-/// Most samples of a piece: bindings of 512 MiB. More would save no time.
-const LARGEST: usize = 1 << 23;
-
-/// Samples of a piece on a device that has bindings of this size: 2 million where there are 128 MiB, as
-/// every adapter has them.
-pub(super) fn largest_piece(binding: u64) -> usize {
-    usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * ROWS)).min(LARGEST)) / BLOCK
-        * BLOCK
-}
 
 /// Ranges of samples, whole blocks each.
 #[derive(Clone)]
@@ -28,7 +17,7 @@ pub(super) struct Pieces(pub Vec<Range<usize>>);
 impl Pieces {
     /// Of `len` samples whose widest planes have `rows` rows.
     pub fn new(device: &Device, len: usize, rows: usize) -> Self {
-        let piece = (device.piece * ROWS / rows.max(ROWS) / BLOCK * BLOCK).max(BLOCK);
+        let piece = (device.piece * PIECE_ROWS / rows.max(PIECE_ROWS) / BLOCK * BLOCK).max(BLOCK);
         let cut = |first: usize| first..len.min(first + piece);
         Self((0..len).step_by(piece).map(cut).collect())
     }

@@ -1,9 +1,9 @@
 //! The program of a stage: its passes, recorded once, and its variables.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::{AdamFactors, Factors, Pass, Slots, THREADS};
 use super::layout::Layout;
+use super::pass::{AdamFactors, Factors, Pass, Slots, THREADS};
 use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
 
 /// Values on the device, with their gradient and moments.

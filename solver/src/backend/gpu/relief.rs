@@ -1,11 +1,11 @@
 //! Specular albedo and deviation, with frozen networks.
 
-use super::Gpu;
 use super::bending::Bending;
 use super::blurs::{blurring, pyramid};
+use super::computing::Gpu;
 use super::device::Device;
-use super::kernel::Pass;
 use super::layout::Layout;
+use super::pass::Pass;
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program};
 use crate::backend::BENT;

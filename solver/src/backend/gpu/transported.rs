@@ -1,6 +1,6 @@
 //! Light, its nearness, albedos and networks under explicit transport.
 
-use super::Gpu;
+use super::computing::Gpu;
 use super::joint::Joint;
 use super::layout::Layout;
 use super::matrix::{Shading, by_light};

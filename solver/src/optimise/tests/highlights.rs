@@ -96,7 +96,7 @@ fn lamp() -> Lamp {
         };
         (ALBEDO * FRAC_1_PI * irradiance * normal.dot(towards).max(0.0) + highlight, 1)
     };
-    let view = |camera: &crate::capture::Camera| {
+    let view = |camera: &capture::Camera| {
         let from = camera.camera_to_world.w_axis.truncate();
         testing::view(&mesh, camera, |p| shade(from, p))
     };

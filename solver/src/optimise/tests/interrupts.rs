@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use super::*;
 use crate::optimise::checkpoint::Checkpoint;
-use crate::optimise::solve::{Options, solve_into, solve_on};
+use crate::optimise::progress::Options;
+use crate::optimise::solve::{solve_into, solve_on};
 
 /// Every stage of a solve, in seconds.
 fn short() -> Config {

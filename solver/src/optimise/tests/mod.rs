@@ -10,20 +10,24 @@ mod transported;
 
 use std::ops::ControlFlow;
 
+use capture::gbuffer::GBuffer;
+use capture::{Capture, CaptureError, View};
+use formats::maps::Maps;
+use formats::picture;
 use glam::{Vec2, Vec3};
 
-use super::solve::{Options, solve_on};
-use super::stage::{Diffuse, Relief, Stage, State, WarmUp};
+use super::deviation::Relief;
+use super::diffuse::Diffuse;
+use super::error::SolveError;
+use super::progress::Options;
+use super::solve::solve_on;
+use super::stage::{Stage, State};
+use super::warm_up::WarmUp;
 use crate::backend::cpu::{Cpu, Level};
-use crate::capture::{Capture, View};
 use crate::config::{Config, TextureSize};
-use crate::error::{CaptureError, SolveError};
-use crate::gbuffer::GBuffer;
-use crate::maps::Maps;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::picture;
 use crate::solution::Solution;
 use crate::testing;
 
@@ -84,7 +88,7 @@ fn small() -> Config {
 fn solve(
     capture: &Capture,
     config: &Config,
-    progress: &mut super::solve::Callback,
+    progress: &mut super::progress::Callback,
 ) -> Result<Solution, SolveError> {
     solve_on(&Cpu::new(), capture, config, Options::default(), progress)
 }
@@ -211,8 +215,8 @@ fn relief_gradients_pass_through_reflection_normals_tanh_and_blur() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let stage = || Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-    let found = stage().gradient(&state, &backend);
-    let loss = |state: &State| stage().gradient(state, &backend).loss;
+    let found = stage().gradient(&state, &backend).1;
+    let loss = |state: &State| stage().gradient(state, &backend).0;
     assert_gradient("deviation", &state, &found.deviation, |s| &mut s.deviation, 5e-2, loss);
     assert_gradient("specular", &state, &found.specular, |s| &mut s.specular, 1e-2, loss);
 }
@@ -239,8 +243,8 @@ fn the_stages_see_the_same_loss() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let joint = WarmUp::new(&config, &samples, &state).gradient(&state, &backend).loss;
-    let mut relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-    let relief = relief.gradient(&state, &backend).loss;
+    let relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
+    let relief = relief.gradient(&state, &backend).0;
     let diffuse =
         Diffuse::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state).0;
     assert!((relief / joint - 1.0).abs() < 1e-5, "{relief} {joint}");

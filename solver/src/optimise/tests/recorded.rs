@@ -4,13 +4,13 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use capture::Mesh;
+use formats::picture::{GrayImage, Picture};
 use serde::Deserialize;
 
 use super::*;
 use crate::backend::cpu::Level;
-use crate::capture::Mesh;
 use crate::optimise::stage::Stage;
-use crate::picture::{GrayImage, Picture};
 
 /// Of every loss, relative. PyTorch's own single and double precision differ by a tenth of it.
 const TOLERANCE: f64 = 1e-5;

@@ -1,8 +1,9 @@
 //! The height solve on pictures whose relief is known.
 
+use capture::gbuffer::Atlas;
+
 use super::*;
 use crate::config::HeightConfig;
-use crate::gbuffer::Atlas;
 use crate::model::height::HeightField;
 use crate::model::planes::Planes;
 use crate::optimise::relief::ReliefSolve;

@@ -82,7 +82,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     let samples = site.pictures().samples(&site.space, transport.size());
     recolour(&site, transport, &samples, &light, &mut state);
     let of = |diffuse: &[f32], label: u8| -> Vec<Vec3> {
-        let atlas = crate::gbuffer::Atlas::new(&mesh, state.size);
+        let atlas = capture::gbuffer::Atlas::new(&mesh, state.size);
         let inside = (0..atlas.positions.len()).filter(|at| {
             let p = atlas.positions[*at];
             let around = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y].map(|d| p + 0.1 * d);

@@ -59,9 +59,7 @@ def around(azimuth_degrees: float, elevation_degrees: float, distance: float) ->
     """A place seen from the head: azimuth 0 in front of the face, positive towards +X."""
     azimuth, elevation = np.radians([azimuth_degrees, elevation_degrees])
     level = math.cos(elevation)
-    return distance * np.array(
-        [level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)]
-    )
+    return distance * np.array([level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)])
 
 
 def rgb(value: float | np.ndarray) -> dict[str, Any]:

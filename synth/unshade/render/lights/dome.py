@@ -1,4 +1,4 @@
-"""The same light from everywhere."""
+"""Even light from all directions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .conventions import LATLONG, rgb
 
 @dataclass(frozen=True)
 class Dome:
-    """The same radiance from everywhere, as the full sphere of a light stage."""
+    """Even radiance (grey) from all directions, as the full sphere of a light stage."""
 
     radiance: float = 1.0
     lambert_light = LambertLight.FROM_SURFACE

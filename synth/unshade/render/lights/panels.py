@@ -133,7 +133,9 @@ def two_colours(settings: TwoColours) -> Panels:
     sides = ((settings.azimuth_degrees, settings.left), (-settings.azimuth_degrees, settings.right))
     return Panels(
         tuple(
-            Panel.facing_head(around(azimuth, settings.elevation_degrees, settings.distance_metres), size, size, np.array(colour))
+            Panel.facing_head(
+                around(azimuth, settings.elevation_degrees, settings.distance_metres), size, size, np.array(colour)
+            )
             for azimuth, colour in sides
         )
     )
@@ -151,7 +153,7 @@ def _met(panel: Panel, towards: np.ndarray) -> np.ndarray:
 
 
 def _solid_angle(panel: Panel) -> float:
-    """Of a small panel that faces the head's centre (sr)."""
+    """Solid angle (sr) of a small panel that faces the head's centre, seen from there."""
     return 4 * np.linalg.norm(np.cross(panel.right, panel.up)) / float(panel.centre @ panel.centre)
 
 

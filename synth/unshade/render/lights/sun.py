@@ -101,7 +101,7 @@ def _disc(direction: np.ndarray) -> np.ndarray:
 
 
 def _plugin_radiance(settings: Sun, sun_direction: np.ndarray, towards: np.ndarray, sun: bool) -> np.ndarray:
-    """What the plugin shows in directions [N, 3] of ours, with or without its sun."""
+    """Radiance [N, 3] of Mitsuba's sunsky plugin in directions [N, 3] of the world, with or without its sun."""
     emitter = mi.load_dict(
         {
             "type": "sunsky",

@@ -26,9 +26,12 @@ def digest(setting: Setting) -> str:
 
 
 def settings(threads: tuple[int, ...] = THREADS) -> dict[str, Setting]:
-    """What is compared: every thread count with the LLVM in use, then every other LLVM that works."""
+    """Settings that are compared, by name: every thread count with the LLVM in use, then every other LLVM that works."""
     libraries = [result for result in map(llvm.probe, llvm.candidates()) if result.ok]
-    cases = {f"{count} thread{'s' * (count > 1)}": _case(count, libraries[0].path if libraries else None) for count in threads}
+    cases = {
+        f"{count} thread{'s' * (count > 1)}": _case(count, libraries[0].path if libraries else None)
+        for count in threads
+    }
     seen = {library.version: library for library in reversed(libraries)}
     for version, library in seen.items():
         if version != libraries[0].version:

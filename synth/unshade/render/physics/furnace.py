@@ -75,7 +75,9 @@ def check_furnace(
         f"{len(errors)} albedos within {100 * abs(errors[worst]):.2f} % of quadrature (worst at {where[worst]}), {100 * pooled:+.3f} % "
         f"in the mean; ball in a dome {100 * picture:+.2f} %; skin reflects {skin_most:.3f} at most, near-white skin {1 + max(excess.values()):.2f}"
     )
-    return Verdict("furnace", ok, found, "render/skin_bsdf.py (patch) or render/split.py and passes.py (ball): energy is not kept")
+    return Verdict(
+        "furnace", ok, found, "render/skin_bsdf.py (patch) or render/split.py and passes.py (ball): energy is not kept"
+    )
 
 
 def _sampled_albedo(bsdf, part: str, angle: float, samples: int, seed: int) -> tuple[float, float]:

@@ -64,7 +64,9 @@ def _sum_error(head, samples: int, split: Callable) -> float:
         size = mi.Vector2f(camera.width, camera.height)
         ray, _ = sensor.sample_ray(0.0, 0.5, (corner + sampler.next_2d()) / size, mi.Point2f(0.5))
         radiance = trace(sampler, ray)
-        channels = [dr.block_reduce(dr.ReduceOp.Add, channel, samples) for channel in (radiance.x, radiance.y, radiance.z)]
+        channels = [
+            dr.block_reduce(dr.ReduceOp.Add, channel, samples) for channel in (radiance.x, radiance.y, radiance.z)
+        ]
         return np.stack([np.array(channel, float) for channel in channels], -1)
 
     def layered(sampler, ray):

@@ -41,7 +41,9 @@ def lights() -> dict[str, AnyLight]:
     return {"dome": Dome(0.7), "studio": studio().scaled(8.0), "sky": Environment(sky)}
 
 
-def check_noise(samples: int = SAMPLES, names: tuple[str, ...] = ("dome", "studio", "sky"), render: Callable = render_layers) -> Verdict:
+def check_noise(
+    samples: int = SAMPLES, names: tuple[str, ...] = ("dome", "studio", "sky"), render: Callable = render_layers
+) -> Verdict:
     """Compares pictures of ``render`` with those of ``path`` in each light."""
     head, camera = specimen.head(), specimen.camera()
     passes = passes_for(samples)
@@ -73,7 +75,9 @@ def path_pictures(lit, camera, samples: int, count: int, first_seed: int) -> lis
     path = mi.load_dict({"type": "path", "max_depth": _DEPTH, "rr_depth": 99, "hide_emitters": True})
     sensor, share = camera.sensor(samples), samples // count
     seeds = range(first_seed, first_seed + count)
-    return [np.array(mi.render(lit.scene, sensor=sensor, integrator=path, spp=share, seed=seed))[..., :3] for seed in seeds]
+    return [
+        np.array(mi.render(lit.scene, sensor=sensor, integrator=path, spp=share, seed=seed))[..., :3] for seed in seeds
+    ]
 
 
 def variance_ratio(render: Callable, lit, camera, samples: int = 52) -> float:

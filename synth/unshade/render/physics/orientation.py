@@ -77,7 +77,12 @@ def check_orientation(pipeline: Pipeline | None = None, probes: Iterable[str] = 
     results = [solve[probe](camera, pipeline or Pipeline()) for probe in probes]
     faults = [fault for _, fault in results if fault]
     found = "; ".join(faults or [text for text, _ in results])
-    return Verdict("orientation", not faults, found, "render/scene.py (v), camera.py (axes), lights/ (environments) or pictures.py (rows)")
+    return Verdict(
+        "orientation",
+        not faults,
+        found,
+        "render/scene.py (v), camera.py (axes), lights/ (environments) or pictures.py (rows)",
+    )
 
 
 def _shot(camera: Camera, maps: ChartMaps, light: AnyLight, pipeline: Pipeline) -> np.ndarray:
@@ -122,7 +127,12 @@ def _expected_marks(camera: Camera) -> dict[str, np.ndarray]:
     uv = np.stack([(column + 0.5) / _SIZE, 1 - (row + 0.5) / _SIZE], 1)
     u, v = uv.T
     width, height = camera.width, camera.height
-    textures = {"flipped v": (u, 1 - v), "flipped u": (1 - u, v), "u and v exchanged": (1 - v, 1 - u), "texture turned round": (1 - u, 1 - v)}
+    textures = {
+        "flipped v": (u, 1 - v),
+        "flipped u": (1 - u, v),
+        "u and v exchanged": (1 - v, 1 - u),
+        "texture turned round": (1 - u, 1 - v),
+    }
     truth = _project(camera, uv, np.eye(3))
     expected = {"as stated": truth}
     expected |= {name: _project(camera, np.stack(pair, 1), np.eye(3)) for name, pair in textures.items()}
@@ -151,7 +161,9 @@ def _project(camera: Camera, uv: np.ndarray, axes: np.ndarray) -> np.ndarray:
 
 def _ball_normals(camera: Camera) -> np.ndarray:
     """Unit normals [H, W, 3] of the ball at the pixel centres, NaN beside it."""
-    x, y = np.meshgrid(np.arange(camera.width) + 0.5 - camera.width / 2, camera.height / 2 - np.arange(camera.height) - 0.5)
+    x, y = np.meshgrid(
+        np.arange(camera.width) + 0.5 - camera.width / 2, camera.height / 2 - np.arange(camera.height) - 0.5
+    )
     d = np.stack([x, y, np.full_like(x, -camera.focal)], -1)
     d = d / np.linalg.norm(d, axis=-1, keepdims=True) @ camera.matrix[:3, :3].T
     eye = camera.matrix[:3, 3]
@@ -206,8 +218,12 @@ def _lights(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
 def _panel(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
     """A small panel far away, off every axis."""
     place = np.array([12.0, 20.0, 32.0])
-    picture = _shot(camera, _maps(np.ones((4, 4, 3)), pipeline), Panels((Panel.facing_head(place, 0.8, 0.8, 1000.0),)), pipeline)
-    return _judged_directions("panel", _shading_direction(camera, picture)[None], _axes_mistakes(place / np.linalg.norm(place), "panel's"))
+    picture = _shot(
+        camera, _maps(np.ones((4, 4, 3)), pipeline), Panels((Panel.facing_head(place, 0.8, 0.8, 1000.0),)), pipeline
+    )
+    return _judged_directions(
+        "panel", _shading_direction(camera, picture)[None], _axes_mistakes(place / np.linalg.norm(place), "panel's")
+    )
 
 
 def _normal(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
@@ -224,7 +240,9 @@ def _normal(camera: Camera, pipeline: Pipeline) -> tuple[str, str]:
         shades.append(_shot(camera, maps, light, pipeline)[centre].mean())
     solved = np.linalg.solve(places / np.linalg.norm(places, axis=1, keepdims=True), np.array(shades))
     length = np.linalg.norm(solved)
-    return _judged_directions("normal map", (solved / length if length > 0 else solved)[None], _axes_mistakes(normal, "normal map's"))
+    return _judged_directions(
+        "normal map", (solved / length if length > 0 else solved)[None], _axes_mistakes(normal, "normal map's")
+    )
 
 
 def _axes_mistakes(truth: np.ndarray, whose: str) -> dict[str, np.ndarray]:
@@ -250,7 +268,7 @@ def _judged_directions(what: str, solved: np.ndarray, expected: dict[str, np.nda
 
 
 def _judged(what: str, tolerance: float, unit: str, misses: dict[str, float], clear: float) -> tuple[str, str]:
-    """What was found, and the fault in words if there is one.
+    """The finding in words, and the fault in words (empty if there is none).
 
     ``misses``: distance of what was seen from what each mistake would show; ``clear``: least
     distance between what is right and a mistake.

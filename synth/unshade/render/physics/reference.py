@@ -47,7 +47,11 @@ def albedo(skin: Skin, wi: np.ndarray, part: str = "all") -> float:
     if part != "specular":
         total += skin.diffuse * (1 + skin.diffuse_normal[2]) / 2
     if part != "diffuse":
-        total += skin.specular / _F0 * sum(share * _lobe_albedo(tuple(skin.specular_normal), tuple(wi), alpha) for alpha, share in skin.lobes)
+        total += (
+            skin.specular
+            / _F0
+            * sum(share * _lobe_albedo(tuple(skin.specular_normal), tuple(wi), alpha) for alpha, share in skin.lobes)
+        )
     return total
 
 

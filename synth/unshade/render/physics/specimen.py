@@ -61,7 +61,9 @@ def varied_maps(size: int = 64) -> ChartMaps:
         return _f32(n / np.linalg.norm(n, axis=-1, keepdims=True))
 
     albedo = np.stack([0.45 + 0.2 * np.sin(7 * u + k) * np.cos(9 * v - k) for k in range(3)], -1)
-    roughness = np.stack([0.15 + 0.05 * np.sin(11 * u), 0.35 + 0.1 * np.cos(13 * v), 0.5 + 0.3 * np.sin(5 * (u + v))], -1)
+    roughness = np.stack(
+        [0.15 + 0.05 * np.sin(11 * u), 0.35 + 0.1 * np.cos(13 * v), 0.5 + 0.3 * np.sin(5 * (u + v))], -1
+    )
     return ChartMaps(
         _f32(albedo), _f32(0.03 + 0.015 * np.sin(17 * v)), tilted(0.08), tilted(0.16), _f32(roughness),
     )  # fmt: skip
@@ -75,7 +77,9 @@ def head(maps: ChartMaps | None = None) -> HeadScene:
 def camera(width: int = 48, height: int = 40, position=(0.12, 0.08, 0.5)) -> Camera:
     """A view of the ball that fills the picture's height."""
     distance = float(np.linalg.norm(position))
-    return Camera("000", width, height, 0.42 * height * distance / RADIUS, look_at(np.array(position), np.zeros(3)), True)
+    return Camera(
+        "000", width, height, 0.42 * height * distance / RADIUS, look_at(np.array(position), np.zeros(3)), True
+    )
 
 
 def _f32(values: np.ndarray) -> np.ndarray:

@@ -78,7 +78,7 @@ class Comparison:
         return 2 * stats.t.sf(np.abs(t), np.maximum(freedom, 1))
 
     def rejections(self) -> list[str]:
-        """What each statistic that rejects has found."""
+        """One sentence for each statistic that rejects: its value, and the bias in per cent."""
         found = []
         if abs(self.pooled) > _threshold(1):
             found.append(f"pooled z = {self.pooled:+.1f}, a bias of {100 * self.bias:+.2f} %")

@@ -1,4 +1,4 @@
-"""What a check found."""
+"""The verdict of a physics check."""
 
 from __future__ import annotations
 

@@ -48,7 +48,9 @@ def render_tier(
             lit, sensor, samples=render.samples, depth=render.depth, seed=seed, lens=lens, progress=progress,
         )  # fmt: skip
     if not dr.is_jit_v(mi.Float):
-        raise SceneError(f'tier = "{render.tier}" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set tier = "opaque"')
+        raise SceneError(
+            f'tier = "{render.tier}" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set tier = "opaque"'
+        )
     progress = progress or (lambda done, total: None)
     if render.tier == "diffusion":
         heard = []
@@ -58,7 +60,7 @@ def render_tier(
         )  # fmt: skip
         if heard:
             whole = progress
-            progress = lambda done, total: whole(total + done, 2 * total)  # noqa: E731
+            progress = lambda done, total: whole(total + done, 2 * total)
         estimator = diffusion.estimator(head, lit, baked, render.depth)
     else:
         estimator = volume.estimator(shared.flesh(head), lit, render)

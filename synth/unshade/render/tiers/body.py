@@ -38,7 +38,7 @@ def close(meshes: list[Mesh]) -> Body:
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     vertices, triangles = _capped(vertices, triangles)
-    if (faults := _unpaired(triangles)):
+    if faults := _unpaired(triangles):
         raise SceneError(
             f'tier = "volume" needs a closed head, but {faults} edges of its mesh have no partner that runs the other way; '
             'mend the mesh (one surface, no flipped or doubled triangles), or set tier = "diffusion"'

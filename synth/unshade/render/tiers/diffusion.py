@@ -44,11 +44,13 @@ def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None
 
 
 def estimator(head: HeadScene, lit: LitHead, baked: Baked, depth: int):
-    """What `passes.render_estimate` renders."""
+    """Function of sampler, ray and pass that gives the layers of `passes.render_estimate`."""
     lookup = _Lookup(head, baked)
 
     def estimate(sampler, ray, number):
-        diffuse, specular = split_radiance(lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light)
+        diffuse, specular = split_radiance(
+            lit.scene, lit.dark, sampler, ray, dr.opaque(mi.UInt32, depth), lit.lambert_light
+        )
         pi = lit.dark.ray_intersect_preliminary(ray, coherent=True)
         si = pi.compute_surface_interaction(ray, +mi.RayFlags.All)
         skin, light = lookup(pi, si, number)

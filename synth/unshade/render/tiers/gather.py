@@ -19,7 +19,6 @@ import numpy as np
 from . import profile
 from .surface import SkinPoints
 
-
 _MOST_CELLS = 200
 """Cells along the longest edge."""
 
@@ -32,7 +31,9 @@ class Blurred:
     raw_sum: np.ndarray
 
 
-def blur(irradiance: np.ndarray, points: SkinPoints, albedo: np.ndarray, mean_free_path: np.ndarray, open_: np.ndarray) -> Blurred:
+def blur(
+    irradiance: np.ndarray, points: SkinPoints, albedo: np.ndarray, mean_free_path: np.ndarray, open_: np.ndarray
+) -> Blurred:
     """Gathers ``irradiance`` (M, bakes, 3); ``albedo`` (M,3) sets the profile of the receiver.
 
     ``mean_free_path`` (3,) in metres; ``open_`` (M,) bool: points that light can reach at all.
@@ -53,7 +54,9 @@ def blur(irradiance: np.ndarray, points: SkinPoints, albedo: np.ndarray, mean_fr
     # Constants of a receiver's profile: 1/(3 d) and 1/(8 pi d).
     steep, high = (mi.Color3f(_columns((a / radius[order]).astype(np.float32))) for a in (1 / 3, 1 / (8 * np.pi)))
     lane = dr.arange(mi.UInt32, len(order))
-    sums, total = _gather(sources, cells.device(), lane, steep, high, mi.Float((reach**2)[order]), mi.Color3f(_columns(own[order])))
+    sums, total = _gather(
+        sources, cells.device(), lane, steep, high, mi.Float((reach**2)[order]), mi.Color3f(_columns(own[order]))
+    )
     raw = np.empty((len(order), 3), np.float32)
     result = np.empty_like(irradiance)
     raw[order] = np.array(total).T
@@ -94,7 +97,7 @@ class _Cells:
 
 
 class _Sources:
-    """What is gathered, in the order of the cells.
+    """Points whose light is gathered, in the order of the cells.
 
     No dataclass: Dr.Jit would carry the fields of one through its loops as variables.
     """
@@ -143,4 +146,3 @@ def _gather(sources, cells, lane, steep, high, reach2, own):
 
 def _columns(rows: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(rows.T, dtype=np.float32)
-

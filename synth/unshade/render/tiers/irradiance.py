@@ -25,7 +25,9 @@ CONTACT = 2e-3
 """Metres: nearer surfaces count as touching."""
 
 
-def bake(lit: LitHead, points: SkinPoints, *, bakes: int, samples: int, depth: int, seed: int, progress=None) -> np.ndarray:
+def bake(
+    lit: LitHead, points: SkinPoints, *, bakes: int, samples: int, depth: int, seed: int, progress=None
+) -> np.ndarray:
     """Irradiance (M, bakes, 3) f32 of independent bakes with ``samples`` paths each.
 
     ``depth`` counts path segments from the camera, as in the opaque tier.

@@ -1,4 +1,4 @@
-"""What one mean free path means in both subsurface tiers: profile radius and medium albedo.
+"""Profile radius and medium albedo of both subsurface tiers from one mean free path.
 
 Both describe a semi-infinite medium with isotropic scattering and without a step of the
 refractive index at its surface. It is given by its mean free path l and by the albedo A

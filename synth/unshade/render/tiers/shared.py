@@ -1,4 +1,4 @@
-"""What several pictures share, kept as long as the head or the light that it belongs to.
+"""Bakes and media that several pictures share, kept as long as the head or light they belong to.
 
 The irradiance depends on the head's albedo through interreflection, and so does the
 medium: both are made anew after `HeadScene.set_diffuse_albedo`.

@@ -81,8 +81,12 @@ class SkinPoints:
         areas = np.divide(stretch, flat, out=np.zeros_like(flat), where=flat > 0)[texels.triangle] / size**2
         return cls(
             positions=np.concatenate([texels.sample(chart.vertices), *(p.vertices for p in parts)]),
-            facing=np.concatenate([unit(chart.doubled[texels.triangle]), *(p.normals for p in parts)]).astype(np.float32),
-            normals=np.concatenate([_diffuse_normals(head, texels, smooth), *(p.normals for p in parts)]).astype(np.float32),
+            facing=np.concatenate([unit(chart.doubled[texels.triangle]), *(p.normals for p in parts)]).astype(
+                np.float32
+            ),
+            normals=np.concatenate([_diffuse_normals(head, texels, smooth), *(p.normals for p in parts)]).astype(
+                np.float32
+            ),
             areas=np.concatenate([areas, *map(_vertex_areas, parts)]).astype(np.float32),
             texels=texels,
             parts=parts,
@@ -106,12 +110,14 @@ def _at_texels(texels: Texels):
     size = len(texels.inside)
     row, column = np.nonzero(texels.inside)
     si = dr.zeros(mi.SurfaceInteraction3f, len(row))
-    si.uv = mi.Point2f(mi.Float((column + 0.5).astype(np.float32) / size), mi.Float((row + 0.5).astype(np.float32) / size))
+    si.uv = mi.Point2f(
+        mi.Float((column + 0.5).astype(np.float32) / size), mi.Float((row + 0.5).astype(np.float32) / size)
+    )
     return si
 
 
 def _diffuse_normals(head: HeadScene, texels: Texels, smooth: np.ndarray) -> np.ndarray:
-    """Those of the map; of the mesh where it holds no direction."""
+    """Unit diffuse normals [N, 3] at the texels: the map's, or ``smooth`` where it holds no direction."""
     if head.skin.diffuse_normal is None:
         return smooth
     mapped = np.array(head.skin.diffuse_normal.eval_3(_at_texels(texels))).T

@@ -46,7 +46,7 @@ class Flesh:
 
 
 def estimator(flesh: Flesh, lit: LitHead, render: Render):
-    """What `passes.render_estimate` renders."""
+    """Function of sampler, ray and pass that gives the layers of `passes.render_estimate`."""
     scene = _scene(flesh, lit)
     surface = mi.ShapePtr(flesh.surface)
     skin_shapes = [mi.ShapePtr(shape) for shape in flesh.skin]

@@ -95,7 +95,9 @@ def walk(scene, body, medium, extinction, sampler, start, direction, active, way
         sphere = mi.warp.square_to_uniform_sphere(sampler.next_2d())
         # Uniform on the sphere about the tip of the normal: cosine-distributed.
         onward = dr.select(collided, sphere, dr.normalize(sphere + facing * 1.0001))
-        density = dr.select(turns, dr.select(collided, mi.Float(dr.inv_four_pi), dr.dot(facing, onward) * dr.inv_pi), density)
+        density = dr.select(
+            turns, dr.select(collided, mi.Float(dr.inv_four_pi), dr.dot(facing, onward) * dr.inv_pi), density
+        )
         previous = dr.select(turns, vertex, previous)
         scattered |= turns
         ray = dr.select(turns, _from(vertex, onward), _beyond(si, ray.d))

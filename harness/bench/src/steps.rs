@@ -1,0 +1,149 @@
+//! The steps of the paper's optimisation on synthetic G-buffers, each against its floors.
+
+use std::time::Duration;
+
+use serde::Serialize;
+use solver::backend::Backend;
+use solver::backend::cpu::Cpu;
+use solver::memory::Hoard;
+use solver::model::deviation::Deviation;
+use solver::optimise::deviation::Relief;
+use solver::optimise::diffuse::Diffuse;
+use solver::optimise::stage::Stage;
+use solver::optimise::warm_up::WarmUp;
+
+use super::clock::{best, forget_peak, peak_memory};
+use super::cost::{self, Cost};
+use super::machine::peak_now;
+use super::synthetic::{Problem, paper};
+
+/// A kind of step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Networks and albedos together.
+    WarmUp,
+    /// Normals and specular albedo.
+    Normals,
+    /// Diffuse albedo.
+    Diffuse,
+}
+
+impl Kind {
+    /// All of them, in the order of a solve.
+    pub const ALL: [Self; 3] = [Self::WarmUp, Self::Normals, Self::Diffuse];
+
+    /// In a table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WarmUp => "warm-up",
+            Self::Normals => "normals and specular",
+            Self::Diffuse => "diffuse",
+        }
+    }
+
+    /// The least work.
+    pub fn cost(self, pixels: usize, size: usize) -> Cost {
+        match self {
+            Self::WarmUp => cost::warm_up(&paper(), pixels, size),
+            Self::Normals => cost::normals(&paper(), pixels, size),
+            Self::Diffuse => cost::diffuse(pixels, size),
+        }
+    }
+}
+
+/// What a machine reaches with a backend.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Reach {
+    /// Multiply-adds, FLOP/s.
+    pub flops: f64,
+    /// To and from memory, bytes/s.
+    pub bytes: f64,
+}
+
+/// A measured step.
+#[derive(Clone, Debug, Serialize)]
+pub struct Step {
+    /// What was done.
+    pub kind: Kind,
+    /// On what.
+    pub backend: String,
+    /// Threads.
+    pub threads: usize,
+    /// Pixels of all views.
+    pub pixels: usize,
+    /// Side of the textures.
+    pub texture: usize,
+    /// Milliseconds of a step, the shortest of several.
+    pub milliseconds: f64,
+    /// The least work.
+    pub cost: Cost,
+    /// Milliseconds that the products alone would take.
+    pub product_floor: f64,
+    /// Milliseconds that all arithmetic would take.
+    pub compute_floor: f64,
+    /// Milliseconds that memory alone would take.
+    pub memory_floor: f64,
+    /// Multiply-adds right after such a step, FLOP/s: the most of several times.
+    pub flops_after: f64,
+    /// Largest resident set of the process, bytes.
+    pub peak_memory: Option<u64>,
+}
+
+impl Step {
+    /// The larger floor.
+    pub fn floor(&self) -> f64 {
+        self.compute_floor.max(self.memory_floor)
+    }
+
+    /// Share of the peak of multiply-adds that the products are: of the machine's, and of what is left
+    /// of it after such steps.
+    pub fn shares_of_peak(&self) -> [f64; 2] {
+        let after = 1e3 * self.cost.flops / self.flops_after;
+        [self.product_floor, after].map(|floor| floor / self.milliseconds)
+    }
+}
+
+/// Measures one kind of step; everything else is given back before.
+pub fn measure(
+    kind: Kind,
+    backend: &Cpu,
+    reach: Reach,
+    (pixels, texture): (usize, usize),
+    budget: Duration,
+) -> Step {
+    // As in a solve; dropped last, so that the next measurement begins with little memory.
+    let _hoard = Hoard::begin();
+    let forgot = forget_peak();
+    let Problem { config, samples, mut state } = Problem::new(pixels, texture);
+    let deviation = Deviation::new(&config, texture);
+    let mut stage: Box<dyn Stage> = match kind {
+        Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
+        Kind::Normals => Box::new(Relief::new(&config, &samples, &deviation, &state, backend, 1)),
+        Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, backend, 1)),
+    };
+    let seconds = best(budget, 2, || {
+        stage.step(&mut state, backend, 1.0);
+    });
+    // Not in between: the steps are to find the processor as those of a solve do.
+    let mut flops_after = 0.0f64;
+    best(budget / 4, 2, || {
+        stage.step(&mut state, backend, 1.0);
+        flops_after = flops_after.max(peak_now(backend));
+    });
+    let cost = kind.cost(pixels, texture);
+    Step {
+        kind,
+        backend: backend.name(),
+        threads: rayon::current_num_threads(),
+        pixels,
+        texture,
+        milliseconds: 1e3 * seconds,
+        cost,
+        product_floor: 1e3 * cost.flops / reach.flops,
+        compute_floor: 1e3 * cost.operations / reach.flops,
+        memory_floor: 1e3 * cost.bytes / reach.bytes,
+        flops_after,
+        peak_memory: forgot.then(peak_memory).flatten(),
+    }
+}

@@ -1,0 +1,215 @@
+//! `unshade.Capture`.
+
+use std::path::PathBuf;
+
+use capture::gbuffer::GBuffer;
+use capture::{Camera, Mesh, View};
+use formats::picture::Picture;
+use numpy::ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
+use pyo3::exceptions::{PyKeyError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use solver::transport::{Beside, CHANNELS, Sky, Transport};
+
+use super::arrays::{self, Argument};
+use super::errors::raise;
+use super::maps::Maps;
+
+/// A capture folder, opened and checked.
+#[pyclass(module = "unshade", frozen)]
+pub(super) struct Capture {
+    pub(super) inner: capture::Capture,
+}
+
+impl Capture {
+    /// The capture that an argument is or names.
+    pub(super) fn given(value: &Bound<PyAny>) -> PyResult<Py<Self>> {
+        if let Ok(capture) = value.cast::<Self>() {
+            return Ok(capture.clone().unbind());
+        }
+        Py::new(value.py(), Self::new(value.py(), path_of("capture", value)?)?)
+    }
+
+    fn view(&self, name: &str) -> PyResult<&View> {
+        let found = self.inner.train.iter().find(|view| view.camera.name == name);
+        found.ok_or_else(|| PyKeyError::new_err(format!("no training view is named {name:?}")))
+    }
+}
+
+#[pymethods]
+impl Capture {
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let inner = py.detach(|| capture::Capture::open(&path)).map_err(raise)?;
+        Ok(Self { inner })
+    }
+
+    /// The folder.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.inner.folder.clone()
+    }
+
+    /// Names of the training views.
+    #[getter]
+    fn train(&self) -> Vec<String> {
+        self.inner.train.iter().map(|view| view.camera.name.clone()).collect()
+    }
+
+    /// Names of the withheld views; their pictures belong to the truth.
+    #[getter]
+    fn withheld(&self) -> Vec<String> {
+        self.inner.withheld.iter().map(|camera| camera.name.clone()).collect()
+    }
+
+    /// Linear radiance of a training view.
+    fn image<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        arrays::picture_to_array(py, self.view(name)?.image.clone())
+    }
+
+    /// 255 where the mesh is the first surface.
+    fn mask<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
+        arrays::gray_to_array(py, self.view(name)?.mask.clone())
+    }
+
+    /// Region ids, or None.
+    fn labels<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+    ) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
+        let labels = self.view(name)?.labels.as_ref();
+        labels.map(|labels| arrays::gray_to_array(py, labels.clone())).transpose()
+    }
+
+    /// Size, focal lengths, principal point (pixels) and camera-to-world matrix of any view.
+    fn camera<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let camera = self.inner.camera(name);
+        let camera =
+            camera.ok_or_else(|| PyKeyError::new_err(format!("no view is named {name:?}")))?;
+        camera_to_dict(py, camera)
+    }
+
+    /// Vertices, normals, texture coordinates and triangles.
+    #[getter]
+    fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        mesh_to_dict(py, &self.inner.mesh)
+    }
+
+    /// What any view sees of the mesh: positions, normals and uvs, NaN where it sees none.
+    fn gbuffer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+        let camera = self.inner.camera(name);
+        let camera =
+            camera.ok_or_else(|| PyKeyError::new_err(format!("no view is named {name:?}")))?;
+        let gbuffer = py.detach(|| GBuffer::new(&self.inner.mesh, camera, None));
+        let plane = |channels: usize, of: &dyn Fn(usize) -> Vec<f32>| {
+            let mut picture = Picture::new(gbuffer.width, gbuffer.height, channels);
+            picture.data.fill(f32::NAN);
+            for (sample, pixel) in gbuffer.pixels.iter().enumerate() {
+                let at = *pixel as usize * channels;
+                picture.data[at..at + channels].copy_from_slice(&of(sample));
+            }
+            arrays::picture_to_array(py, picture)
+        };
+        let dict = PyDict::new(py);
+        dict.set_item("positions", plane(3, &|i| gbuffer.positions[i].to_array().to_vec())?)?;
+        dict.set_item("normals", plane(3, &|i| gbuffer.normals[i].to_array().to_vec())?)?;
+        dict.set_item("uvs", plane(2, &|i| gbuffer.uvs[i].to_array().to_vec())?)?;
+        Ok(dict)
+    }
+
+    /// The diffuse shading S_d of the mesh in a lat-long environment, shadows and bounces
+    /// included, on a texture: a white Lambert texel in radiance 1 from everywhere has 1. The
+    /// environment is a sphere of 1 / `nearness` metres around the head.
+    #[pyo3(signature = (light, *, texture_size=128, nearness=0.0, bounces=2, bounce_albedo=0.4))]
+    fn shading<'py>(
+        &self,
+        py: Python<'py>,
+        light: &Bound<'py, PyAny>,
+        texture_size: usize,
+        nearness: f32,
+        bounces: usize,
+        bounce_albedo: f32,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        let argument = Argument { name: "light", class: "ValueError" };
+        let light = argument.picture(light)?;
+        if light.channels != CHANNELS || light.width != 2 * light.height {
+            let shape = (light.height, light.width, light.channels);
+            let message = format!("expected (rows, 2 x rows, 3), got shape {shape:?}");
+            return Err(argument.refused(&message));
+        }
+        if let Some(value) = light.data.iter().find(|value| !value.is_finite()) {
+            return Err(argument.refused(&format!("holds {value}; mend the pixel")));
+        }
+        let mut config = solver::Config::default();
+        let transport = &mut config.transport;
+        (transport.texture_size, transport.rows) = (texture_size, light.height);
+        (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
+        config.validate().map_err(raise)?;
+        let data = py.detach(|| {
+            let sky = Sky::even(light.height).at(nearness);
+            let (mesh, transport) = (&self.inner.mesh, &config.transport);
+            Transport::new(mesh, &sky, transport, config.seed, Beside::Nothing).shading(&light.data)
+        });
+        let (width, height) = (texture_size, texture_size);
+        arrays::picture_to_array(py, Picture { width, height, channels: CHANNELS, data })
+    }
+
+    /// The true maps of a synthetic capture.
+    fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
+        let folder = self.inner.folder.join("truth");
+        let inner = py.detach(|| formats::Maps::read(&folder)).map_err(raise)?;
+        Maps::new_from(py, inner, None)
+    }
+
+    /// For pickles and copies: the folder is opened again.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let arguments = (slf.get().path(),);
+        Ok((slf.get_type(), arguments).into_pyobject(slf.py())?.into_any())
+    }
+
+    fn __repr__(&self) -> String {
+        let (train, withheld) = (self.inner.train.len(), self.inner.withheld.len());
+        let folder = self.inner.folder.display();
+        format!("Capture({folder}: {train} training views, {withheld} withheld)")
+    }
+}
+
+/// The path that an argument is.
+fn path_of(name: &str, value: &Bound<PyAny>) -> PyResult<PathBuf> {
+    value.extract().map_err(|_| {
+        let given = value.get_type().qualname().map_or_else(|_| String::new(), |n| n.to_string());
+        PyTypeError::new_err(format!("{name}: expected a Capture or a path, got {given}"))
+    })
+}
+
+fn camera_to_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyDict>> {
+    let matrix = camera.camera_to_world;
+    let matrix: Bound<'py, PyArray2<f32>> =
+        Array2::from_shape_fn((4, 4), |(row, column)| matrix.col(column)[row]).into_pyarray(py);
+    let dict = PyDict::new(py);
+    dict.set_item("width", camera.width)?;
+    dict.set_item("height", camera.height)?;
+    dict.set_item("focal", camera.focal)?;
+    dict.set_item("centre", camera.centre)?;
+    dict.set_item("camera_to_world", matrix)?;
+    Ok(dict)
+}
+
+fn mesh_to_dict<'py>(py: Python<'py>, mesh: &Mesh) -> PyResult<Bound<'py, PyDict>> {
+    let rows = |array: Bound<'py, PyArray1<f32>>, width: usize| {
+        array.call_method1("reshape", ((-1, width as isize),))
+    };
+    let vectors = |vectors: &[glam::Vec3]| {
+        rows(vectors.iter().flat_map(|v| v.to_array()).collect::<Array1<_>>().into_pyarray(py), 3)
+    };
+    let uvs: Array1<f32> = mesh.uvs.iter().flat_map(|uv| uv.to_array()).collect();
+    let triangles: Array1<u32> = mesh.triangles.iter().flatten().copied().collect();
+    let dict = PyDict::new(py);
+    dict.set_item("vertices", vectors(&mesh.positions)?)?;
+    dict.set_item("normals", vectors(&mesh.normals)?)?;
+    dict.set_item("uvs", rows(uvs.into_pyarray(py), 2)?)?;
+    dict.set_item("triangles", triangles.into_pyarray(py).call_method1("reshape", ((-1, 3),))?)?;
+    Ok(dict)
+}

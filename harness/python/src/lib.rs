@@ -1,0 +1,52 @@
+//! The extension module `unshade._native`: bindings, nothing else.
+
+mod arrays;
+mod calls;
+mod capture;
+mod errors;
+mod folders;
+mod maps;
+mod meshes;
+mod metrics;
+mod pictures;
+mod stages;
+mod tangents;
+
+use pyo3::prelude::*;
+
+/// What the Python package `unshade` is made of.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<capture::Capture>()?;
+    module.add_class::<maps::Maps>()?;
+    module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::check_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::read_scores, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::write_scores, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::synth, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::relight, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::run, module)?)?;
+    module.add_function(wrap_pyfunction!(folders::begin_folder, module)?)?;
+    module.add_function(wrap_pyfunction!(folders::commit_folder, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::report, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::depth_of, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::exr_channels, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_exr, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_colour, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_light, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::write_colour, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::export, module)?)?;
+    module.add_function(wrap_pyfunction!(tangents::mikktspace, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! Meshes of heads of one's own: the solver's reader of OBJ files, which way surfaces face, and
+//! what a camera sees of them.
+
+use capture::gbuffer::rasterise;
+use capture::{Camera, Mesh, outward};
+use glam::{Mat4, Vec2, Vec3};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// The objects of an OBJ file, each a dict of `name`, `vertices` (V,3) float64, `triangles` (F,3)
+/// int64, `uv` (V,2) and `normals` (V,3) float64 or None, and `line_without_uv`, a line number or
+/// None. Raises ValueError for what cannot be read, with the line.
+#[pyfunction]
+pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py, PyList>> {
+    let objects = py.detach(|| formats::obj::read(data));
+    let objects = objects.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    let list = PyList::empty(py);
+    for object in objects {
+        let dict = PyDict::new(py);
+        dict.set_item("name", &object.name)?;
+        dict.set_item("vertices", rows(py, &object.positions))?;
+        let triangles = Array2::from_shape_fn((object.triangles.len(), 3), |(row, column)| {
+            i64::from(object.triangles[row][column])
+        });
+        dict.set_item("triangles", triangles.into_pyarray(py))?;
+        dict.set_item("uv", object.uvs.as_deref().map(|uvs| rows(py, uvs)))?;
+        dict.set_item("normals", object.normals.as_deref().map(|normals| rows(py, normals)))?;
+        dict.set_item("line_without_uv", object.line_without_uv)?;
+        list.append(dict)?;
+    }
+    Ok(list)
+}
+
+/// What must be turned for all surfaces to face outwards, away from the origin: triangles (F,)
+/// bool, normals (V,) bool (empty without normals), and the number of triangles on surfaces with
+/// one side only.
+#[pyfunction]
+#[pyo3(signature = (vertices, triangles, normals=None))]
+#[allow(clippy::type_complexity)]
+pub(super) fn outward_turns<'py>(
+    py: Python<'py>,
+    vertices: PyReadonlyArray2<f64>,
+    triangles: PyReadonlyArray2<i64>,
+    normals: Option<PyReadonlyArray2<f64>>,
+) -> PyResult<(Bound<'py, PyArray1<bool>>, Bound<'py, PyArray1<bool>>, usize)> {
+    let positions = vectors("vertices", &vertices)?;
+    let normals = normals.as_ref().map(|normals| vectors("normals", normals)).transpose()?;
+    if normals.as_ref().is_some_and(|normals| normals.len() != positions.len()) {
+        return Err(PyValueError::new_err("normals: expected one per vertex"));
+    }
+    let faces = corners(&triangles, positions.len())?;
+    let found = py.detach(|| outward::outward(&positions, normals.as_deref(), &faces));
+    let turned = found.triangles.into_pyarray(py);
+    Ok((turned, found.normals.into_pyarray(py), found.one_sided))
+}
+
+/// What a pinhole sees: the depth along its axis at every pixel's centre (height, width), infinite
+/// where there is no surface, whichever side it shows. `camera_to_world` (4, 4) has OpenGL axes.
+#[pyfunction]
+pub(super) fn depth_of<'py>(
+    py: Python<'py>,
+    vertices: PyReadonlyArray2<f64>,
+    triangles: PyReadonlyArray2<i64>,
+    size: (usize, usize),
+    focal: [f32; 2],
+    centre: [f32; 2],
+    camera_to_world: [[f32; 4]; 4],
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let positions = vectors("vertices", &vertices)?;
+    let triangles = corners(&triangles, positions.len())?;
+    // Only positions decide what is seen.
+    let (normals, uvs) = (vec![Vec3::Z; positions.len()], vec![Vec2::ZERO; positions.len()]);
+    let mesh = Mesh { positions, normals, uvs, triangles };
+    let (width, height) = size;
+    let camera_to_world = Mat4::from_cols_array_2d(&camera_to_world).transpose();
+    let camera = Camera { name: String::new(), width, height, focal, centre, camera_to_world };
+    let raster = py.detach(|| rasterise(&mesh, &camera));
+    let depth = |(row, column): (usize, usize)| {
+        raster.hits[row * width + column].map_or(f32::INFINITY, |hit| hit.depth)
+    };
+    Ok(Array2::from_shape_fn((height, width), depth).into_pyarray(py))
+}
+
+fn vectors(name: &str, array: &PyReadonlyArray2<f64>) -> PyResult<Vec<Vec3>> {
+    let view = array.as_array();
+    if view.ncols() != 3 {
+        let shape = array.shape();
+        return Err(PyValueError::new_err(format!("{name}: expected (n, 3), got {shape:?}")));
+    }
+    let vector = |row: numpy::ndarray::ArrayView1<f64>| {
+        Vec3::new(row[0] as f32, row[1] as f32, row[2] as f32)
+    };
+    Ok(view.rows().into_iter().map(vector).collect())
+}
+
+/// Triangles of a mesh with `count` vertices.
+fn corners(triangles: &PyReadonlyArray2<i64>, count: usize) -> PyResult<Vec<[u32; 3]>> {
+    let corner = |index: &i64| {
+        let index = u32::try_from(*index).ok().filter(|index| (*index as usize) < count);
+        index.ok_or_else(|| PyValueError::new_err("triangles: an index names no vertex"))
+    };
+    let view = triangles.as_array();
+    if view.ncols() != 3 {
+        return Err(PyValueError::new_err("triangles: expected (n, 3)"));
+    }
+    let faces = view.rows().into_iter();
+    faces.map(|row| Ok([corner(&row[0])?, corner(&row[1])?, corner(&row[2])?])).collect()
+}
+
+fn rows<'py, const N: usize>(py: Python<'py>, rows: &[[f64; N]]) -> Bound<'py, PyArray2<f64>> {
+    Array2::from_shape_fn((rows.len(), N), |(row, column)| rows[row][column]).into_pyarray(py)
+}

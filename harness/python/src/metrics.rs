@@ -1,0 +1,153 @@
+//! `unshade.metrics`.
+
+use formats::picture::{GrayImage, Picture};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use scoring::metrics::{
+    METRICS, Metric, MetricError, Pair, Region, Scale, ScaleMode, black_outside,
+};
+
+use super::arrays::Argument;
+use super::errors::{named_error, raise};
+
+/// (id, name, unit, direction, definition, link, needs) of every metric; `needs` is the argument
+/// that it takes beside prediction, truth and mask, or empty.
+#[pyfunction]
+pub(super) fn metric_definitions() -> Vec<[&'static str; 7]> {
+    let row = |m: &Metric| {
+        let needs = m.quantity.needs().unwrap_or_default();
+        [m.id, m.name, m.unit, m.direction.symbol(), m.definition, m.link, needs]
+    };
+    METRICS.iter().map(row).collect()
+}
+
+fn argument(name: &str) -> Argument<'_> {
+    Argument { name, class: "MetricError" }
+}
+
+/// One metric of a prediction against its truth inside a mask; None where it is not defined. What
+/// lies outside the mask is as good as black, as in scores. `beside` holds what the metric needs.
+#[pyfunction]
+#[pyo3(signature = (metric, prediction, truth, mask=None, *, erode=false, scale="none",
+                    beside=None))]
+#[allow(clippy::too_many_arguments)]
+pub(super) fn measure(
+    py: Python<'_>,
+    metric: &str,
+    prediction: &Bound<PyAny>,
+    truth: &Bound<PyAny>,
+    mask: Option<&Bound<PyAny>>,
+    erode: bool,
+    scale: &str,
+    beside: Option<&Bound<PyDict>>,
+) -> PyResult<Option<f64>> {
+    let metric = Metric::find(metric).map_err(raise)?;
+    let mode = ScaleMode::ALL.into_iter().find(|mode| mode.id() == scale).ok_or_else(|| {
+        let reason = format!("no scale mode {scale:?}: none, global, channel, median");
+        named_error("MetricError", &reason)
+    })?;
+    let mut prediction = argument("prediction").picture(prediction)?;
+    let mut truth = argument("truth").picture(truth)?;
+    if (prediction.height, prediction.width, prediction.channels)
+        != (truth.height, truth.width, truth.channels)
+    {
+        let shape = |picture: &Picture| match picture.channels {
+            1 => format!("({}, {})", picture.height, picture.width),
+            channels => format!("({}, {}, {channels})", picture.height, picture.width),
+        };
+        let reason =
+            format!("has shape {}, expected {}, as the truth", shape(&prediction), shape(&truth));
+        return Err(argument("prediction").refused(&reason));
+    }
+    let mask = match mask {
+        Some(mask) => {
+            let mask = argument("mask").mask(mask)?;
+            check_size("mask", (mask.width, mask.height), &truth)?;
+            for picture in [&mut prediction, &mut truth] {
+                *picture = black_outside(picture, &mask);
+            }
+            Some(mask)
+        }
+        None => None,
+    };
+    let given = |name: &str| match (beside, metric.quantity.needs() == Some(name)) {
+        (Some(beside), true) => Ok(beside.get_item(name)?.filter(|value| !value.is_none())),
+        _ => Ok::<_, PyErr>(None),
+    };
+    let labels = given("labels")?.map(|given| argument("labels").bytes(&given)).transpose()?;
+    if let Some(labels) = &labels {
+        check_size("labels", (labels.width, labels.height), &truth)?;
+    }
+    let float = |name: &'static str| {
+        let Some(given) = given(name)? else { return Ok::<_, PyErr>(None) };
+        let picture = argument(name).picture(&given)?;
+        check_size(name, (picture.width, picture.height), &truth)?;
+        let fits = if name == "confidence" { &[1][..] } else { &[1, 3] };
+        if !fits.contains(&picture.channels) {
+            let reason = format!("has {} channels, expected {fits:?}", picture.channels);
+            return Err(argument(name).refused(&reason));
+        }
+        Ok(Some(picture))
+    };
+    let shading = float("shading")?;
+    let inputs = Inputs {
+        labels,
+        cause: if shading.is_some() { shading } else { float("specular")? },
+        confidence: float("confidence")?,
+    };
+    let value = || value(metric, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
+    py.detach(value).map_err(raise)
+}
+
+/// What some metrics compare with beside the truth.
+struct Inputs {
+    labels: Option<GrayImage>,
+    cause: Option<Picture>,
+    confidence: Option<Picture>,
+}
+
+fn value(
+    metric: &Metric,
+    mode: ScaleMode,
+    prediction: &Picture,
+    truth: &Picture,
+    mask: Option<&GrayImage>,
+    erode: bool,
+    inputs: &Inputs,
+) -> Result<Option<f64>, MetricError> {
+    let (width, height) = (truth.width, truth.height);
+    let whole = GrayImage { width, height, data: vec![255; width * height] };
+    let region = match (mask, erode) {
+        (None, false) => Region::whole(width, height),
+        (mask, true) => Region::eroded("mask", mask.unwrap_or(&whole)),
+        (Some(mask), false) => Region::of_mask("mask", mask),
+    }?;
+    let mut pair = Pair::new(prediction, truth, &region)?;
+    if mode != ScaleMode::None {
+        let factors = Scale::fit(&pair)?.factors(mode);
+        pair = pair.scaled(factors);
+    }
+    if let Some(labels) = &inputs.labels {
+        pair = pair.with_labels(labels)?;
+    }
+    if let Some(cause) = &inputs.cause {
+        pair = pair.with_cause(cause)?;
+    }
+    if let Some(confidence) = &inputs.confidence {
+        pair = pair.with_confidence(confidence)?;
+    }
+    metric.value(&pair)
+}
+
+fn check_size(name: &str, (width, height): (usize, usize), truth: &Picture) -> PyResult<()> {
+    if (width, height) == (truth.width, truth.height) {
+        return Ok(());
+    }
+    let transposed = (height, width) == (truth.width, truth.height);
+    let mend = if transposed { "; transpose it" } else { "" };
+    let reason = format!(
+        "has shape ({height}, {width}), expected ({}, {}), as the truth{mend}",
+        truth.height, truth.width
+    );
+    Err(argument(name).refused(&reason))
+}

@@ -1,0 +1,175 @@
+//! One case of the page: its table, pictures, optimisation and provenance.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use scoring::score::RegionSize;
+use serde::Serialize;
+
+use super::error::ReportError;
+use super::methods::{self as made, MethodRow};
+use super::plates::{self, Input, Method, Plate, Studio};
+use super::run::{Case, Frames, Timing};
+use super::solve::Solve;
+use super::table::{self, Column, Table};
+
+/// A case as the templates see it.
+#[derive(Serialize)]
+pub(super) struct CaseView {
+    id: String,
+    anchor: String,
+    face: String,
+    light: String,
+    variant: Option<String>,
+    train: usize,
+    test: usize,
+    inputs: Vec<Input>,
+    methods: Vec<MethodRow>,
+    table: Table,
+    complete: Table,
+    regions: Vec<Region>,
+    maps: Vec<Plate>,
+    pub views: Vec<Plate>,
+    layers: Vec<Plate>,
+    solves: Vec<Solve>,
+    hashes: Vec<Hashes>,
+    scene_toml: Option<String>,
+}
+
+/// How much of the truth a region holds.
+#[derive(Serialize)]
+struct Region {
+    name: String,
+    pixels: usize,
+    share: String,
+    /// Per column: the share for which the method had data.
+    solved: Vec<String>,
+}
+
+/// The contents that one column's scores were computed from.
+#[derive(Serialize)]
+struct Hashes {
+    title: String,
+    data: Option<String>,
+    inputs: Vec<(&'static str, String)>,
+    factor: Option<String>,
+}
+
+fn regions(columns: &[Column]) -> Vec<Region> {
+    let sizes = |column: &Column| column.scores.map_or_else(Vec::new, |s| s.regions.clone());
+    let all: Vec<Vec<RegionSize>> = columns.iter().map(sizes).collect();
+    let percent = |share: Option<f64>| {
+        share.map_or(table::EMPTY.to_owned(), |share| format!("{:.1} %", share * 100.0))
+    };
+    let solved = |sizes: &Vec<RegionSize>, region: &str| {
+        percent(sizes.iter().find(|size| size.region == region).and_then(|size| size.solved))
+    };
+    // A method without views has fewer regions than one with them.
+    let known = all.iter().max_by_key(|sizes| sizes.len()).into_iter().flatten();
+    known
+        .map(|size| Region {
+            name: size.region.clone(),
+            pixels: size.pixels,
+            share: percent(Some(size.share)),
+            solved: all.iter().map(|sizes| solved(sizes, &size.region)).collect(),
+        })
+        .collect()
+}
+
+impl CaseView {
+    /// Reads the case from the run, and writes its pictures and scores below `root`.
+    pub fn make(
+        run: &Path,
+        case: &Case,
+        columns: &[Column],
+        timing: &Timing,
+        root: &Path,
+    ) -> Result<Self, ReportError> {
+        let capture = run.join(&case.capture);
+        let frames = Frames::read(&capture)?;
+        let below = |path: &Option<PathBuf>| path.as_ref().map(|path| run.join(path));
+        let methods: Vec<Method> = columns
+            .iter()
+            .map(|column| Method {
+                column,
+                maps: below(&column.entrant.maps),
+                relit: below(&column.entrant.relit),
+            })
+            .collect();
+        let anchor = plates::file_name(&case.id);
+        let studio = Studio {
+            frames: &frames,
+            light: &case.light,
+            methods: &methods,
+            root,
+            folder: &format!("pictures/{anchor}"),
+        };
+        let mut solves = Vec::new();
+        let mut hashes = Vec::new();
+        for method in &methods {
+            let Method { column, maps, .. } = method;
+            if let Some(maps) = maps {
+                solves.extend(studio.solve(method, maps)?);
+            }
+            let mut data = None;
+            if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
+                let name = plates::file_name(&column.entrant.id);
+                let target = format!("data/{anchor}/{name}.json");
+                copy(&path, &root.join(&target))?;
+                data = Some(target);
+            }
+            hashes.push(Hashes::of(column, data));
+        }
+        Ok(Self {
+            id: case.id.clone(),
+            face: case.face.clone(),
+            light: case.light.clone(),
+            variant: case.variant.clone(),
+            train: frames.train.len(),
+            test: frames.test.len(),
+            inputs: studio.inputs()?,
+            methods: made::rows(run, case, columns, timing, root)?,
+            table: table::chosen(columns, &case.light),
+            complete: table::complete(columns, &case.light),
+            regions: regions(columns),
+            maps: studio.map_plates()?,
+            views: studio.view_plates()?,
+            layers: studio.layer_plates()?,
+            solves,
+            hashes,
+            scene_toml: fs::read_to_string(capture.join("truth/scene.toml")).ok(),
+            anchor,
+        })
+    }
+
+    /// The training view nearest to the first withheld one.
+    pub fn main_input(&self) -> Option<&plates::Tile> {
+        let index = self.views.first()?.strips.first()?.input?;
+        Some(&self.inputs.get(index)?.tile)
+    }
+}
+
+impl Hashes {
+    fn of(column: &Column, data: Option<String>) -> Self {
+        let mut inputs = Vec::new();
+        if let Some(scores) = column.scores {
+            inputs.push(("capture", scores.inputs.capture.clone()));
+            inputs.push(("maps", scores.inputs.maps.clone()));
+            inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
+        }
+        Self {
+            title: column.entrant.title().to_owned(),
+            data,
+            inputs,
+            factor: column.factor().map(|factor| format!("{factor:.4}")),
+        }
+    }
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), ReportError> {
+    let bytes = fs::read(from).map_err(|error| ReportError::read(from, error))?;
+    if let Some(parent) = to.parent() {
+        fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;
+    }
+    fs::write(to, bytes).map_err(|error| ReportError::write(to, error))
+}

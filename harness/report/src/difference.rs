@@ -1,0 +1,163 @@
+//! Error of one picture or map against its truth, per pixel: the quantities behind the scores.
+
+use formats::picture::{GrayImage, Picture};
+use scoring::metrics::{Metric, Pair, Region};
+
+use super::tone::Field;
+
+/// How two pixels are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Measure {
+    /// Root mean square over the channels of the difference of sRGB values in [0, 1].
+    Display,
+    /// CIEDE2000 of two linear colours (D65).
+    ColourDifference,
+    /// Absolute difference of a single channel.
+    Value,
+    /// Angle between two vectors, degrees.
+    Angle,
+}
+
+impl Measure {
+    /// The error at the right end of the colour bar, the same for every suite.
+    pub fn top(self) -> f32 {
+        match self {
+            Measure::Display => 0.15,
+            Measure::ColourDifference => 12.0,
+            Measure::Value => 0.015,
+            Measure::Angle => 20.0,
+        }
+    }
+
+    /// The quantity, as the colour bar names it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Measure::Display => "RMS Δ of sRGB",
+            Measure::ColourDifference => "CIEDE2000",
+            Measure::Value => "|Δ|",
+            Measure::Angle => "angle",
+        }
+    }
+
+    /// The unit of the colour bar's numbers.
+    pub fn unit(self) -> &'static str {
+        if self == Measure::Angle { "°" } else { "" }
+    }
+
+    /// The metric whose per-pixel quantity it is, and whether that is the square of the error.
+    fn metric(self) -> (&'static str, bool) {
+        match self {
+            Measure::Display => ("psnr_srgb", true),
+            Measure::ColourDifference => ("ciede2000_mean", false),
+            Measure::Value => ("rmse", true),
+            Measure::Angle => ("normal_mean_deg", false),
+        }
+    }
+}
+
+/// The error of `picture` times `factor` inside `mask`, NaN outside.
+///
+/// `None` if they cannot be compared: the sizes differ, or the mask is empty.
+pub(super) fn field(
+    picture: &Picture,
+    truth: &Picture,
+    mask: Option<&GrayImage>,
+    measure: Measure,
+    factor: f64,
+) -> Option<Field> {
+    let (width, height) = (truth.width, truth.height);
+    let region = match mask {
+        Some(mask) => Region::of_mask("mask", mask),
+        None => Region::whole(width, height),
+    };
+    let region = region.ok()?;
+    let pair = Pair::new(picture, truth, &region).ok()?.scaled([factor; 3]);
+    let (metric, squared) = measure.metric();
+    let errors = Metric::find(metric).ok()?.measure(&pair).ok()?;
+    let mut values = vec![f32::NAN; width * height];
+    for (index, error) in region.pixels().iter().zip(errors) {
+        values[*index] = if squared { error.sqrt() } else { error } as f32;
+    }
+    Some(Field { width, height, values })
+}
+
+/// Samples a map bilinearly at the texel centres of another size, clamped at the border.
+pub(super) fn resample(map: &Picture, width: usize, height: usize) -> Picture {
+    if (map.width, map.height) == (width, height) {
+        return map.clone();
+    }
+    let mut target = Picture::new(width, height, map.channels);
+    let place = |i: usize, from: usize, to: usize| {
+        let x = ((i as f32 + 0.5) * from as f32 / to as f32 - 0.5).clamp(0.0, (from - 1) as f32);
+        let low = x as usize;
+        (low, (low + 1).min(from - 1), x - low as f32)
+    };
+    for y in 0..height {
+        let (top, bottom, down) = place(y, map.height, height);
+        for x in 0..width {
+            let (left, right, along) = place(x, map.width, width);
+            for c in 0..map.channels {
+                let mix = |y| {
+                    let (a, b) = (map.pixel(left, y)[c], map.pixel(right, y)[c]);
+                    a + (b - a) * along
+                };
+                target.pixel_mut(x, y)[c] = mix(top) + (mix(bottom) - mix(top)) * down;
+            }
+        }
+    }
+    target
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(pixel: &[f32]) -> Picture {
+        Picture { width: 1, height: 1, channels: pixel.len(), data: pixel.to_vec() }
+    }
+
+    fn error(a: &[f32], b: &[f32], measure: Measure) -> f32 {
+        field(&one(a), &one(b), None, measure, 1.0).unwrap().values[0]
+    }
+
+    #[test]
+    fn each_measure_is_the_error_itself_and_not_its_square() {
+        let pairs: [(&[f32], &[f32], Measure, f32); 4] = [
+            (&[0.0, 1.0, 0.0], &[0.0; 3], Measure::Display, (1.0_f32 / 3.0).sqrt()),
+            // Black and white are 100 lightness units apart.
+            (&[1.0; 3], &[0.0; 3], Measure::ColourDifference, 100.0),
+            (&[0.03], &[0.01], Measure::Value, 0.02),
+            (&[3.0, 3.0, 0.0], &[1.0, 0.0, 0.0], Measure::Angle, 45.0),
+        ];
+        for (a, b, measure, expected) in pairs {
+            let found = error(a, b, measure);
+            assert!((found / expected - 1.0).abs() < 1e-4, "{measure:?}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_factor_that_undoes_the_difference_leaves_no_error() {
+        let (dark, light) = (one(&[0.1, 0.2, 0.3]), one(&[0.2, 0.4, 0.6]));
+        for measure in [Measure::Display, Measure::ColourDifference] {
+            assert!(field(&dark, &light, None, measure, 1.0).unwrap().values[0] > 0.05);
+            assert!(field(&dark, &light, None, measure, 2.0).unwrap().values[0] < 1e-3);
+        }
+    }
+
+    #[test]
+    fn sizes_that_differ_are_not_compared_and_masked_pixels_are_nan() {
+        let wide = Picture::new(2, 1, 3);
+        assert!(field(&wide, &one(&[0.0; 3]), None, Measure::Display, 1.0).is_none());
+        let mask = GrayImage { width: 2, height: 1, data: vec![255, 0] };
+        let values = field(&wide, &wide, Some(&mask), Measure::Display, 1.0).unwrap().values;
+        assert!(values[0] == 0.0 && values[1].is_nan());
+    }
+
+    #[test]
+    fn resampling_a_ramp_keeps_it_a_ramp_inside() {
+        let ramp = Picture { width: 4, height: 1, channels: 1, data: vec![0.0, 1.0, 2.0, 3.0] };
+        let fine = resample(&ramp, 8, 1);
+        let expected = [0.0, 0.25, 0.75, 1.25, 1.75, 2.25, 2.75, 3.0];
+        assert!(fine.data.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{fine:?}");
+    }
+}

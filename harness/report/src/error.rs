@@ -1,0 +1,81 @@
+//! What can keep a report from being written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use formats::atomic::FolderError;
+use formats::picture::PictureError;
+
+use scoring::compare::CompareError;
+use scoring::score::ScoreError;
+
+/// The version of `run.json` that is read.
+pub(super) const FORMAT: u32 = 1;
+
+/// What can keep a report from being written; each message is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A file or folder of the run cannot be read.
+    #[error("{path}: cannot be read: {reason}")]
+    Read {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// A file of the run is not what it should be.
+    #[error("{path}: is not a valid file of a run: {reason}; run the suite again")]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What the parser said.
+        reason: String,
+    },
+    /// The run was written by another version.
+    #[error("{path}: has format {found}, this program reads {}; run the suite again", FORMAT)]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// The format it states.
+        found: u32,
+    },
+    /// The scores of a method cannot be read.
+    #[error(transparent)]
+    Scores(#[from] ScoreError),
+    /// The baseline cannot be made.
+    #[error(transparent)]
+    Baseline(#[from] CompareError),
+    /// A picture of the run is broken, or one of the report cannot be written.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// Something of the report cannot be written.
+    #[error("{path}: cannot be written: {reason}")]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+    /// The report must not be written where it was to be.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The user interrupted.
+    #[error("interrupted; the same command makes the report anew")]
+    Interrupted,
+    /// There is nothing to make a table of.
+    #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
+    NoScores(PathBuf),
+    /// A page could not be laid out.
+    #[error("the report's page cannot be laid out: {0}")]
+    Template(#[from] minijinja::Error),
+}
+
+impl ReportError {
+    pub(super) fn read(path: &Path, reason: io::Error) -> Self {
+        Self::Read { path: path.to_path_buf(), reason }
+    }
+
+    pub(super) fn write(path: &Path, reason: io::Error) -> Self {
+        Self::Write { path: path.to_path_buf(), reason }
+    }
+}

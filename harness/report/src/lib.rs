@@ -1,0 +1,104 @@
+//! The report: a run folder as one folder of pages that opens from disk, without a network.
+//!
+//! [`write`] reads `run.json`, the scores, maps and pictures below a run and leaves
+//! `index.html` with its pictures, the scores it was made from, and the baseline that later
+//! runs are compared with. Equal runs give equal
+//! bytes, except in the section with the wall times.
+
+mod case;
+mod curve;
+mod difference;
+mod error;
+mod light;
+mod maps;
+mod matrix;
+mod methods;
+mod metric;
+mod page;
+mod plates;
+mod results;
+mod run;
+mod sheets;
+mod solve;
+mod summary;
+mod table;
+pub mod tone;
+mod views;
+
+#[cfg(test)]
+mod fake;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use formats::atomic::{self, Folder, FolderError};
+
+pub use error::ReportError;
+pub use page::Hearer;
+use page::Page;
+pub use results::write_results;
+use run::RunFile;
+
+use scoring::compare::Baseline;
+
+/// What a report consists of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportSummary {
+    /// The page to open.
+    pub index: PathBuf,
+    /// Captures that were compared.
+    pub cases: usize,
+    /// What a later run is compared with; absent while a method has no scores.
+    pub baseline: Option<PathBuf>,
+}
+
+/// The file that `unshade compare` reads.
+const BASELINE: &str = "baseline.json";
+
+/// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report. If
+/// `hearer` ends it, the earlier report stays.
+pub fn write(run: &Path, out: &Path, hearer: &mut Hearer) -> Result<ReportSummary, ReportError> {
+    let manifest = RunFile::open(run)?;
+    check_place(run, out)?;
+    let folder = Folder::begin(out)?;
+    let page = match fill(run, &manifest, folder.path(), hearer) {
+        Ok(page) => page,
+        Err(error) => {
+            folder.abandon();
+            return Err(error);
+        }
+    };
+    folder.commit()?;
+    Ok(ReportSummary {
+        index: out.join("index.html"),
+        cases: manifest.cases.len(),
+        baseline: page.has_every_score().then(|| out.join(BASELINE)),
+    })
+}
+
+/// Writes everything below `root`.
+fn fill(
+    run: &Path,
+    manifest: &RunFile,
+    root: &Path,
+    hearer: &mut Hearer,
+) -> Result<Page, ReportError> {
+    let page = Page::make(run, manifest, root, hearer)?;
+    if page.has_every_score() {
+        Baseline::of_run(run)?.write(&root.join(BASELINE))?;
+    }
+    let index = root.join("index.html");
+    fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;
+    Ok(page)
+}
+
+/// A report may lie in its run, as `report`, and nowhere else in it.
+fn check_place(run: &Path, out: &Path) -> Result<(), FolderError> {
+    let own = std::path::absolute(run.join("report")).ok();
+    if own.is_some() && own == std::path::absolute(out).ok() {
+        return Ok(());
+    }
+    atomic::apart(out, &[run])
+}

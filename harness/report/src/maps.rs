@@ -1,0 +1,104 @@
+//! The plates of the maps.
+
+use formats::picture::Content;
+use rayon::prelude::*;
+
+use super::difference::{self, Measure};
+use super::error::ReportError;
+use super::plates::{self, Plate, Show, Studio, Subject};
+
+/// A map as it is shown and compared.
+pub(super) struct MapKind {
+    pub subject: &'static str,
+    pub title: &'static str,
+    pub channels: &'static [&'static str],
+    pub show: Show,
+    measure: Measure,
+    metric: &'static str,
+}
+
+const RGB: &[&str] = &["R", "G", "B"];
+
+pub(super) const MAPS: [MapKind; 4] = [
+    MapKind {
+        subject: "diffuse_albedo",
+        title: "Diffuse albedo",
+        channels: RGB,
+        show: Show::Colour { exposure: 1.0 },
+        measure: Measure::ColourDifference,
+        metric: "psnr_srgb",
+    },
+    MapKind {
+        subject: "specular_albedo",
+        title: "Specular albedo",
+        channels: &["Y"],
+        show: Show::Grey { white: 0.05 },
+        measure: Measure::Value,
+        metric: "rmse",
+    },
+    MapKind {
+        subject: "specular_normal",
+        title: "Specular normal",
+        channels: RGB,
+        show: Show::Normal,
+        measure: Measure::Angle,
+        metric: "normal_mean_deg",
+    },
+    MapKind {
+        subject: "diffuse_normal",
+        title: "Diffuse normal",
+        channels: RGB,
+        show: Show::Normal,
+        measure: Measure::Angle,
+        metric: "normal_mean_deg",
+    },
+];
+
+impl MapKind {
+    /// Whether its numbers are colours.
+    pub fn content(&self) -> Content {
+        match self.show {
+            Show::Colour { .. } => Content::Colour,
+            Show::Grey { .. } | Show::Normal => Content::Data,
+        }
+    }
+}
+
+impl Studio<'_> {
+    /// One plate per map that the capture knows the truth of.
+    pub fn map_plates(&self) -> Result<Vec<Plate>, ReportError> {
+        MAPS.par_iter().filter_map(|kind| self.map_plate(kind).transpose()).collect()
+    }
+
+    fn map_plate(&self, kind: &MapKind) -> Result<Option<Plate>, ReportError> {
+        let file = format!("{}.exr", kind.subject);
+        let folder = self.frames.root.join("truth");
+        let Some(truth) =
+            plates::read_if_present(&folder.join(&file), kind.channels, kind.content())?
+        else {
+            return Ok(None);
+        };
+        let subject = Subject {
+            name: kind.subject.to_owned(),
+            title: String::new(),
+            // The face looks along +Z.
+            input: self.frames.nearest_train([0.0, 0.0, 1.0]),
+            truth,
+            mask: plates::read_mask_if_present(&folder.join("coverage.png"))?,
+            show: kind.show,
+            measure: kind.measure,
+            scaled: kind.subject == "diffuse_albedo",
+        };
+        let strip = self.strip(&subject, |method| {
+            let Some(maps) = &method.maps else { return Ok(None) };
+            let map = plates::read_if_present(&maps.join(&file), kind.channels, kind.content())?;
+            let score = method.column.find(kind.subject, None, kind.metric, "none");
+            Ok(map.map(|map| {
+                let map = difference::resample(&map, subject.truth.width, subject.truth.height);
+                (map, plates::caption(score, None))
+            }))
+        })?;
+        let title = kind.title.to_owned();
+        Ok(Some(Plate::new((kind.subject, None), title, kind.show, kind.measure, vec![strip])))
+    }
+}

@@ -1,0 +1,82 @@
+//! How the maps of each method were made: when, by what, what it took, and why there are none.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::error::ReportError;
+use super::plates;
+use super::run::{Case, Timing};
+use super::table::{Column, EMPTY};
+
+/// Of a longer log the end is kept, bytes.
+const LOG: usize = 256 << 10;
+const GIB: f64 = (1u64 << 30) as f64;
+
+/// One method in one case.
+#[derive(Serialize)]
+pub(super) struct MethodRow {
+    title: String,
+    failed: Option<String>,
+    made: String,
+    seconds: String,
+    memory: String,
+    /// Of a program that is not ours.
+    confined: Option<bool>,
+    log: Option<String>,
+}
+
+/// A row for every column; logs are written below `root`.
+pub(super) fn rows(
+    run: &Path,
+    case: &Case,
+    columns: &[Column],
+    timing: &Timing,
+    root: &Path,
+) -> Result<Vec<MethodRow>, ReportError> {
+    let row = |column: &Column| -> Result<MethodRow, ReportError> {
+        let name = format!("{}/{}", case.id, column.entrant.id);
+        let failed = column.entrant.failed.clone();
+        let id = format!("maps/{name}");
+        let stage = timing.stages.iter().find(|stage| stage.id == id && failed.is_none());
+        let made = stage.map(|stage| &stage.made);
+        let mut words: Vec<String> = Vec::new();
+        if let Some(made) = made {
+            words.extend([&made.at, &made.from].into_iter().filter(|w| !w.is_empty()).cloned());
+        }
+        if stage.is_some_and(|stage| stage.cached) {
+            words.push("kept from an earlier run".to_owned());
+        }
+        let log = run.join("logs").join(format!("{name}.txt"));
+        Ok(MethodRow {
+            title: column.entrant.title().to_owned(),
+            failed,
+            made: if words.is_empty() { EMPTY.to_owned() } else { words.join("; ") },
+            seconds: stage.map_or(EMPTY.to_owned(), |stage| format!("{:.1} s", stage.seconds)),
+            memory: made
+                .and_then(|made| made.peak_bytes)
+                .map_or(EMPTY.to_owned(), |bytes| format!("{:.2} GiB", bytes as f64 / GIB)),
+            confined: made.and_then(|made| made.confined),
+            log: keep_log(&log, &case.id, &column.entrant.id, root)?,
+        })
+    };
+    columns.iter().map(row).collect()
+}
+
+fn keep_log(
+    log: &Path,
+    case: &str,
+    method: &str,
+    root: &Path,
+) -> Result<Option<String>, ReportError> {
+    let Ok(text) = fs::read(log) else { return Ok(None) };
+    let name = format!("data/{}/{}.log.txt", plates::file_name(case), plates::file_name(method));
+    let target = root.join(&name);
+    if let Some(folder) = target.parent() {
+        fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;
+    }
+    let end = &text[text.len().saturating_sub(LOG)..];
+    fs::write(&target, end).map_err(|error| ReportError::write(&target, error))?;
+    Ok(Some(name))
+}

@@ -1,0 +1,224 @@
+//! Everything the page shows, gathered from a run and laid out by the templates.
+
+use std::path::Path;
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::{Serde, Value};
+use minijinja::{Environment, UndefinedBehavior};
+use scoring::metrics::{METRICS, Metric};
+use scoring::score::{Protocol, Scores};
+use serde::Serialize;
+
+use super::case::CaseView;
+use super::error::ReportError;
+use super::matrix::{self, Matrix};
+use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
+use super::solve::plain;
+use super::summary::{SummaryCase, summary};
+use super::table::Column;
+use super::tone;
+
+/// Stands in every page.
+const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
+
+/// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
+/// go on.
+pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
+
+/// Every template by the name that others include it by.
+pub(super) const TEMPLATES: [(&str, &str); 8] = [
+    ("index.html", include_str!("templates/index.html")),
+    ("table.html", include_str!("templates/table.html")),
+    ("plate.html", include_str!("templates/plate.html")),
+    ("matrix.html", include_str!("templates/matrix.html")),
+    ("solve.html", include_str!("templates/solve.html")),
+    ("reading.html", include_str!("templates/reading.html")),
+    ("style.css", include_str!("templates/style.css")),
+    ("slider.js", include_str!("templates/slider.js")),
+];
+
+/// The page as the templates see it.
+#[derive(Serialize)]
+pub(super) struct Page {
+    title: String,
+    suite: String,
+    heat: String,
+    mark: &'static str,
+    summary: Vec<SummaryCase>,
+    matrices: Vec<Matrix>,
+    cases: Vec<CaseView>,
+    metrics: Vec<Definition>,
+    protocols: Vec<Protocol>,
+    versions: Vec<(String, String)>,
+    suite_toml: Option<String>,
+    times: Times,
+    has_every_score: bool,
+}
+
+#[derive(Serialize)]
+struct Definition {
+    id: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    direction: &'static str,
+    space: &'static str,
+    text: &'static str,
+    link: &'static str,
+}
+
+#[derive(Serialize)]
+struct Times {
+    stages: Vec<TimeRow>,
+    total: String,
+}
+
+#[derive(Serialize)]
+struct TimeRow {
+    id: String,
+    seconds: String,
+    /// Share of the longest stage, per cent.
+    share: f64,
+    cached: bool,
+    /// A part of the stage above.
+    part: bool,
+}
+
+impl Page {
+    /// Reads the run, and writes the pictures and the scores below `root`.
+    pub fn make(
+        run: &Path,
+        manifest: &RunFile,
+        root: &Path,
+        hearer: &mut Hearer,
+    ) -> Result<Self, ReportError> {
+        let scores = manifest.cases.iter().map(|case| read_scores(run, case));
+        let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
+        let pairs = manifest.cases.iter().zip(&scores);
+        let columns: Vec<Vec<Column>> = pairs.map(|(case, scores)| columns(case, scores)).collect();
+        let timing: Timing =
+            run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
+        let (mut summaries, mut cases) = (Vec::new(), Vec::new());
+        for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
+            if !hearer(done as u64, manifest.cases.len() as u64, &case.id) {
+                return Err(ReportError::Interrupted);
+            }
+            summaries.push(summary(case, columns));
+            cases.push(CaseView::make(run, case, columns, &timing, root)?);
+        }
+        let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
+        let sources = pairs.map(|((case, view), columns)| matrix::Source {
+            face: &case.face,
+            variant: case.variant.as_deref(),
+            light: &case.light,
+            columns,
+            plates: &view.views,
+            input: view.main_input(),
+        });
+        let matrices = matrix::matrices(&sources.collect::<Vec<_>>());
+        Ok(Self {
+            title: manifest.title.clone().unwrap_or_else(|| manifest.suite.clone()),
+            suite: manifest.suite.clone(),
+            heat: tone::heat_gradient(),
+            mark: MARK,
+            summary: summaries,
+            matrices,
+            cases,
+            metrics: METRICS.iter().map(Definition::of).collect(),
+            protocols: protocols(scores.iter().flatten().flatten()),
+            versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
+            suite_toml: manifest.suite_toml.clone(),
+            times: Times::of(run, manifest, timing)?,
+            has_every_score: scores.iter().flatten().all(Option::is_some),
+        })
+    }
+
+    /// Whether every method was scored in every case.
+    pub fn has_every_score(&self) -> bool {
+        self.has_every_score
+    }
+
+    /// The page's text.
+    pub fn html(&self) -> Result<String, ReportError> {
+        let mut environment = Environment::new();
+        environment.set_undefined_behavior(UndefinedBehavior::Strict);
+        environment
+            .set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
+        for (name, text) in TEMPLATES {
+            environment.add_template(name, text)?;
+        }
+        let html = environment.get_template("index.html")?.render(Value::from(Serde(self)))?;
+        // The engine escapes the slashes of paths too, for templates without quoted attributes.
+        Ok(html.replace("&#x2f;", "/"))
+    }
+}
+
+pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
+    let read = |entrant: &Entrant| match &entrant.scores {
+        Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
+        _ => Ok(None),
+    };
+    case.solvers.iter().map(read).collect()
+}
+
+/// Each protocol once, in the order in which the scores name them.
+fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
+    let mut protocols: Vec<Protocol> = Vec::new();
+    for Scores { protocol, .. } in scores {
+        if !protocols.contains(protocol) {
+            protocols.push(protocol.clone());
+        }
+    }
+    protocols
+}
+
+/// Solvers first, then the baselines to beat, then the oracle that bounds them.
+pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
+    let pairs = case.solvers.iter().zip(scores);
+    let mut columns: Vec<Column> =
+        pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
+    columns.sort_by_key(|column| column.entrant.kind);
+    columns
+}
+
+impl Definition {
+    fn of(metric: &'static Metric) -> Self {
+        Self {
+            id: metric.id,
+            name: metric.name,
+            unit: metric.unit,
+            direction: metric.direction.symbol(),
+            space: metric.quantity.space(),
+            text: metric.definition,
+            link: metric.link,
+        }
+    }
+}
+
+impl Times {
+    /// The stages of the run, each solve followed by its own stages.
+    fn of(run: &Path, manifest: &RunFile, timing: Timing) -> Result<Self, ReportError> {
+        let total: f64 = timing.stages.iter().map(|stage| stage.seconds).sum();
+        let longest = timing.stages.iter().map(|stage| stage.seconds).fold(0.0, f64::max);
+        let row = |id: String, seconds: f64, cached: bool, part: bool| TimeRow {
+            id,
+            seconds: format!("{seconds:.1}"),
+            share: if longest > 0.0 { (seconds / longest * 1000.0).round() / 10.0 } else { 0.0 },
+            cached,
+            part,
+        };
+        let mut stages = Vec::new();
+        for stage in timing.stages {
+            let solvers = manifest.cases.iter().flat_map(|case| &case.solvers);
+            let maps: Vec<_> = solvers.filter_map(|solver| solver.maps.as_ref()).collect();
+            let solve = maps.into_iter().find(|maps| **maps == Path::new(&stage.id));
+            stages.push(row(stage.id, stage.seconds, stage.cached, false));
+            let Some(maps) = solve else { continue };
+            let path = run.join(maps).join("timing.json");
+            let parts = run::read_json_if_present::<SolverTiming>(&path)?;
+            for (name, seconds) in parts.into_iter().flat_map(|parts| parts.seconds) {
+                stages.extend(seconds.as_f64().map(|seconds| row(name, seconds, false, true)));
+            }
+        }
+        Ok(Self { stages, total: format!("{total:.1}") })
+    }
+}

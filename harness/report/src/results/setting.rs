@@ -1,0 +1,124 @@
+//! Under which conditions the numbers of a run arose: faces, pictures, solvers, versions.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::finished::Finished;
+use super::markdown::escape;
+use crate::ReportError;
+use crate::run::{self, Case, Frames};
+use crate::solve::{interrupted, plain};
+
+/// A list of what holds for all numbers of the run.
+pub(super) fn describe(run: &Finished) -> Result<String, ReportError> {
+    let (mut faces, mut pictures, mut makers) = (Vec::new(), Vec::new(), Vec::new());
+    let add = |list: &mut Vec<String>, item: String| {
+        if !item.is_empty() && !list.contains(&item) {
+            list.push(item);
+        }
+    };
+    for case in &run.manifest.cases {
+        let scene = scene(&run.folder.join(&case.capture));
+        add(&mut faces, face(case, &scene));
+        add(&mut pictures, picture(&run.folder.join(&case.capture), &scene)?);
+    }
+    for solver in run.manifest.cases.first().map_or(&[][..], |case| &case.solvers) {
+        makers.extend(maker(run, &solver.id)?);
+    }
+    let versions: Vec<String> = (run.manifest.versions.iter())
+        // Another renderer's build or thread count is another machine, not another result.
+        .filter(|(name, _)| *name != "renderer")
+        .map(|(name, version)| format!("{name} {}", plain(version)))
+        .collect();
+    let mut text = String::new();
+    for (name, items) in [
+        ("Suite", vec![format!("`{}`", run.manifest.suite)]),
+        ("Faces", faces),
+        ("Pictures", pictures),
+        ("Solvers", makers),
+        ("Versions", versions),
+    ] {
+        if !items.is_empty() {
+            text.push_str(&format!("- {name}: {}.\n", escape(&items.join("; "))));
+        }
+    }
+    Ok(text)
+}
+
+/// The scene of a capture; empty for a capture that is not ours.
+pub(super) fn scene(capture: &Path) -> toml::Table {
+    let text = fs::read_to_string(capture.join("truth/scene.toml")).unwrap_or_default();
+    text.parse().unwrap_or_default()
+}
+
+/// A face with its type, age and seed.
+pub(super) fn face(case: &Case, scene: &toml::Table) -> String {
+    let value = |key: &str| scene.get("face").and_then(|face| face.get(key));
+    let mut said = Vec::new();
+    if let Some(skin) = value("fitzpatrick").and_then(toml::Value::as_str) {
+        said.push(format!("type {skin}"));
+    }
+    if let Some(seed) = value("seed") {
+        said.push(format!("seed {seed}"));
+    }
+    if said.is_empty() { case.face.clone() } else { format!("{} ({})", case.face, said.join(", ")) }
+}
+
+fn picture(capture: &Path, scene: &toml::Table) -> Result<String, ReportError> {
+    let frames = Frames::read(capture)?;
+    let value = |table: &str, key: &str| scene.get(table)?.get(key).map(ToString::to_string);
+    let mut parts = Vec::new();
+    if let (Some(width), Some(height)) = (value("render", "width"), value("render", "height")) {
+        parts.push(format!("{width} x {height} pixels"));
+    }
+    parts.push(format!("{} training views, {} withheld", frames.train.len(), frames.test.len()));
+    for (table, key, unit) in [
+        ("render", "samples", "samples a pixel"),
+        ("render", "depth", "path segments"),
+        ("face", "texture_size", "texels a side of the true maps"),
+    ] {
+        parts.extend(value(table, key).map(|value| format!("{value} {unit}")));
+    }
+    parts.extend(value("render", "seed").map(|seed| format!("seed {seed}")));
+    Ok(parts.join(", "))
+}
+
+/// What a solver says of its textures and seeds over all cases; none if it says nothing.
+fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
+    let keys = [("version", "version"), ("texture_size", "texels a side"), ("seed", "seed")];
+    let mut found = keys.map(|_| BTreeSet::new());
+    let mut title = None;
+    let mut cut = 0;
+    for case in &run.manifest.cases {
+        for entrant in case.solvers.iter().filter(|entrant| entrant.id == id) {
+            title = Some(entrant.title().to_owned());
+            let Some(maps) = &entrant.maps else { continue };
+            let path = run.folder.join(maps).join("solve.json");
+            let solve = run::read_json_if_present::<Value>(&path)?.unwrap_or_default();
+            cut += usize::from(interrupted(&solve).is_some());
+            for ((key, _), found) in keys.iter().zip(&mut found) {
+                found.extend(solve.get(key).map(plain));
+            }
+        }
+    }
+    let mut said: Vec<String> = keys
+        .iter()
+        .zip(&found)
+        .filter(|(_, values)| !values.is_empty())
+        .map(|((key, unit), values)| {
+            let values = values.iter().cloned().collect::<Vec<_>>().join(" or ");
+            if *key == "texture_size" {
+                format!("{values} {unit}")
+            } else {
+                format!("{unit} {values}")
+            }
+        })
+        .collect();
+    if cut > 0 {
+        said.push(format!("interrupted in {cut} of {} cases", run.manifest.cases.len()));
+    }
+    Ok(title.filter(|_| !said.is_empty()).map(|title| format!("{title}: {}", said.join(", "))))
+}

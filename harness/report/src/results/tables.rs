@@ -1,0 +1,278 @@
+//! The Markdown tables: means over faces, single faces, and what the figures are.
+
+use scoring::metrics::Metric;
+
+use super::figures::{Figure, Found, Lit, TABLES, mean, others};
+use super::finished::Finished;
+use super::markdown::{escape, head, row};
+use super::setting;
+use crate::ReportError;
+use crate::page;
+use crate::run::Kind;
+use crate::table::{self, Column};
+
+/// The cases of one light and variant.
+pub(super) struct Group {
+    light: String,
+    variant: Option<String>,
+    /// Indices of the cases.
+    cases: Vec<usize>,
+}
+
+impl Group {
+    fn title(&self) -> String {
+        match &self.variant {
+            Some(variant) => format!("{} light, {variant}", self.light),
+            None => format!("{} light", self.light),
+        }
+    }
+}
+
+/// Lights and variants in the order of the run.
+pub(super) fn groups(run: &Finished) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (index, case) in run.manifest.cases.iter().enumerate() {
+        let same = |group: &&mut Group| group.light == case.light && group.variant == case.variant;
+        match groups.iter_mut().find(same) {
+            Some(group) => group.cases.push(index),
+            None => groups.push(Group {
+                light: case.light.clone(),
+                variant: case.variant.clone(),
+                cases: vec![index],
+            }),
+        }
+    }
+    groups
+}
+
+/// One method over the cases of a group.
+struct Line<'a> {
+    title: String,
+    kind: Kind,
+    columns: Vec<Column<'a>>,
+}
+
+/// The methods of a group, solvers first and the oracle last.
+fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
+    let mut lines: Vec<(&str, Line)> = Vec::new();
+    for index in &group.cases {
+        let case = &run.manifest.cases[*index];
+        for column in page::columns(case, &run.scores[*index]) {
+            let entrant = column.entrant;
+            match lines.iter_mut().find(|(id, _)| *id == entrant.id) {
+                Some((_, line)) => line.columns.push(column),
+                None => {
+                    let title = escape(entrant.title());
+                    let line = Line { title, kind: entrant.kind, columns: vec![column] };
+                    lines.push((&entrant.id, line));
+                }
+            }
+        }
+    }
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// The means over the faces in one light.
+pub(super) fn means(run: &Finished, group: &Group) -> String {
+    let lines = lines(run, group);
+    let mut text = format!("\n### {}\n", escape(&group.title()));
+    for (title, figures) in TABLES {
+        // A figure that no method has (confidence of a baseline's run) is no column.
+        let found = |figure: &Figure, line: &Line| -> Vec<Found> {
+            line.columns.iter().filter_map(|column| figure.find(column, &group.light)).collect()
+        };
+        let shown: Vec<&Figure> = figures
+            .iter()
+            .filter(|f| lines.iter().any(|line| !found(f, line).is_empty()))
+            .collect();
+        if shown.is_empty() {
+            continue;
+        }
+        let of_line = |line: &Line| -> Vec<Vec<Found>> {
+            shown.iter().map(|figure| found(figure, line)).collect()
+        };
+        let values: Vec<Vec<Vec<Found>>> = lines.iter().map(of_line).collect();
+        let best: Vec<Option<String>> =
+            (0..shown.len()).map(|i| best(&lines, shown[i], |line| &values[line][i])).collect();
+        let names = shown.iter().map(|figure| heading(figure, &lines, group));
+        text.push_str(&format!("\n{title}\n\n{}", head(&["method"], names)));
+        for (line, values) in lines.iter().zip(&values) {
+            let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
+                let best = best.as_deref().filter(|_| line.kind != Kind::Oracle);
+                cell(figure, values, group.cases.len(), best)
+            });
+            text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
+        }
+        text.push_str(&floor(&shown, &lines, &values, group.cases.len()));
+    }
+    text
+}
+
+/// The name of a column; that of the other lights says which they are.
+fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
+    if figure.lit != Lit::Others {
+        return figure.name.to_owned();
+    }
+    let mut lights: Vec<&str> = lines
+        .iter()
+        .flat_map(|line| &line.columns)
+        .flat_map(|column| others(column, &group.light))
+        .collect();
+    lights.sort_unstable();
+    lights.dedup();
+    format!("{} ({})", figure.name, escape(&lights.join(", ")))
+}
+
+/// The best mean as it is shown, the oracle aside; none without a competition.
+fn best<'a>(
+    lines: &[Line],
+    figure: &Figure,
+    values: impl Fn(usize) -> &'a Vec<Found>,
+) -> Option<String> {
+    let contenders = lines.iter().enumerate().filter(|(_, line)| line.kind != Kind::Oracle);
+    let means: Vec<f64> =
+        contenders.filter_map(|(i, _)| mean(values(i).iter().map(|found| found.value))).collect();
+    let better = |a: f64, b: f64| if figure.better.gain(a, b) > 0.0 { b } else { a };
+    let best = means.iter().copied().reduce(better)?;
+    (means.len() > 1).then(|| table::shown(Some(best), figure.decimals))
+}
+
+/// Mean and range over the faces; beside a trivial answer also that, and the ratio of the two.
+fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> String {
+    let Some(value) = mean(values.iter().map(|found| found.value)) else {
+        return table::EMPTY.to_owned();
+    };
+    let decimals = figure.decimals;
+    let mut text = table::shown(Some(value), decimals);
+    // Equal as they are shown is equally good.
+    if best == Some(text.as_str()) {
+        text = format!("**{text}**");
+    }
+    let missing = faces - values.len();
+    let pairs: Option<Vec<(f64, f64)>> =
+        values.iter().map(|found| Some((found.value, found.against?))).collect();
+    let ranged: Vec<f64> = match (&pairs, figure.against) {
+        (Some(pairs), Some(_)) => {
+            let against = mean(pairs.iter().map(|pair| pair.1)).unwrap_or_default();
+            let percent = 100.0 * value / against;
+            text.push_str(&format!(" / {against:.decimals$} = {percent:.0} %"));
+            pairs.iter().map(|(value, against)| 100.0 * value / against).collect()
+        }
+        _ => values.iter().map(|found| found.value).collect(),
+    };
+    if let (true, Some(low), Some(high)) = (
+        ranged.len() > 1,
+        ranged.iter().copied().min_by(f64::total_cmp),
+        ranged.iter().copied().max_by(f64::total_cmp),
+    ) {
+        let decimals = if figure.against.is_some() && pairs.is_some() { 0 } else { decimals };
+        text.push_str(&format!(" ({low:.decimals$} … {high:.decimals$})"));
+    }
+    if missing > 0 {
+        text.push_str(&format!(" {} of {faces}", values.len()));
+    }
+    text
+}
+
+/// The row of what rendering noise leaves; nothing where no figure has a floor.
+fn floor(shown: &[&Figure], lines: &[Line], values: &[Vec<Vec<Found>>], faces: usize) -> String {
+    // The true maps' pictures where there are some: that floor depends on no method.
+    let mut order: Vec<usize> = (0..lines.len()).collect();
+    order.sort_by_key(|i| lines[*i].kind != Kind::Oracle);
+    let cells: Vec<Option<String>> = shown
+        .iter()
+        .enumerate()
+        .map(|(column, figure)| {
+            let floors = order.iter().map(|line| -> Vec<Found> {
+                let found = values[*line][column].iter();
+                found
+                    .filter_map(|f| Some(Found { value: f.floor?, against: None, floor: None }))
+                    .collect()
+            });
+            let floors = floors.into_iter().find(|floors| !floors.is_empty())?;
+            let plain = Figure { against: None, ..**figure };
+            Some(cell(&plain, &floors, faces.max(floors.len()), None))
+        })
+        .collect();
+    if cells.iter().all(Option::is_none) {
+        return String::new();
+    }
+    let cells = cells.into_iter().map(|cell| cell.unwrap_or_else(|| table::EMPTY.to_owned()));
+    row(std::iter::once("noise floor".to_owned()).chain(cells))
+}
+
+/// One table for every face: a row for each light and method.
+pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
+    let mut names: Vec<&str> = Vec::new();
+    for case in &run.manifest.cases {
+        if !names.contains(&case.face.as_str()) {
+            names.push(&case.face);
+        }
+    }
+    let mut text = String::new();
+    for name in names {
+        let cases = || run.manifest.cases.iter().enumerate().filter(|(_, case)| case.face == name);
+        let Some((_, first)) = cases().next() else { continue };
+        let about = setting::face(first, &setting::scene(&run.folder.join(&first.capture)));
+        let figures: Vec<&Figure> = TABLES
+            .iter()
+            .flat_map(|(_, figures)| *figures)
+            .filter(|figure| {
+                cases().any(|(index, case)| {
+                    let columns = page::columns(case, &run.scores[index]);
+                    columns.iter().any(|column| figure.find(column, &case.light).is_some())
+                })
+            })
+            .collect();
+        let headings = figures.iter().map(|figure| figure.short.to_owned());
+        text.push_str(&format!(
+            "\n### {}\n\n{}",
+            escape(&about),
+            head(&["light", "method"], headings)
+        ));
+        for (index, case) in cases() {
+            let light = match &case.variant {
+                Some(variant) => format!("{}, {variant}", case.light),
+                None => case.light.clone(),
+            };
+            for column in page::columns(case, &run.scores[index]) {
+                let cells = figures
+                    .iter()
+                    .map(|figure| cell_of_face(figure, figure.find(&column, &case.light)));
+                let names = [escape(&light), escape(column.entrant.title())];
+                text.push_str(&row(names.into_iter().chain(cells)));
+            }
+        }
+    }
+    Ok(text)
+}
+
+fn cell_of_face(figure: &Figure, found: Option<Found>) -> String {
+    let Some(found) = found else { return table::EMPTY.to_owned() };
+    let value = table::shown(Some(found.value), figure.decimals);
+    match found.against {
+        Some(against) => format!("{value} ({:.0} %)", 100.0 * found.value / against),
+        None => value,
+    }
+}
+
+/// What every column is: the row of the scores, and the metric in full.
+pub(super) fn legend() -> String {
+    let mut text =
+        "\n## Figures\n\nA figure is a row of the scores: subject, metric, region, scale. \
+                    Percentages are of the trivial answer's error beside it.\n\n"
+            .to_owned();
+    text.push_str(&head(&["figure"], ["row", "better", "metric"].map(str::to_owned).into_iter()));
+    for figure in TABLES.iter().flat_map(|(_, figures)| *figures) {
+        let definition = Metric::find(figure.metric).map_or("", |metric| metric.definition);
+        let against =
+            figure.against.map_or(String::new(), |subject| format!("; against `{subject}`"));
+        text.push_str(&row([
+            figure.short.to_owned(),
+            format!("`{}`{against}", figure.row_id()),
+            figure.better.symbol().to_owned(),
+            escape(definition),
+        ]));
+    }
+    text
+}

@@ -1,0 +1,299 @@
+//! Contact sheets of what a solve leaves behind beside its maps: the recovered light, its
+//! confidence, the maps after each stage, the layers of the training views. All of it optional.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use formats::picture::{Content, Picture};
+use scoring::metrics::Metric;
+use serde::Serialize;
+
+use super::difference::{self, Measure};
+use super::error::ReportError;
+use super::maps::{MAPS, MapKind};
+use super::plates::{self, Method, Studio, Tile};
+use super::tone::{self, Raster};
+use super::views::Layer;
+use super::{light, table};
+
+/// Longest side of the small pictures.
+const STAGE_SIDE: usize = 256;
+const VIEW_SIDE: usize = 160;
+
+/// Small pictures in rows and columns.
+#[derive(Debug, Serialize)]
+pub(super) struct Sheet {
+    pub title: &'static str,
+    pub caption: String,
+    pub columns: Vec<String>,
+    pub rows: Vec<SheetRow>,
+    /// Width of a picture on the page, as a multiple of the text's size.
+    pub tile_rem: f32,
+    /// Starts folded: the many pictures are looked at rarely.
+    pub folded: bool,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct SheetRow {
+    pub title: String,
+    /// One per column; none where nothing was made.
+    pub tiles: Vec<Option<Tile>>,
+}
+
+impl Studio<'_> {
+    /// Every sheet that the files of a method allow.
+    pub fn sheets(&self, method: &Method, maps: &Path) -> Result<Vec<Sheet>, ReportError> {
+        let group = format!("solve-{}", plates::file_name(&method.column.entrant.id));
+        let sheets = [
+            self.light_sheet(&group, maps)?,
+            self.relit_sheet(&group, method)?,
+            self.confidence_sheet(&group, method, maps)?,
+            self.stage_sheet(&group, maps)?,
+            self.layer_sheet(&group, maps)?,
+        ];
+        Ok(sheets.into_iter().flatten().collect())
+    }
+
+    fn light_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+        let Some(found) = read_colour(&maps.join("light.exr"), Layer::ALL.channels)? else {
+            return Ok(None);
+        };
+        let path = self.frames.root.join("truth/light.exr");
+        let truth = read_colour(&path, Layer::ALL.channels)?;
+        let averaged = truth.as_ref().and_then(|t| light::in_cells(t, found.width, found.height));
+        let (mut columns, mut tiles) = (Vec::new(), Vec::new());
+        for (title, name, picture) in [
+            ("exact", "light-exact", truth.as_ref()),
+            ("exact, mean of each cell", "light-cells", averaged.as_ref()),
+            ("recovered", "light", Some(&found)),
+        ] {
+            if let Some(picture) = picture {
+                columns.push(title.to_owned());
+                tiles.push(Some(self.save(group, name, &light::raster(picture))?));
+            }
+        }
+        Ok(Some(Sheet {
+            title: "Light",
+            caption: format!(
+                "The environment that the method recovered, {} x {} cells, latitude over longitude; \
+                 radiance L in the pictures' exposure, shown as L / (1 + L), sRGB curve.",
+                found.height, found.width
+            ),
+            columns,
+            rows: vec![SheetRow { title: String::new(), tiles }],
+            tile_rem: 16.0,
+            folded: false,
+        }))
+    }
+
+    /// Of photographs: the withheld views in every light, for most of which there is no truth.
+    fn relit_sheet(&self, group: &str, method: &Method) -> Result<Option<Sheet>, ReportError> {
+        let relit = method.relit.as_ref().filter(|_| !self.frames.root.join("truth").is_dir());
+        let lights = relit.map_or(Ok(Vec::new()), |relit| folders(&relit.join("none")))?;
+        let mut rows = Vec::new();
+        for frame in &self.frames.test {
+            let tile = |folder: &PathBuf| {
+                let path = folder.join(format!("{}.exr", frame.name));
+                let Some(picture) = read_colour(&path, Layer::ALL.channels)? else {
+                    return Ok(None);
+                };
+                let raster = tone::colour(&tone::shrink(&picture, STAGE_SIDE), 1.0);
+                let light = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                self.save(group, &format!("relit-{light}-{}", frame.name), &raster).map(Some)
+            };
+            let tiles: Vec<_> = lights.iter().map(tile).collect::<Result<_, ReportError>>()?;
+            if tiles.iter().any(Option::is_some) {
+                rows.push(SheetRow { title: format!("view {}", frame.name), tiles });
+            }
+        }
+        let names = lights.iter().filter_map(|light| light.file_name());
+        let columns = names.map(|name| name.to_string_lossy().into_owned()).collect();
+        let caption = "The withheld views with the recovered maps, path-traced in the light that was \
+                       found and in others; linear colour, sRGB curve.";
+        Ok((!rows.is_empty()).then(|| Sheet {
+            title: "Relit",
+            caption: caption.to_owned(),
+            columns,
+            rows,
+            tile_rem: 9.5,
+            folded: false,
+        }))
+    }
+
+    fn confidence_sheet(
+        &self,
+        group: &str,
+        method: &Method,
+        maps: &Path,
+    ) -> Result<Option<Sheet>, ReportError> {
+        let Some(found) =
+            plates::read_if_present(&maps.join("confidence.exr"), &["Y"], Content::Data)?
+        else {
+            return Ok(None);
+        };
+        let mut columns = vec!["confidence".to_owned()];
+        let mut tiles = vec![Some(self.save(group, "confidence", &tone::grey(&found, 1.0))?)];
+        if let Some(raster) = self.albedo_error(method, maps)? {
+            columns.push("error of the diffuse albedo".to_owned());
+            tiles.push(Some(self.save(group, "confidence-error", &raster)?));
+        }
+        let scores = ["confidence_rank", "sparsification"].into_iter().filter_map(|id| {
+            let value = method.column.find("confidence", None, id, "global")?.value?;
+            Some(format!("{} {}", Metric::find(id).ok()?.name, table::shown(Some(value), 2)))
+        });
+        let scores: Vec<String> = scores.collect();
+        let scored =
+            if scores.is_empty() { String::new() } else { format!(" {}.", scores.join("; ")) };
+        Ok(Some(Sheet {
+            title: "Confidence",
+            caption: format!(
+                "The method's own trust in its texels, black 0, white 1. Error: {} after one factor, \
+                 from 0 to {}; larger values take the last colour, grey is not scored.{scored}",
+                Measure::ColourDifference.label(),
+                Measure::ColourDifference.top(),
+            ),
+            columns,
+            rows: vec![SheetRow { title: String::new(), tiles }],
+            tile_rem: 12.0,
+            folded: false,
+        }))
+    }
+
+    /// The diffuse albedo after its one factor against the truth, in false colour.
+    fn albedo_error(&self, method: &Method, maps: &Path) -> Result<Option<Raster>, ReportError> {
+        let folder = self.frames.root.join("truth");
+        let read =
+            |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);
+        let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else { return Ok(None) };
+        let albedo = difference::resample(&albedo, truth.width, truth.height);
+        let mask = plates::read_mask_if_present(&folder.join("coverage.png"))?;
+        let (measure, factor) = (Measure::ColourDifference, method.column.factor().unwrap_or(1.0));
+        let field = difference::field(&albedo, &truth, mask.as_ref(), measure, factor);
+        Ok(field.map(|field| tone::false_colour(&field, measure.top())))
+    }
+
+    fn stage_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+        let stages = folders(&maps.join("stages"))?;
+        let mut rows = Vec::new();
+        for kind in &MAPS {
+            let file = format!("{}.exr", kind.subject);
+            if !stages.iter().any(|stage| stage.join(&file).is_file()) {
+                continue;
+            }
+            let truth = self.frames.root.join("truth");
+            let tiles = (stages.iter().map(PathBuf::as_path).chain([maps, truth.as_path()]))
+                .enumerate()
+                .map(|(column, folder)| self.stage_tile(group, kind, column, &folder.join(&file)))
+                .collect::<Result<_, _>>()?;
+            rows.push(SheetRow { title: kind.title.to_owned(), tiles });
+        }
+        if rows.is_empty() {
+            return Ok(None);
+        }
+        let mut columns: Vec<String> = stages.iter().map(|stage| stage_title(stage)).collect();
+        columns.extend(["result".to_owned(), "exact".to_owned()]);
+        Ok(Some(Sheet {
+            title: "Maps after each stage",
+            caption: "What each stage changed, with the factors of the result; shown as above."
+                .to_owned(),
+            columns,
+            rows,
+            tile_rem: 9.5,
+            folded: false,
+        }))
+    }
+
+    fn stage_tile(
+        &self,
+        group: &str,
+        kind: &MapKind,
+        column: usize,
+        path: &Path,
+    ) -> Result<Option<Tile>, ReportError> {
+        let Some(map) = plates::read_if_present(path, kind.channels, kind.content())? else {
+            return Ok(None);
+        };
+        let raster = kind.show.raster(&tone::shrink(&map, STAGE_SIDE));
+        Ok(Some(self.save(group, &format!("stage-{column:02}-{}", kind.subject), &raster)?))
+    }
+
+    fn layer_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+        let folder = maps.join("layers");
+        let of = |name: &str| folder.join(format!("{name}.exr"));
+        let frames: Vec<_> =
+            self.frames.train.iter().filter(|frame| of(&frame.name).is_file()).collect();
+        if frames.is_empty() {
+            return Ok(None);
+        }
+        let truth = self.frames.root.join("truth/layers");
+        let mut rows = Vec::new();
+        for (title, name, layer, folder) in [
+            ("photograph", "photograph", Layer::ALL, None),
+            ("recovered", "whole", Layer::ALL, Some(&folder)),
+            ("diffuse, exact", "diffuse-exact", Layer::DIFFUSE, Some(&truth)),
+            ("diffuse, recovered", "diffuse", Layer::DIFFUSE, Some(&folder)),
+            ("specular, exact", "specular-exact", Layer::SPECULAR, Some(&truth)),
+            ("specular, recovered", "specular", Layer::SPECULAR, Some(&folder)),
+        ] {
+            let tile = |frame: &&super::run::Frame| {
+                let path = match folder {
+                    Some(folder) => folder.join(format!("{}.exr", frame.name)),
+                    None => frame.image.clone(),
+                };
+                let Some(picture) = read_colour(&path, layer.channels)? else {
+                    return Ok(None);
+                };
+                let small = tone::shrink(&picture, VIEW_SIDE);
+                let raster = tone::colour(&small, layer.exposure);
+                self.save(group, &format!("layer-{}-{name}", frame.name), &raster).map(Some)
+            };
+            let tiles: Vec<_> = frames.iter().map(tile).collect::<Result<_, ReportError>>()?;
+            if tiles.iter().any(Option::is_some) {
+                rows.push(SheetRow { title: title.to_owned(), tiles });
+            }
+        }
+        Ok(Some(Sheet {
+            title: "Layers of the training views",
+            caption: format!(
+                "The method's own split of the photographs beside the exact one; linear colour, sRGB \
+                 curve, the specular layer × {}.",
+                Layer::SPECULAR.exposure
+            ),
+            columns: frames.iter().map(|frame| frame.name.clone()).collect(),
+            rows,
+            tile_rem: 7.0,
+            folded: true,
+        }))
+    }
+}
+
+/// A picture or layer that may be absent.
+fn read_colour(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
+    plates::read_if_present(path, channels, Content::Colour)
+}
+
+/// The folders below one that may be absent, by name.
+fn folders(folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let read = |error| ReportError::read(folder, error);
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(folder).map_err(read)? {
+        folders.push(entry.map_err(read)?.path());
+    }
+    folders.retain(|path| path.is_dir());
+    folders.sort();
+    Ok(folders)
+}
+
+/// The stage's name without its number.
+fn stage_title(folder: &Path) -> String {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    match name.split_once('-') {
+        Some((number, title)) if number.bytes().all(|byte| byte.is_ascii_digit()) => {
+            title.to_owned()
+        }
+        _ => name,
+    }
+}

@@ -1,0 +1,139 @@
+//! How far a score may move before it counts.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::CompareError;
+
+/// The rules that hold unless a file says otherwise.
+const BUILT_IN: &str = include_str!("../../../../scenes/tolerances.toml");
+
+/// Rules in order; the first whose pattern matches a row decides.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tolerances {
+    format: u32,
+    #[serde(rename = "rule")]
+    rules: Vec<Rule>,
+}
+
+/// What rows of a kind may do.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rule {
+    /// Row ids, `<case>/<solver>/<subject>[/light]/<metric>@<region>:<scale>`; `*` stands for any
+    /// text.
+    pub rows: String,
+    /// Allowed change in the metric's unit.
+    #[serde(default)]
+    pub absolute: f64,
+    /// Allowed change as a share of the baseline's value; both allowances add.
+    #[serde(default)]
+    pub relative: f64,
+    /// Whether a change for the better is a regression too (calibration constants).
+    #[serde(default)]
+    pub either_way: bool,
+    /// Why this much.
+    pub reason: String,
+}
+
+impl Tolerances {
+    /// The rules of `scenes/tolerances.toml` as they were when the program was built.
+    pub fn built_in() -> Result<Self, CompareError> {
+        Self::parse(Path::new("scenes/tolerances.toml"), BUILT_IN)
+    }
+
+    /// Reads a rules file.
+    pub fn read(path: &Path) -> Result<Self, CompareError> {
+        let text = fs::read_to_string(path).map_err(|error| CompareError::io(path, error))?;
+        Self::parse(path, &text)
+    }
+
+    /// The rule for a row.
+    pub fn rule(&self, id: &str) -> Result<&Rule, CompareError> {
+        let found = self.rules.iter().find(|rule| matches(&rule.rows, id));
+        found.ok_or_else(|| CompareError::NoRule(CompareError::line(id)))
+    }
+
+    fn parse(path: &Path, text: &str) -> Result<Self, CompareError> {
+        let tolerances: Self =
+            toml::from_str(text).map_err(|error| CompareError::text(path, error.message()))?;
+        if tolerances.format != 1 {
+            let reason = format!("has format {}, this version reads 1", tolerances.format);
+            return Err(CompareError::text(path, reason));
+        }
+        let is_amount = |amount: f64| amount.is_finite() && amount >= 0.0;
+        match tolerances.rules.iter().find(|r| !is_amount(r.absolute) || !is_amount(r.relative)) {
+            Some(rule) => {
+                let reason =
+                    format!("the rule for {:?} has a negative or infinite allowance", rule.rows);
+                Err(CompareError::text(path, reason))
+            }
+            None => Ok(tolerances),
+        }
+    }
+}
+
+impl Rule {
+    /// How far a value may be from the baseline's.
+    pub fn allowed(&self, baseline: f64) -> f64 {
+        self.absolute + self.relative * baseline.abs()
+    }
+}
+
+/// Whether `text` has the form of `pattern`, in which `*` stands for any text.
+fn matches(pattern: &str, text: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == text,
+        Some((head, rest)) => text.strip_prefix(head).is_some_and(|tail| {
+            (0..=tail.len()).any(|i| tail.is_char_boundary(i) && matches(rest, &tail[i..]))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_any_text() {
+        assert!(matches("*/psnr_*:global", "a/b/psnr_srgb@mask-e5:global"));
+        assert!(!matches("*/psnr_*:global", "a/b/psnr_srgb@mask-e5:none"));
+        assert!(matches("*", "") && matches("a*", "a") && !matches("a", "ab"));
+    }
+
+    #[test]
+    fn every_metric_has_a_rule_of_its_own() {
+        let rules = Tolerances::built_in().unwrap();
+        for metric in crate::metrics::METRICS {
+            let rule = rules.rule(&format!("case/method/subject/{}@region:global", metric.id));
+            assert_ne!(
+                rule.unwrap().rows,
+                "*",
+                "{}: write one in scenes/tolerances.toml",
+                metric.id
+            );
+        }
+    }
+
+    #[test]
+    fn the_first_rule_that_matches_decides_and_bad_rules_are_refused() {
+        let parse = |text: &str| Tolerances::parse(Path::new("t.toml"), text);
+        let rules = parse(
+            "format = 1\n[[rule]]\nrows = \"*/ssim@*\"\nabsolute = 0.1\nreason = \"a\"\n\
+             [[rule]]\nrows = \"x*\"\nrelative = 0.5\nreason = \"b\"\n",
+        )
+        .unwrap();
+        assert_eq!(rules.rule("x/ssim@r:none").unwrap().reason, "a");
+        assert_eq!(rules.rule("x/flip@r:none").unwrap().allowed(-4.0), 2.0);
+        let error = rules.rule("y").unwrap_err().to_string();
+        assert!(error.contains("matches y"), "{error}");
+        for bad in ["absolut = 1.0", "absolute = -1.0", "absolute = nan"] {
+            let text = format!("format = 1\n[[rule]]\nrows = \"*\"\n{bad}\nreason = \"\"\n");
+            let error = parse(&text).unwrap_err().to_string();
+            assert!(error.starts_with("t.toml") && !error.contains('\n'), "{error}");
+        }
+    }
+}

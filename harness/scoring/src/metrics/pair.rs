@@ -1,0 +1,146 @@
+//! A prediction beside its truth: checked once, compared many times.
+
+use formats::picture::{GrayImage, Picture};
+
+use super::colour::luminance;
+use super::{MetricError, Region};
+
+/// Two pictures of one size and the region in which they are compared.
+#[derive(Clone, Debug)]
+pub struct Pair<'a> {
+    pub(super) prediction: &'a Picture,
+    pub(super) truth: &'a Picture,
+    pub(super) region: &'a Region,
+    pub(super) factor: [f64; 3],
+    pub(super) labels: Option<&'a GrayImage>,
+    pub(super) cause: Option<&'a Picture>,
+    pub(super) confidence: Option<&'a Picture>,
+}
+
+impl<'a> Pair<'a> {
+    /// Checks that sizes and channels agree and that every value inside the region is finite.
+    pub fn new(
+        prediction: &'a Picture,
+        truth: &'a Picture,
+        region: &'a Region,
+    ) -> Result<Self, MetricError> {
+        check_size("prediction", (prediction.width, prediction.height), truth)?;
+        check_size("region", region.size(), truth)?;
+        if prediction.channels != truth.channels {
+            let expected =
+                if truth.channels == 1 { "1 (as the truth)" } else { "3 (as the truth)" };
+            let found = prediction.channels;
+            return Err(MetricError::Channels { metric: "a pair", expected, found });
+        }
+        check_finite("prediction", prediction, region)?;
+        check_finite("truth", truth, region)?;
+        Ok(Self {
+            prediction,
+            truth,
+            region,
+            factor: [1.0; 3],
+            labels: None,
+            cause: None,
+            confidence: None,
+        })
+    }
+
+    /// The prediction's channels are multiplied by `factor` before anything else.
+    pub fn scaled(mut self, factor: [f64; 3]) -> Self {
+        self.factor = factor;
+        self
+    }
+
+    /// Region ids for the metrics that compare within a label.
+    pub fn with_labels(mut self, labels: &'a GrayImage) -> Result<Self, MetricError> {
+        check_size("label image", (labels.width, labels.height), self.truth)?;
+        self.labels = Some(labels);
+        Ok(self)
+    }
+
+    /// What may have leaked into the prediction (`leakage_*`): the true shading or specular layer.
+    pub fn with_cause(mut self, cause: &'a Picture) -> Result<Self, MetricError> {
+        check_size("leaking layer", (cause.width, cause.height), self.truth)?;
+        check_finite("leaking layer", cause, self.region)?;
+        self.cause = Some(cause);
+        Ok(self)
+    }
+
+    /// How far the method trusts each pixel of its prediction, one channel, larger for more.
+    pub fn with_confidence(mut self, confidence: &'a Picture) -> Result<Self, MetricError> {
+        check_size("confidence", (confidence.width, confidence.height), self.truth)?;
+        if confidence.channels != 1 {
+            let found = confidence.channels;
+            return Err(MetricError::Channels { metric: "a confidence", expected: "1", found });
+        }
+        check_finite("confidence", confidence, self.region)?;
+        self.confidence = Some(confidence);
+        Ok(self)
+    }
+
+    /// The region.
+    pub fn region(&self) -> &'a Region {
+        self.region
+    }
+
+    /// The scaled prediction's channels at a row-major pixel index.
+    pub(super) fn predicted(&self, index: usize) -> impl Iterator<Item = f64> {
+        let factors = self.factor.iter().cycle();
+        self.channels(self.prediction, index).zip(factors).map(|(value, factor)| value * factor)
+    }
+
+    /// The truth's channels at a row-major pixel index.
+    pub(super) fn true_values(&self, index: usize) -> impl Iterator<Item = f64> {
+        self.channels(self.truth, index)
+    }
+
+    pub(super) fn predicted_luminance(&self, index: usize) -> f64 {
+        luminance(self.predicted(index))
+    }
+
+    pub(super) fn true_luminance(&self, index: usize) -> f64 {
+        luminance(self.true_values(index))
+    }
+
+    /// Luminances of the leaking layer over the region.
+    pub(super) fn cause_luminances(&self) -> Option<impl Iterator<Item = f64>> {
+        let cause = self.cause?;
+        let pixels = self.region.pixels().iter();
+        Some(pixels.map(move |i| luminance(self.channels(cause, *i))))
+    }
+
+    /// The confidence over the region.
+    pub(super) fn confidences(&self) -> Option<Vec<f64>> {
+        let data = &self.confidence?.data;
+        Some(self.region.pixels().iter().map(|i| f64::from(data[*i])).collect())
+    }
+
+    fn channels(&self, picture: &'a Picture, index: usize) -> impl Iterator<Item = f64> + use<'a> {
+        let channels = picture.channels;
+        picture.data[index * channels..(index + 1) * channels].iter().map(|v| f64::from(*v))
+    }
+}
+
+fn check_size(
+    what: &'static str,
+    (found_width, found_height): (usize, usize),
+    truth: &Picture,
+) -> Result<(), MetricError> {
+    let (width, height) = (truth.width, truth.height);
+    if (found_width, found_height) == (width, height) {
+        return Ok(());
+    }
+    Err(MetricError::Size { what, found_width, found_height, width, height })
+}
+
+fn check_finite(what: &'static str, picture: &Picture, region: &Region) -> Result<(), MetricError> {
+    for &index in region.pixels() {
+        let (x, y) = (index % picture.width, index / picture.width);
+        let bad = picture.pixel(x, y).iter().position(|value| !value.is_finite());
+        if let Some(channel) = bad {
+            let value = picture.pixel(x, y)[channel];
+            return Err(MetricError::NotFinite { what, value, x, y, channel });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,260 @@
+//! What a metric measures at every pixel of a region.
+
+use super::colour::{ciede2000, lab, srgb, typology_angle};
+use super::neighbourhood::{flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::rank::{ranks, upper_half};
+use super::{MetricError, Pair};
+
+/// Keeps the relative squared error finite in the dark.
+pub const RELATIVE_OFFSET: f64 = 0.01;
+
+/// A per-pixel quantity; x of one or (x, y) of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Mean over the channels of (p - g)², as is.
+    SquaredError,
+    /// The same of sRGB values in [0, 1].
+    SquaredErrorSrgb,
+    /// Mean over the channels of (p - g)² / (g + .01)².
+    RelativeSquaredError,
+    /// Structural similarity.
+    Ssim,
+    /// FLIP.
+    Flip,
+    /// Angle between two vectors, degrees; 90 where one of them has no length.
+    Angle,
+    /// CIEDE2000.
+    ColourDifference,
+    /// (Individual typology angle of p, of g), degrees.
+    Typology,
+    /// (Luminance of p, of g); of one channel, the values.
+    Luminance,
+    /// Their ranks, ties sharing the mean rank.
+    Ranks,
+    /// (p·g, p·p), whose ratio is the factor that aligns p with g.
+    Projection,
+    /// (High-pass log luminance of p, of g).
+    HighPass,
+    /// (Log luminance of p, of g), each less its mean within the label.
+    WithinLabel,
+    /// Low-pass difference of the log luminances.
+    LowPassError,
+    /// (Difference of the log luminances, log luminance of the leaking layer).
+    LogErrorAndCause,
+    /// (Difference of the luminances, luminance of the leaking layer).
+    ErrorAndCause,
+    /// Ranks of (the confidence, the size of the difference of the log luminances).
+    TrustAndErrorRanks,
+    /// (Twice the size of the difference of the log luminances where the confidence is in its upper
+    /// half, the same everywhere), whose ratio is that of their means.
+    TrustedAndWholeError,
+}
+
+impl Quantity {
+    /// What it compares with beside prediction and truth; as an argument is named in Python.
+    pub fn needs(self) -> Option<&'static str> {
+        match self {
+            Self::WithinLabel => Some("labels"),
+            Self::LogErrorAndCause => Some("shading"),
+            Self::ErrorAndCause => Some("specular"),
+            Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
+            Self::SquaredError
+            | Self::SquaredErrorSrgb
+            | Self::RelativeSquaredError
+            | Self::Ssim
+            | Self::Flip
+            | Self::Angle
+            | Self::ColourDifference
+            | Self::Typology
+            | Self::Luminance
+            | Self::Ranks
+            | Self::Projection
+            | Self::HighPass
+            | Self::LowPassError => None,
+        }
+    }
+
+    /// The colour space, or the unit, of the values that are compared; as reports show it.
+    pub fn space(self) -> &'static str {
+        match self {
+            Self::SquaredError | Self::RelativeSquaredError | Self::Ranks | Self::Projection => {
+                "linear"
+            }
+            Self::SquaredErrorSrgb => "sRGB clipped to [0, 1]",
+            Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
+            Self::ColourDifference | Self::Typology => "L*a*b*, D65",
+            Self::Angle => "object space",
+            Self::HighPass
+            | Self::WithinLabel
+            | Self::LowPassError
+            | Self::LogErrorAndCause
+            | Self::TrustAndErrorRanks
+            | Self::TrustedAndWholeError => "log luminance",
+            Self::Luminance | Self::ErrorAndCause => "linear luminance",
+        }
+    }
+
+    /// One or two numbers per pixel of the region, in its order. `metric` is named in errors.
+    pub(super) fn measure(
+        self,
+        pair: &Pair,
+        metric: &'static str,
+    ) -> Result<Vec<f64>, MetricError> {
+        let argument = self.needs().unwrap_or_default();
+        let needs = |input| MetricError::Needs { metric, input, argument };
+        self.check_channels(pair, metric)?;
+        Ok(match self {
+            Self::SquaredError => per_channel(pair, |p, g| (p - g).powi(2)),
+            Self::SquaredErrorSrgb => per_channel(pair, |p, g| (srgb(p) - srgb(g)).powi(2)),
+            Self::RelativeSquaredError => {
+                per_channel(pair, |p, g| ((p - g) / (g + RELATIVE_OFFSET)).powi(2))
+            }
+            Self::Ssim => ssim(pair),
+            Self::Flip => flip(pair),
+            Self::Angle => triples(pair, angle_degrees),
+            Self::ColourDifference => triples(pair, |p, g| ciede2000(lab(p), lab(g))),
+            Self::Typology => pixels(pair)
+                .flat_map(|i| {
+                    let [p, g] = [triple(pair.predicted(i)), triple(pair.true_values(i))];
+                    [typology_angle(lab(p)), typology_angle(lab(g))]
+                })
+                .collect(),
+            Self::Luminance => pixels(pair)
+                .flat_map(|i| [pair.predicted_luminance(i), pair.true_luminance(i)])
+                .collect(),
+            Self::Ranks => {
+                let x: Vec<f64> = pixels(pair).map(|i| pair.predicted_luminance(i)).collect();
+                let y: Vec<f64> = pixels(pair).map(|i| pair.true_luminance(i)).collect();
+                ranks(&x).into_iter().zip(ranks(&y)).flat_map(|(x, y)| [x, y]).collect()
+            }
+            Self::Projection => pixels(pair)
+                .flat_map(|i| {
+                    let both = pair.predicted(i).zip(pair.true_values(i));
+                    both.fold([0.0, 0.0], |[pg, pp], (p, g)| [pg + p * g, pp + p * p])
+                })
+                .collect(),
+            Self::HighPass => {
+                let mut residues = high_pass(pair);
+                residues.iter_mut().for_each(drop_rounding);
+                residues
+            }
+            Self::WithinLabel => {
+                let labels = pair.labels.ok_or_else(|| needs("labels"))?;
+                let (mut x, mut y) = log_luminances(pair);
+                let of: Vec<u8> = pixels(pair).map(|i| labels.data[i]).collect();
+                [&mut x, &mut y].into_iter().for_each(|values| centre_by_label(values, &of));
+                x.into_iter().zip(y).flat_map(|(x, y)| [x, y]).collect()
+            }
+            Self::LowPassError => low_pass_error(pair),
+            Self::LogErrorAndCause => {
+                let cause = pair.cause_luminances().ok_or_else(|| needs("the true shading"))?;
+                let (x, y) = log_luminances(pair);
+                let errors = x.iter().zip(&y).map(|(x, y)| x - y);
+                errors.zip(cause).flat_map(|(error, cause)| [error, log(cause)]).collect()
+            }
+            Self::ErrorAndCause => {
+                let cause =
+                    pair.cause_luminances().ok_or_else(|| needs("the true specular layer"))?;
+                let errors =
+                    pixels(pair).map(|i| pair.predicted_luminance(i) - pair.true_luminance(i));
+                errors.zip(cause).flat_map(|(error, cause)| [error, cause]).collect()
+            }
+            Self::TrustAndErrorRanks => {
+                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let errors = ranks(&log_errors(pair));
+                ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
+            }
+            Self::TrustedAndWholeError => {
+                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let shares = upper_half(&trust);
+                let pairs = shares.into_iter().zip(log_errors(pair));
+                pairs.flat_map(|(share, error)| [2.0 * share * error, error]).collect()
+            }
+        })
+    }
+
+    fn check_channels(self, pair: &Pair, metric: &'static str) -> Result<(), MetricError> {
+        let found = pair.truth.channels;
+        let (expected, right) = match self {
+            Self::Flip | Self::Angle | Self::ColourDifference | Self::Typology => ("3", found == 3),
+            Self::SquaredError
+            | Self::SquaredErrorSrgb
+            | Self::RelativeSquaredError
+            | Self::Ssim
+            | Self::Luminance
+            | Self::Ranks
+            | Self::Projection
+            | Self::HighPass
+            | Self::WithinLabel
+            | Self::LowPassError
+            | Self::LogErrorAndCause
+            | Self::ErrorAndCause
+            | Self::TrustAndErrorRanks
+            | Self::TrustedAndWholeError => ("1 or 3", found == 1 || found == 3),
+        };
+        if right { Ok(()) } else { Err(MetricError::Channels { metric, expected, found }) }
+    }
+}
+
+fn pixels<'a>(pair: &Pair<'a>) -> impl Iterator<Item = usize> + use<'a> {
+    pair.region().pixels().iter().copied()
+}
+
+fn per_channel(pair: &Pair, error: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let channels = pair.truth.channels as f64;
+    pixels(pair)
+        .map(|i| {
+            let both = pair.predicted(i).zip(pair.true_values(i));
+            both.map(|(p, g)| error(p, g)).sum::<f64>() / channels
+        })
+        .collect()
+}
+
+fn log_errors(pair: &Pair) -> Vec<f64> {
+    let (x, y) = log_luminances(pair);
+    x.iter().zip(&y).map(|(x, y)| (x - y).abs()).collect()
+}
+
+fn triples(pair: &Pair, compare: impl Fn([f64; 3], [f64; 3]) -> f64) -> Vec<f64> {
+    pixels(pair).map(|i| compare(triple(pair.predicted(i)), triple(pair.true_values(i)))).collect()
+}
+
+fn triple(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let mut triple = [0.0; 3];
+    triple.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
+    triple
+}
+
+/// By the arc tangent: the arc cosine is flat where the angle is small.
+fn angle_degrees(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    if dot(a, a) == 0.0 || dot(b, b) == 0.0 {
+        return 90.0;
+    }
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    dot(cross, cross).sqrt().atan2(dot(a, b)).to_degrees()
+}
+
+fn centre_by_label(values: &mut [f64], labels: &[u8]) {
+    let mut sums = [(0.0, 0.0); 256];
+    for (value, label) in values.iter().zip(labels) {
+        let (sum, count) = &mut sums[usize::from(*label)];
+        *sum += value;
+        *count += 1.0;
+    }
+    for (value, label) in values.iter_mut().zip(labels) {
+        let (sum, count) = sums[usize::from(*label)];
+        *value -= sum / count;
+        drop_rounding(value);
+    }
+}
+
+/// Less than this of a logarithm is rounding; neighbouring floats differ by five hundred times more.
+const ROUNDING: f64 = 1e-10;
+
+/// A flat map less its mean is flat: what rounding leaves of it correlates with anything.
+fn drop_rounding(residue: &mut f64) {
+    if residue.abs() < ROUNDING {
+        *residue = 0.0;
+    }
+}

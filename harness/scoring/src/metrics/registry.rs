@@ -1,0 +1,225 @@
+//! Every metric, stated once: the scores, the report, the comparison and Python read this list.
+
+use super::quantity::Quantity as Q;
+use super::statistic::Statistic as S;
+use super::{MetricError, Pair};
+
+/// Which values are better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Higher ones.
+    Higher,
+    /// Lower ones.
+    Lower,
+    /// Those near one.
+    One,
+}
+
+impl Direction {
+    /// How much better `new` is than `old`; negative if worse, in the metric's unit.
+    pub fn gain(self, old: f64, new: f64) -> f64 {
+        match self {
+            Self::Higher => new - old,
+            Self::Lower => old - new,
+            Self::One => (old - 1.0).abs() - (new - 1.0).abs(),
+        }
+    }
+
+    /// `↑`, `↓` or `→1`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Higher => "↑",
+            Self::Lower => "↓",
+            Self::One => "→1",
+        }
+    }
+}
+
+/// A metric: a quantity of every pixel, summarised by a statistic.
+#[derive(Debug)]
+pub struct Metric {
+    /// As in row ids.
+    pub id: &'static str,
+    /// As in tables.
+    pub name: &'static str,
+    /// Empty for a pure number.
+    pub unit: &'static str,
+    /// Which values are better.
+    pub direction: Direction,
+    /// What is computed, in full; p is the prediction, g the truth.
+    pub definition: &'static str,
+    /// Where it is defined.
+    pub link: &'static str,
+    /// Per pixel.
+    pub quantity: Q,
+    /// Over the region.
+    pub statistic: S,
+}
+
+impl Metric {
+    /// The metric with an id.
+    pub fn find(id: &str) -> Result<&'static Self, MetricError> {
+        METRICS.iter().find(|metric| metric.id == id).ok_or_else(|| {
+            let known: Vec<_> = METRICS.iter().map(|metric| metric.id).collect();
+            MetricError::Unknown { id: id.to_owned(), known: known.join(", ") }
+        })
+    }
+
+    /// The quantity at every pixel of the region, in its order, `statistic.arity()` numbers each.
+    pub fn measure(&self, pair: &Pair) -> Result<Vec<f64>, MetricError> {
+        self.quantity.measure(pair, self.id)
+    }
+
+    /// The metric over the region; `None` where it is not defined (a correlation with a constant).
+    pub fn value(&self, pair: &Pair) -> Result<Option<f64>, MetricError> {
+        Ok(self.statistic.value([self.measure(pair)?.as_slice()]))
+    }
+}
+
+macro_rules! metrics {
+    ($($id:literal, $name:literal, $unit:literal, $direction:ident, $quantity:expr, $statistic:expr,
+       $definition:literal, $link:literal;)*) => {
+        &[$(Metric {
+            id: $id, name: $name, unit: $unit, direction: Direction::$direction,
+            quantity: $quantity, statistic: $statistic, definition: $definition, link: $link,
+        }),*]
+    };
+}
+
+/// Every metric, in the order of tables.
+pub static METRICS: &[Metric] = metrics! {
+    "psnr_srgb", "PSNR", "dB", Higher, Q::SquaredErrorSrgb, S::Psnr,
+        "-10 log10 of the mean over pixels and channels of (p-g)² of sRGB values (IEC 61966-2-1) clipped to [0, 1]; peak 1; at most 100",
+        "https://webstore.iec.ch/en/publication/6169";
+    "psnr_lin", "PSNR, linear", "dB", Higher, Q::SquaredError, S::Psnr,
+        "-10 log10 of the mean over pixels and channels of (p-g)² of linear values, not clipped; peak 1; at most 100",
+        "https://en.wikipedia.org/wiki/Peak_signal-to-noise_ratio";
+    "relmse", "Relative MSE", "", Lower, Q::RelativeSquaredError, S::Mean,
+        "mean over pixels and channels of (p-g)² / (g+.01)² of linear values",
+        "https://en.wikipedia.org/wiki/Mean_squared_error";
+    "ssim", "SSIM", "", Higher, Q::Ssim, S::Mean,
+        "mean of the structural similarity map of sRGB values: Gaussian window 11x11 with sigma 1.5, K1 .01, K2 .03, range 1, population covariance, per channel; black outside the mask",
+        "https://doi.org/10.1109/TIP.2003.819861";
+    "flip_mean", "FLIP", "", Lower, Q::Flip, S::Mean,
+        "mean of the LDR-FLIP map of 8-bit sRGB pictures at 67.02 pixels per degree; black outside the mask",
+        "https://github.com/NVlabs/flip";
+    "flip_p95", "FLIP, 95th percentile", "", Lower, Q::Flip, S::Quantile(0.95),
+        "95th percentile of the LDR-FLIP map of 8-bit sRGB pictures at 67.02 pixels per degree; black outside the mask",
+        "https://github.com/NVlabs/flip";
+    "ciede2000_mean", "CIEDE2000", "", Lower, Q::ColourDifference, S::Mean,
+        "mean CIEDE2000 of linear colours clipped to [0, 1] (D65, kL = kC = kH = 1)",
+        "https://doi.org/10.1002/col.20070";
+    "ita_error", "Typology angle error", "°", Lower, Q::Typology, S::MeanDifference,
+        "|mean over p - mean over g| of the individual typology angle atan2(L*-50, b*)",
+        "https://trust.is.tue.mpg.de";
+    "scale_global", "Aligning factor", "", One, Q::Projection, S::Ratio,
+        "the one factor k = <p,g> / <p,p> that aligns p with g in linear values",
+        "https://arxiv.org/abs/2310.16044";
+    "rmse", "RMSE", "", Lower, Q::SquaredError, S::RootMean,
+        "square root of the mean of (p-g)² of linear values",
+        "https://en.wikipedia.org/wiki/Root_mean_square_deviation";
+    "pearson", "Correlation", "", Higher, Q::Luminance, S::Correlation,
+        "Pearson correlation of p and g (colours: of their luminances); none if one is constant",
+        "https://en.wikipedia.org/wiki/Pearson_correlation_coefficient";
+    "spearman", "Rank correlation", "", Higher, Q::Ranks, S::Correlation,
+        "Pearson correlation of the ranks of p and g (colours: of their luminances), ties sharing their mean rank; none if one is constant; its interval keeps the ranks fixed",
+        "https://en.wikipedia.org/wiki/Spearman%27s_rank_correlation_coefficient";
+    "energy_ratio", "Energy", "", One, Q::Luminance, S::Ratio,
+        "sum of the luminance of p / sum of the luminance of g",
+        "https://en.wikipedia.org/wiki/Relative_luminance";
+    "normal_mean_deg", "Mean angle", "°", Lower, Q::Angle, S::Mean,
+        "mean angle between p and g in object space; 90 where p has no length",
+        "https://arxiv.org/abs/1411.4734";
+    "normal_median_deg", "Median angle", "°", Lower, Q::Angle, S::Quantile(0.5),
+        "median angle between p and g in object space",
+        "https://arxiv.org/abs/1411.4734";
+    "normal_below_5", "Below 5°", "", Higher, Q::Angle, S::Below(5.0),
+        "share of pixels whose angle is below 5°", "https://arxiv.org/abs/1411.4734";
+    "normal_below_11_25", "Below 11.25°", "", Higher, Q::Angle, S::Below(11.25),
+        "share of pixels whose angle is below 11.25°", "https://arxiv.org/abs/1411.4734";
+    "normal_below_22_5", "Below 22.5°", "", Higher, Q::Angle, S::Below(22.5),
+        "share of pixels whose angle is below 22.5°", "https://arxiv.org/abs/1411.4734";
+    "normal_below_30", "Below 30°", "", Higher, Q::Angle, S::Below(30.0),
+        "share of pixels whose angle is below 30°", "https://arxiv.org/abs/1411.4734";
+    "hc", "Detail correlation", "", Higher, Q::HighPass, S::Correlation,
+        "Pearson correlation of the high-pass log luminances: each less its Gaussian mean over the region (sigma = width/64, cut off at 3 sigma), luminances below .001 raised to it",
+        "https://en.wikipedia.org/wiki/High-pass_filter";
+    "wcorr", "Correlation within labels", "", Higher, Q::WithinLabel, S::Correlation,
+        "Pearson correlation of the log luminances, each less its mean within the label; luminances below .001 raised to it",
+        "https://en.wikipedia.org/wiki/Pearson_correlation_coefficient";
+    "lp", "Residual shading", "", Lower, Q::LowPassError, S::Spread,
+        "standard deviation of the low-pass difference of the log luminances: Gaussian mean over the region, sigma = width/64, cut off at 3 sigma",
+        "https://en.wikipedia.org/wiki/Low-pass_filter";
+    "leakage_shading", "Baked shading", "", Lower, Q::LogErrorAndCause, S::Explained,
+        "share of the variance of the log luminance error that a line in the log luminance of the true diffuse shading explains (squared correlation)",
+        "https://en.wikipedia.org/wiki/Coefficient_of_determination";
+    "leakage_specular", "Baked highlights", "", Lower, Q::ErrorAndCause, S::Explained,
+        "share of the variance of the luminance error that a line in the luminance of the true specular layer explains (squared correlation)",
+        "https://en.wikipedia.org/wiki/Coefficient_of_determination";
+    "confidence_rank", "Confidence against error", "", Lower, Q::TrustAndErrorRanks, S::Correlation,
+        "Pearson correlation of the ranks of the confidence and of |difference of the log luminances|, ties sharing their mean rank, luminances below .001 raised to it: -1 if confidence falls wherever the error grows, 0 if it says nothing; none if one is constant; its interval keeps the ranks fixed",
+        "https://en.wikipedia.org/wiki/Spearman%27s_rank_correlation_coefficient";
+    "sparsification", "Error of the trusted half", "", Lower, Q::TrustedAndWholeError, S::Ratio,
+        "mean |difference of the log luminances| of the half with the highest confidence / that of all, luminances below .001 raised to it; equal confidences share the half's last places: 1 if confidence says nothing",
+        "https://arxiv.org/abs/1802.07095";
+};
+
+/// What is scored of what, in the order of the rows. A metric in none of these has no row, which
+/// `harness/tests/scores.rs` notices.
+pub(crate) mod scored {
+    /// Of the diffuse albedo; after the median ratio the first five alone.
+    pub(crate) const ALBEDO: [&str; 8] = [
+        "psnr_srgb",
+        "psnr_lin",
+        "relmse",
+        "ciede2000_mean",
+        "ita_error",
+        "ssim",
+        "flip_mean",
+        "flip_p95",
+    ];
+    /// Of the diffuse albedo, blind to its scale.
+    pub(crate) const ALBEDO_UNSCALED: [&str; 4] = ["scale_global", "hc", "wcorr", "lp"];
+    /// Of the diffuse albedo, against the true diffuse shading and the true specular layer.
+    pub(crate) const LEAKAGE: [&str; 2] = ["leakage_shading", "leakage_specular"];
+    /// Of the diffuse albedo in one label region; the last of skin alone.
+    pub(crate) const PART: [&str; 3] = ["psnr_srgb", "ciede2000_mean", "ita_error"];
+    /// Of a normal map.
+    pub(crate) const NORMAL: [&str; 6] = [
+        "normal_mean_deg",
+        "normal_median_deg",
+        "normal_below_5",
+        "normal_below_11_25",
+        "normal_below_22_5",
+        "normal_below_30",
+    ];
+    /// Of the specular albedo; of its best constant the first alone.
+    pub(crate) const SPECULAR: [&str; 3] = ["rmse", "pearson", "spearman"];
+    /// Of the confidence, against the error of the diffuse albedo.
+    pub(crate) const CONFIDENCE: [&str; 2] = ["confidence_rank", "sparsification"];
+    /// Of a view or a relit picture.
+    pub(crate) const PICTURE: [&str; 6] =
+        ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
+    /// Of a layer of it.
+    pub(crate) const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_unique_and_found() {
+        for metric in METRICS {
+            assert!(std::ptr::eq(Metric::find(metric.id).unwrap(), metric), "{}", metric.id);
+        }
+        let error = Metric::find("psnr").unwrap_err().to_string();
+        assert!(error.contains("\"psnr\"") && error.contains("psnr_srgb"), "{error}");
+    }
+
+    #[test]
+    fn a_gain_is_positive_towards_the_better() {
+        assert!(Direction::Higher.gain(1.0, 2.0) > 0.0 && Direction::Lower.gain(1.0, 2.0) < 0.0);
+        assert!(Direction::One.gain(1.2, 0.9) > 0.0 && Direction::One.gain(0.9, 1.2) < 0.0);
+    }
+}

@@ -1,0 +1,170 @@
+//! Maps against the truth.
+
+use formats::Maps;
+use formats::picture::{GrayImage, Picture};
+
+use super::ScoreError;
+use super::geometry::Geometry;
+use super::protocol::MAP_BLOCK;
+use super::rows::{Compared, Floors, Heading, rows};
+use super::scores::{RegionSize, Row};
+use super::truth::{LABELS, Truth};
+use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample, scored};
+
+/// The rows of every map that `maps` has, and of the trivial answers.
+pub(super) fn rows_of_maps(
+    maps: &Maps,
+    truth: &Truth,
+    geometry: &Geometry,
+    scale: Option<&Scale>,
+) -> Result<Vec<Row>, ScoreError> {
+    let mut all = Vec::new();
+    if let Some((albedo, scale)) = maps.diffuse_albedo.as_ref().zip(scale) {
+        all.extend(albedo_rows(&fit_to(albedo, truth), truth, geometry, scale)?);
+    }
+    if let Some(specular) = &maps.specular_albedo {
+        let specular = fit_to(specular, truth);
+        all.extend(map_rows(
+            "specular_albedo",
+            &scored::SPECULAR,
+            &specular,
+            &truth.specular_albedo,
+            truth,
+        )?);
+    }
+    let constant = constant(&truth.specular_albedo, &truth.region);
+    all.extend(map_rows(
+        "constant_specular_albedo",
+        &scored::SPECULAR[..1],
+        &constant,
+        &truth.specular_albedo,
+        truth,
+    )?);
+    for (subject, trivial, map, true_normal) in [
+        ("specular_normal", "mesh_specular_normal", &maps.specular_normal, &truth.specular_normal),
+        ("diffuse_normal", "mesh_diffuse_normal", &maps.diffuse_normal, &truth.diffuse_normal),
+    ] {
+        if let Some(normal) = map {
+            // Angles do not depend on length, so nothing is left to renormalise.
+            all.extend(map_rows(
+                subject,
+                &scored::NORMAL,
+                &fit_to(normal, truth),
+                true_normal,
+                truth,
+            )?);
+        }
+        all.extend(map_rows(trivial, &scored::NORMAL, &geometry.mesh_normal, true_normal, truth)?);
+    }
+    Ok(all)
+}
+
+/// The factors that align the diffuse albedo with the truth.
+pub(super) fn fit(albedo: &Picture, truth: &Truth) -> Result<Scale, ScoreError> {
+    let albedo = fit_to(albedo, truth);
+    Pair::new(&albedo, &truth.diffuse_albedo, &truth.region)
+        .and_then(|pair| Scale::fit(&pair))
+        .map_err(ScoreError::of("diffuse_albedo"))
+}
+
+/// How much of the truth the map regions are, and how much of it the solver claims.
+pub(super) fn region_size(truth: &Truth, claimed: Option<&GrayImage>) -> RegionSize {
+    let (width, height) = truth.region.size();
+    let inside = truth.region.pixels();
+    let solved = claimed.map(|claimed| {
+        // The texel of the claim in which the truth's texel has its centre.
+        let at = |i: usize, from: usize, to: usize| (2 * i + 1) * from / (2 * to);
+        let is_claimed = |i: &&usize| {
+            let (x, y) =
+                (at(**i % width, claimed.width, width), at(**i / width, claimed.height, height));
+            claimed.data[y * claimed.width + x] > 127
+        };
+        inside.iter().filter(is_claimed).count() as f64 / inside.len() as f64
+    });
+    RegionSize::new(&truth.region, truth.region.name(), &truth.coverage, solved)
+}
+
+fn albedo_rows(
+    albedo: &Picture,
+    truth: &Truth,
+    geometry: &Geometry,
+    scale: &Scale,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of("diffuse_albedo");
+    let masked = black_outside(albedo, &truth.coverage);
+    let true_masked = black_outside(&truth.diffuse_albedo, &truth.coverage);
+    let parts = parts(truth);
+    let pair = |region, mode| {
+        let pair = Pair::new(&masked, &true_masked, region)?.scaled(scale.factors(mode));
+        pair.with_labels(&truth.labels)
+    };
+    let mut all = Vec::new();
+    let mut add = |metrics: &[&str], mode: ScaleMode, label, pair| {
+        let heading = Heading { label, ..heading("diffuse_albedo", mode) };
+        let compared = [Compared { frame: None, pair }];
+        all.extend(rows(heading, metrics, &compared, &Floors::new())?);
+        Ok::<_, ScoreError>(())
+    };
+    for mode in ScaleMode::ALL {
+        let metrics =
+            if mode == ScaleMode::Median { &scored::ALBEDO[..5] } else { &scored::ALBEDO };
+        add(metrics, mode, None, pair(&truth.region, mode).map_err(&wrong)?)?;
+    }
+    add(
+        &scored::ALBEDO_UNSCALED,
+        ScaleMode::None,
+        None,
+        pair(&truth.region, ScaleMode::None).map_err(&wrong)?,
+    )?;
+    for (metric, cause) in scored::LEAKAGE.iter().zip([&geometry.shading, &geometry.specular]) {
+        let aligned = pair(&truth.region, ScaleMode::Global);
+        let pair = aligned.and_then(|pair| pair.with_cause(cause)).map_err(&wrong)?;
+        add(&[*metric], ScaleMode::Global, None, pair)?;
+    }
+    for (label, region) in &parts {
+        for mode in [ScaleMode::None, ScaleMode::Global] {
+            let metrics: &[&str] =
+                if *label == Some("skin") { &scored::PART } else { &scored::PART[..2] };
+            add(metrics, mode, *label, pair(region, mode).map_err(&wrong)?)?;
+        }
+    }
+    Ok(all)
+}
+
+/// The labels that the covered face shows, and what more than one view sees.
+fn parts(truth: &Truth) -> Vec<(Option<&'static str>, Region)> {
+    let of_label = |(id, name): &(u8, &'static str)| {
+        let part = truth.region.part(truth.region.name(), |i| truth.labels.data[i] == *id);
+        Some((Some(*name), part.ok()?))
+    };
+    let twice = truth.region.part("coverage-e5-views2", |i| truth.views.data[i] >= 2);
+    LABELS.iter().filter_map(of_label).chain(twice.ok().map(|part| (None, part))).collect()
+}
+
+fn map_rows(
+    subject: &str,
+    metrics: &[&str],
+    map: &Picture,
+    true_map: &Picture,
+    truth: &Truth,
+) -> Result<Vec<Row>, ScoreError> {
+    let pair = Pair::new(map, true_map, &truth.region).map_err(ScoreError::of(subject))?;
+    let compared = [Compared { frame: None, pair }];
+    rows(heading(subject, ScaleMode::None), metrics, &compared, &Floors::new())
+}
+
+fn heading(subject: &str, mode: ScaleMode) -> Heading<'_> {
+    Heading { subject, light: None, scale: mode.id(), label: None, block: MAP_BLOCK }
+}
+
+fn fit_to(map: &Picture, truth: &Truth) -> Picture {
+    let (width, height) = truth.region.size();
+    resample(map, width, height)
+}
+
+/// The constant map with the smallest squared error: the mean of the truth.
+fn constant(map: &Picture, region: &Region) -> Picture {
+    let sum: f64 = region.pixels().iter().map(|i| f64::from(map.data[*i])).sum();
+    let mean = (sum / region.pixels().len() as f64) as f32;
+    Picture { data: vec![mean; map.data.len()], ..map.clone() }
+}

@@ -1,0 +1,135 @@
+//! Scores: maps, withheld views, relit pictures and layers against the truth of a capture.
+
+mod confidence;
+mod error;
+mod geometry;
+mod maps;
+mod noise_floor;
+mod oracle;
+mod photographs;
+mod pictures;
+mod protocol;
+mod render;
+mod rows;
+mod scores;
+mod truth;
+
+use std::fs;
+use std::path::Path;
+
+use formats::Maps;
+use formats::content_hash::hash_path;
+
+pub use crate::metrics::Scale;
+pub use error::ScoreError;
+pub use oracle::oracle_maps;
+pub use photographs::{FOUND_LIGHT, is_photographed};
+pub use protocol::Protocol;
+pub use scores::{Inputs, RegionSize, Row, Scores};
+
+use crate::check::check;
+use geometry::Geometry;
+use pictures::Frame;
+use truth::{Identity, Truth};
+
+/// Scores a maps folder, and the pictures relit with it, against the capture's truth.
+///
+/// Maps, views and pictures that a solver did not write have no rows; a folder with none of them
+/// is refused. What is likely wrong with the maps is looked for without the truth, and noted. Of a
+/// capture without a truth, pictures are held against its withheld photographs.
+pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores, ScoreError> {
+    if is_photographed(capture) {
+        return photographs::score(capture, maps, relit);
+    }
+    let truth = Truth::open(capture)?;
+    let Identity { face, light, protocol } = Identity::read(capture)?;
+    let renderer = relit.map(renderer_of).transpose()?.flatten();
+    let protocol = protocol.relit_by(renderer.as_deref());
+    let found = Maps::read(maps)?;
+    let scale =
+        found.diffuse_albedo.as_ref().map(|albedo| maps::fit(albedo, &truth)).transpose()?;
+    let frames = Frame::withheld(capture, &light)?;
+    let geometry = Geometry::of(capture, &truth)?;
+    let findings = check(maps, Some(capture))?;
+    let (of_maps, of_pictures) = rayon::join(
+        || maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref()),
+        || -> Result<_, ScoreError> {
+            let relit = relit.map(|relit| pictures::relit_rows(&frames, capture, relit));
+            let views = pictures::view_rows(&frames, capture, maps, &light)?;
+            Ok((views, relit.transpose()?.unwrap_or_default()))
+        },
+    );
+    let (views, relit_rows) = of_pictures?;
+    if views.is_empty() && is_empty(&found) {
+        return Err(ScoreError::Nothing(maps.to_path_buf()));
+    }
+    let mut rows = of_maps?;
+    if let Some((albedo, scale)) = found.diffuse_albedo.as_ref().zip(scale.as_ref()) {
+        rows.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
+    }
+    rows.extend(views);
+    rows.extend(relit_rows);
+    let hash = |path: &Path| hash_path(path).map_err(|error| ScoreError::io(path, error));
+    let inputs =
+        Inputs { capture: hash(capture)?, maps: hash(maps)?, relit: relit.map(hash).transpose()? };
+    let mut regions = vec![maps::region_size(&truth, found.coverage.as_ref())];
+    regions.extend(frames.iter().map(Frame::region_size));
+    Ok(Scores {
+        format: Scores::FORMAT,
+        capture: name_of(capture),
+        face,
+        light,
+        solver: solver_name(maps)?,
+        protocol,
+        inputs,
+        scale,
+        regions,
+        findings,
+        rows,
+    })
+}
+
+/// The factors that align the diffuse albedo of a maps folder with the truth.
+pub fn fit_scale(capture: &Path, maps: &Path) -> Result<Scale, ScoreError> {
+    let truth = Truth::open(capture)?;
+    let albedo = Maps::read(maps)?.diffuse_albedo.ok_or_else(|| ScoreError::Missing {
+        path: maps.join("diffuse_albedo.exr"),
+        mend: "a face cannot be relit without it",
+    })?;
+    maps::fit(&albedo, &truth)
+}
+
+fn is_empty(maps: &Maps) -> bool {
+    let Maps { diffuse_albedo, specular_albedo, diffuse_normal, specular_normal, .. } = maps;
+    [diffuse_albedo, specular_albedo, diffuse_normal, specular_normal]
+        .iter()
+        .all(|map| map.is_none())
+}
+
+/// What `relit.json` says rendered the pictures; nothing for the truth's own renderer.
+fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
+    let path = relit.join("relit.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
+    let said: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
+    Ok(said["renderer"].as_str().map(str::to_owned))
+}
+
+/// What `solve.json` calls the solver, else the folder's name.
+fn solver_name(maps: &Path) -> Result<String, ScoreError> {
+    let path = maps.join("solve.json");
+    if !path.exists() {
+        return Ok(name_of(maps));
+    }
+    let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
+    let solve: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| ScoreError::text(&path, error))?;
+    Ok(solve["solver"].as_str().map_or_else(|| name_of(maps), str::to_owned))
+}
+
+fn name_of(folder: &Path) -> String {
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

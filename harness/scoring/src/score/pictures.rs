@@ -1,0 +1,169 @@
+//! Withheld views and relit pictures against the true ones, with their layers.
+
+use std::path::{Path, PathBuf};
+
+use formats::picture::{self, GrayImage, Picture};
+use rayon::prelude::*;
+
+use super::ScoreError;
+use super::noise_floor;
+use super::protocol::PICTURE_BLOCK;
+use super::render::Render;
+use super::rows::{Compared, Floors, Heading, rows};
+use super::scores::{RegionSize, Row};
+use super::truth::{self, present};
+use crate::metrics::{Pair, Region, scored};
+
+const INCOMPLETE: &str = "either all withheld frames are written or none; write the folder again";
+
+/// A withheld frame.
+pub(super) struct Frame {
+    name: String,
+    mask: GrayImage,
+    region: Region,
+}
+
+impl Frame {
+    /// The withheld frames of a capture whose own light is `light`.
+    pub fn withheld(capture: &Path, light: &str) -> Result<Vec<Self>, ScoreError> {
+        Self::of(capture, truth::withheld(capture, light)?)
+    }
+
+    /// The frames with these names.
+    pub fn of(capture: &Path, names: Vec<String>) -> Result<Vec<Self>, ScoreError> {
+        let open = |name: String| {
+            let path = capture.join(format!("masks/{name}.png"));
+            let mask = picture::read_png_gray(&present(path, truth::AGAIN)?)?;
+            let region = Region::eroded("mask-e5", &mask).map_err(ScoreError::of(&name))?;
+            Ok(Self { name, mask, region })
+        };
+        names.into_iter().map(open).collect()
+    }
+
+    /// How much of its mask is compared.
+    pub fn region_size(&self) -> RegionSize {
+        let name = format!("{}/{}", self.region.name(), self.name);
+        RegionSize::new(&self.region, &name, &self.mask, None)
+    }
+
+    fn read(&self, folder: &Path, mend: &'static str) -> Result<Render, ScoreError> {
+        let path = present(folder.join(format!("{}.exr", self.name)), mend)?;
+        Render::read_masked(&path, &self.mask)
+    }
+}
+
+/// Rows of the solver's own synthesis of the withheld views; none if it wrote none.
+pub(super) fn view_rows(
+    frames: &[Frame],
+    capture: &Path,
+    maps: &Path,
+    light: &str,
+) -> Result<Vec<Row>, ScoreError> {
+    let views = maps.join("views");
+    if !views.is_dir() {
+        return Ok(Vec::new());
+    }
+    let truth = true_folder(capture, light)?;
+    let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
+    let heading =
+        Heading { subject: "view", light: None, scale: "none", label: None, block: PICTURE_BLOCK };
+    compare(frames, &views, &truth, heading, subjects)
+}
+
+/// Rows of the relit pictures in every light, as they are and after the global factor; none of a
+/// light in which nothing was relit.
+pub(super) fn relit_rows(
+    frames: &[Frame],
+    capture: &Path,
+    relit: &Path,
+) -> Result<Vec<Row>, ScoreError> {
+    let lights = truth::lights(capture)?;
+    let rows = |(light, scale): (&String, &str)| {
+        let folder = relit.join(scale).join(light);
+        if !folder.is_dir() {
+            return Ok(Vec::new());
+        }
+        let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
+        let truth = true_folder(capture, light)?;
+        let light = Some(light.as_str());
+        let heading = Heading { subject: "relit", light, scale, label: None, block: PICTURE_BLOCK };
+        compare(frames, &folder, &truth, heading, subjects)
+    };
+    let jobs: Vec<_> =
+        lights.iter().flat_map(|light| ["none", "global"].map(|scale| (light, scale))).collect();
+    let rows: Result<Vec<_>, ScoreError> = jobs.into_par_iter().map(rows).collect();
+    Ok(rows?.concat())
+}
+
+/// Rows of pictures in `folder` against photographs: a method's views, or its maps relit in the light
+/// that it found; none if there is no such folder.
+pub(super) fn photograph_rows(
+    frames: &[Frame],
+    photographs: &Path,
+    folder: &Path,
+    light: Option<&str>,
+) -> Result<Vec<Row>, ScoreError> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let subject = if light.is_some() { "relit" } else { "view" };
+    let heading = Heading { subject, light, scale: "none", label: None, block: PICTURE_BLOCK };
+    compare(frames, folder, photographs, heading, [subject, "", ""])
+}
+
+fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
+    present(truth::folder(capture)?.join("relit").join(light), truth::AGAIN)
+}
+
+/// Rows of the whole pictures and of both layers, where every frame has them.
+fn compare(
+    frames: &[Frame],
+    folder: &Path,
+    truth: &Path,
+    heading: Heading,
+    subjects: [&'static str; 3],
+) -> Result<Vec<Row>, ScoreError> {
+    let read = |folder, mend| -> Result<Vec<Render>, ScoreError> {
+        frames.iter().map(|frame| frame.read(folder, mend)).collect()
+    };
+    let (found, truths) = (read(folder, INCOMPLETE)?, read(truth, truth::AGAIN)?);
+    let mut floors = Floors::new();
+    for ((frame, found), truth) in frames.iter().zip(&found).zip(&truths) {
+        // A relit picture without a variance has noise of unknown size; a view has none.
+        let unknown = heading.subject == "relit" && found.variance.is_none();
+        if let (Some(total), Some(variance), false) = (&truth.total, &truth.variance, unknown) {
+            let region = &frame.region;
+            noise_floor::add_frame(&mut floors, total, variance, found.variance.as_ref(), region);
+        }
+    }
+    type Part = (fn(&Render) -> &Option<Picture>, &'static [&'static str]);
+    let parts: [Part; 3] = [
+        (|render| &render.total, &scored::PICTURE),
+        (|render| &render.diffuse, &scored::LAYER),
+        (|render| &render.specular, &scored::LAYER),
+    ];
+    let mut all = Vec::new();
+    for (subject, (part, metrics)) in subjects.into_iter().zip(parts) {
+        let compared: Option<Vec<(&Frame, &Picture, &Picture)>> = frames
+            .iter()
+            .zip(&found)
+            .zip(&truths)
+            .map(|((frame, found), truth)| {
+                Some((frame, part(found).as_ref()?, part(truth).as_ref()?))
+            })
+            .collect();
+        let Some(compared) = compared.filter(|compared| !compared.is_empty()) else { continue };
+        let compared: Vec<Compared> = compared
+            .into_iter()
+            .map(|(frame, found, truth)| {
+                let pair = Pair::new(found, truth, &frame.region)?;
+                Ok(Compared { frame: Some(&frame.name), pair })
+            })
+            .collect::<Result<_, _>>()
+            .map_err(ScoreError::of(subject))?;
+        let none = Floors::new();
+        let floors = if subject == heading.subject { &floors } else { &none };
+        all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
+    }
+    Ok(all)
+}

@@ -1,0 +1,80 @@
+//! The protocol, in words, as every scores file carries it.
+
+use serde::{Deserialize, Serialize};
+
+/// Side of the blocks of the bootstrap in pictures, pixels.
+pub(super) const PICTURE_BLOCK: usize = 16;
+
+/// Side of the blocks of the bootstrap in maps, texels.
+pub(super) const MAP_BLOCK: usize = 32;
+
+/// How numbers were made; changes of meaning get another id.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Protocol {
+    /// Its name.
+    pub id: String,
+    /// What it fixes.
+    pub statements: Vec<String>,
+}
+
+impl Protocol {
+    /// The protocol of this version for a truth that `render` says how it was rendered: a scene's
+    /// table of that name.
+    pub fn of(render: Option<&toml::Table>) -> Self {
+        let mut id = "unshade-1".to_owned();
+        let mut statements = STATEMENTS.map(str::to_owned).to_vec();
+        let said = |key: &str| render?.get(key)?.as_str();
+        if let Some(tier @ ("diffusion" | "volume")) = said("tier") {
+            id.push_str(&format!(" {tier}"));
+            statements.push(format!(
+                "tier {tier}: the light that the truth's skin scatters leaves it elsewhere, and so does that of relit maps; such scores are no others' equals."
+            ));
+        }
+        if let Some(denoiser @ "oidn") = said("denoise") {
+            id.push_str(&format!(" {denoiser}"));
+            statements.push(format!(
+                "denoise {denoiser}: true and relit pictures were denoised; their floors are those of the pictures before, so a perfect solver may score above them, and detail finer than the noise is the denoiser's."
+            ));
+        }
+        Self { id, statements }
+    }
+
+    /// The same for pictures that another renderer than the truth's relit.
+    pub fn relit_by(mut self, renderer: Option<&str>) -> Self {
+        if let Some(renderer @ "cycles") = renderer {
+            self.id.push_str(&format!(" {renderer}"));
+            self.statements.push(format!(
+                "relit by {renderer}: maps were relit by another renderer than the truth; what the two renderers differ by counts against every method."
+            ));
+        }
+        self
+    }
+
+    /// The protocol of captures without a truth.
+    pub fn of_photographs() -> Self {
+        let statements = PHOTOGRAPHS.map(str::to_owned).to_vec();
+        Self { id: "unshade-photographs-1".to_owned(), statements }
+    }
+}
+
+const PHOTOGRAPHS: [&str; 5] = [
+    "No truth is known: nothing is said of maps alone. Withheld photographs, linear, their lenses taken out, are what pictures are held against; their noise, clipping and exposure are in the error.",
+    "Pictures are compared on the mask eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask, which is a file's, or the mesh's silhouette where there was none.",
+    "view: the method's own synthesis of a withheld view. relit: its maps path-traced in the light that it found, on the capture's mesh alone, which nothing else shadows. Both share the light, so a light that is wrong with an albedo that is wrong can still fit.",
+    "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames; per_frame has each frame alone. No picture and no map is scaled.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of 16x16 pixels, pooled over frames, fixed seed.",
+];
+
+const STATEMENTS: [&str; 11] = [
+    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
+    "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
+    "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
+    "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
+    "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered anew with the scaled albedo; no picture is ever scaled.",
+    "A metric that is not defined (the correlation with a constant) is null. A subject whose map, view or picture a solver did not write has no rows.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks (32x32 texels, 16x16 pixels, pooled over frames), fixed seed. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
+    "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
+    "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
+    "confidence: the solver's own trust in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. It is no part of any other score.",
+    "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",
+];

@@ -1,0 +1,75 @@
+//! A rendered picture with what it may carry: its layers and the variance of its noise.
+
+use std::path::Path;
+
+use formats::picture::{Content, ExrFile, GrayImage, Picture};
+
+use super::ScoreError;
+use super::truth::{check_size, size};
+use crate::metrics::black_outside;
+
+/// What the channel names of the parts begin with.
+const PARTS: [&str; 4] = ["", "diffuse.", "specular.", "variance."];
+
+/// A picture; layers and variance where the file has them.
+pub(super) struct Render {
+    pub total: Option<Picture>,
+    pub diffuse: Option<Picture>,
+    pub specular: Option<Picture>,
+    /// Variance of the mean of the total.
+    pub variance: Option<Picture>,
+}
+
+impl Render {
+    /// Reads `R, G, B` and the same below `diffuse.`, `specular.` and `variance.`; a part counts
+    /// as present if its red channel is, and must then be complete.
+    pub fn read(path: &Path) -> Result<Self, ScoreError> {
+        let mut render = Self::decode(path)?;
+        render.require_finite(path)?;
+        Ok(render)
+    }
+
+    fn decode(path: &Path) -> Result<Self, ScoreError> {
+        let file = ExrFile::open(path)?;
+        let found = file.channel_names();
+        let present: Vec<&str> =
+            PARTS.into_iter().filter(|part| found.contains(&format!("{part}R"))).collect();
+        let names: Vec<String> = present
+            .iter()
+            .flat_map(|part| ["R", "G", "B"].map(|channel| format!("{part}{channel}")))
+            .collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let all = file.read(&names, Content::Colour)?;
+        let part = |name: &str| {
+            let first = 3 * present.iter().position(|part| *part == name)?;
+            let pixels = all.data.chunks_exact(all.channels);
+            let data = pixels.flat_map(|pixel| &pixel[first..first + 3]).copied().collect();
+            Some(Picture { width: all.width, height: all.height, channels: 3, data })
+        };
+        let [total, diffuse, specular, variance] = PARTS.map(part);
+        Ok(Self { total, diffuse, specular, variance })
+    }
+
+    /// Reads a picture of the mask's size and blackens it outside, where it may hold anything.
+    pub fn read_masked(path: &Path, mask: &GrayImage) -> Result<Self, ScoreError> {
+        let mut render = Self::decode(path)?;
+        for part in render.parts() {
+            check_size(path, size(part), (mask.width, mask.height))?;
+            *part = black_outside(part, mask);
+        }
+        render.require_finite(path)?;
+        Ok(render)
+    }
+
+    fn require_finite(&mut self, path: &Path) -> Result<(), ScoreError> {
+        for part in self.parts() {
+            part.require_finite(path, &["R", "G", "B"])?;
+        }
+        Ok(())
+    }
+
+    fn parts(&mut self) -> impl Iterator<Item = &mut Picture> {
+        let Self { total, diffuse, specular, variance } = self;
+        [total, diffuse, specular, variance].into_iter().flatten()
+    }
+}

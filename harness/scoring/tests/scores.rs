@@ -1,0 +1,321 @@
+//! Scores of a capture whose every value is a formula: what is planted must be found.
+
+#![allow(clippy::unwrap_used)]
+
+mod noise;
+mod plane;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use formats::picture::write_exr;
+use noise::normal_noise;
+use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
+use scoring::compare::{Baseline, Tolerances, Verdict, compare};
+use scoring::metrics::METRICS;
+use scoring::score::{Scores, fit_scale, oracle_maps, score};
+
+struct Bench {
+    root: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new(variance: f64) -> Self {
+        let bench = Self { root: tempfile::tempdir().unwrap() };
+        write_capture(&bench.capture(), variance);
+        bench
+    }
+
+    fn capture(&self) -> PathBuf {
+        self.root.path().join("capture")
+    }
+
+    /// A maps folder with one map only.
+    fn albedo_maps(&self, side: usize, texture: impl Fn(f64, f64) -> [f64; 3]) -> PathBuf {
+        let maps = self.root.path().join("maps");
+        fs::create_dir_all(&maps).unwrap();
+        write_rgb(&maps.join("diffuse_albedo.exr"), &map(side, 3, texture));
+        maps
+    }
+
+    fn score_albedo(&self, texture: impl Fn(f64, f64) -> [f64; 3]) -> Scores {
+        score(&self.capture(), &self.albedo_maps(SIDE, texture), None).unwrap()
+    }
+
+    fn refused(&self, maps: &Path, relit: Option<&Path>) -> String {
+        let error = score(&self.capture(), maps, relit).unwrap_err().to_string();
+        assert!(!error.contains('\n'), "{error}");
+        error
+    }
+}
+
+fn value(scores: &Scores, id: &str) -> f64 {
+    scores.row(id).unwrap_or_else(|| panic!("no row {id}")).value.unwrap()
+}
+
+#[test]
+fn the_oracle_is_perfect_and_scores_survive_their_file() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.root.path().join("oracle");
+    oracle_maps(&bench.capture(), &maps).unwrap();
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert_eq!(
+        (scores.solver.as_str(), scores.face.as_str(), scores.light.as_str()),
+        ("oracle", "flat", "own")
+    );
+    for id in [
+        "psnr_srgb@coverage-e5:none",
+        "psnr_lin@coverage-e5:global",
+        "psnr_srgb@coverage-e5.lips:none",
+    ] {
+        assert_eq!(value(&scores, &format!("diffuse_albedo/{id}")), 100.0);
+    }
+    for id in [
+        "diffuse_albedo/flip_mean",
+        "diffuse_albedo/ciede2000_mean",
+        "specular_albedo/rmse",
+        "specular_normal/normal_mean_deg",
+        "diffuse_normal/normal_mean_deg",
+    ] {
+        assert_eq!(value(&scores, &format!("{id}@coverage-e5:none")), 0.0, "{id}");
+    }
+    // No error, so nothing explains it: null, not zero and not NaN.
+    assert_eq!(
+        scores.row("diffuse_albedo/leakage_shading@coverage-e5:global").unwrap().value,
+        None
+    );
+    for (id, degrees) in [("mesh_specular_normal", 6.0), ("mesh_diffuse_normal", 3.0)] {
+        let found = value(&scores, &format!("{id}/normal_mean_deg@coverage-e5:none"));
+        assert!((found - degrees).abs() < 1e-4, "{id}: {found}");
+    }
+    let whole = scores.regions.iter().find(|region| region.region == "coverage-e5").unwrap();
+    assert_eq!((whole.pixels, whole.solved), ((SIDE - 4) * (SIDE - 4), Some(1.0)));
+    let path = bench.root.path().join("scores.json");
+    scores.write(&path).unwrap();
+    assert_eq!(Scores::read(&path).unwrap(), scores);
+    assert_eq!(
+        score(&bench.capture(), &maps, None).unwrap(),
+        scores,
+        "the same inputs, the same scores"
+    );
+}
+
+#[test]
+fn a_factor_is_found_by_its_scale_mode_and_undone() {
+    let bench = Bench::new(1e-5);
+    let scores = bench.score_albedo(|u, v| {
+        let [r, g, b] = albedo(u, v);
+        [r * 0.8, g * 0.9, b * 0.8]
+    });
+    let scale = scores.scale.clone().unwrap();
+    assert_eq!(fit_scale(&bench.capture(), &bench.root.path().join("maps")).unwrap(), scale);
+    for fitted in [scale.channel, scale.median] {
+        for (k, expected) in fitted.iter().zip([1.25, 1.0 / 0.9, 1.25]) {
+            assert!((k - expected).abs() < 1e-5, "{fitted:?}");
+        }
+    }
+    let psnr = |mode| value(&scores, &format!("diffuse_albedo/psnr_srgb@coverage-e5:{mode}"));
+    assert!(psnr("none") + 3.0 < psnr("global") && psnr("global") + 20.0 < psnr("channel"));
+    assert!(value(&scores, "diffuse_albedo/hc@coverage-e5:none") > 0.999);
+    assert!(value(&scores, "diffuse_albedo/lp@coverage-e5:none") < 0.01);
+}
+
+#[test]
+fn baked_shading_and_baked_highlights_are_told_apart() {
+    let bench = Bench::new(1e-5);
+    let leak = |scores: &Scores, cause: &str| {
+        value(scores, &format!("diffuse_albedo/leakage_{cause}@coverage-e5:global"))
+    };
+    let shaded = bench.score_albedo(|u, v| {
+        let (a, s) = (albedo(u, v), shading(u, v));
+        [0, 1, 2].map(|c| a[c] * s[c].sqrt())
+    });
+    // The texels see the shading through the interpolation of three views, hence not quite one.
+    assert!(leak(&shaded, "shading") > 0.97, "{}", leak(&shaded, "shading"));
+    assert!(leak(&shaded, "specular") < 0.5);
+    let glossy = bench.score_albedo(|u, v| {
+        let (a, s) = (albedo(u, v), specular(u, v));
+        [0, 1, 2].map(|c| a[c] + 0.02 * s[c])
+    });
+    assert!(leak(&glossy, "specular") > 0.9, "{}", leak(&glossy, "specular"));
+}
+
+#[test]
+fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
+    let bench = Bench::new(1e-5);
+    // Off by a factor of exp(u - 0.5), which one factor cannot undo.
+    let maps = bench.albedo_maps(SIDE, |u, v| albedo(u, v).map(|a| a * (u - 0.5).exp()));
+    let row = |scores: &Scores, metric: &str| {
+        scores.row(&format!("confidence/{metric}@coverage-e5:global")).unwrap().value
+    };
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert!(scores.rows.iter().all(|row| row.subject != "confidence"), "none was left");
+    let k = scores.scale.unwrap().global.ln();
+    let scored = |trust: &dyn Fn(f64) -> f64| {
+        let confidence = map(SIDE, 1, |u, _| [trust(u); 3]);
+        write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
+        let scores = score(&bench.capture(), &maps, None).unwrap();
+        [row(&scores, "confidence_rank"), row(&scores, "sparsification")]
+    };
+    let error = |u: f64| (u - 0.5 + k).abs();
+    let [rank, sparse] = scored(&|u| 1.0 - error(u)).map(Option::unwrap);
+    // Every column of the region has one error; the better half of them is trusted.
+    let mut errors: Vec<f64> =
+        (2..SIDE - 2).map(|x| error((x as f64 + 0.5) / SIDE as f64)).collect();
+    errors.sort_by(f64::total_cmp);
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>() / errors.len() as f64;
+    let expected = mean(&errors[..errors.len() / 2]) / mean(&errors);
+    assert!(rank < -0.999 && (sparse - expected).abs() < 1e-3, "{rank} {sparse} {expected}");
+    let [rank, sparse] = scored(&error).map(Option::unwrap);
+    assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
+    assert_eq!(scored(&|_| 0.7)[0], None);
+    assert!((scored(&|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn every_metric_is_scored_of_something() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.root.path().join("oracle");
+    oracle_maps(&bench.capture(), &maps).unwrap();
+    write_exr(&maps.join("confidence.exr"), &map(SIDE, 1, |u, _| [u; 3]), &["Y"]).unwrap();
+    for frame in [3, 4] {
+        let view = maps.join(format!("views/{frame:03}.exr"));
+        write_render(&view, frame, 0.0, &mut || 0.0, 1.0);
+    }
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    for metric in METRICS {
+        let found = scores.rows.iter().any(|row| row.metric == metric.id);
+        assert!(found, "{} has no row: name it in metrics/registry.rs, scored", metric.id);
+    }
+}
+
+#[test]
+fn maps_of_another_size_are_resampled() {
+    let bench = Bench::new(1e-5);
+    for side in [SIDE / 2, SIDE * 2] {
+        let maps = bench.albedo_maps(side, albedo);
+        let scores = score(&bench.capture(), &maps, None).unwrap();
+        let psnr = value(&scores, "diffuse_albedo/psnr_srgb@coverage-e5:none");
+        assert!(psnr > 45.0 && psnr < 100.0, "{side}: {psnr}");
+    }
+}
+
+#[test]
+fn the_noise_floor_is_what_two_noisy_renders_score() {
+    // Highlights beyond one and dark texels: the curve is bent and clips. Around 37 dB and above,
+    // as renders are; at 30 dB the noise of the mean itself makes the floor 0.2 dB too low.
+    for variance in [1e-5, 1e-4] {
+        let bench = Bench::new(variance);
+        let maps = bench.albedo_maps(SIDE, albedo);
+        let relit = bench.root.path().join("relit");
+        let mut noise = normal_noise(99);
+        for (light, gain) in [("own", 1.0), ("other", 1.3)] {
+            for frame in [3, 4] {
+                let path = relit.join(format!("none/{light}/{frame:03}.exr"));
+                write_render(&path, frame, variance, &mut noise, gain);
+                // The solver's own view has no noise: the floor is the truth's alone.
+                let path = maps.join(format!("views/{frame:03}.exr"));
+                write_render(&path, frame, 0.0, &mut noise, 1.0);
+            }
+        }
+        let scores = score(&bench.capture(), &maps, Some(&relit)).unwrap();
+        for subject in ["relit/own", "relit/other", "view"] {
+            for metric in ["psnr_srgb", "psnr_lin"] {
+                let row = scores.row(&format!("{subject}/{metric}@mask-e5:none")).unwrap();
+                let (value, floor) = (row.value.unwrap(), row.floor.unwrap());
+                assert!((value - floor).abs() < 0.2, "{subject} {metric}: {value} {floor}");
+                assert_eq!(row.per_frame.keys().collect::<Vec<_>>(), ["003", "004"]);
+            }
+        }
+        assert!(
+            scores.row("relit/own/psnr_srgb@mask-e5:global").is_none(),
+            "nothing was relit with it"
+        );
+        let energy = value(&scores, "view_specular_layer/energy_ratio@mask-e5:none");
+        assert!((energy - 1.0).abs() < 1e-6);
+        assert_eq!(scores.row("view/ssim@mask-e5:none").unwrap().floor, None);
+    }
+}
+
+#[test]
+fn what_a_solver_did_not_write_has_no_rows_and_what_is_broken_is_named() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.albedo_maps(SIDE, albedo);
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert!(
+        scores
+            .rows
+            .iter()
+            .all(|row| !row.subject.starts_with("view") && !row.subject.starts_with("relit"))
+    );
+    assert!(scores.row("specular_normal/normal_mean_deg@coverage-e5:none").is_none());
+
+    let empty = bench.root.path().join("empty");
+    fs::create_dir(&empty).unwrap();
+    assert!(bench.refused(&empty, None).contains("empty"));
+    assert!(bench.refused(&bench.root.path().join("absent"), None).contains("absent"));
+
+    write_render(&maps.join("views/003.exr"), 3, 0.0, &mut || 0.0, 1.0);
+    let error = bench.refused(&maps, None);
+    assert!(error.contains("004.exr") && error.contains("is missing"), "{error}");
+    write_rgb(&maps.join("views/004.exr"), &map(SIDE / 2, 3, albedo));
+    let error = bench.refused(&maps, None);
+    assert!(error.contains("004.exr: is 48x48, expected 96x96"), "{error}");
+    fs::remove_dir_all(maps.join("views")).unwrap();
+
+    write_rgb(&maps.join("diffuse_albedo.exr"), &map(SIDE, 3, |_, _| [0.0; 3]));
+    let error = bench.refused(&maps, None);
+    assert!(error.contains("diffuse_albedo: no factor fits"), "{error}");
+    fs::remove_dir_all(bench.capture().join("truth")).unwrap();
+    assert!(bench.refused(&maps, None).contains("has no truth"));
+}
+
+#[test]
+fn a_worse_albedo_turns_red_and_no_change_never_does() {
+    let bench = Bench::new(1e-5);
+    // A recovered albedo as they are: a little too bright, some shading left, no finest detail.
+    let recovered = |u: f64, v: f64| {
+        let (a, s) = (albedo(u, v), shading(u, v));
+        [0, 1, 2].map(|c| 1.05 * a[c] * s[c].powf(0.15) + 0.01 * (80.0 * u).sin())
+    };
+    let collect = |scores: &Scores| {
+        let mut baseline = Baseline::new("planted");
+        baseline.add("case/solver", scores);
+        baseline
+    };
+    let tolerances = Tolerances::built_in().unwrap();
+    let before = collect(&bench.score_albedo(recovered));
+    let same = compare(&collect(&bench.score_albedo(recovered)), &before, &tolerances).unwrap();
+    assert!(same.passed() && same.count(Verdict::Same) == before.rows.len());
+
+    let mut noise = normal_noise(5);
+    let noise: Vec<f64> = (0..SIDE * SIDE).map(|_| noise()).collect();
+    let texel =
+        |u: f64, v: f64| (((1.0 - v) * SIDE as f64) as usize * SIDE) + (u * SIDE as f64) as usize;
+    type Change<'a> = (&'a str, &'a dyn Fn(f64, f64) -> [f64; 3], &'a str);
+    let worse: [Change; 3] = [
+        (
+            "brighter by 2 %",
+            &|u, v| recovered(u, v).map(|a| 1.02 * a),
+            "scale_global@coverage-e5:none",
+        ),
+        (
+            "darker by 2 %",
+            &|u, v| recovered(u, v).map(|a| 0.98 * a),
+            "scale_global@coverage-e5:none",
+        ),
+        (
+            "noise of 2 % per texel",
+            &|u, v| recovered(u, v).map(|a| a * (1.0 + 0.02 * noise[texel(u, v)])),
+            "psnr_srgb@coverage-e5:global",
+        ),
+    ];
+    for (what, texture, found_by) in worse {
+        let verdict =
+            compare(&collect(&bench.score_albedo(texture)), &before, &tolerances).unwrap();
+        let id = format!("case/solver/diffuse_albedo/{found_by}");
+        let row = verdict.rows.iter().find(|row| row.id == id).unwrap();
+        assert!(!verdict.passed() && row.verdict == Verdict::Worse, "{what}: {row:?}");
+        assert!(verdict.table().contains(&id), "{}", verdict.table());
+    }
+}

@@ -1,0 +1,203 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use super::bench::BenchArgs;
+use super::export::ExportArgs;
+
+/// Measures how well a face's reflectance can be recovered from photographs.
+#[derive(Parser)]
+#[command(name = "unshade", version, max_term_width = 100)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// Say more (-v: what each stage does, -vv: everything).
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    pub verbose: u8,
+}
+
+#[derive(Subcommand)]
+pub(super) enum Verb {
+    /// Render a capture with its truth, say what a scene stands for, or show many faces.
+    Synth(SynthArgs),
+    /// Recover reflectance maps from a capture.
+    Solve(SolveArgs),
+    /// Render recovered maps in the capture's lights.
+    Relight {
+        /// The capture whose scene is rendered.
+        capture: PathBuf,
+        /// The maps to put on the face.
+        maps: PathBuf,
+        /// The pictures' folder.
+        #[arg(short, long)]
+        out: PathBuf,
+        /// What traces the paths.
+        #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
+        renderer: RendererName,
+    },
+    /// Write maps as an asset of another program, and say what it loses.
+    Export(ExportArgs),
+    /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
+    Check {
+        /// The maps' folder.
+        maps: PathBuf,
+        /// The capture that they were made from; its `truth/` is never opened.
+        #[arg(long)]
+        capture: Option<PathBuf>,
+    },
+    /// Score maps and relit pictures against the truth.
+    Score {
+        /// The capture with its truth.
+        capture: PathBuf,
+        /// The maps to score.
+        maps: PathBuf,
+        /// What `unshade relight` made of them.
+        #[arg(long)]
+        relit: Option<PathBuf>,
+        /// The scores' file.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Everything above for every case of a suite; resumes where it stopped.
+    Run {
+        /// The suite.
+        suite: PathBuf,
+        /// The run's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+        /// Make the maps of this method anew, whatever was kept; may be given again.
+        #[arg(long, value_name = "NAME")]
+        redo: Vec<String>,
+    },
+    /// Write a run's report: one folder that opens offline.
+    Report {
+        /// The run's folder.
+        run: PathBuf,
+        /// The report's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
+    /// face.
+    Table {
+        /// The runs' folders.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The file.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Compare a run with a baseline; exit code 1 on a regression.
+    Compare(CompareArgs),
+    /// Time the solver's kernels and steps against what this machine reaches.
+    Bench(BenchArgs),
+    /// Say what this machine has, and what is missing with the mend.
+    Doctor {
+        /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.
+        #[arg(long)]
+        physics: bool,
+    },
+}
+
+#[derive(Args)]
+pub(super) struct SynthArgs {
+    /// What to render.
+    #[arg(required_unless_present = "contact_sheet")]
+    pub scene: Option<PathBuf>,
+    /// The capture's folder, or the contact sheet's PNG.
+    #[arg(short, long, required_unless_present = "describe")]
+    pub out: Option<PathBuf>,
+    /// Render nothing; print face, cameras, and each light's mean, maximum and colour.
+    #[arg(long, conflicts_with_all = ["out", "contact_sheet"], requires = "scene")]
+    pub describe: bool,
+    /// Render this many sampled identities into one picture instead.
+    #[arg(long, value_name = "N", conflicts_with = "scene",
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub contact_sheet: Option<u32>,
+    /// Which identities the contact sheet samples.
+    #[arg(long, default_value_t = 0, requires = "contact_sheet")]
+    pub seed: u64,
+}
+
+#[derive(Args)]
+pub(super) struct SolveArgs {
+    /// The capture; its `truth/` is never opened.
+    pub capture: PathBuf,
+    /// The maps' folder.
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// `fields`, or a baseline.
+    #[arg(long, value_enum, default_value_t = SolverName::Fields)]
+    pub solver: SolverName,
+    /// A preset (unshade, paper, fast) or a TOML file.
+    #[arg(long, default_value = "unshade")]
+    pub config: String,
+    /// Leave out the maps after every stage and the layers of every training view.
+    #[arg(long)]
+    pub no_records: bool,
+    /// What computes.
+    #[arg(long, value_enum, default_value_t = BackendName::Auto)]
+    pub backend: BackendName,
+    /// Show the solve as it goes, in the rerun viewer at this address or later from a file that ends in
+    /// .rrd. Only in a program built with `--features rerun`.
+    #[arg(long, value_name = "PLACE", num_args = 0..=1,
+          default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
+    pub rerun: Option<String>,
+}
+
+#[derive(Args)]
+pub(super) struct CompareArgs {
+    /// The run's folder.
+    pub run: PathBuf,
+    /// A `baseline.json` that `unshade report` wrote.
+    pub baseline: PathBuf,
+    /// How far a metric may move; the built-in rules are scenes/tolerances.toml.
+    #[arg(long)]
+    pub tolerances: Option<PathBuf>,
+    /// Also write the verdicts as JUnit XML.
+    #[arg(long)]
+    pub junit: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SolverName {
+    /// Neural shading fields.
+    Fields,
+    /// The mean of the projected colours.
+    MeanTexture,
+    /// One colour for each label region.
+    SemanticInitialisation,
+    /// The true maps (opens `truth/`).
+    Oracle,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum BackendName {
+    /// A real GPU if there is one, else the CPU.
+    Auto,
+    /// The CPU.
+    Cpu,
+    /// A real GPU, or the adapter that UNSHADE_ADAPTER names by a part of its name.
+    Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum RendererName {
+    /// Mitsuba, which renders the truth.
+    Mitsuba,
+    /// Blender's Cycles, a second judge (`make cycles`).
+    Cycles,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,28 @@
+//! Stands for `shown.rs` where the Cargo feature `rerun` is off.
+
+use capture::Capture;
+use solver::{Progress, Solution};
+
+use super::error::LiveError;
+
+/// Where a solve is shown; there is none.
+pub enum Live {}
+
+impl Live {
+    /// Says how to get it.
+    pub fn open(_: &str, _: &Capture) -> Result<Self, LiveError> {
+        let mend = "this program was built without the viewer; build it with \
+                    `cargo build --release --features rerun`";
+        Err(LiveError(mend.to_owned()))
+    }
+
+    /// Not reached.
+    pub fn step(&mut self, _: &Progress) {
+        match *self {}
+    }
+
+    /// Not reached.
+    pub fn solution(&self, _: &Solution) -> Result<(), LiveError> {
+        match *self {}
+    }
+}

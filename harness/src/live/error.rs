@@ -1,0 +1,6 @@
+//! Why a solve is not shown.
+
+/// A solve cannot be shown as it goes.
+#[derive(Debug, thiserror::Error)]
+#[error("--rerun: {0}")]
+pub struct LiveError(pub String);

@@ -1,0 +1,13 @@
+//! A solve shown as it goes, where the Cargo feature `rerun` is on.
+
+#[cfg(not(feature = "rerun"))]
+mod absent;
+mod error;
+#[cfg(feature = "rerun")]
+mod shown;
+
+#[cfg(not(feature = "rerun"))]
+pub use absent::Live;
+pub use error::LiveError;
+#[cfg(feature = "rerun")]
+pub use shown::Live;

@@ -1,0 +1,138 @@
+//! A capture folder: opened and checked here, once, for everyone.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::camera::Camera;
+use crate::error::CaptureError;
+use crate::first_look;
+use crate::mesh::Mesh;
+use crate::orientation::{self, Turned};
+use crate::transforms::Transforms;
+use crate::view::View;
+
+const TRANSFORMS: &str = "transforms.json";
+
+/// Everything a solver may see: the mesh, the training views, and where the withheld cameras stand.
+///
+/// Pictures of withheld frames and the folder `truth` are never opened.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// The training views, in the order of `train_filenames`.
+    pub train: Vec<View>,
+    /// The withheld cameras, in the order of `test_filenames`; pinholes like all others, since
+    /// lenses are taken out of the pictures when they are opened.
+    pub withheld: Vec<Camera>,
+    /// What the ids of the label pictures stand for, as far as the file says.
+    pub label_names: BTreeMap<u8, String>,
+    hash: String,
+}
+
+impl Capture {
+    /// Opens and checks a capture folder (`transforms.json`, the mesh, pictures, masks, labels),
+    /// and that its mesh is where its cameras look.
+    pub fn open(folder: &Path) -> Result<Self, CaptureError> {
+        Self::opened(folder, true)
+    }
+
+    /// Opens a folder again that has been solved: as [`Capture::open`], without the look at how
+    /// mesh and cameras fit.
+    pub fn reopen(folder: &Path) -> Result<Self, CaptureError> {
+        Self::opened(folder, false)
+    }
+
+    /// The cameras of the content of `transforms.json` for the capture in `folder`, those of
+    /// training views first; no picture is opened.
+    pub fn cameras(folder: &Path, bytes: &[u8]) -> Result<Vec<Camera>, CaptureError> {
+        let transforms = parsed(folder, bytes)?;
+        let frames = transforms.train.into_iter().chain(transforms.withheld);
+        Ok(frames.map(|frame| frame.camera).collect())
+    }
+
+    fn opened(folder: &Path, look: bool) -> Result<Self, CaptureError> {
+        let bytes = read(&folder.join(TRANSFORMS))?;
+        let transforms = parsed(folder, &bytes)?;
+        let open = |frame| View::open(frame);
+        let (mesh, train) = rayon::join(
+            || Mesh::open(&transforms.mesh_path),
+            || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
+        );
+        let (mut mesh, train) = (mesh?, train?);
+        if look {
+            first_look::check(folder, &mesh, &train, transforms.applied)?;
+        }
+        let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
+        let turned = orientation::orient(&mut mesh, &eyes);
+        if turned != Default::default() {
+            let (shown, Turned { normals, triangles }) = (transforms.mesh_path.display(), turned);
+            tracing::warn!(
+                "{shown}: {normals} normals and {triangles} triangles point inwards; they are read \
+                 as pointing to the cameras"
+            );
+        }
+        for (view, frame) in train.iter().zip(&transforms.train) {
+            if !view.has_foreground() {
+                let shown = frame.mask_path.display();
+                tracing::warn!("{shown}: has no foreground (255), so the view adds nothing");
+            }
+        }
+        if train.iter().any(View::has_foreground) && train.iter().all(View::is_black) {
+            return Err(CaptureError::Black(folder.to_path_buf()));
+        }
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&bytes).update(&read(&transforms.mesh_path)?);
+        for frame in &transforms.train {
+            let paths =
+                [Some(&frame.image_path), Some(&frame.mask_path), frame.label_path.as_ref()];
+            for path in paths.into_iter().flatten() {
+                hasher.update(&read(path)?);
+            }
+        }
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            mesh,
+            train,
+            withheld: transforms.withheld.into_iter().map(|frame| frame.camera).collect(),
+            label_names: transforms.label_names,
+            hash: hasher.finalize().to_hex().to_string(),
+        })
+    }
+
+    /// BLAKE3 of the inputs a solver sees, hexadecimal: `transforms.json`, the mesh, and the
+    /// training views' pictures, masks and labels, as they were when the folder was opened.
+    pub fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    /// The ids of the labels with one of these names.
+    pub fn labels_named(&self, names: &[String]) -> Vec<u8> {
+        let named = self.label_names.iter().filter(|(_, name)| names.contains(name));
+        named.map(|(id, _)| *id).collect()
+    }
+
+    /// The camera of a training or withheld frame.
+    pub fn camera(&self, name: &str) -> Option<&Camera> {
+        let train = self.train.iter().map(|view| &view.camera);
+        train.chain(&self.withheld).find(|camera| camera.name == name)
+    }
+}
+
+fn parsed(folder: &Path, bytes: &[u8]) -> Result<Transforms, CaptureError> {
+    Transforms::parse(folder, bytes).map_err(|reason| {
+        // A name may hold a line's end; a message is one line.
+        let reason = reason.replace(char::is_control, " ");
+        CaptureError::Transforms { path: folder.join(TRANSFORMS), reason }
+    })
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, CaptureError> {
+    std::fs::read(path)
+        .map_err(|error| CaptureError::Read { path: path.to_path_buf(), reason: error.to_string() })
+}

@@ -1,0 +1,57 @@
+//! The mean projected texture: a baseline that every method must beat, and a witness of what the pictures show.
+
+use formats::fill;
+use formats::maps::Maps;
+use formats::picture::{GrayImage, Picture};
+use glam::Vec3;
+
+use crate::gbuffer::{Atlas, GBuffer};
+use crate::projection::{Observation, Projection, per_texel};
+use crate::{Capture, CaptureError};
+
+/// The mean projected texture: the diffuse albedo is the mean of the colours the training views
+/// see at a texel, weighted by the cosine; unseen texels take the nearest seen one's. Normals are
+/// the mesh's; there is no specular albedo. Coverage: seen by at least one view.
+pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
+    let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
+    let projections = Projection::of_views(&capture.train, &gbuffers);
+    let atlas = Atlas::new(&capture.mesh, size);
+    let mean = |seen: &[(usize, Observation)]| {
+        let total: f32 = seen.iter().map(|(_, seen)| seen.cosine).sum();
+        let colour =
+            |(view, seen): &(usize, Observation)| seen.cosine * projections[*view].colour(seen);
+        Some(seen.iter().map(colour).sum::<Vec3>() / total)
+    };
+    let colours: Vec<Option<Vec3>> = per_texel(&atlas, &projections, mean);
+    let seen: Vec<bool> = colours.iter().map(Option::is_some).collect();
+    let data = colours.iter().flat_map(|colour| colour.unwrap_or_default().to_array()).collect();
+    let mut albedo = Picture { width: size, height: size, channels: 3, data };
+    fill::fill_from_nearest(&mut albedo, &seen);
+    with_mesh_normals(capture, &atlas, albedo, &seen)
+}
+
+/// Maps of a diffuse albedo and the normals of the mesh, without a specular albedo. Coverage: `seen`.
+///
+/// # Errors
+/// If no texel is seen.
+pub fn with_mesh_normals(
+    capture: &Capture,
+    atlas: &Atlas,
+    diffuse_albedo: Picture,
+    seen: &[bool],
+) -> Result<Maps, CaptureError> {
+    if !seen.contains(&true) {
+        return Err(CaptureError::NothingVisible(capture.folder.clone()));
+    }
+    let size = atlas.size;
+    let data = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
+    Ok(Maps {
+        diffuse_albedo: Some(diffuse_albedo),
+        specular_albedo: None,
+        diffuse_normal: Some(atlas.normal_map()),
+        specular_normal: Some(atlas.normal_map()),
+        confidence: None,
+        roughness: None,
+        coverage: Some(GrayImage { width: size, height: size, data }),
+    })
+}

@@ -1,0 +1,122 @@
+//! `transforms.json`: cameras and file names, as nerfstudio and instant-ngp write them.
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::{Path, PathBuf};
+
+use glam::Mat4;
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::frame::{FileFrame, Frame, Shared, Use, matrix};
+use super::paths::{inside, plain};
+
+/// What the mesh is called if the file does not say.
+const MESH: &str = "mesh.obj";
+
+/// What `transforms.json` says.
+pub(super) struct Transforms {
+    pub mesh_path: PathBuf,
+    pub train: Vec<Frame>,
+    pub withheld: Vec<Frame>,
+    pub label_names: BTreeMap<u8, String>,
+    /// How the writer of the file moved all cameras, if it says so.
+    pub applied: Option<Mat4>,
+}
+
+#[derive(Deserialize)]
+struct File {
+    mesh: Option<String>,
+    frames: Vec<Value>,
+    train_filenames: Option<Vec<String>>,
+    #[serde(default)]
+    test_filenames: Vec<String>,
+    #[serde(default)]
+    label_names: BTreeMap<u8, String>,
+    /// A hint alone, so that any value passes.
+    #[serde(default)]
+    applied_transform: Value,
+    #[serde(flatten)]
+    shared: Shared,
+}
+
+impl Transforms {
+    /// Parses the content of the file in the capture folder `root`; the error is the reason alone.
+    pub fn parse(root: &Path, bytes: &[u8]) -> Result<Self, String> {
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+        let frames = frames(&file)?;
+        let paths = |paths: &[String]| paths.iter().map(|path| plain(path)).collect::<Vec<_>>();
+        let test = paths(&file.test_filenames);
+        let train = match &file.train_filenames {
+            Some(names) if names.is_empty() => {
+                return Err(
+                    "train_filenames is empty; name at least one picture, or drop the list to \
+                     train on all frames"
+                        .to_owned(),
+                );
+            }
+            Some(names) => paths(names),
+            None => {
+                let all = frames.iter().map(|(path, _)| path.clone());
+                all.filter(|path| !test.contains(path)).collect()
+            }
+        };
+        if train.is_empty() {
+            return Err("has no frame to train on; add frames".to_owned());
+        }
+        let mut names = HashSet::new();
+        let mut pick = |list: &str, paths: &[String], purpose: Use| -> Result<Vec<Frame>, String> {
+            let frame = |path: &String| {
+                let found = frames.iter().find(|(file_path, _)| file_path == path);
+                let (_, found) = found.ok_or_else(|| {
+                    format!("{list}: no frame has file_path {path}; add it or drop the name")
+                })?;
+                let frame = found
+                    .resolve(root, path, &file.shared, purpose)
+                    .map_err(|reason| format!("frame {path}: {reason}"))?;
+                if !names.insert(frame.camera.name.clone()) {
+                    let name = &frame.camera.name;
+                    return Err(format!(
+                        "{list}: frame {name:?} is listed twice; a frame is either for training \
+                         or withheld, and has a name of its own"
+                    ));
+                }
+                Ok(frame)
+            };
+            paths.iter().map(frame).collect()
+        };
+        let train = pick("train_filenames", &train, Use::Train)?;
+        let withheld = pick("test_filenames", &test, Use::Withhold)?;
+        let mesh_path = match &file.mesh {
+            Some(mesh) => inside(root, &plain(mesh)).map_err(|reason| format!("mesh: {reason}"))?,
+            None if root.join(MESH).is_file() => root.join(MESH),
+            None => {
+                return Err(format!(
+                    "names no mesh; add \"mesh\": \"{MESH}\" and the file, an OBJ with texture \
+                     coordinates"
+                ));
+            }
+        };
+        if let Some(name) = file.label_names.get(&0) {
+            return Err(format!("label_names: 0 is no label, but has the name {name:?}; drop it"));
+        }
+        let applied = Vec::<Vec<f64>>::deserialize(&file.applied_transform).ok();
+        let applied = applied.and_then(|rows| matrix(&rows).ok());
+        Ok(Self { mesh_path, train, withheld, label_names: file.label_names, applied })
+    }
+}
+
+/// All frames with their pictures' paths.
+fn frames(file: &File) -> Result<Vec<(String, FileFrame)>, String> {
+    let frame = |(index, value): (usize, &Value)| {
+        let shown = match value.get("file_path").and_then(Value::as_str) {
+            Some(path) => path.to_owned(),
+            None => format!("{} of the list", index + 1),
+        };
+        let frame = FileFrame::deserialize(value);
+        let frame = frame.map_err(|error| format!("frame {shown}: {error}"))?;
+        let path = plain(&frame.file_path);
+        Ok((if path.contains('.') { path } else { path + ".exr" }, frame))
+    };
+    file.frames.iter().enumerate().map(frame).collect()
+}

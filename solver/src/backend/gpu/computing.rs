@@ -1,0 +1,99 @@
+//! An adapter that computes, until it fails.
+
+use std::sync::OnceLock;
+use std::time::Duration;
+
+use super::adapter::Adapter;
+use super::ceilings::{self, Ceilings};
+use super::device::{Device, locked};
+use super::layout::Layout;
+use super::timings::Timings;
+use crate::backend::Backend;
+use crate::backend::cpu::Cpu;
+use crate::backend::error::BackendError;
+use crate::backend::resident::DeviceError;
+
+/// An adapter that computes.
+pub struct Gpu {
+    pub(super) device: Device,
+    pub(super) name: String,
+    /// Goes on if the device fails.
+    pub(super) cpu: Cpu,
+    /// Why it did.
+    pub(super) failure: OnceLock<DeviceError>,
+}
+
+impl Gpu {
+    /// On this adapter.
+    pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
+        let refused = |error: DeviceError| BackendError::Refused {
+            name: adapter.name.clone(),
+            reason: error.to_string(),
+        };
+        let device = Device::open(&adapter.adapter).map_err(refused)?;
+        let Adapter { name, api, driver, .. } = adapter;
+        let name = format!("gpu, {name}, {api}, {driver}");
+        Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
+    }
+
+    /// With samples in pieces of this many and grids of no more workgroups than this along one axis, as
+    /// if bindings and grids were that small.
+    #[must_use]
+    pub fn in_pieces(mut self, samples: usize, axis: usize) -> Self {
+        (self.device.piece, self.device.axis) = (samples, axis);
+        self
+    }
+
+    /// What every pass takes that `work` submits, each of them apart, which costs time; nothing if the
+    /// adapter has no clock.
+    pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
+        if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            *locked(&self.device.timings) = Some(Timings::new());
+        }
+        let result = work();
+        (result, locked(&self.device.timings).take())
+    }
+
+    /// Multiply-adds and bandwidth that compute kernels reach, the latter on three arrays of `bytes` each;
+    /// `budget` for either.
+    pub fn ceilings(&self, bytes: usize, budget: Duration) -> Result<Ceilings, DeviceError> {
+        ceilings::ceilings(&self.device, bytes, budget)
+    }
+
+    /// Bytes that the device has given to this program, where its driver counts them.
+    pub fn memory(&self) -> Option<u64> {
+        self.device.device.generate_allocator_report().map(|report| report.total_allocated_bytes)
+    }
+
+    /// Gives the device back. What still wants it goes on on the processor.
+    pub fn destroy(&self) {
+        self.device.device.destroy();
+    }
+
+    /// `run` on the device, or `otherwise` on the processor, whose answers are as good.
+    pub(super) fn either<T>(
+        &self,
+        run: impl FnOnce(&Device) -> Result<T, DeviceError>,
+        otherwise: impl FnOnce(&Cpu) -> T,
+    ) -> T {
+        if self.failure.get().is_none() {
+            match run(&self.device) {
+                Ok(result) => return result,
+                Err(error) => self.falls(&error),
+            }
+        }
+        otherwise(&self.cpu)
+    }
+
+    pub(super) fn falls(&self, error: &DeviceError) {
+        if self.failure.set(error.clone()).is_ok() {
+            tracing::warn!("{}: {error}; the rest runs on {}", self.name, self.cpu.name());
+        }
+    }
+
+    /// Whether the kernel of the joint gradient fits the adapter's workgroups.
+    pub(super) fn fits(&self, layout: &Layout) -> bool {
+        let most = self.device.device.limits().max_compute_workgroup_storage_size;
+        layout.workgroup_bytes() <= most as usize
+    }
+}

@@ -1,0 +1,22 @@
+//! What is wrong with a configuration.
+
+/// A configuration that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// No preset has this name.
+    #[error("no configuration is named {0:?}; the named ones are paper, unshade and fast")]
+    UnknownPreset(String),
+    /// The text is not TOML, has an unknown key, or a value of the wrong type.
+    #[error("configuration: {0}")]
+    Toml(String),
+    /// A value is out of its range.
+    #[error("configuration: {key} is {value}, but must be {range}")]
+    Range {
+        /// Dotted key.
+        key: &'static str,
+        /// What was given.
+        value: String,
+        /// What is allowed.
+        range: &'static str,
+    },
+}

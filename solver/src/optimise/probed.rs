@@ -1,0 +1,29 @@
+//! What the steps under explicit transport hand on.
+
+use serde::{Deserialize, Serialize};
+
+use super::site::Standing;
+use crate::model::networks::Networks;
+use crate::transport::CHANNELS;
+
+/// The diffuse albedo of the maps, and the factor that makes it a reflectance.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Physical {
+    pub diffuse: Vec<f32>,
+    pub scale: f32,
+    /// Of every texel, 0 to 1.
+    pub confidence: Vec<f32>,
+}
+
+/// The light as the semantic colours show it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Probed {
+    pub log_light: Vec<f32>,
+    pub standing: Standing,
+    pub networks: Networks,
+    /// The specular albedo by which the light makes highlights; empty if the networks make them.
+    pub gloss: Vec<f32>,
+    /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
+    /// with is to be divided by it.
+    pub tint: [f32; CHANNELS],
+}

@@ -1,0 +1,282 @@
+//! The steps of a solve: which there are, what they cost, and what each does.
+
+use super::clock::Work;
+use super::deviation::Relief;
+use super::diffuse::Diffuse;
+use super::error::SolveError;
+use super::found::{Solve, Start};
+use super::heights;
+use super::highlights::{distance, highlights};
+use super::run::Run;
+use super::site::Site;
+use super::snapshot::{Snapshot, Unit};
+use super::specular::Specular;
+use super::stage::{Stage, State};
+use super::transported::{albedo, light, light_and_albedo};
+use super::veil;
+use super::warm_up::WarmUp;
+use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES};
+use crate::model::networks::Networks;
+
+/// A step of a solve; a checkpoint is kept after each of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    /// A short warm-up from the networks of one seed.
+    Start(usize),
+    WarmUp,
+    /// The light under the semantic colours.
+    Light,
+    /// The same with the highlights that the light itself makes.
+    Distance,
+    /// Light and albedo under explicit transport.
+    Transport,
+    /// The same with the highlights that the light itself makes.
+    Highlights,
+    /// Normals from heights.
+    Heights,
+    /// Specular albedo and, without heights, normals.
+    Relief(usize),
+    Diffuse(usize),
+    /// The transported albedo on the full pictures.
+    Albedo,
+}
+
+impl Step {
+    /// The steps in their order.
+    pub fn all(config: &Config) -> Vec<Self> {
+        let starts = match config.initialisation.starts {
+            0 | 1 => 0,
+            starts => starts,
+        };
+        let mut steps: Vec<Self> = (0..starts).map(Self::Start).collect();
+        steps.push(Self::WarmUp);
+        if config.transport.enabled {
+            let wanted = |steps: usize| steps > 0 && veil::wanted(config);
+            steps.push(Self::Light);
+            steps.extend(wanted(config.transport.distance).then_some(Self::Distance));
+            steps.push(Self::Transport);
+            steps.extend(wanted(config.transport.highlights).then_some(Self::Highlights));
+        }
+        if config.height.enabled {
+            steps.push(Self::Heights);
+        }
+        for round in 1..=config.fine_tuning.rounds {
+            steps.extend([Self::Relief(round), Self::Diffuse(round)]);
+        }
+        if config.transport.enabled {
+            steps.push(Self::Albedo);
+        }
+        steps
+    }
+
+    /// How often it reports progress.
+    fn iterations(&self, site: &Site) -> usize {
+        let config = site.config;
+        match self {
+            Self::Start(_) => config.initialisation.start_iterations,
+            // The best start's steps are done.
+            Self::WarmUp => match config.initialisation.starts {
+                0 | 1 => config.warm_up.iterations,
+                _ => {
+                    config.warm_up.iterations.saturating_sub(config.initialisation.start_iterations)
+                }
+            },
+            Self::Light => config.transport.probe,
+            Self::Transport => config.transport.iterations,
+            Self::Distance => config.transport.distance,
+            Self::Highlights => config.transport.highlights,
+            Self::Heights => heights::steps(&config.height, site.size),
+            Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
+            Self::Albedo => config.transport.refinement,
+        }
+    }
+
+    /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
+    pub fn work(&self, site: &Site) -> Work {
+        let config = site.config;
+        let square = |side: usize| (side * side) as f64;
+        let pixels = site.pixels as f64;
+        let few = if config.warm_up.half_resolution { 0.25 * pixels } else { pixels };
+        let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
+            preparation: 0.0,
+            step: 1e-9 * (sample * samples + texel * texels),
+            steps: self.iterations(site),
+        };
+        let t = &config.transport;
+        match self {
+            Self::Start(_) | Self::WarmUp => {
+                work(73.0, few, 67.0, square(config.warm_up.texture_size))
+            }
+            Self::Light | Self::Transport => {
+                let entries = square(t.texture_size) * (2 * t.rows * t.rows) as f64;
+                let rays = entries * square(t.rays_per_cell_side);
+                Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
+            }
+            Self::Distance | Self::Highlights => {
+                let cells = (2 * t.rows * t.rows) as f64;
+                let entries = cells * few.min(MOST_HIGHLIGHT_SAMPLES as f64);
+                let texels = cells * square(t.texture_size);
+                Work { preparation: 25e-9 * entries, ..work(0.4, entries, 0.1, texels) }
+            }
+            Self::Heights => {
+                let share = f64::from(config.height.texture_share);
+                work(25.0, pixels, 15.0, share * share * square(site.size))
+            }
+            // Without a network where the normals stay.
+            Self::Relief(_) if config.fine_tuning.deviation_rate == 0.0 => {
+                work(4.0, pixels, 3.0, square(site.size))
+            }
+            Self::Relief(_) => work(60.0, pixels, 25.0, square(site.size)),
+            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(site.size)),
+        }
+    }
+
+    /// Takes the step. After an interrupt it leaves in `solve` what it has found until then.
+    pub fn take(
+        &self,
+        site: &mut Site,
+        run: &mut Run,
+        solve: &mut Solve,
+    ) -> Result<(), SolveError> {
+        if !matches!(self, Self::Start(_) | Self::WarmUp) {
+            site.drop_coarse();
+        }
+        if !matches!(self, Self::Light | Self::Distance) {
+            site.drop_far();
+        }
+        let coarse =
+            matches!(self, Self::Light | Self::Distance | Self::Transport | Self::Highlights);
+        if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
+            site.drop_pictures();
+        }
+        let (config, backend) = (site.config, site.backend);
+        match self {
+            Self::Start(number) => start(*number, site, run, solve)?,
+            Self::WarmUp => {
+                let mut config = config.clone();
+                config.warm_up.iterations = self.iterations(site);
+                let best = solve.best.take();
+                if let Some(best) = &best {
+                    solve.state = best.state.clone();
+                }
+                let mut stage = WarmUp::new(&config, site.coarse(), &solve.state);
+                let mut losses = vec![];
+                if let Some(best) = best {
+                    let places = stage.memory().optimisers.into_iter();
+                    places.zip(best.optimisers).for_each(|(place, kept)| *place = kept);
+                    losses = best.losses;
+                }
+                run.stage(&mut stage, &mut solve.state)?;
+                run.began_with(losses);
+            }
+            Self::Light => {
+                let start =
+                    State { networks: solve.state.networks.clone(), ..solve.initial.clone() };
+                solve.probed = Some(light(run, site, start)?);
+            }
+            Self::Transport => {
+                let Some(probed) = solve.probed.take() else { return Ok(()) };
+                let lit = light_and_albedo(run, site, solve.initial.clone(), probed)?;
+                // Before the albedo moves there is nothing of use: the networks' is better.
+                let begun = config.transport.hold;
+                let moved =
+                    run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
+                solve.lit = moved.then_some(lit);
+            }
+            Self::Distance => {
+                if let Some(probed) = &mut solve.probed {
+                    let spared = distance(run, site, solve.initial.clone(), probed)?;
+                    run.spare(spared);
+                }
+            }
+            Self::Highlights => {
+                if let Some(lit) = &mut solve.lit {
+                    let spared = highlights(run, site, lit)?;
+                    run.spare(spared);
+                }
+            }
+            Self::Heights => {
+                let (steps, lit) = (self.iterations(site), solve.lit.as_ref());
+                let bend =
+                    run.relief(steps, |step| heights::heights(site, &solve.state, lit, step))?;
+                solve.state.resize(site.size);
+                solve.state.deviation = bend;
+            }
+            Self::Relief(round) => {
+                solve.state.resize(site.size);
+                let (fine, state) = (site.fine(), &solve.state);
+                let (samples, deviation) = (&fine.samples, &fine.deviation);
+                let mut stage: Box<dyn Stage> = match config.fine_tuning.deviation_rate {
+                    0.0 => {
+                        Box::new(Specular::new(config, samples, deviation, state, backend, *round))
+                    }
+                    _ => Box::new(Relief::new(config, samples, deviation, state, backend, *round)),
+                };
+                run.stage(&mut *stage, &mut solve.state)?;
+            }
+            Self::Diffuse(round) => {
+                let (fine, state) = (site.fine(), &solve.state);
+                let mut stage =
+                    Diffuse::new(config, &fine.samples, &fine.deviation, state, backend, *round);
+                run.stage(&mut stage, &mut solve.state)?;
+            }
+            Self::Albedo => albedo(site, run, solve)?,
+        }
+        Ok(())
+    }
+}
+
+impl Step {
+    /// What the step has changed, for the record.
+    pub fn snapshot(&self, site: &Site, solve: &Solve) -> Option<Snapshot> {
+        let State { size, diffuse, specular, deviation, .. } = &solve.state;
+        let bend = || site.fine().deviation.textures(deviation).sharp;
+        match self {
+            Self::Start(_) | Self::Light | Self::Distance => None,
+            Self::WarmUp => {
+                let new = Snapshot::new("warm-up", Unit::Networks);
+                Some(new.diffuse(diffuse, *size).specular(specular, *size))
+            }
+            Self::Transport | Self::Highlights => {
+                let lit = &solve.lit.as_ref()?.state;
+                let name = if matches!(self, Self::Transport) { "transport" } else { "highlights" };
+                Some(Snapshot::new(name, Unit::Transport).diffuse(&lit.diffuse, lit.size))
+            }
+            Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
+            Self::Relief(round) => {
+                let stage = format!("normals and specular {round}");
+                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
+                let still = site.config.fine_tuning.deviation_rate == 0.0;
+                Some(if still { new } else { new.bend(&bend(), *size) })
+            }
+            Self::Diffuse(round) => {
+                let stage = format!("diffuse {round}");
+                Some(Snapshot::new(&stage, Unit::Networks).diffuse(diffuse, *size))
+            }
+            Self::Albedo => {
+                let physical = &solve.physical.as_ref()?.diffuse;
+                Some(Snapshot::new("albedo", Unit::Transport).diffuse(physical, *size))
+            }
+        }
+    }
+}
+
+/// Warms up the networks of one seed; what has come furthest is kept.
+fn start(number: usize, site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
+    let mut config = site.config.clone();
+    config.warm_up.iterations = config.initialisation.start_iterations;
+    let networks = Networks::new(&config.networks, config.seed + number as u64);
+    let mut state = State { networks, ..solve.initial.clone() };
+    let mut stage = WarmUp::new(&config, site.coarse(), &state);
+    let losses = run.trial(&format!("start {}", number + 1), &mut stage, &mut state)?;
+    let optimisers = stage.memory().optimisers.into_iter().map(|adam| adam.clone()).collect();
+    if run.cut().is_some() {
+        solve.state = state;
+        return Ok(());
+    }
+    let start = Start { losses, state, optimisers };
+    if solve.best.as_ref().is_none_or(|best| start.loss() < best.loss()) {
+        solve.best = Some(start);
+    }
+    Ok(())
+}
