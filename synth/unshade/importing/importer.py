@@ -281,9 +281,11 @@ class _Import:
         if not taken.lens.kept or taken.mask is None or taken.name in self.withheld:
             taken = taken.undistorted()
         taken = taken.smaller(self.choices.shrink)
-        if taken.mask is None:
+        if taken.mask is None or taken.name in self.withheld:
+            # Nothing can be said of what the mesh lacks, so withheld photographs count where it is seen.
             seen = taken.camera.silhouette(mesh.vertices, mesh.triangles)
-            taken = replace(taken, mask=np.where(seen, 255, 0).astype(np.uint8))
+            inside = seen if taken.mask is None else seen & (taken.mask > 0)
+            taken = replace(taken, mask=np.where(inside, 255, 0).astype(np.uint8))
         return taken
 
     def _key(self) -> str:
