@@ -16,6 +16,7 @@ __all__ = [
     "export",
     "measure",
     "metric_definitions",
+    "mikktspace",
     "read_scores",
     "relight",
     "report",
