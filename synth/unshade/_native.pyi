@@ -20,7 +20,7 @@ __all__ = [
     "exr_channels",
     "measure",
     "metric_definitions",
-<<<<<<< HEAD
+    "mikktspace",
     "outward_turns",
     "read_colour",
     "read_exr",
@@ -29,9 +29,6 @@ __all__ = [
     "read_light",
     "read_obj",
     "read_png",
-=======
-    "mikktspace",
->>>>>>> 1f2c915f3af2978d5642f5c58082b376422a63e4
     "read_scores",
     "reader_sources",
     "relight",
