@@ -1,5 +1,5 @@
-//! Hashes the sources of the solver and of the scoring: a finished stage of a run stays valid
-//! until the code that made it changes.
+//! Hashes the sources of the solver, of the scoring, and of what reads files for both and for the
+//! renderer: a finished stage of a run stays valid until the code that made it changes.
 
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -15,8 +15,14 @@ fn main() {
         ),
         (
             "UNSHADE_SCORE_SOURCES",
-            vec!["scoring/src/check", "scoring/src/metrics", "scoring/src/score"],
+            vec![
+                "scoring/src/check",
+                "scoring/src/metrics",
+                "scoring/src/score",
+                "../solver/formats/src",
+            ],
         ),
+        ("UNSHADE_READER_SOURCES", vec!["../solver/formats/src"]),
     ] {
         let mut hasher = DefaultHasher::new();
         for folder in folders {

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pycolmap
+
+import colmap_child
 
 OPENCV_AXES = np.diag([1.0, -1.0, -1.0, 1.0])
 
@@ -66,52 +67,19 @@ def instant_ngp(capture: Path, folder: Path) -> Path:
 def colmap(capture: Path, folder: Path, *, binary: bool, rig: bool = False) -> Path:
     """A COLMAP project with ``sparse/0``; with ``rig`` all views are sensors of one rig, in one frame."""
     copy_pictures(capture, folder)
-    model = pycolmap.Reconstruction()
-    frames = frames_of(capture)
-    if rig:
-        _as_rig(model, frames)
-    else:
-        for number, frame in enumerate(frames, 1):
-            model.add_camera_with_trivial_rig(_camera(number, frame))
-            image = pycolmap.Image(name=f"{frame['name']}.exr", camera_id=number, image_id=number)
-            model.add_image_with_trivial_frame(image, _world_to_camera(frame))
-    sparse = folder / "sparse" / "0"
-    sparse.mkdir(parents=True)
-    (model.write_binary if binary else model.write_text)(str(sparse))
+    views = [
+        {
+            "name": f"{frame['name']}.exr",
+            "model": "PINHOLE",
+            "width": frame["w"],
+            "height": frame["h"],
+            "parameters": [frame[key] for key in ("fl_x", "fl_y", "cx", "cy")],
+            "world_to_camera": np.linalg.inv(np.array(frame["transform_matrix"]) @ OPENCV_AXES)[:3].tolist(),
+        }
+        for frame in frames_of(capture)
+    ]
+    colmap_child.ask(do="write", folder=str(folder / "sparse" / "0"), views=views, binary=binary, rig=rig)
     return folder
-
-
-def _as_rig(model: pycolmap.Reconstruction, frames: list[dict[str, Any]]) -> None:
-    rig = pycolmap.Rig(rig_id=1)
-    first = _world_to_camera(frames[0])
-    shot = pycolmap.Frame()
-    shot.frame_id, shot.rig_id = 1, 1
-    for number, frame in enumerate(frames, 1):
-        camera = _camera(number, frame)
-        model.add_camera(camera)
-        if number == 1:
-            rig.add_ref_sensor(camera.sensor_id)
-        else:
-            rig.add_sensor(camera.sensor_id, _world_to_camera(frame) * first.inverse())
-        shot.add_data_id(pycolmap.data_t(camera.sensor_id, number))
-    model.add_rig(rig)
-    shot.rig_from_world = first
-    model.add_frame(shot)
-    for number, frame in enumerate(frames, 1):
-        image = pycolmap.Image(name=f"{frame['name']}.exr", camera_id=number, image_id=number)
-        image.frame_id = 1
-        model.add_image(image)
-    model.register_frame(1)
-
-
-def _camera(number: int, frame: dict[str, Any]) -> pycolmap.Camera:
-    parameters = [frame[key] for key in ("fl_x", "fl_y", "cx", "cy")]
-    return pycolmap.Camera(camera_id=number, model="PINHOLE", width=frame["w"], height=frame["h"], params=parameters)
-
-
-def _world_to_camera(frame: dict[str, Any]) -> pycolmap.Rigid3d:
-    matrix = np.linalg.inv(np.array(frame["transform_matrix"]) @ OPENCV_AXES)
-    return pycolmap.Rigid3d(matrix[:3])
 
 
 CHUNK = (3.0, np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.4, -0.1, 0.2]))
@@ -135,14 +103,16 @@ def metashape(capture: Path, folder: Path) -> Path:
         local[:3, 3] = rotation.T @ (world[:3, 3] - translation) / scale
         words = " ".join(repr(float(v)) for v in local.ravel())
         cameras.append(f'<camera id="{number}" sensor_id="0" label="{frame["name"]}"><transform>{words}</transform></camera>')
-    cameras.append('<camera id="97" sensor_id="0" label="off" enabled="false"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>')
+    placed = "<transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform>"
+    cameras.append(f'<camera id="97" sensor_id="0" label="off" enabled="false">{placed}</camera>')
     cameras.append('<camera id="98" sensor_id="0" label="lost"></camera>')
-    cameras.append('<camera id="99" sensor_id="1" label="dummy"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>')
+    cameras.append(f'<camera id="99" sensor_id="1" label="dummy">{placed}</camera>')
     numbers = lambda a: " ".join(repr(float(v)) for v in np.ravel(a))  # noqa: E731
+    size = f'<resolution width="{first["w"]}" height="{first["h"]}"/>'
     text = f"""<?xml version="1.0" encoding="UTF-8"?>
 <document version="2.0.0"><chunk label="Chunk 1" enabled="true"><sensors next_id="2">
-<sensor id="0" label="lens" type="frame"><resolution width="{first["w"]}" height="{first["h"]}"/>
-<calibration type="frame" class="adjusted"><resolution width="{first["w"]}" height="{first["h"]}"/><f>{first["fl_y"]!r}</f>{shift}</calibration></sensor>
+<sensor id="0" label="lens" type="frame">{size}
+<calibration type="frame" class="adjusted">{size}<f>{first["fl_y"]!r}</f>{shift}</calibration></sensor>
 <sensor id="1" label="unknown" type="frame"><resolution width="10" height="10"/></sensor></sensors>
 <cameras>{"".join(cameras)}</cameras>
 <transform><rotation>{numbers(rotation)}</rotation><translation>{numbers(translation)}</translation><scale>{scale}</scale></transform>

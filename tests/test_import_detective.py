@@ -157,7 +157,7 @@ def test_inverted_masks_are_named(source: Path, tmp_path: Path) -> None:
             plane = np.asarray(image)
         Image.fromarray(255 - plane).save(mask)
     mended = unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True)
-    name = sorted((source / "masks").iterdir())[0].name
+    name = min((source / "masks").iterdir()).name
     with Image.open(mended / "masks" / name) as after, Image.open(source / "masks" / name) as before:
         np.testing.assert_array_equal(np.asarray(after), np.asarray(before))
 

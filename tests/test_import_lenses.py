@@ -6,11 +6,13 @@ import json
 from pathlib import Path
 
 import numpy as np
-import pycolmap
 import pytest
 import unshade
+from PIL import Image
 from unshade import _native
 from unshade.errors import CaptureError
+
+import colmap_child
 
 SIZE = (80, 60)
 
@@ -27,20 +29,18 @@ LENSES = {
 
 def _capture(folder: Path, model: str, parameters: list[float]) -> Path:
     """Two photographs whose colour at a pixel is the direction that the lens shows there."""
-    camera = pycolmap.Camera(camera_id=1, model=model, width=SIZE[0], height=SIZE[1], params=parameters)
     columns, rows = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
-    directions = camera.cam_from_img(np.stack([columns.ravel(), rows.ravel()], 1))
+    pixels = np.stack([columns.ravel(), rows.ravel()], 1).tolist()
+    directions = colmap_child.ask(do="directions", model=model, parameters=parameters, size=SIZE, pixels=pixels)
     picture = np.zeros((SIZE[1], SIZE[0], 3), np.float32)
-    picture[..., :2] = directions.reshape(SIZE[1], SIZE[0], 2) + 2
+    picture[..., :2] = np.reshape(directions, (SIZE[1], SIZE[0], 2)) + 2
     (folder / "images").mkdir(parents=True)
-    reconstruction = pycolmap.Reconstruction()
-    reconstruction.add_camera_with_trivial_rig(camera)
-    for number, name in ((1, "a.exr"), (2, "b.exr")):
+    lens = {"model": model, "width": SIZE[0], "height": SIZE[1], "parameters": parameters}
+    pose = np.c_[np.eye(3), [0.0, 0, 1]].tolist()
+    for name in ("a.exr", "b.exr"):
         _native.write_colour(folder / "images" / name, picture)
-        pose = pycolmap.Rigid3d(np.c_[np.eye(3), [0.0, 0, 1]])
-        reconstruction.add_image_with_trivial_frame(pycolmap.Image(name=name, camera_id=1, image_id=number), pose)
-    (folder / "sparse").mkdir()
-    reconstruction.write_binary(str(folder / "sparse"))
+    views = [{"name": name, **lens, "world_to_camera": pose} for name in ("a.exr", "b.exr")]
+    colmap_child.ask(do="write", folder=str(folder / "sparse"), views=views, binary=True)
     # A wall before the camera, larger than its view.
     (folder / "wall.obj").write_text("v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
     return folder
@@ -69,8 +69,6 @@ def test_a_lens_that_a_capture_can_say_is_handed_on(tmp_path: Path) -> None:
     folder = _capture(tmp_path / "source", "OPENCV", LENSES["OPENCV"])
     masks = folder / "masks"
     masks.mkdir()
-    from PIL import Image
-
     whole = np.full(SIZE[::-1], 255, np.uint8)
     for name in ("a", "b"):
         Image.fromarray(whole).save(masks / f"{name}.png")

@@ -1,6 +1,9 @@
 """Cycles as the second judge: found or refused, told the same scene, and of one mind with Mitsuba."""
 
 import json
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import export_toy
@@ -10,9 +13,12 @@ import render_toy
 from unshade.cycles import description, interpreter
 from unshade.cycles import relight as judge
 from unshade.errors import RendererError
+from unshade.export.surface import Mesh, Surface
 from unshade.render import lights
+from unshade.render.camera import Camera, look_at
 from unshade.render.lights import conventions
 from unshade.render.pictures import read_exr, read_gray
+from unshade.render.scene import ChartMaps
 from unshade.render.truth_scene import captured_scene
 from unshade.scene_file import Light, parse_scene
 from unshade.scene_file.light import PointLight
@@ -94,7 +100,7 @@ def test_a_renderer_that_dies_leaves_its_last_words(monkeypatch, tmp_path):
     heard = []
     with pytest.raises(RendererError, match="ended with 7: no space left"):
         interpreter.run(tmp_path / "job.json", heard.append)
-    assert heard == ["one"]
+    assert heard == [{"done": "one"}]
 
 
 def blender_direction(row, column, height, width):
@@ -154,3 +160,46 @@ def test_lamps_give_the_irradiance_of_the_lights(tmp_path, kind):
 def parsed_sun():
     table = render_toy.toy_table() | {"light": {"name": "sun", "kind": "sun"}}
     return parse_scene(table, "toy", Path()).light
+
+
+def test_a_renderer_that_nobody_waits_for_ends(tmp_path):
+    """The child ends with the process that started it, however that one ends."""
+    export_toy.needs_blender()
+    mesh = render_toy.toy_face().chart
+    surface = Surface(Mesh(mesh.vertices, mesh.normals, mesh.uv, mesh.triangles.astype(np.int64)), ChartMaps(np.full((8, 8, 3), 0.5)))
+    job = description.write_job(
+        tmp_path,
+        meshes=description.write_meshes(tmp_path, surface, []),
+        lights=[{"name": "dome", "lamps": [], "background": {"radiance": [1.0, 1.0, 1.0]}}],
+        views=[description.view(Camera("view", 512, 512, 900.0, look_at(np.array([0, 0, 0.6]), np.zeros(3)), False), {"dome": [1]})],
+        samples=1_000_000,
+        depth=6,
+        out=str(tmp_path / "pictures"),
+    )
+    code = "import sys; from pathlib import Path; from unshade.cycles import interpreter; interpreter.run(Path(sys.argv[1]), print)"
+    parent = subprocess.Popen([sys.executable, "-c", code, str(job)])
+    child = waited(lambda: children(parent.pid))
+    parent.kill()
+    parent.wait()
+    assert waited(lambda: has_ended(child[0]))
+
+
+def has_ended(pid):
+    """Gone, or a zombie that nobody has asked after."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+def children(pid):
+    return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def waited(what):
+    """What ``what`` says once it says something, within a minute."""
+    for _ in range(600):
+        if found := what():
+            return found
+        time.sleep(0.1)
+    return None

@@ -94,7 +94,8 @@ def test_an_obj_serves_as_well(capture, tmp_path, sets):
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "UV"),
         ("v 0 0 0\n", "0 meshes"),
         ("v 0 0 0\nf 1 2 9\n", "cannot be read"),
-        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 5 5\nvt 5 5\nvt 5 5\nf 1/1 2/2 3/3\n", "cover no texel"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .5 .5\nvt .5 .5\nvt .5 .5\nf 1/1 2/2 3/3\n", "cover no texel"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 2\nf 1/1 2/2 3/3\n", "unit square"),
     ],
 )
 def test_meshes_that_cannot_serve_are_refused(capture, tmp_path, text, words):

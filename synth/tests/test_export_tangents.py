@@ -35,8 +35,9 @@ def toy():
     return Surface(Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64)), ChartMaps.truth(face))
 
 
-def plane(turn=np.eye(2)):
+def plane(turn=None):
     """A square that faces +Z, with its UV turned."""
+    turn = np.eye(2) if turn is None else turn
     uv = np.float32([[0, 0], [1, 0], [1, 1], [0, 1]])
     vertices = np.column_stack([uv, np.zeros(4)]).astype(np.float32)
     normals = np.tile(np.float32([0, 0, 1]), (4, 1))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from io import BytesIO
 from pathlib import Path
 
 import cv2
@@ -68,10 +69,9 @@ def test_a_profile_is_converted_as_littlecms_does(tmp_path: Path) -> None:
     Image.fromarray(muted).save(tmp_path / "a.png", icc_profile=ADOBE)
     read = read_photograph(tmp_path / "a.png")
     assert read.profile == "Adobe RGB (1998)" and read.curve == "gamma=2.19921875"
-    from io import BytesIO
-
-    theirs = ImageCms.profileToProfile(Image.fromarray(muted), ImageCms.ImageCmsProfile(BytesIO(ADOBE)), ImageCms.createProfile("sRGB"), renderingIntent=ImageCms.Intent.RELATIVE_COLORIMETRIC)
-    codes = np.asarray(theirs)
+    adobe, srgb = ImageCms.ImageCmsProfile(BytesIO(ADOBE)), ImageCms.createProfile("sRGB")
+    intent = ImageCms.Intent.RELATIVE_COLORIMETRIC
+    codes = np.asarray(ImageCms.profileToProfile(Image.fromarray(muted), adobe, srgb, renderingIntent=intent))
     inside = (codes > 5) & (codes < 250)
     assert inside.mean() > 0.5
     ours = np.where(read.radiance <= 0.0031308, 12.92 * read.radiance, 1.055 * read.radiance.clip(1e-9) ** (1 / 2.4) - 0.055)
@@ -81,8 +81,7 @@ def test_a_profile_is_converted_as_littlecms_does(tmp_path: Path) -> None:
     with pytest.raises(PictureError, match="'Scanner of Mine' is not known by name; state the curve"):
         read_photograph(tmp_path / "b.png")
     assert read_photograph(tmp_path / "b.png", "gamma=1.9").profile == "Scanner of Mine"
-    srgb = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
-    Image.fromarray(muted).save(tmp_path / "c.png", icc_profile=srgb)
+    Image.fromarray(muted).save(tmp_path / "c.png", icc_profile=ImageCms.ImageCmsProfile(srgb).tobytes())
     np.testing.assert_allclose(read_photograph(tmp_path / "c.png").radiance, _srgb(muted), atol=1e-6)
 
 
@@ -159,7 +158,13 @@ def test_what_is_no_photograph_is_refused_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "c.gif").write_bytes(b"GIF89a")
     Image.fromarray(CODES).save(tmp_path / "d.png")
     (tmp_path / "d.png").write_bytes((tmp_path / "d.png").read_bytes()[:60])
-    for name, words in (("a.CR2", "raw file; develop it"), ("b.jpg", "cannot be read"), ("c.gif", "no kind of picture"), ("d.png", "cannot be read"), ("e.png", "there is no such picture")):
+    for name, words in (
+        ("a.CR2", "raw file; develop it"),
+        ("b.jpg", "cannot be read"),
+        ("c.gif", "no kind of picture"),
+        ("d.png", "cannot be read"),
+        ("e.png", "there is no such picture"),
+    ):
         with pytest.raises(PictureError, match=words) as refusal:
             read_photograph(tmp_path / name)
         assert "\n" not in str(refusal.value) and name in str(refusal.value)

@@ -29,6 +29,7 @@ __all__ = [
     "read_obj",
     "read_png",
     "read_scores",
+    "reader_sources",
     "relight",
     "report",
     "run",
@@ -45,6 +46,7 @@ _Byte = NDArray[np.uint8]
 _Progress = Callable[[int, int, str], object]
 
 __version__: str
+reader_sources: str
 
 class _Camera(TypedDict):
     width: int

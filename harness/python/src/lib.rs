@@ -18,6 +18,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("reader_sources", harness::suite::READER_SOURCES)?;
     module.add_class::<capture::Capture>()?;
     module.add_class::<maps::Maps>()?;
     module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;

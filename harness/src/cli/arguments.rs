@@ -9,7 +9,12 @@ use super::export::ExportArgs;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
-#[command(name = "unshade", version, max_term_width = 100)]
+#[command(
+    name = "unshade",
+    version,
+    max_term_width = 100,
+    after_help = "unshade import --help: photographs, cameras and a mesh of other programs"
+)]
 pub(super) struct Cli {
     #[command(subcommand)]
     pub verb: Verb,

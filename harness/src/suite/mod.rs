@@ -26,6 +26,6 @@ pub use method::{Entrant, Method};
 pub use program::{Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};
-pub use sources::SOLVER_SOURCES;
+pub use sources::{READER_SOURCES, SOLVER_SOURCES};
 pub use stages::{Export, contact_sheet, describe, export, relight, synth};
 pub use tools::{Observer, Tools};

@@ -87,7 +87,9 @@ pub fn relief(backend: &dyn Backend) {
         let mut seen = vec![false; state.size * state.size];
         for cell in samples.taps.cells() {
             let at = *cell as usize;
-            [at, at + 1, at + state.size, at + state.size + 1].map(|at| seen[at] = true);
+            [at, at + 1, at + state.size, at + state.size + 1]
+                .iter()
+                .for_each(|at| seen[*at] = true);
         }
         for (gradient, seen) in fused.1.chunks_exact(ROWS).zip(seen) {
             assert!(seen || gradient.iter().all(|value| *value == 0.0));

@@ -1,15 +1,30 @@
 """Runs inside Blender: ``python blender_child.py JOB.json``; builds a scene, saves it, renders it.
 
 The job is what `description` writes. World here is Z up: ours (x, y, z) is (x, -z, y). One JSON line on standard
-output for every picture that is done.
+output for every picture that is done. Ends when the process that started it does.
 """
 
+import ctypes
 import importlib
 import json
+import os
 import sys
 from pathlib import Path
 
-import numpy as np
+
+def end_with_parent():
+    """From now on this process ends with the one that started it (Linux), which may have ended already."""
+    if sys.platform == "linux":
+        set_death_signal, kill = 1, 9
+        ctypes.CDLL(None).prctl(set_death_signal, kill, 0, 0, 0)
+    if os.environ.get("UNSHADE_PARENT", str(os.getppid())) != str(os.getppid()):
+        sys.exit(3)
+
+
+# First of all: loading Blender takes seconds.
+end_with_parent()
+
+import numpy as np  # noqa: E402
 
 bpy = importlib.import_module("bpy")
 matrix_of = importlib.import_module("mathutils").Matrix
@@ -49,7 +64,7 @@ def pictures(scene, job, light, view):
         scene.cycles.seed = seed
         scene.render.filepath = str(Path(job["out"]) / light / f"{view['name']}-{number}.exr")
         bpy.ops.render.render(write_still=True)
-        print(json.dumps({"done": f"{view['name']} in {light}"}), flush=True)
+        print(json.dumps({"done": f"view {view['name']} in {light}", "light": light, "view": view["name"], "number": number}), flush=True)
 
 
 def save(path):

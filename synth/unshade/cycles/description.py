@@ -60,12 +60,12 @@ def write_part(folder: Path, part: Part) -> dict[str, Any]:
 def _mesh(folder: Path, name: str, material: dict[str, Any] | None, **arrays: np.ndarray) -> dict[str, Any]:
     path = folder / f"{name}.npz"
     np.savez(path, **arrays)  # type: ignore[arg-type]
-    return {"name": name, "file": str(path), "material": material}
+    return {"name": name, "file": str(path.resolve()), "material": material}
 
 
 def _picture(path: Path, values: np.ndarray) -> dict[str, str]:
     write_exr(path, {"": np.repeat(values[..., None], 3, -1) if values.ndim == 2 else values})
-    return {"file": str(path)}
+    return {"file": str(path.resolve())}
 
 
 def write_light(folder: Path, name: str, light: AnyLight) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ..errors import RendererError
 
@@ -41,9 +42,13 @@ def _started_by(program: str) -> list[str]:
     return [program, str(_CHILD)]
 
 
-def run(job: Path, report: Callable[[str], None]) -> None:
-    """Does a job of `description`; ``report`` hears of each picture. Raises `RendererError` with Blender's last words."""
+def run(job: Path, report: Callable[[dict[str, Any]], None]) -> None:
+    """Does a job of `description`; ``report`` hears of each picture: what is ``done``, its ``light``, ``view`` and ``number``.
+
+    Raises `RendererError` with Blender's last words.
+    """
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment["UNSHADE_PARENT"] = str(os.getpid())
     with subprocess.Popen(
         [*command(), str(job)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         errors="replace", env=environment,
@@ -52,7 +57,7 @@ def run(job: Path, report: Callable[[str], None]) -> None:
         try:
             for words in child.stdout or ():
                 if words.startswith('{"done"'):
-                    report(json.loads(words)["done"])
+                    report(json.loads(words))
                 elif words.strip() and not words.startswith("Blender quit"):
                     last = words.strip()
         except BaseException:

@@ -25,8 +25,14 @@ def samples_each(samples: int) -> int:
 
 
 def read_layers(folder: Path, view: str) -> Layers:
-    """The mean of a view's pictures ``<view>-<number>.exr``, split at the first surface as Cycles' own passes are."""
-    pictures = [_split(folder / f"{view}-{number}.exr") for number in range(PASSES)]
+    """The mean of a view's pictures ``<view>-<number>.exr``, split at the first surface as Cycles' own passes are.
+
+    The pictures are removed.
+    """
+    paths = [folder / f"{view}-{number}.exr" for number in range(PASSES)]
+    pictures = [_split(path) for path in paths]
+    for path in paths:
+        path.unlink()
     diffuse, specular = (np.stack([picture[layer] for picture in pictures]) for layer in range(2))
     variance = (diffuse + specular).var(0, ddof=1) / PASSES
     return Layers(*(values.astype(np.float32) for values in (diffuse.mean(0), specular.mean(0), variance)))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
-import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -55,39 +55,44 @@ def relight(
     meter.note("face")
     face = build_head(scene.face)
     chart = face.chart
-    mesh = Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64))
-    done: dict[float, str] = {}
+    surface = Surface(Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64)), chart_maps)
+    exposed = {light.name: lights.exposed(light, chart.vertices, chart.normals) for light in scene.lights}
+    first: dict[float, str] = {}
     for scale, factor in scales.items():
-        if factor in done:  # the same factor gives the same pictures
-            shutil.copytree(folder.path / done[factor], folder.path / scale, dirs_exist_ok=True)
+        target = folder.path / scale
+        if first.setdefault(factor, scale) != scale:  # the same factor gives the same pictures
+            shutil.copytree(folder.path / first[factor], target, dirs_exist_ok=True)
             continue
-        done[factor] = scale
+        wanted = [(light, view) for light in exposed for view in views]
+        if all((target / light / f"{view.name}.exr").exists() for light, view in wanted):
+            continue
+        # Beside the pictures, so that an interrupted call leaves nothing elsewhere.
+        work = folder.path / "cycles-work"
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir()
         scaled = replace(chart_maps, diffuse_albedo=chart_maps.diffuse_albedo * np.float32(factor))
-        with tempfile.TemporaryDirectory(prefix="unshade-cycles-") as temporary:
-            work = Path(temporary)
-            job = description.write_job(
-                work,
-                meshes=description.write_meshes(work, Surface(mesh, scaled), face.parts),
-                lights=[
-                    description.write_light(work, light.name, lights.exposed(light, chart.vertices, chart.normals))
-                    for light in scene.lights
-                ],
-                views=[
-                    description.view(
-                        view, {light.name: seeds(render.seed, seed_offset, light.name, view.name) for light in scene.lights}
-                    )
-                    for view in views
-                ],
-                samples=samples_each(render.samples),
-                depth=render.depth,
-                out=str(work / "pictures"),
-            )
-            interpreter.run(job, lambda what, scale=scale: meter.begin(f"{what}, scale {scale}")(1, 1))  # type: ignore[misc]
-            for light in scene.lights:
-                for view in views:
-                    layers = read_layers(work / "pictures" / light.name, view.name)
-                    path = folder.path / scale / light.name / f"{view.name}.exr"
-                    write_exr(path, {"": layers.total, **layers.channels()})
+        job = description.write_job(
+            work,
+            meshes=description.write_meshes(work, replace(surface, maps=scaled), face.parts),
+            lights=[description.write_light(work, name, light) for name, light in exposed.items()],
+            views=[
+                description.view(view, {light: seeds(render.seed, seed_offset, light, view.name) for light in exposed})
+                for view in views
+            ],
+            samples=samples_each(render.samples),
+            depth=render.depth,
+            out=str((work / "pictures").resolve()),
+        )
+
+        def hear(event: dict[str, Any], scale: str = scale, target: Path = target, raw: Path = work / "pictures") -> None:
+            meter.begin(f"{event['done']}, scale {scale}")(1, 1)
+            if event["number"] == PASSES - 1:
+                light, view = event["light"], event["view"]
+                layers = read_layers(raw / light, view)
+                write_exr(target / light / f"{view}.exr", {"": layers.total, **layers.channels()})
+
+        interpreter.run(job, hear)
+        shutil.rmtree(work)
     document = {
         "renderer": "cycles",
         "scales": dict(scales),

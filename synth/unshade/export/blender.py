@@ -32,7 +32,7 @@ def write_blender(surface: Surface, folder: Path, light_name: str, light: AnyLig
             views=[description.view(camera, {light_name: [0]})],
             samples=256,
             depth=depth,
-            save=str(folder / FILE),
+            save=str((folder / FILE).resolve()),
         )
         interpreter.run(job, lambda _: None)
     return {
@@ -49,7 +49,7 @@ def render_blend(path: Path, parts: list[Part], light_name: str, camera: Camera,
         work = Path(temporary)
         job = description.write_job(
             work,
-            open=str(path),
+            open=str(path.resolve()),
             meshes=[description.write_part(work, part) for part in parts],
             lights=[{"name": light_name}],
             views=[description.view(camera, {light_name: seeds("fidelity", light_name)})],

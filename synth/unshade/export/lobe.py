@@ -17,6 +17,8 @@ _ALPHAS = np.geomspace(0.02, 1.0, 256)
 _SHARES = 64
 _ANGLES = 192
 _BATCH = 1 << 8
+_MOST_KINDS = 1 << 14
+"""Pairs of lobes that are fitted: some seconds."""
 
 
 @dataclass(frozen=True)
@@ -29,10 +31,7 @@ class SingleLobe:
 
 def fit(roughness: np.ndarray) -> SingleLobe:
     """The single lobe for GGX alphas of two lobes and the share of the first (N,N,3)."""
-    first, second = (_nearest(roughness[..., lobe]) for lobe in range(2))
-    share = np.rint(roughness[..., 2] * _SHARES).astype(np.int64)
-    codes = (first * len(_ALPHAS) + second) * (_SHARES + 1) + share
-    kinds, number = np.unique(codes, return_inverse=True)
+    kinds, number = _kinds(roughness)
     lobes, weights = _lobes()
     best, distance = np.empty(len(kinds)), np.empty(len(kinds))
     for start in range(0, len(kinds), _BATCH):
@@ -46,6 +45,18 @@ def fit(roughness: np.ndarray) -> SingleLobe:
     shape = roughness.shape[:2]
     alpha, misplaced = (values[number].reshape(shape).astype(np.float32) for values in (best, distance))
     return SingleLobe(alpha, misplaced)
+
+
+def _kinds(roughness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Different pairs of lobes as numbers, and which each texel has; told apart more coarsely where they are many."""
+    for step in (1, 2, 4, 8):
+        first, second = (_nearest(roughness[..., lobe]) // step * step for lobe in range(2))
+        share = np.rint(roughness[..., 2] * _SHARES / step).astype(np.int64) * step
+        codes = (first * len(_ALPHAS) + second) * (_SHARES + 1) + share
+        kinds, number = np.unique(codes, return_inverse=True)
+        if len(kinds) <= _MOST_KINDS:
+            break
+    return kinds, number
 
 
 def _nearest(alpha: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -15,6 +15,10 @@ from ..face.texels import Texels, rasterise
 from ..render.relight import read_maps
 from ..render.scene import ChartMaps
 from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS, MIN_ALPHA
+
+
+_RIM = 1e-4
+"""How far rounding may carry UV out of the unit square."""
 
 
 @dataclass(frozen=True)
@@ -97,9 +101,13 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
         shape = _read_mesh(mesh)
     else:
         raise CaptureError(f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh")
-    surface = Surface(shape, read_maps(maps, warn))
+    where = capture / "mesh.obj" if capture else mesh
+    if not all(np.isfinite(values).all() for values in (shape.vertices, shape.normals, shape.uv)):
+        raise CaptureError(f"{where}: holds numbers that are none; export the mesh again")
+    if shape.uv.size and (shape.uv.min() < -_RIM or shape.uv.max() > 1 + _RIM):
+        raise CaptureError(f"{where}: its UV leave the unit square; use one tile, the one that the maps were made for")
+    surface = Surface(replace(shape, uv=shape.uv.clip(0, 1)), read_maps(maps, warn))
     if not surface.texels.inside.any():
-        where = capture / "mesh.obj" if capture else mesh
         raise CaptureError(f"{where}: its UV cover no texel of the maps; use the mesh that the maps were made for")
     return surface
 

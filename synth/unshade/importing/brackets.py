@@ -50,4 +50,5 @@ def merged(paths: list[Path], curve: str) -> tuple[Floats, Photograph]:
     response = decode(np.maximum(values, _DARKEST), taken[0].curve)
     response = np.repeat(response[:, None, None], 3, 2)
     radiance = cv2.createMergeDebevec().process(codes, exposures / np.float32(middle), response)
-    return np.nan_to_num(np.asarray(radiance, np.float32), posinf=0.0).clip(0) / np.float32(middle), taken[0]
+    radiance = np.nan_to_num(np.asarray(radiance, np.float32), posinf=0.0).clip(0) / np.float32(middle)
+    return np.asarray(radiance, np.float32), taken[0]

@@ -7,7 +7,7 @@ import os
 import shutil
 import tempfile
 from pathlib import Path
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from .. import _native, metrics
 from ..errors import CaptureError
@@ -37,7 +37,9 @@ def consistency(capture: AnyPath, *, config: str = "unshade", out: AnyPath | Non
     ``out/second``. Raises `CaptureError` for a capture of fewer than four training views, and what `solve` raises.
     """
     folder = Path(capture)
-    document = json.loads((folder / "transforms.json").read_bytes()) if (folder / "transforms.json").is_file() else {}
+    document: dict[str, Any] = {}
+    if (folder / "transforms.json").is_file():
+        document = json.loads((folder / "transforms.json").read_bytes())
     train = sorted(document.get("train_filenames", []))
     if len(train) < 4:
         raise CaptureError(f"{folder}: has {len(train)} named training views; halves need four")
@@ -75,7 +77,7 @@ def compare_halves(first: _native.Maps, second: _native.Maps, *, views: tuple[in
     }
 
 
-def _half(folder: Path, place: Path, document: dict[str, object]) -> None:
+def _half(folder: Path, place: Path, document: dict[str, Any]) -> None:
     """A capture of some of the views, whose files are linked where the system allows."""
     place.mkdir()
     for name in ("images", "masks", "labels", "mesh.obj"):

@@ -30,7 +30,7 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
         raise CaptureError(f"{path / _CALIBRATION}: holds no cameraNN.txt; name the folder of Digital Emily 2")
     below = pictures or path / _PICTURES
     views: list[SourceView] = []
-    assumed = list(_ASSUMED)
+    assumed: list[str] = list(_ASSUMED)
     for file in files:
         number = re.search(r"(\d+)$", file.stem)
         if number is None:

@@ -108,7 +108,7 @@ def import_capture(
         mesh=path_of(mesh),
         objects=tuple(objects),
         pictures=path_of(pictures),
-        masks=masks if masks in ("alpha", "silhouette") else path_of(masks),  # type: ignore[arg-type]
+        masks=masks if isinstance(masks, str) and masks in ("alpha", "silhouette") else path_of(masks),
         labels=path_of(labels),
         parser=parser,
         curve=curve,
@@ -272,9 +272,8 @@ class _Import:
         parts = [self.format, str(self.path), repr(self.choices), content_hash(self.mesh_file)]
         for view in self.source.views:
             parts.append(f"{view!r}")
-            for file in (view.picture, view.mask, view.label):
-                if file is not None and file.is_file():
-                    parts.append(f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}")
+            files = [file for file in (view.picture, view.mask, view.label) if file is not None and file.is_file()]
+            parts += [f"{file} {file.stat().st_size} {file.stat().st_mtime_ns}" for file in files]
         return "\n".join(parts)
 
     def _record(self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings) -> dict[str, Any]:

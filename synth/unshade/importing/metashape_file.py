@@ -84,7 +84,7 @@ def read_metashape(path: Path, pictures: Path | None = None) -> Source:
     elsewhere = None
     if all(np.allclose(place, outer[0]) for place in outer) and not np.allclose(outer[0], np.eye(4)):
         words = "the mesh is in the chunk's own coordinates, so the chunk's transform is to be left out"
-        elsewhere = ("chunk-transform", words, np.linalg.inv(outer[0]))
+        elsewhere = ("chunk-transform", words, np.asarray(np.linalg.inv(outer[0]), np.float64))
     return Source(origin=path, views=views, elsewhere=elsewhere, assumed=tuple(f"left out: {reason}" for reason in left_out))
 
 

@@ -88,4 +88,4 @@ def our_labels(path: Path, ids: NDArray[Any], names: dict[int, str]) -> NDArray[
     for number, name in names.items():
         if number < len(table):
             table[number] = LABELS[name]
-    return table[ids]
+    return np.asarray(table[ids], np.uint8)

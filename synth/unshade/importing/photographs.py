@@ -195,7 +195,8 @@ def _labels(view: SourceView, reading: Reading, beside: Any) -> Bytes | None:
 def _named(folder: Path, view: SourceView, what: str) -> Path:
     """The picture of a folder that is called as the photograph, with its ending or another."""
     picture = view.picture
-    for name in (f"{picture.name}.png", f"{picture.stem}.png", picture.name, f"{view.name}.png", f"{picture.stem}_mask.png"):
-        if (folder / name).is_file():
-            return folder / name
+    for stem in (picture.name, picture.stem, view.name, f"{picture.stem}_mask"):
+        for ending in (".png", ".tif", ".tiff", ".jpg", ".jpeg"):
+            if (folder / f"{stem}{ending}").is_file():
+                return folder / f"{stem}{ending}"
     raise CaptureError(f"{folder}: has no {what} {picture.stem}.png for {picture.name}; add it")

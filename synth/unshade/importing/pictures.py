@@ -230,8 +230,9 @@ def _profile(path: Path, icc: bytes | None) -> tuple[NDArray[np.float64] | None,
         name = ImageCms.getProfileDescription(profile).strip()
     except (OSError, ImageCms.PyCMSError) as error:
         raise PictureError(f"{path}: its colour profile cannot be read: {_reason(error)}; convert it to sRGB") from error
-    primaries, ours = _primaries(profile.profile), _primaries(ImageCms.createProfile("sRGB"))
-    if profile.profile.xcolor_space.strip() == "GRAY" or ours is None:
+    core: Any = profile.profile
+    primaries, ours = _primaries(core), _primaries(ImageCms.createProfile("sRGB"))
+    if core.xcolor_space.strip() == "GRAY" or ours is None:
         return None, name
     if primaries is None:
         raise PictureError(f"{path}: its colour profile {name!r} is no matrix of primaries; convert the picture to sRGB")

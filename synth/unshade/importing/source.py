@@ -75,10 +75,10 @@ class Source:
 
     ``origin`` is the file that the cameras came from, ``withheld`` the names that it sets aside.
     ``metres`` is the length of its unit, if the format fixes it. ``objects`` names the mesh's objects
-    that are the face; none means all. ``label_names`` says what the ids of its label pictures are. ``turned`` says whether the program counts pixels after a
-    photograph's EXIF orientation was applied. ``elsewhere`` is where the cameras would be if the mesh
-    lies in the other of two coordinate systems that the file speaks of: a name, what it would mean, and
-    the similarity of the cameras' world.
+    that are the face; none means all. ``label_names`` says what the ids of its label pictures are.
+    ``turned`` says whether the program counts pixels after a photograph's EXIF orientation was applied.
+    ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
+    that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
     """
 
     origin: Path
@@ -155,8 +155,9 @@ def _stem(path: str) -> str:
 def quaternion_matrix(w: float, x: float, y: float, z: float) -> Matrix:
     """The rotation of a quaternion of any length above 0."""
     q = np.array([w, x, y, z], float)
-    length = np.linalg.norm(q)
-    w, x, y, z = q / length if length > 0 else (np.nan,) * 4
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(q)
+    w, x, y, z = q / length if 0 < length < np.inf else (np.nan,) * 4
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],

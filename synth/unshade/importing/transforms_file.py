@@ -82,7 +82,7 @@ def _undone(path: Path, document: Mapping[str, Any]) -> tuple[Matrix, Matrix | N
     # nerfstudio turns the cameras first, and scales the outcome.
     whole = np.diag([scale, scale, scale, 1.0]) @ applied
     try:
-        return np.linalg.inv(whole), whole
+        return np.asarray(np.linalg.inv(whole), np.float64), whole
     except np.linalg.LinAlgError as error:
         raise CaptureError(f"{path}: applied_transform cannot be undone; drop it if the mesh was moved likewise") from error
 

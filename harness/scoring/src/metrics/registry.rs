@@ -165,7 +165,7 @@ pub static METRICS: &[Metric] = metrics! {
 };
 
 /// What is scored of what, in the order of the rows. A metric in none of these has no row, which
-/// `harness/tests/scores.rs` notices.
+/// `harness/scoring/tests/scores.rs` notices.
 pub(crate) mod scored {
     /// Of the diffuse albedo; after the median ratio the first five alone.
     pub(crate) const ALBEDO: [&str; 8] = [
