@@ -10,9 +10,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import colmap_child
+import numpy as np
 
 OPENCV_AXES = np.diag([1.0, -1.0, -1.0, 1.0])
 
@@ -42,7 +41,9 @@ def nerfstudio(capture: Path, folder: Path) -> Path:
         matrix = applied @ frame["transform_matrix"]
         matrix[:3, 3] *= scale
         path = f"images\\{frame['name']}" if number % 2 else f"./images/{frame['name']}.exr"
-        listed.append({"file_path": path, "mask_path": f"masks\\{frame['name']}.png", "transform_matrix": matrix.tolist()})
+        listed.append(
+            {"file_path": path, "mask_path": f"masks\\{frame['name']}.png", "transform_matrix": matrix.tolist()}
+        )
     first = frames[0]
     shared = {key: float(first[key]) for key in ("w", "h", "fl_x", "fl_y", "cx", "cy")}
     document = {"camera_model": "OPENCV", **shared, "k1": 0.0, "k2": 0.0, "p1": 0.0, "p2": 0.0, "frames": listed,
@@ -57,7 +58,10 @@ def instant_ngp(capture: Path, folder: Path) -> Path:
     frames = frames_of(capture)
     first = frames[0]
     angles = [2 * np.arctan(first[side] / 2 / first[focal]) for side, focal in (("w", "fl_x"), ("h", "fl_y"))]
-    listed = [{"file_path": f"images/{f['name']}", "sharpness": 30.0, "transform_matrix": f["transform_matrix"]} for f in frames]
+    listed = [
+        {"file_path": f"images/{f['name']}", "sharpness": 30.0, "transform_matrix": f["transform_matrix"]}
+        for f in frames
+    ]
     document = {"camera_angle_x": angles[0], "camera_angle_y": angles[1], "w": float(first["w"]), "h": float(first["h"]),
                 "aabb_scale": 4, "frames": listed}  # fmt: skip
     (folder / "transforms.json").write_text(json.dumps(document))
@@ -102,12 +106,14 @@ def metashape(capture: Path, folder: Path) -> Path:
         local[:3, :3] = rotation.T @ world[:3, :3]
         local[:3, 3] = rotation.T @ (world[:3, 3] - translation) / scale
         words = " ".join(repr(float(v)) for v in local.ravel())
-        cameras.append(f'<camera id="{number}" sensor_id="0" label="{frame["name"]}"><transform>{words}</transform></camera>')
+        cameras.append(
+            f'<camera id="{number}" sensor_id="0" label="{frame["name"]}"><transform>{words}</transform></camera>'
+        )
     placed = "<transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform>"
     cameras.append(f'<camera id="97" sensor_id="0" label="off" enabled="false">{placed}</camera>')
     cameras.append('<camera id="98" sensor_id="0" label="lost"></camera>')
     cameras.append(f'<camera id="99" sensor_id="1" label="dummy">{placed}</camera>')
-    numbers = lambda a: " ".join(repr(float(v)) for v in np.ravel(a))  # noqa: E731
+    numbers = lambda a: " ".join(repr(float(v)) for v in np.ravel(a))
     size = f'<resolution width="{first["w"]}" height="{first["h"]}"/>'
     text = f"""<?xml version="1.0" encoding="UTF-8"?>
 <document version="2.0.0"><chunk label="Chunk 1" enabled="true"><sensors next_id="2">
@@ -135,7 +141,10 @@ def emily(capture: Path, folder: Path) -> Path:
             f"#principal point\n{frame['cx']!r} {frame['cy']!r}\n#distortion coeffs\n0 0 0 0\nMATRIX :\n{rows}\n"
         )
         (folder / "DigitalEmily2_Calibration" / f"camera{number:02}.txt").write_text(text)
-        shutil.copyfile(capture / "images" / f"{frame['name']}.exr", folder / "DigitalEmily2_FlashParallel" / f"cam{number}_flash.exr")
+        shutil.copyfile(
+            capture / "images" / f"{frame['name']}.exr",
+            folder / "DigitalEmily2_FlashParallel" / f"cam{number}_flash.exr",
+        )
     (folder / "Emily_2_1_OBJ" / "Emily.obj").write_text(_emily_mesh(capture / "mesh.obj"))
     return folder
 
@@ -149,7 +158,9 @@ def _emily_mesh(path: Path) -> str:
         text += [f"{key} " + " ".join(repr(float(value) * factor) for value in row) for row in values[key]]
     count = len(values["v"])
     for face in values["f"]:
-        text.append("f " + " ".join("/".join(str(int(index) - count - 1) for index in corner.split("/")) for corner in face))
+        text.append(
+            "f " + " ".join("/".join(str(int(index) - count - 1) for index in corner.split("/")) for corner in face)
+        )
     # Eyes without texture coordinates, as the data set has them beside the head.
     text += ["o Eyes", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f -3 -2 -1"]
     return "\n".join(text) + "\n"

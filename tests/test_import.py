@@ -7,16 +7,16 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import colmap_child
 import cv2
+import foreign_captures
 import numpy as np
 import pytest
-import unshade
-from unshade.errors import CaptureError, StorageError
-
-import colmap_child
-import foreign_captures
-from conftest import unshade as command
 from foreign_captures import OPENCV_AXES
+
+import unshade
+from conftest import unshade as command
+from unshade.errors import CaptureError, StorageError
 
 Writer = Callable[[Path, Path], Path]
 
@@ -46,7 +46,11 @@ def imported(capture: Path, tmp_path_factory: pytest.TempPathFactory) -> Callabl
             folder = tmp_path_factory.mktemp(writer)
             format, write = WRITERS[writer]
             path = write(capture, folder / "source")
-            beside = {} if format == "emily" else {"mesh": folder / "source" / "mesh.obj", "masks": folder / "source" / "masks"}
+            beside = (
+                {}
+                if format == "emily"
+                else {"mesh": folder / "source" / "mesh.obj", "masks": folder / "source" / "masks"}
+            )
             made[writer] = unshade.import_capture(format, path, folder / "capture", **beside, holdout=5)
         return made[writer]
 
@@ -156,7 +160,9 @@ def test_a_head_of_another_size_and_place_is_stood_upright_in_metres(capture: Pa
             words = [repr(float(v)) for v in (vector * scale + shift if key == "v" else vector)]
         lines.append(" ".join([key, *words]))
     (tmp_path / "source" / "mesh.obj").write_text("\n".join(lines))
-    unshade.import_capture("transforms", tmp_path / "source", tmp_path / "capture", mesh=tmp_path / "source" / "mesh.obj")
+    unshade.import_capture(
+        "transforms", tmp_path / "source", tmp_path / "capture", mesh=tmp_path / "source" / "mesh.obj"
+    )
     back = unshade.Capture(tmp_path / "capture")
     mesh = back.mesh["vertices"]
     assert 0.2 < np.ptp(mesh, 0).max() < 0.3 and np.abs(mesh.mean(0)).max() < 0.05
@@ -165,21 +171,46 @@ def test_a_head_of_another_size_and_place_is_stood_upright_in_metres(capture: Pa
     ups = np.mean([back.camera(name)["camera_to_world"][:3, 1] for name in back.train], 0)
     assert ups[1] > 0.9
     kept = unshade.import_capture(
-        "transforms", tmp_path / "source", tmp_path / "kept", mesh=tmp_path / "source" / "mesh.obj", unit="m", place="keep"
+        "transforms",
+        tmp_path / "source",
+        tmp_path / "kept",
+        mesh=tmp_path / "source" / "mesh.obj",
+        unit="m",
+        place="keep",
     )
-    np.testing.assert_allclose(foreign_captures.frames_of(kept)[0]["transform_matrix"], frames[0]["transform_matrix"], atol=1e-9)
+    np.testing.assert_allclose(
+        foreign_captures.frames_of(kept)[0]["transform_matrix"], frames[0]["transform_matrix"], atol=1e-9
+    )
 
 
 def test_the_command_line_does_the_same(capture: Path, tmp_path: Path, imported: Callable[[str], Path]) -> None:
     path = foreign_captures.colmap(capture, tmp_path / "source", binary=True)
-    arguments = ["import", "colmap", path, "-o", tmp_path / "capture", "--mesh", path / "mesh.obj", "--masks", path / "masks", "--holdout", "5"]
+    arguments = [
+        "import",
+        "colmap",
+        path,
+        "-o",
+        tmp_path / "capture",
+        "--mesh",
+        path / "mesh.obj",
+        "--masks",
+        path / "masks",
+        "--holdout",
+        "5",
+    ]
     done = command(*arguments)
     assert "import.json" in done.stderr
-    theirs, ours = (json.loads((folder / "transforms.json").read_text()) for folder in (tmp_path / "capture", imported("colmap-binary")))
+    theirs, ours = (
+        json.loads((folder / "transforms.json").read_text())
+        for folder in (tmp_path / "capture", imported("colmap-binary"))
+    )
     assert theirs == ours
     # Again: the folder is ours and is replaced; names take the place of a step.
     command(*arguments[:-1], "000,001.exr")
-    assert json.loads((tmp_path / "capture" / "transforms.json").read_text())["test_filenames"] == ["images/000.exr", "images/001.exr"]
+    assert json.loads((tmp_path / "capture" / "transforms.json").read_text())["test_filenames"] == [
+        "images/000.exr",
+        "images/001.exr",
+    ]
     bad = command("import", "colmap", tmp_path / "nothing", "-o", tmp_path / "x", check=False)
     assert bad.returncode == 2 and bad.stderr.startswith("unshade: ") and bad.stderr.count("\n") == 1
 

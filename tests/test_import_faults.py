@@ -5,15 +5,21 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import colmap_child
 import numpy as np
 import pytest
+
 from unshade.errors import CaptureError, UnshadeError
 from unshade.importing.importer import read_source
 
-import colmap_child
-
 POSE = np.c_[np.eye(3), [0.0, 0.1, 1.0]].tolist()
-FRAME = {"file_path": "a.png", "w": 8, "h": 6, "fl_x": 9.0, "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 0, 1]]}
+FRAME = {
+    "file_path": "a.png",
+    "w": 8,
+    "h": 6,
+    "fl_x": 9.0,
+    "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 0, 1]],
+}
 XML = """<document><chunk enabled="true"><sensors><sensor id="0" type="{kind}">
 <resolution width="{width}" height="6"/><calibration class="adjusted"><f>9</f>{terms}</calibration></sensor></sensors>
 <cameras><camera id="0" sensor_id="0" label="a"><transform>{matrix}</transform></camera></cameras>{more}</chunk></document>"""
@@ -42,7 +48,10 @@ def _refused(format: str, path: Path, words: str) -> None:
         ({"file_path": None}, "a frame has no file_path"),
         ({"transform_matrix": [[1, 0], [0, 1]]}, "no matrix of four rows"),
         ({"transform_matrix": [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}, "no rotation and translation"),
-        ({"transform_matrix": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}, "no rotation and translation"),
+        (
+            {"transform_matrix": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]},
+            "no rotation and translation",
+        ),
         ({"camera_model": "EQUIRECTANGULAR"}, "camera_model 'EQUIRECTANGULAR' is unknown"),
         ({"camera_model": "PINHOLE", "k1": 0.1}, "camera_model PINHOLE has no k1"),
         ({"w": None, "cx": 4.0}, "cx or cy without w and h"),

@@ -5,15 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import colmap_child
 import numpy as np
 import pytest
+from PIL import Image
 
 import unshade
-from PIL import Image
 from unshade import _native
 from unshade.errors import CaptureError
-
-import colmap_child
 
 SIZE = (80, 60)
 

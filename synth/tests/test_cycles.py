@@ -167,12 +167,18 @@ def test_a_renderer_that_nobody_waits_for_ends(tmp_path):
     """The child ends with the process that started it, however that one ends."""
     export_toy.needs_blender()
     mesh = render_toy.toy_face().chart
-    surface = Surface(Mesh(mesh.vertices, mesh.normals, mesh.uv, mesh.triangles.astype(np.int64)), ChartMaps(np.full((8, 8, 3), 0.5)))
+    surface = Surface(
+        Mesh(mesh.vertices, mesh.normals, mesh.uv, mesh.triangles.astype(np.int64)), ChartMaps(np.full((8, 8, 3), 0.5))
+    )
     job = description.write_job(
         tmp_path,
         meshes=description.write_meshes(tmp_path, surface, []),
         lights=[{"name": "dome", "lamps": [], "background": {"radiance": [1.0, 1.0, 1.0]}}],
-        views=[description.view(Camera("view", 512, 512, 900.0, look_at(np.array([0, 0, 0.6]), np.zeros(3)), False), {"dome": [1]})],
+        views=[
+            description.view(
+                Camera("view", 512, 512, 900.0, look_at(np.array([0, 0, 0.6]), np.zeros(3)), False), {"dome": [1]}
+            )
+        ],
         samples=1_000_000,
         depth=6,
         out=str(tmp_path / "pictures"),

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 from PIL import Image, ImageCms
+
 from unshade.errors import PictureError
 from unshade.importing.brackets import bracket, merged
 from unshade.importing.pictures import read_photograph, read_plane, turned
@@ -26,6 +27,7 @@ def _srgb(codes: np.ndarray) -> np.ndarray:
 
 def _profile(name: str, primaries: list[list[float]], gamma: float) -> bytes:
     """A colour profile of three primaries (CIE XYZ under D50) and one gamma: ICC.1:2001, nothing but what it must have."""
+
     def tag_xyz(xyz: list[float]) -> bytes:
         return b"XYZ \0\0\0\0" + struct.pack(">3i", *(round(v * 65536) for v in xyz))
 
@@ -34,7 +36,7 @@ def _profile(name: str, primaries: list[list[float]], gamma: float) -> bytes:
     curve = b"curv\0\0\0\0" + struct.pack(">IH", 1, round(gamma * 256)) + b"\0\0"
     tags = {b"desc": desc, b"cprt": b"text\0\0\0\0none\0", b"wtpt": tag_xyz([0.9642, 1.0, 0.8249])}
     tags |= {key: tag_xyz(xyz) for key, xyz in zip((b"rXYZ", b"gXYZ", b"bXYZ"), primaries)}
-    tags |= {key: curve for key in (b"rTRC", b"gTRC", b"bTRC")}
+    tags |= dict.fromkeys((b"rTRC", b"gTRC", b"bTRC"), curve)
     table, data, start = struct.pack(">I", len(tags)), b"", 128 + 4 + 12 * len(tags)
     for key, content in tags.items():
         content += b"\0" * (-len(content) % 4)
@@ -45,7 +47,11 @@ def _profile(name: str, primaries: list[list[float]], gamma: float) -> bytes:
     return head.ljust(128, b"\0") + table + data
 
 
-ADOBE = _profile("Adobe RGB (1998)", [[0.60974, 0.31111, 0.01947], [0.20528, 0.62567, 0.06087], [0.14919, 0.06322, 0.74457]], 2.19921875)
+ADOBE = _profile(
+    "Adobe RGB (1998)",
+    [[0.60974, 0.31111, 0.01947], [0.20528, 0.62567, 0.06087], [0.14919, 0.06322, 0.74457]],
+    2.19921875,
+)
 
 
 def test_eight_and_sixteen_bits_through_the_srgb_curve(tmp_path: Path) -> None:
@@ -58,7 +64,9 @@ def test_eight_and_sixteen_bits_through_the_srgb_curve(tmp_path: Path) -> None:
     with pytest.raises(PictureError, match="16-bit TIFF without a colour profile.* state the curve"):
         read_photograph(tmp_path / "c.tif")
     np.testing.assert_allclose(read_photograph(tmp_path / "c.tif", "linear").radiance, deep / 65535, atol=1e-6)
-    np.testing.assert_allclose(read_photograph(tmp_path / "c.tif", "gamma=2.2").radiance, (deep / 65535) ** 2.2, atol=1e-5)
+    np.testing.assert_allclose(
+        read_photograph(tmp_path / "c.tif", "gamma=2.2").radiance, (deep / 65535) ** 2.2, atol=1e-5
+    )
     grey = CODES[..., 0]
     Image.fromarray(grey).save(tmp_path / "d.png")
     np.testing.assert_allclose(read_photograph(tmp_path / "d.png").radiance[..., 2], _srgb(grey), atol=1e-6)
@@ -74,7 +82,9 @@ def test_a_profile_is_converted_as_littlecms_does(tmp_path: Path) -> None:
     codes = np.asarray(ImageCms.profileToProfile(Image.fromarray(muted), adobe, srgb, renderingIntent=intent))
     inside = (codes > 5) & (codes < 250)
     assert inside.mean() > 0.5
-    ours = np.where(read.radiance <= 0.0031308, 12.92 * read.radiance, 1.055 * read.radiance.clip(1e-9) ** (1 / 2.4) - 0.055)
+    ours = np.where(
+        read.radiance <= 0.0031308, 12.92 * read.radiance, 1.055 * read.radiance.clip(1e-9) ** (1 / 2.4) - 0.055
+    )
     assert np.abs(ours * 255 - codes)[inside].max() < 1.5
     unknown = _profile("Scanner of Mine", [[0.6, 0.3, 0.02], [0.2, 0.6, 0.06], [0.15, 0.07, 0.74]], 1.9)
     Image.fromarray(muted).save(tmp_path / "b.png", icc_profile=unknown)
@@ -116,7 +126,9 @@ def test_brackets_become_one_radiance(tmp_path: Path) -> None:
     scene = np.geomspace(2e-3, 20, 160)[None, :, None].repeat(24, 0).repeat(3, 2)
     for number, seconds in enumerate((0.05, 0.5, 5.0)):
         linear = (scene * seconds).clip(0, 1)
-        codes = np.round(255 * np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)).astype(np.uint8)
+        codes = np.round(
+            255 * np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+        ).astype(np.uint8)
         exif = Image.Exif()
         exif[0x8769] = {0x829A: seconds, 0x829D: 1.0, 0x8827: 100}
         Image.fromarray(codes).save(tmp_path / f"a{number}.png", exif=exif)

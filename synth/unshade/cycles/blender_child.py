@@ -64,7 +64,12 @@ def pictures(scene, job, light, view):
         scene.cycles.seed = seed
         scene.render.filepath = str(Path(job["out"]) / light / f"{view['name']}-{number}.exr")
         bpy.ops.render.render(write_still=True)
-        print(json.dumps({"done": f"view {view['name']} in {light}", "light": light, "view": view["name"], "number": number}), flush=True)
+        print(
+            json.dumps(
+                {"done": f"view {view['name']} in {light}", "light": light, "view": view["name"], "number": number}
+            ),
+            flush=True,
+        )
 
 
 def save(path):

@@ -84,7 +84,9 @@ def relight(
             out=str((work / "pictures").resolve()),
         )
 
-        def hear(event: dict[str, Any], scale: str = scale, target: Path = target, raw: Path = work / "pictures") -> None:
+        def hear(
+            event: dict[str, Any], scale: str = scale, target: Path = target, raw: Path = work / "pictures"
+        ) -> None:
             meter.begin(f"{event['done']}, scale {scale}")(1, 1)
             if event["number"] == PASSES - 1:
                 light, view = event["light"], event["view"]

@@ -16,7 +16,6 @@ from ..render.relight import read_maps
 from ..render.scene import ChartMaps
 from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS, MIN_ALPHA
 
-
 _RIM = 1e-4
 """How far rounding may carry UV out of the unit square."""
 
@@ -100,7 +99,9 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
     elif mesh is not None:
         shape = _read_mesh(mesh)
     else:
-        raise CaptureError(f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh")
+        raise CaptureError(
+            f"{maps}: maps have no mesh of their own; name their capture with --capture, or an OBJ with --mesh"
+        )
     where = capture / "mesh.obj" if capture else mesh
     if not all(np.isfinite(values).all() for values in (shape.vertices, shape.normals, shape.uv)):
         raise CaptureError(f"{where}: holds numbers that are none; export the mesh again")
@@ -162,4 +163,6 @@ def resized(picture: np.ndarray, size: int) -> np.ndarray:
 def require_maps(surface: Surface, maps: Path) -> None:
     """Raises `MapsError` for maps that no asset can hold."""
     if surface.size > 8192:
-        raise MapsError(f"{maps}: maps of {surface.size} texels are larger than other programs take; export 8192 or less")
+        raise MapsError(
+            f"{maps}: maps of {surface.size} texels are larger than other programs take; export 8192 or less"
+        )

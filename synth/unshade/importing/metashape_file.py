@@ -65,7 +65,9 @@ def read_metashape(path: Path, pictures: Path | None = None) -> Source:
             found.append((label, sensors[camera.get("sensor_id")], matrix))
     if not found:
         told = f" ({'; '.join(left_out[:3])})" if left_out else ""
-        raise CaptureError(f"{path}: no camera is enabled, aligned and calibrated{told}; align the photographs and export again")
+        raise CaptureError(
+            f"{path}: no camera is enabled, aligned and calibrated{told}; align the photographs and export again"
+        )
     files = _photographs(path, pictures)
     labels = [label for label, _, _ in found]
     views = tuple(
@@ -85,7 +87,9 @@ def read_metashape(path: Path, pictures: Path | None = None) -> Source:
     if all(np.allclose(place, outer[0]) for place in outer) and not np.allclose(outer[0], np.eye(4)):
         words = "the mesh is in the chunk's own coordinates, so the chunk's transform is to be left out"
         elsewhere = ("chunk-transform", words, np.asarray(np.linalg.inv(outer[0]), np.float64))
-    return Source(origin=path, views=views, elsewhere=elsewhere, assumed=tuple(f"left out: {reason}" for reason in left_out))
+    return Source(
+        origin=path, views=views, elsewhere=elsewhere, assumed=tuple(f"left out: {reason}" for reason in left_out)
+    )
 
 
 def _document(path: Path) -> xml.Element:
@@ -134,7 +138,9 @@ def _sensor(path: Path, element: xml.Element, calibration: xml.Element) -> _Sens
     fisheye = kind == "fisheye"
     strange = [key for key in (*(("b2", "p1", "p2") if fisheye else _NO_TERM),) if term(key)]
     if strange:
-        raise CaptureError(f"{where}: has {strange[0]}, which OpenCV's lens has not; undistort the photographs in Metashape")
+        raise CaptureError(
+            f"{where}: has {strange[0]}, which OpenCV's lens has not; undistort the photographs in Metashape"
+        )
     focal = term("f", term("fy"))
     terms = {"k1": term("k1"), "k2": term("k2"), "k3": term("k3")}
     # Metashape's first tangential term is OpenCV's second.

@@ -73,9 +73,15 @@ class Taken:
         def nearest(picture: Bytes | None) -> Bytes | None:
             return None if picture is None else picture[every // 2 : rows : every, every // 2 : columns : every]
 
-        radiance = cv2.resize(self.radiance[:rows, :columns], (camera.width, camera.height), interpolation=cv2.INTER_AREA)
+        radiance = cv2.resize(
+            self.radiance[:rows, :columns], (camera.width, camera.height), interpolation=cv2.INTER_AREA
+        )
         return replace(
-            self, camera=camera, radiance=np.asarray(radiance, np.float32), mask=nearest(self.mask), labels=nearest(self.labels)
+            self,
+            camera=camera,
+            radiance=np.asarray(radiance, np.float32),
+            mask=nearest(self.mask),
+            labels=nearest(self.labels),
         )
 
 
@@ -103,7 +109,9 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
         radiance = photograph.radiance
     if reading.reference is not None:
         if photograph.exposure is None:
-            raise CaptureError(f"{view.picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand")
+            raise CaptureError(
+                f"{view.picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand"
+            )
         # A merged bracket is radiance over exposure already.
         radiance = radiance * np.float32(reading.reference / (1.0 if reading.brackets > 1 else photograph.exposure))
     turn = _orientation(source, view, photograph, notes)
@@ -156,12 +164,18 @@ def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinho
             "name the pictures that the cameras were fitted to"
         )
     if (width, height) != stated:
-        notes.add(f"pictures are {along:.6g} times as large as their cameras say: focal lengths and principal points are scaled")
+        notes.add(
+            f"pictures are {along:.6g} times as large as their cameras say: focal lengths and principal points are scaled"
+        )
     centre = view.centre or (stated[0] / 2, stated[1] / 2)
     if view.centre is None:
         notes.add("no principal point is stated: it is the picture's middle")
     return Pinhole(
-        width, height, (view.focal[0] * along, view.focal[1] * across), (centre[0] * along, centre[1] * across), view.camera_to_world
+        width,
+        height,
+        (view.focal[0] * along, view.focal[1] * across),
+        (centre[0] * along, centre[1] * across),
+        view.camera_to_world,
     )
 
 

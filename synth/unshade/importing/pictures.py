@@ -23,7 +23,24 @@ Floats = NDArray[np.float32]
 CURVES = ("auto", "srgb", "linear", "rec709", "gamma=<number>")
 """What a transfer curve may be called."""
 
-_RAW = (".3fr", ".arw", ".cr2", ".cr3", ".crw", ".dng", ".iiq", ".nef", ".nrw", ".orf", ".pef", ".raf", ".raw", ".rw2", ".srw", ".x3f")
+_RAW = (
+    ".3fr",
+    ".arw",
+    ".cr2",
+    ".cr3",
+    ".crw",
+    ".dng",
+    ".iiq",
+    ".nef",
+    ".nrw",
+    ".orf",
+    ".pef",
+    ".raf",
+    ".raw",
+    ".rw2",
+    ".srw",
+    ".x3f",
+)
 _RADIANCE = (".exr", ".hdr")
 _READ = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
@@ -172,7 +189,9 @@ def _said(path: Path) -> dict[str, Any]:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             with Image.open(path) as image:
                 if image.width * image.height > _MOST_PIXELS:
-                    raise PictureError(f"{path}: is {image.width} x {image.height}; write it with fewer than {_MOST_PIXELS} pixels")
+                    raise PictureError(
+                        f"{path}: is {image.width} x {image.height}; write it with fewer than {_MOST_PIXELS} pixels"
+                    )
                 exif = image.getexif()
                 orientation = exif.get(_ORIENTATION, 1)
                 return {
@@ -206,7 +225,9 @@ def _decoded(path: Path) -> NDArray[Any]:
     except (OSError, cv2.error) as error:
         raise PictureError(f"{path}: cannot be read: {_reason(error)}; write PNG, JPEG or TIFF again") from error
     if codes is None:
-        raise PictureError(f"{path}: cannot be read: its data are damaged or of an unknown kind; write PNG, JPEG or TIFF again")
+        raise PictureError(
+            f"{path}: cannot be read: its data are damaged or of an unknown kind; write PNG, JPEG or TIFF again"
+        )
     if codes.dtype not in (np.uint8, np.uint16, np.float32):
         raise PictureError(f"{path}: holds {codes.dtype} values; write 8 or 16 bits, or float32")
     if codes.dtype == np.float32 and not np.isfinite(codes).all():
@@ -229,13 +250,17 @@ def _profile(path: Path, icc: bytes | None) -> tuple[NDArray[np.float64] | None,
         profile = ImageCms.ImageCmsProfile(BytesIO(icc))
         name = ImageCms.getProfileDescription(profile).strip()
     except (OSError, ImageCms.PyCMSError) as error:
-        raise PictureError(f"{path}: its colour profile cannot be read: {_reason(error)}; convert it to sRGB") from error
+        raise PictureError(
+            f"{path}: its colour profile cannot be read: {_reason(error)}; convert it to sRGB"
+        ) from error
     core: Any = profile.profile
     primaries, ours = _primaries(core), _primaries(ImageCms.createProfile("sRGB"))
     if core.xcolor_space.strip() == "GRAY" or ours is None:
         return None, name
     if primaries is None:
-        raise PictureError(f"{path}: its colour profile {name!r} is no matrix of primaries; convert the picture to sRGB")
+        raise PictureError(
+            f"{path}: its colour profile {name!r} is no matrix of primaries; convert the picture to sRGB"
+        )
     matrix = np.linalg.inv(ours) @ primaries
     return (None if np.abs(matrix - np.eye(3)).max() < _SAME_PRIMARIES else matrix), name
 
@@ -262,7 +287,9 @@ def _curve(path: Path, curve: str, codes: NDArray[Any], name: str | None, said: 
     if isinstance(gamma, float) and abs(gamma - 1) < 1e-3:
         return "linear"
     if codes.dtype == np.uint16 and path.suffix.lower() in (".tif", ".tiff"):
-        raise PictureError(f"{path}: is a 16-bit TIFF without a colour profile, linear or not; state the curve: linear or srgb")
+        raise PictureError(
+            f"{path}: is a 16-bit TIFF without a colour profile, linear or not; state the curve: linear or srgb"
+        )
     return "srgb"
 
 
