@@ -16,6 +16,7 @@ __all__ = [
     "check_json",
     "commit_folder",
     "compare",
+    "depth_of",
     "export",
     "exr_channels",
     "measure",
@@ -38,6 +39,7 @@ __all__ = [
     "score_json",
     "solve",
     "synth",
+    "write_colour",
     "write_scores",
 ]
 
