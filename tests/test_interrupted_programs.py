@@ -33,7 +33,11 @@ def test_a_program_ends_with_its_suite(rendered: Path, ending: signal.Signals) -
     log = rendered / "run" / "logs" / "tiny-studio" / "waiting.txt"
     log.unlink(missing_ok=True)
     command = [Path(sys.executable).with_name("unshade"), "run", rendered / "suite.toml", "-o", rendered / "run"]
-    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # What a killed run leaves, the next one of its folder clears; there is none here.
+    temporary = {**os.environ, "TMPDIR": str(rendered)}
+    process = subprocess.Popen(
+        list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=temporary
+    )
     children: list[int] = []
     for _ in range(300):
         if log.exists():
