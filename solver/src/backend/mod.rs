@@ -17,9 +17,9 @@ pub mod resident;
 pub use choice::Choice;
 pub use error::BackendError;
 
-use crate::model::bend::{BentTextures, ROWS, SPECULAR};
+use crate::model::bend::{BLURRED, BentTextures, ROWS, SPECULAR};
 use crate::model::networks::Networks;
-use crate::model::normals::{DIRECTIONS, DirectionScale};
+use crate::model::normals::{DIRECTIONS, Deviations, DirectionScale};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::strips::{Strip, blocks};
@@ -84,11 +84,15 @@ pub trait Backend: Send + Sync {
     fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
         let TexturedRelief { networks, samples, light, albedo, scale, textures } = *relief;
         let bent = textures.sample(&samples.taps);
-        let directions = scale.directions(samples, Some(&bent));
+        let deviations = Deviations { planes: &bent, blurred: BLURRED };
+        let directions = scale.directions(samples, Some(deviations));
         let mut albedo = albedo.clone();
         albedo.copy_row(ALBEDOS - 1, &bent, SPECULAR);
         let (loss, by_sample) = self.bend(networks, samples, light, &directions, &albedo);
-        let mut by_bent = scale.adjoint(samples, &bent, &by_sample);
+        let by_deviations = scale.adjoint(samples, deviations, &by_sample);
+        let mut by_bent = Planes::new(ROWS, samples.len());
+        (0..3).for_each(|axis| by_bent.copy_row(axis, &by_deviations, axis));
+        (0..3).for_each(|axis| by_bent.copy_row(BLURRED + axis, &by_deviations, 3 + axis));
         by_bent.copy_row(SPECULAR, &by_sample, DIRECTIONS);
         let add = |(): &mut (), strip: &mut Strip<ROWS>| {
             for (block, lanes) in blocks(strip.samples.clone()) {

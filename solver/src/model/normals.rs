@@ -4,7 +4,6 @@
 
 use glam::Vec3;
 
-use super::bend::{BLURRED, ROWS};
 use super::planes::{BLOCK, Planes, Row, first_rows, first_rows_mut};
 use super::samples::Samples;
 use crate::config::NetworkConfig;
@@ -29,38 +28,62 @@ impl From<&NetworkConfig> for DirectionScale {
 }
 
 impl DirectionScale {
-    /// Directions of every sample. `deviation` has the rows of [`BentTextures::sample`](super::bend::BentTextures);
-    /// without it, the mesh normal serves for both.
-    pub fn directions(&self, samples: &Samples, deviation: Option<&Planes>) -> Planes {
+    /// Directions of every sample ([`DIRECTIONS`] rows); without deviations, the mesh normal serves for both.
+    pub fn directions(&self, samples: &Samples, deviations: Option<Deviations>) -> Planes {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
-            let deviation = deviation.map_or(&STILL[..], |planes| planes.block(block));
+            let [sharp, blurred] = deviations.map_or([&STILL, &STILL], |d| d.block(block));
             let (normal, view) = (samples.normal.block(block), samples.view.block(block));
-            bend(self, normal, view, deviation, out);
+            bend(self, normal, view, sharp, blurred, out);
         })
     }
 
-    /// Carries gradients of the directions (the first six rows of `gradient`) to the deviation and
-    /// its blur; the rows between them stay zero.
-    pub fn adjoint(&self, samples: &Samples, deviation: &Planes, gradient: &Planes) -> Planes {
-        Planes::from_blocks(ROWS, samples.len(), |block, out| {
+    /// Carries gradients of the directions (the first six rows of `gradient`) to the deviations: rows by d (3) and
+    /// by blur(d) (3).
+    pub fn adjoint(&self, samples: &Samples, deviations: Deviations, gradient: &Planes) -> Planes {
+        Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
+            let [sharp, blurred] = deviations.block(block);
             let (normal, view) = (samples.normal.block(block), samples.view.block(block));
-            bend_adjoint(self, normal, view, deviation.block(block), gradient.block(block), out);
+            bend_adjoint(self, normal, view, sharp, blurred, gradient.block(block), out);
         })
     }
 }
 
+/// Sampled deviations among other rows.
+#[derive(Clone, Copy)]
+pub struct Deviations<'a> {
+    /// The rows; those of d come first.
+    pub planes: &'a Planes,
+    /// The first row of blur(d).
+    pub blurred: usize,
+}
+
+impl<'a> Deviations<'a> {
+    /// d and blur(d) of a block's samples.
+    fn block(self, block: usize) -> [&'a [Row; 3]; 2] {
+        let rows = self.planes.block(block);
+        [first_rows(rows), first_rows(&rows[self.blurred..])]
+    }
+}
+
 /// No deviation.
-static STILL: [Row; ROWS] = [Row::ZERO; ROWS];
+static STILL: [Row; 3] = [Row::ZERO; 3];
 
 widened! {
-    fn bend(scale: &DirectionScale, normal: &[Row], view: &[Row], deviation: &[Row], out: &mut [Row]) {
+    fn bend(
+        scale: &DirectionScale,
+        normal: &[Row],
+        view: &[Row],
+        sharp: &[Row; 3],
+        blurred: &[Row; 3],
+        out: &mut [Row],
+    ) {
         let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
-        let (deviation, out) = (first_rows::<ROWS>(deviation), first_rows_mut::<DIRECTIONS>(out));
+        let out = first_rows_mut::<DIRECTIONS>(out);
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
-            let specular = (normal + vector(deviation, 0, lane)).normalize();
+            let specular = (normal + vector(sharp, 0, lane)).normalize();
             let reflected = 2.0 * specular.dot(view) * specular - view;
-            let diffuse = (normal + vector(deviation, BLURRED, lane)).normalize() * scale.normal;
+            let diffuse = (normal + vector(blurred, 0, lane)).normalize() * scale.normal;
             store(out, 0, lane, diffuse);
             store(out, 3, lane, reflected * scale.reflection);
         }
@@ -72,24 +95,24 @@ widened! {
         scale: &DirectionScale,
         normal: &[Row],
         view: &[Row],
-        deviation: &[Row],
+        sharp: &[Row; 3],
+        blurred: &[Row; 3],
         gradient: &[Row],
         out: &mut [Row],
     ) {
         let (normal, view) = (first_rows::<3>(normal), first_rows::<3>(view));
-        let (deviation, gradient) = (first_rows::<ROWS>(deviation), first_rows::<DIRECTIONS>(gradient));
-        let out = first_rows_mut::<ROWS>(out);
+        let (gradient, out) = (first_rows::<DIRECTIONS>(gradient), first_rows_mut::<DIRECTIONS>(out));
         for lane in 0..BLOCK {
             let (normal, view) = (vector(normal, 0, lane), vector(view, 0, lane));
-            let bent = normal + vector(deviation, 0, lane);
+            let bent = normal + vector(sharp, 0, lane);
             let specular = bent.normalize();
             let g = vector(gradient, 3, lane) * scale.reflection;
             let by_specular = 2.0 * (specular.dot(g) * view + specular.dot(view) * g);
             let by_d = normalize_adjoint(bent, by_specular);
             let by_diffuse = vector(gradient, 0, lane) * scale.normal;
-            let by_b = normalize_adjoint(normal + vector(deviation, BLURRED, lane), by_diffuse);
+            let by_b = normalize_adjoint(normal + vector(blurred, 0, lane), by_diffuse);
             store(out, 0, lane, by_d);
-            store(out, BLURRED, lane, by_b);
+            store(out, 3, lane, by_b);
         }
     }
 }

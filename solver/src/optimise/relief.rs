@@ -24,7 +24,7 @@ use crate::config::{Config, HeightConfig};
 use crate::model::blur::Blur;
 use crate::model::height::HeightField;
 use crate::model::networks::Networks;
-use crate::model::normals::DirectionScale;
+use crate::model::normals::{Deviations, DirectionScale};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
@@ -40,6 +40,11 @@ const ENOUGH: f64 = 1e-5;
 const SUBMITTED: usize = 5;
 /// Pulls heights that no pixel sees to zero.
 const REST: f32 = 1e-3;
+
+/// The deviations among the sampled unknowns.
+fn deviations(unknowns: &Planes) -> Deviations<'_> {
+    Deviations { planes: unknowns, blurred: 3 }
+}
 
 /// The linearised problem.
 pub struct ReliefSolve<'a> {
@@ -147,7 +152,7 @@ impl<'a> ReliefSolve<'a> {
         let q = self.sampled(x);
         let highlights = self.highlights.as_ref().map(|light| light.at(samples, &q));
         // Shading by the networks.
-        let directions = self.scale.directions(samples, Some(&q));
+        let directions = self.scale.directions(samples, Some(deviations(&q)));
         let shading = self.backend.shade(self.networks, &self.light, &directions);
         let jacobian = match (&highlights, &self.lit) {
             (Some(_), Some(_)) => None,
@@ -239,7 +244,7 @@ impl<'a> ReliefSolve<'a> {
         let albedo = Planes::from_fn(samples.len(), |_| [1.0, 0.0, 0.0, 1.0 / 3.0]);
         let (_, gradient) =
             self.backend.bend(self.networks, &probe, &self.light, directions, &albedo);
-        self.scale.adjoint(samples, q, &gradient)
+        self.scale.adjoint(samples, deviations(q), &gradient)
     }
 
     /// The unknowns at every sample: both deviations, change of the albedo.

@@ -7,9 +7,10 @@ use super::adam::Adam;
 use crate::backend::resident::{Job, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
-use crate::model::bend::SPECULAR;
+use crate::model::bend::{BLURRED, SPECULAR};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
+use crate::model::normals::Deviations;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
@@ -96,7 +97,8 @@ pub fn layers(
     backend: &dyn Backend,
 ) -> Planes {
     let bent = deviation.bent(&state.deviation, &state.specular).sample(&samples.taps);
-    let directions = deviation.scale.directions(samples, Some(&bent));
+    let deviations = Deviations { planes: &bent, blurred: BLURRED };
+    let directions = deviation.scale.directions(samples, Some(deviations));
     let light = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &light, &directions);
     Planes::from_fn(samples.len(), |i| {
