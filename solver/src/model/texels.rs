@@ -58,7 +58,7 @@ impl<const D: usize> Strip<'_, D> {
             let mut values = [Vec4::ZERO; BLOCK];
             side_by_side(rows, &mut values);
             let values = &values[lanes.clone()];
-            gather(self.taps, self.first, samples.clone(), values, part, stride, here, below);
+            gather(self.taps, self.first, samples.clone(), values, [part, stride], here, below);
         }
     }
 }
@@ -133,19 +133,18 @@ fn turned([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
 
 widened! {
     /// Adds what samples have to the texels of their cells, in rows of a texture from `first` on and in
-    /// those below; of each `stride` texels in a place, to number `part`. The sums of a cell stay in registers
+    /// those below; to number `part` of each `stride` texels in a place. The sums of a cell stay in registers
     /// while its samples pass.
     fn gather(
         taps: &Taps,
         first: usize,
         samples: Range<usize>,
         values: &[Vec4],
-        part: usize,
-        stride: usize,
+        part_of: [usize; 2],
         here: &mut [Texel],
         below: &mut [Texel],
     ) {
-        let size = taps.size();
+        let (size, [part, stride]) = (taps.size(), part_of);
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
         assert!(fractions.len() == cells.len() && values.len() == cells.len());
         let mut sample = 0;
