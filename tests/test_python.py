@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pkgutil
 import shutil
 from pathlib import Path
 
@@ -15,6 +16,12 @@ import unshade
 
 README = Path(__file__).parents[1] / "README.md"
 CASE = "tiny-studio"
+
+
+def test_no_module_has_the_name_of_a_function() -> None:
+    """Importing it would put the module in the function's place."""
+    modules = {module.name for module in pkgutil.iter_modules(unshade.__path__)}
+    assert modules & {*unshade.__all__} == {"errors", "metrics"}
 
 
 def test_a_capture_hands_out_arrays(tiny_run: Path) -> None:

@@ -15,7 +15,7 @@ import unshade
 from unshade.errors import MetricError
 from unshade.metrics import DEFINITIONS
 
-SCRIPT = Path(__file__).parents[1] / "harness" / "tests" / "reference" / "metrics.py"
+SCRIPT = Path(__file__).parents[1] / "harness" / "scoring" / "tests" / "reference" / "metrics.py"
 STORED = json.loads(SCRIPT.with_suffix(".json").read_text())["values"]
 SPECULAR = ("rmse", "pearson", "spearman")
 

@@ -11,8 +11,8 @@ import render_toy
 
 from unshade.cycles import interpreter
 from unshade.errors import RendererError
-from unshade.export import fidelity
-from unshade.export.assets import Options, export
+from unshade.exporting import fidelity
+from unshade.exporting.assets import Options, export
 from unshade.face.ita import Tone
 from unshade.render import capture, llvm
 from unshade.scene_file import parse_scene

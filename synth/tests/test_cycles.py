@@ -14,7 +14,7 @@ import render_toy
 from unshade.cycles import description, interpreter
 from unshade.cycles import relight as judge
 from unshade.errors import RendererError
-from unshade.export.surface import Mesh, Surface
+from unshade.exporting.surface import Mesh, Surface
 from unshade.render import lights
 from unshade.render.camera import Camera, look_at
 from unshade.render.lights import conventions

@@ -13,7 +13,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from unshade.export import fidelity, layered_bsdf, read_gltf, surface
+from unshade.exporting import fidelity, layered_bsdf, read_gltf, surface
 from unshade.render.pictures import read_exr
 
 ROOT = Path(__file__).parents[2]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from unshade.export import lobe
+from unshade.exporting import lobe
 
 
 def ggx(theta, alpha):

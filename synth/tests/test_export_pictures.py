@@ -9,8 +9,8 @@ import pytest
 
 from unshade import _native
 from unshade.errors import CaptureError, ExportError, MapsError, StorageError
-from unshade.export.assets import Options, export
-from unshade.export.texture_files import from_srgb, png_bytes, srgb
+from unshade.exporting.assets import Options, export
+from unshade.exporting.texture_files import from_srgb, png_bytes, srgb
 from unshade.render.pictures import read_exr
 
 NAMES = ("diffuse_albedo", "specular_albedo", "roughness", "diffuse_normal", "specular_normal")

@@ -10,8 +10,8 @@ import render_toy
 
 from unshade import _native
 from unshade.cycles import interpreter
-from unshade.export.surface import Mesh, Surface
-from unshade.export.tangents import mikktspace_normals, mitsuba_normals, with_tangents
+from unshade.exporting.surface import Mesh, Surface
+from unshade.exporting.tangents import mikktspace_normals, mitsuba_normals, with_tangents
 from unshade.render.scene import ChartMaps
 
 BLENDER = """

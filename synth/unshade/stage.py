@@ -141,7 +141,7 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     from .render import llvm
 
     _activate(llvm.choose())
-    from .export.assets import Options, export
+    from .exporting.assets import Options, export
 
     chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
     rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..export.surface import Surface
+from ..exporting.surface import Surface
 from ..face import Part
 from ..render.camera import Camera
 from ..render.lights import AnyLight, Ball, Dome, Environment, Panels, SunSky

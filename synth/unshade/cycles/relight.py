@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..export.surface import Mesh, Surface
+from ..exporting.surface import Mesh, Surface
 from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..render import lights
