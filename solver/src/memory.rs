@@ -41,7 +41,7 @@ use std::fs;
 
 use capture::Capture;
 
-use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, map_size, texture_size};
+use crate::config::{Config, map_size, texture_size};
 
 /// Program, libraries and the stacks and scratch of the threads.
 const PROGRAM: f64 = 50e6;
@@ -121,7 +121,7 @@ impl Estimate {
         let transport = match t.enabled {
             true => {
                 let samples = share * covered;
-                let followed = samples.min(MOST_HIGHLIGHT_SAMPLES as f64) * cells * 4.0;
+                let followed = samples.min(t.highlight_samples as f64) * cells * 4.0;
                 let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
                 warm_up_pictures + (6.0 * matrix).max(stages)
             }

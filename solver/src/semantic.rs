@@ -11,7 +11,8 @@ use formats::fill;
 use formats::picture::Picture;
 use glam::{DVec3, Vec3};
 
-use crate::view_weights::{BLUR_SIGMA_PX, view_weights};
+use crate::config::ViewWeightConfig;
+use crate::view_weights::view_weights;
 
 /// Added to every pixel's weight, so that a region seen only at its rim still has a mean.
 const LEAST_WEIGHT: f32 = 1e-4;
@@ -26,12 +27,13 @@ pub fn initial_diffuse_albedo(
     mesh: &Mesh,
     views: &[View],
     gbuffers: &[GBuffer],
+    weights: &ViewWeightConfig,
     size: usize,
     alike: &[u8],
 ) -> Picture {
     let atlas = Atlas::new(mesh, size);
     let regions = region_map(&atlas, &Projection::of_views(views, gbuffers));
-    let colours = region_colours(views, gbuffers, alike);
+    let colours = region_colours(views, gbuffers, weights, alike);
     let data = regions.iter().flat_map(|region| colours[*region as usize].to_array()).collect();
     Picture { width: size, height: size, channels: 3, data }
 }
@@ -59,11 +61,16 @@ pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
 
 /// Mean colour of the pixels of every region, weighted by the form factor; region 0 is the mean
 /// over all pixels. The regions `alike` have the colour of the most seen of them.
-fn region_colours(views: &[View], gbuffers: &[GBuffer], alike: &[u8]) -> [Vec3; 256] {
+fn region_colours(
+    views: &[View],
+    gbuffers: &[GBuffer],
+    weights: &ViewWeightConfig,
+    alike: &[u8],
+) -> [Vec3; 256] {
     let mut sums = [DVec3::ZERO; 256];
     let mut totals = [0.0_f64; 256];
     for (view, gbuffer) in views.iter().zip(gbuffers) {
-        let weights = view_weights(gbuffer, BLUR_SIGMA_PX);
+        let weights = view_weights(gbuffer, weights);
         for (pixel, weight) in gbuffer.pixels.iter().zip(weights) {
             let pixel = *pixel as usize;
             let colour = Vec3::from_slice(&view.image.data[3 * pixel..]).as_dvec3();

@@ -3,22 +3,16 @@
 //! derivative.
 //!
 //! With g the magnitude of the depth's gradient by central differences (metres per pixel) and d/f
-//! the metres a pixel spans at depth d, the slope is s = min(g / (d/f), [`EDGE_SLOPE`]), and
-//! [`EDGE_SLOPE`] where a neighbour is not covered (silhouette, occluder, edge of the mask). With s̄
+//! the metres a pixel spans at depth d, the slope is s = min(g / (d/f), `edge_slope`), and
+//! `edge_slope` where a neighbour is not covered (silhouette, occluder, edge of the mask). With s̄
 //! the slope blurred by a Gaussian over the covered pixels,
-//! w = max(cos, 0) / (1 + [`FALLOFF`] · s̄), which is in 0 to 1 and does not depend on the unit of
+//! w = max(cos, 0) / (1 + `slope_falloff` · s̄), which is in 0 to 1 and does not depend on the unit of
 //! length. The paper names the factors but neither their scale nor the blur; these are ours.
 
 use capture::gbuffer::GBuffer;
 
+use crate::config::ViewWeightConfig;
 use crate::convolution::{Shape, convolve, gaussian};
-
-/// Default standard deviation of the blur, in pixels of the full picture.
-pub const BLUR_SIGMA_PX: f32 = 2.0;
-/// The slope of a silhouette, and the largest one: the surface turned away by 84 degrees.
-pub const EDGE_SLOPE: f32 = 10.0;
-/// How fast the weight falls with the slope.
-pub const FALLOFF: f32 = 1.0;
 
 /// Cosine between view and normal, not less than 0, per sample.
 pub fn cosine_weights(gbuffer: &GBuffer) -> Vec<f32> {
@@ -26,36 +20,37 @@ pub fn cosine_weights(gbuffer: &GBuffer) -> Vec<f32> {
     pairs.map(|(normal, view)| normal.dot(*view).clamp(0.0, 1.0)).collect()
 }
 
-/// The form factor per sample, 0 to 1; the blur's standard deviation is in pixels.
-pub fn view_weights(gbuffer: &GBuffer, blur_sigma_px: f32) -> Vec<f32> {
-    let slope = gbuffer.spread(&slopes(gbuffer), 0.0);
+/// The form factor per sample, 0 to 1.
+pub fn view_weights(gbuffer: &GBuffer, config: &ViewWeightConfig) -> Vec<f32> {
+    let ViewWeightConfig { depth_blur, edge_slope, slope_falloff, .. } = *config;
+    let slope = gbuffer.spread(&slopes(gbuffer, edge_slope), 0.0);
     let covered = gbuffer.spread(&vec![1.0; gbuffer.len()], 0.0);
     let shape = Shape { width: gbuffer.width, height: gbuffer.height, channels: 1 };
-    let slope = blurred(&slope, shape, blur_sigma_px);
-    let covered = blurred(&covered, shape, blur_sigma_px);
+    let slope = blurred(&slope, shape, depth_blur);
+    let covered = blurred(&covered, shape, depth_blur);
     let cosines = cosine_weights(gbuffer);
     let mean = |pixel: &u32| slope[*pixel as usize] / covered[*pixel as usize];
     cosines
         .iter()
         .zip(&gbuffer.pixels)
-        .map(|(cos, pixel)| cos / (1.0 + FALLOFF * mean(pixel)))
+        .map(|(cos, pixel)| cos / (1.0 + slope_falloff * mean(pixel)))
         .collect()
 }
 
 /// Magnitude of the depth's gradient over the width of a pixel, capped, per sample.
-fn slopes(gbuffer: &GBuffer) -> Vec<f32> {
+fn slopes(gbuffer: &GBuffer, edge_slope: f32) -> Vec<f32> {
     let (width, height) = (gbuffer.width, gbuffer.height);
     let depth = gbuffer.spread(&gbuffer.depths, f32::INFINITY);
     let slope = |(pixel, here): (&u32, &f32)| {
         let (x, y) = (*pixel as usize % width, *pixel as usize / width);
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
-            return EDGE_SLOPE;
+            return edge_slope;
         }
         let at = |x: usize, y: usize| depth[y * width + x];
         let across = (at(x + 1, y) - at(x - 1, y)) / 2.0;
         let down = (at(x, y + 1) - at(x, y - 1)) / 2.0;
         // Two uncovered neighbours give inf - inf; min passes over NaN, so this is an edge too.
-        (across.hypot(down) * gbuffer.focal / here).min(EDGE_SLOPE)
+        (across.hypot(down) * gbuffer.focal / here).min(edge_slope)
     };
     gbuffer.pixels.iter().zip(&gbuffer.depths).map(slope).collect()
 }
@@ -73,13 +68,18 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::Config;
     use crate::testing;
+
+    fn config(depth_blur: f32) -> ViewWeightConfig {
+        ViewWeightConfig { depth_blur, ..Config::default().view_weights }
+    }
 
     #[test]
     fn weights_are_the_form_factor() {
         let camera = testing::camera("a", Vec3::new(0.0, 0.0, 2.0), 64);
         let facing = GBuffer::new(&testing::square(), &camera, None);
-        let weights = facing.spread(&view_weights(&facing, 1.0), 0.0);
+        let weights = facing.spread(&view_weights(&facing, &config(1.0)), 0.0);
         assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)));
         let middle = weights[32 * 64 + 32];
         assert!((middle - 1.0).abs() < 1e-3, "a facing plane has no slope: {middle}");
@@ -90,19 +90,23 @@ mod tests {
         let index = slanted.pixels.iter().position(|pixel| *pixel == 64 * 128 + 64).unwrap();
         let cosine = cosine_weights(&slanted)[index];
         assert!((cosine - 0.5_f32.sqrt()).abs() < 5e-3, "{cosine}");
-        let expected = cosine / (1.0 + FALLOFF);
-        let weight = view_weights(&slanted, 1.0)[index];
+        let expected = cosine / (1.0 + config(1.0).slope_falloff);
+        let weight = view_weights(&slanted, &config(1.0))[index];
         assert!((weight - expected).abs() < 0.02 * expected, "{weight} {expected}");
         let edge = (0..64).find(|x| weights[32 * 64 + x] > 0.0).unwrap();
         assert!(weights[32 * 64 + edge] < 0.3, "the silhouette counts little");
     }
+
     #[test]
     fn the_number_of_threads_changes_no_weight() {
         let camera = testing::camera("a", Vec3::new(0.4, 0.3, 3.0), 50);
         let gbuffer = GBuffer::new(&testing::dome(30), &camera, None);
-        let weights = view_weights(&gbuffer, 1.5);
+        let weights = view_weights(&gbuffer, &config(1.5));
         for threads in 1..=3 {
-            assert_eq!(testing::on_threads(threads, || view_weights(&gbuffer, 1.5)), weights);
+            assert_eq!(
+                testing::on_threads(threads, || view_weights(&gbuffer, &config(1.5))),
+                weights
+            );
         }
     }
 }

@@ -37,6 +37,7 @@ __all__ = [
     "run",
     "run_command_line",
     "score_json",
+    "skin_reflected",
     "solve",
     "synth",
     "write_colour",
@@ -241,6 +242,11 @@ def mikktspace(
     triangles: NDArray[np.int64],
 ) -> NDArray[np.float32]:
     """Tangents (F, 3, 4) of a mesh: xyz unit, and the sign of the bitangent; raises ValueError."""
+
+def skin_reflected(
+    normals: NDArray[np.float32], views: NDArray[np.float32], lights: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The solver's specular BRDF of skin times the cosine (N,), 1/sr; unit vectors (N, 3); raises ValueError."""
 
 class _Object(TypedDict):
     name: str

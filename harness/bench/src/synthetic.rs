@@ -7,16 +7,15 @@ use glam::{Vec2, Vec3};
 use solver::Config;
 use solver::model::networks::Networks;
 use solver::model::planes::Planes;
-use solver::model::samples::{Samples, schlick};
+use solver::model::samples::Samples;
 use solver::model::taps::Taps;
 use solver::optimise::stage::State;
+use solver::transport::skin::schlick;
 
 /// Views of every problem.
 pub const VIEWS: usize = 10;
 /// Side of the square of the chart that a view sees.
 const SEEN: f32 = 0.8;
-/// Reflectance at normal incidence in the Fresnel factor.
-const F0: f32 = 0.04;
 
 /// What the stages of an optimisation start from.
 pub struct Problem {
@@ -38,20 +37,21 @@ impl Problem {
         let (taps, order) = Taps::sorted(size, &uvs);
         drop(uvs);
         let at = |i: usize| pixel(place(order[i]));
+        let config = paper();
+        let f0 = config.skin.f0;
         let vector =
             |part: fn(&Pixel) -> Vec3| Planes::from_fn(pixels, |i| part(&at(i)).to_array());
         let samples = Samples {
             position: vector(|p| p.position),
             normal: vector(|p| p.normal),
             view: vector(|p| p.view),
-            fresnel: Planes::from_fn(pixels, |i| [schlick(F0, at(i).normal.dot(at(i).view))]),
+            fresnel: Planes::from_fn(pixels, |i| [schlick(f0, at(i).normal.dot(at(i).view))]),
             target: vector(|p| p.colour),
             weight: Planes::from_fn(pixels, |_| [1.0]),
             pixel: order.iter().map(|i| (i % per_view) as u32).collect(),
             view_index: order.iter().map(|i| (i / per_view) as u32).collect(),
             taps,
         };
-        let config = paper();
         let wave = |i: usize| 0.5 + 0.4 * (i as f32 * 0.37).sin();
         let texels = size * size;
         let state = State {

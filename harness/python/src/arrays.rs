@@ -6,7 +6,10 @@
 
 use formats::picture::{GrayImage, Picture};
 use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{
+    IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArrayDyn,
+    PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -29,6 +32,19 @@ pub(super) fn picture_to_array<'py>(
         array
     };
     Ok(array.into_pyarray(py))
+}
+
+/// The rows of an array (n, N); raises ValueError with the argument's name for another shape.
+pub(super) fn rows<T: numpy::Element + Copy, const N: usize>(
+    name: &str,
+    array: &PyReadonlyArray2<T>,
+) -> PyResult<Vec<[T; N]>> {
+    let view = array.as_array();
+    if view.ncols() != N {
+        let shape = array.shape();
+        return Err(PyValueError::new_err(format!("{name}: expected (n, {N}), got {shape:?}")));
+    }
+    Ok(view.rows().into_iter().map(|row| std::array::from_fn(|axis| row[axis])).collect())
 }
 
 /// An 8-bit image as uint8.

@@ -9,6 +9,7 @@ mod maps;
 mod meshes;
 mod metrics;
 mod pictures;
+mod skin;
 mod stages;
 mod tangents;
 
@@ -47,6 +48,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;
+    module.add_function(wrap_pyfunction!(skin::skin_reflected, module)?)?;
     module.add_function(wrap_pyfunction!(stages::export, module)?)?;
     module.add_function(wrap_pyfunction!(tangents::mikktspace, module)?)?;
     Ok(())

@@ -2,9 +2,11 @@
 
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use numpy::ndarray::Array3;
-use numpy::{IntoPyArray, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArray3, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use super::arrays::rows;
 
 /// Tangents of a triangle mesh after MikkTSpace: (F, 3, 4) float32, xyz unit and the sign of the bitangent,
 /// v up.
@@ -42,18 +44,6 @@ pub(super) fn mikktspace<'py>(
         tangents[face][corner][axis]
     });
     Ok(array.into_pyarray(py))
-}
-
-fn rows<T: numpy::Element + Copy, const N: usize>(
-    name: &str,
-    array: &PyReadonlyArray2<T>,
-) -> PyResult<Vec<[T; N]>> {
-    let view = array.as_array();
-    if view.ncols() != N {
-        let shape = array.shape();
-        return Err(PyValueError::new_err(format!("{name}: expected (n, {N}), got {shape:?}")));
-    }
-    Ok(view.rows().into_iter().map(|row| std::array::from_fn(|axis| row[axis])).collect())
 }
 
 struct Mesh {

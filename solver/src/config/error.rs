@@ -9,6 +9,14 @@ pub enum ConfigError {
     /// The text is not TOML, has an unknown key, or a value of the wrong type.
     #[error("configuration: {0}")]
     Toml(String),
+    /// A key has another name now.
+    #[error("configuration: {old} has been renamed; write {new}")]
+    Renamed {
+        /// Dotted key that was given.
+        old: &'static str,
+        /// Its name now.
+        new: &'static str,
+    },
     /// A value is out of its range.
     #[error("configuration: {key} is {value}, but must be {range}")]
     Range {

@@ -1,15 +1,19 @@
 //! Every number of the method, named, with its source; and the named configurations.
 
 mod error;
+mod known_mesh;
 mod presets;
 mod ranges;
+mod renamed;
 mod tables;
 
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 pub use error::ConfigError;
-use ranges::range;
+pub use known_mesh::*;
+use ranges::{not_negative, positive, range};
+use renamed::refuse_renamed;
 pub use tables::*;
 
 /// How a capture is decomposed. Section numbers are those of the paper (Neural Shading Fields).
@@ -22,10 +26,14 @@ pub struct Config {
     pub networks: NetworkConfig,
     /// The pixel model.
     pub rendering: RenderingConfig,
+    /// How skin reflects light at its surface.
+    pub skin: SkinConfig,
     /// How much each pixel counts.
     pub view_weights: ViewWeightConfig,
     /// What the textures start from.
     pub initialisation: InitialisationConfig,
+    /// Regions of the face without labels.
+    pub colour_regions: ColourRegionConfig,
     /// Networks and albedos together, at low resolution.
     pub warm_up: WarmUpConfig,
     /// Textures alone, at full resolution.
@@ -63,6 +71,7 @@ impl Config {
             ConfigError::Toml(lines.join(" "))
         };
         let mut given: Table = toml::from_str(text).map_err(|error| toml_error(&error))?;
+        refuse_renamed(&given)?;
         let base = match given.remove("base") {
             None => Self::unshade(),
             Some(Value::String(name)) => Self::preset(&name)?,
@@ -90,7 +99,7 @@ impl Config {
         range("networks.width", n.width, blocks_of_four, "a multiple of 4 up to 64")?;
         range("networks.outputs", n.outputs, blocks_of_four, "a multiple of 4 up to 64")?;
         range("networks.hidden_layers", n.hidden_layers, |x| (1..=8).contains(&x), "1 to 8")?;
-        for (key, value) in [
+        positive(&[
             ("networks.position_scale", n.position_scale),
             ("networks.normal_scale", n.normal_scale),
             ("networks.reflection_scale", n.reflection_scale),
@@ -98,11 +107,11 @@ impl Config {
             ("fine_tuning.deviation_range", f.deviation_range),
             ("normalisation.specular_maximum", self.normalisation.specular_maximum),
             ("adam.epsilon", self.adam.epsilon),
-        ] {
-            range(key, value, |x| x > 0.0 && x.is_finite(), "positive")?;
-        }
-        for (key, value) in [
+            ("view_weights.edge_slope", self.view_weights.edge_slope),
+        ])?;
+        not_negative(&[
             ("view_weights.depth_blur", self.view_weights.depth_blur),
+            ("view_weights.slope_falloff", self.view_weights.slope_falloff),
             ("warm_up.prior", w.prior),
             ("warm_up.network_rate", w.network_rate),
             ("warm_up.diffuse_rate", w.diffuse_rate),
@@ -113,25 +122,22 @@ impl Config {
             ("fine_tuning.deviation_rate", f.deviation_rate),
             ("normalisation.specular_skin", self.normalisation.specular_skin),
             ("normalisation.specular_pooling", self.normalisation.specular_pooling),
-        ] {
-            range(key, value, |x| x >= 0.0 && x.is_finite(), "zero or positive")?;
-        }
+        ])?;
         let fraction = |x: f32| (0.0..1.0).contains(&x);
         let narrow = |x: f32| (0.0..=0.1).contains(&x);
         range("fine_tuning.deviation_smoothing", f.deviation_smoothing, narrow, "0 to 0.1")?;
         range("fine_tuning.deviation_extent", f.deviation_extent, narrow, "0 to 0.1")?;
         range("fine_tuning.deviation_blur", f.deviation_blur, narrow, "0 to 0.1")?;
-        range("rendering.f0", self.rendering.f0, fraction, "0 to 1")?;
         range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
         range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
         range("adam.beta2", self.adam.beta2, fraction, "at least 0 and below 1")?;
-        let regions = self.initialisation.colour_regions;
-        range("initialisation.colour_regions", regions, |x| x <= 64, "0 to 64")?;
         let side = |x: usize| (16..=8192).contains(&x);
         range("warm_up.texture_size", w.texture_size, side, "16 to 8192")?;
         if let TextureSize::Side(texels) = f.texture_size {
             range("fine_tuning.texture_size", texels, side, "16 to 8192, or \"auto\"")?;
         }
+        self.skin.validate()?;
+        self.colour_regions.validate()?;
         self.transport.validate()?;
         self.height.validate()?;
         let percent = |x: f64| x > 0.0 && x <= 100.0;
@@ -194,6 +200,25 @@ mod tests {
         for name in ["paper", "unshade", "fast"] {
             let config = Config::preset(name).unwrap();
             assert_eq!(Config::from_toml(&config.to_toml()).unwrap(), config, "{name}");
+        }
+    }
+
+    #[test]
+    fn renamed_keys_are_refused_with_a_name_that_is_known() {
+        let known = Table::try_from(Config::default()).unwrap();
+        for (old, new) in renamed::RENAMED {
+            let line = |key: &str| match key.split_once('.') {
+                Some((table, key)) => format!("[{table}]\n{key} = 1"),
+                None => format!("[{key}]"),
+            };
+            let message = Config::from_toml(&line(old)).unwrap_err().to_string();
+            assert!(
+                message.contains(old) && message.contains(&format!("write {new}")),
+                "{message}"
+            );
+            let mut steps = new.split('.');
+            let table = known.get(steps.next().unwrap()).unwrap();
+            assert!(steps.next().is_none_or(|key| table.get(key).is_some()), "{new}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Ranges of the values.
 
 use super::error::ConfigError;
-use super::{HeightConfig, TransportConfig};
+use super::{ColourRegionConfig, HeightConfig, SkinConfig, TransportConfig};
 
 /// Refuses a value outside its range, which `range` states in words.
 pub(super) fn range<T: ToString + Copy>(
@@ -17,6 +17,41 @@ pub(super) fn range<T: ToString + Copy>(
     }
 }
 
+impl SkinConfig {
+    pub(super) fn validate(&self) -> Result<(), ConfigError> {
+        let open = |x: f32| x > 0.0 && x < 1.0;
+        range("skin.f0", self.f0, open, "above 0, below 1")?;
+        self.lobes.iter().try_for_each(|lobe| {
+            let rough = |x: f32| x > 0.0 && x <= 1.0;
+            range("skin.lobes.roughness", lobe.roughness, rough, "above 0, to 1")?;
+            range("skin.lobes.weight", lobe.weight, |x| (0.0..=1.0).contains(&x), "0 to 1")
+        })
+    }
+}
+
+impl ColourRegionConfig {
+    pub(super) fn validate(&self) -> Result<(), ConfigError> {
+        range("colour_regions.count", self.count, |x| x <= 64, "0 to 64")?;
+        let side = |x: usize| (16..=512).contains(&x);
+        range("colour_regions.texture_size", self.texture_size, side, "16 to 512")?;
+        range("colour_regions.rows", self.rows, |x| (2..=64).contains(&x), "2 to 64")?;
+        let distance = |x: usize| x > 0 && x < self.texture_size;
+        let within = "1 to below texture_size";
+        range("colour_regions.edge_distance", self.edge_distance, distance, within)?;
+        positive(&[
+            ("colour_regions.dark", self.dark),
+            ("colour_regions.residual_floor", self.residual_floor),
+            ("colour_regions.shading_floor", self.shading_floor),
+        ])?;
+        not_negative(&[
+            ("colour_regions.blur", self.blur),
+            ("colour_regions.luminance_weights", self.luminance_weights[0]),
+            ("colour_regions.luminance_weights", self.luminance_weights[1]),
+            ("colour_regions.edge", self.edge),
+        ])
+    }
+}
+
 impl TransportConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         let side = |x: usize| (16..=512).contains(&x);
@@ -27,7 +62,24 @@ impl TransportConfig {
         range("transport.bounces", self.bounces, |x| x <= 64, "0 to 64")?;
         let share = |x: f32| (0.0..=1.0).contains(&x);
         range("transport.bounce_albedo", self.bounce_albedo, share, "0 to 1")?;
+        range("transport.highlight_samples", self.highlight_samples, |x| x > 0, "1 or more")?;
+        let exponent = |x: i32| (1..=4096).contains(&x);
+        range("transport.light_exponent", self.light_exponent, exponent, "1 to 4096")?;
+        let ratio = |x: f64| x >= 1.0 && x.is_finite();
+        range("transport.tint_range", self.tint_range, ratio, "1 or more")?;
+        let error = |x: f64| x >= 0.0 && x.is_finite();
+        range("transport.tint_error", self.tint_error, error, "zero or positive")?;
+        let outside = |x: f32| x >= 1.0 && x.is_finite();
+        range("transport.near_radius", self.near_radius, outside, "1 or more")?;
+        range("transport.least_radius", self.least_radius, outside, "1 or more")?;
+        positive(&[
+            ("transport.even_contrast", self.even_contrast),
+            ("transport.confidence_misfit", self.confidence_misfit),
+        ])?;
         not_negative(&[
+            ("transport.ray_offset", self.ray_offset),
+            ("transport.veil_blur", self.veil_blur),
+            ("transport.confidence_blur", self.confidence_blur),
             ("transport.prior", self.prior),
             ("transport.grey_mean", self.grey_mean),
             ("transport.grey_texel", self.grey_texel),
@@ -47,8 +99,14 @@ impl HeightConfig {
         range("height.texture_share", self.texture_share, share, "above 0, to 1")?;
         let rounds = |x: usize| (1..=8).contains(&x);
         range("height.linearisations", self.linearisations, rounds, "1 to 8")?;
-        let floor = |x: f32| x > 0.0 && x.is_finite();
-        range("height.residual_floor", self.residual_floor, floor, "positive")?;
+        positive(&[
+            ("height.residual_floor", self.residual_floor),
+            ("height.steepest", self.steepest),
+            ("height.darkest_albedo", self.darkest_albedo),
+            ("height.least_contrast", self.least_contrast),
+        ])?;
+        let tolerance = |x: f64| (0.0..1.0).contains(&x);
+        range("height.tolerance", self.tolerance, tolerance, "at least 0 and below 1")?;
         let narrow = |x: f32| (0.0..=0.1).contains(&x);
         range("height.albedo_smoothing", self.albedo_smoothing, narrow, "0 to 0.1")?;
         range("height.blur", self.blur, narrow, "0 to 0.1")?;
@@ -57,6 +115,10 @@ impl HeightConfig {
         range("height.diffuse_doubt", self.diffuse_doubt, within, "0 to 1")?;
         range("height.rim", self.rim, |x: usize| x <= 16, "0 to 16")?;
         not_negative(&[
+            ("height.usual_bend", self.usual_bend),
+            ("height.usual_albedo_detail", self.usual_albedo_detail),
+            ("height.neighbourhood", self.neighbourhood),
+            ("height.unseen_damping", self.unseen_damping),
             ("height.flatness", self.flatness),
             ("height.smoothness", self.smoothness),
             ("height.albedo_damping", self.albedo_damping),
@@ -64,7 +126,13 @@ impl HeightConfig {
     }
 }
 
-fn not_negative(values: &[(&'static str, f32)]) -> Result<(), ConfigError> {
+pub(super) fn positive(values: &[(&'static str, f32)]) -> Result<(), ConfigError> {
+    values
+        .iter()
+        .try_for_each(|(key, value)| range(key, *value, |x| x > 0.0 && x.is_finite(), "positive"))
+}
+
+pub(super) fn not_negative(values: &[(&'static str, f32)]) -> Result<(), ConfigError> {
     values.iter().try_for_each(|(key, value)| {
         range(key, *value, |x| x >= 0.0 && x.is_finite(), "zero or positive")
     })

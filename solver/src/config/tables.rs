@@ -24,22 +24,44 @@ pub struct NetworkConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RenderingConfig {
-    /// Multiply the specular shading by Schlick's factor, equation (1).
+    /// Multiply the specular shading by Schlick's factor, equation (1), of [`SkinConfig::f0`].
     pub fresnel: bool,
-    /// Reflectance at normal incidence in that factor; 0.04.
-    pub f0: f32,
     /// Keep both albedos at or above zero after every step; the paper leaves them free.
     pub positive_albedo: bool,
+}
+
+/// The specular reflection of skin. The renderer's material has the same numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SkinConfig {
+    /// Reflectance at normal incidence in Schlick's factor, equation (1); 0.04.
+    pub f0: f32,
+    /// Two lobes of microfacets: fits of skin need a narrow and a wide one (Ghosh et al. 2008). Not in the paper.
+    pub lobes: [Lobe; 2],
+}
+
+/// A GGX lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lobe {
+    /// GGX alpha; 0.15 and 0.35, after the shaders of Digital Emily 2.
+    pub roughness: f32,
+    /// Part of the reflection; equal there.
+    pub weight: f32,
 }
 
 /// Section 5.3: cosine x inverse blurred depth derivative, scaled to mean 1 over all pixels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewWeightConfig {
-    /// Divide the cosine by the blurred depth derivative, see [`capture::gbuffer::view_weights`].
+    /// Divide the cosine by the blurred depth derivative, see `view_weights.rs`.
     pub depth: bool,
     /// Standard deviation of the blur, pixels of the full picture. Not published.
     pub depth_blur: f32,
+    /// The slope of a silhouette, and the largest one: the surface turned away by 84 degrees. Not published.
+    pub edge_slope: f32,
+    /// Inverse slope at which the weight is half of the cosine. Not published.
+    pub slope_falloff: f32,
 }
 
 /// Section 5.3, first paragraph.
@@ -52,8 +74,6 @@ pub struct InitialisationConfig {
     /// no colour of skin. Without names in the capture, every label has its own colour. Empty in the
     /// paper.
     pub skin_labels: Vec<String>,
-    /// Regions of like colour that take the place of labels in a capture without any; 0: none do.
-    pub colour_regions: usize,
     /// The brightest initial specular albedo; 0.05.
     pub specular_maximum: f32,
     /// Seeds of the networks that are tried, from `seed` on; the warm-up goes on with the one that has
@@ -189,122 +209,6 @@ pub struct NormalisationConfig {
     pub specular_pooling: f32,
 }
 
-/// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light
-/// is an RGB environment of `rows` x `2 rows` cells, positive by its exponential parametrisation,
-/// and starts as 1 from everywhere.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TransportConfig {
-    /// Take the diffuse albedo from this solve; false leaves it to the networks, as in the paper.
-    pub enabled: bool,
-    /// Side of the texture on which transport is computed, texels.
-    pub texture_size: usize,
-    /// Rows of the environment.
-    pub rows: usize,
-    /// Rays per cell are this number squared.
-    pub rays_per_cell_side: usize,
-    /// Bounces off the mesh.
-    pub bounces: usize,
-    /// The albedo that light bounces off while the light is sought; then it is the face's own.
-    pub bounce_albedo: f32,
-    /// Steps that seek the light and its distance alone, the albedo held, on an even sky.
-    pub probe: usize,
-    /// Learning rate of the light's nearness (inverse distance, in units of about 1 per metre around a
-    /// head); 0 leaves the light at infinity.
-    pub nearness_rate: f32,
-    /// Full-batch steps of light and albedo together.
-    pub iterations: usize,
-    /// Give regions that are no skin a colour anew under the light of the probe; needs
-    /// [`InitialisationConfig::skin_labels`].
-    pub recolour: bool,
-    /// After [`Self::distance`], which it needs, give the light the colour of its highlights, and the
-    /// diffuse albedo what is left.
-    pub tint: bool,
-    /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
-    pub hold: usize,
-    /// Weight of the albedo prior.
-    pub prior: f32,
-    /// Weight of the squared deviation of the mean shading from grey.
-    pub grey_mean: f32,
-    /// Weight of the mean absolute deviation of each texel's shading from grey.
-    pub grey_texel: f32,
-    /// Learning rate of the light's logarithm.
-    pub light_rate: f32,
-    /// Learning rate of the diffuse albedo.
-    pub diffuse_rate: f32,
-    /// Learning rate of the specular albedo.
-    pub specular_rate: f32,
-    /// Learning rate of the networks, which here stand for the specular layer alone.
-    pub network_rate: f32,
-    /// Predict from the found light what all views share of the highlights, and take it out of the
-    /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
-    pub veil: bool,
-    /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
-    /// highlights that the light itself makes on skin; need what `veil` needs. 0 leaves both as the probe
-    /// has found them, with the networks' highlights.
-    pub distance: usize,
-    /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
-    /// networks; then little of the veil is taken out where the light has contrast.
-    pub highlights: usize,
-    /// Steps that refine the albedo on the final texture and full pictures.
-    pub refinement: usize,
-    /// Weight of the albedo prior in the refinement.
-    pub refinement_prior: f32,
-}
-
-/// Normals by Gauss-Newton on a height texture; not in the paper.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct HeightConfig {
-    /// Solve for heights; false leaves normals to the deviation texture, as in the paper.
-    pub enabled: bool,
-    /// Side of the height texture over that of the fine-tuned textures.
-    pub texture_share: f32,
-    /// How often the pictures are linearised, each time on a texture of twice the side.
-    pub linearisations: usize,
-    /// Take highlights, and how they change with the normals, from the light that was found with its
-    /// highlights ([`TransportConfig::highlights`]); else, or without such a light, from the networks.
-    pub highlights: bool,
-    /// Reweightings towards an L1 norm per linearisation.
-    pub reweightings: usize,
-    /// Conjugate-gradient steps per reweighting on a texture of side 256, and in proportion to the side on
-    /// others: a step carries what it finds by a texel.
-    pub steps: usize,
-    /// Residuals below this radiance count squared.
-    pub residual_floor: f32,
-    /// Standard deviation of the blur that takes detail out of the albedo's logarithm, as a fraction
-    /// of the texture's side: relief must not be in it already.
-    pub albedo_smoothing: f32,
-    /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
-    /// texture's side.
-    pub blur: f32,
-    /// Residuals coarser than this are no relief: a standard deviation, as a fraction of the side of a square
-    /// as large as the mesh in the view. 0 keeps them.
-    pub coarsest: f32,
-    /// Pixels this close to where the mesh ends in a view tell nothing of relief: they see two surfaces.
-    pub rim: usize,
-    /// Share of a residual's part in the colour of the diffuse layer that counts for nothing: most of what
-    /// the model gets wrong has that colour, relief in highlights that of the light.
-    pub diffuse_doubt: f32,
-    /// Weight of the squared deviation. Without [`Self::highlights`], under explicit transport, over the
-    /// squared contrast of the light, and more where that is even.
-    pub flatness: f32,
-    /// Weight of its squared differences from texel to texel.
-    pub smoothness: f32,
-    /// Weight of squared relative changes of the diffuse albedo.
-    pub albedo_damping: f32,
-}
-
-/// The side of the texture on which [`HeightConfig::steps`] are taken.
-const SIDE_OF_STEPS: usize = 256;
-
-impl HeightConfig {
-    /// Conjugate-gradient steps per reweighting on a texture of this side.
-    pub(crate) fn steps_on(&self, side: usize) -> usize {
-        (self.steps * side).div_ceil(SIDE_OF_STEPS)
-    }
-}
-
 /// What a maps folder holds besides the maps, for whoever wants to see how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -314,7 +218,3 @@ pub struct RecordConfig {
     /// `layers/`: every training view as the model sees it.
     pub layers: bool,
 }
-
-/// Of more samples than this, the highlights are followed on a part: a cell of the sky and a texel of the
-/// transport are far coarser than pixels.
-pub(crate) const MOST_HIGHLIGHT_SAMPLES: usize = 40_000;

@@ -9,9 +9,6 @@ use rayon::prelude::*;
 
 use capture::gbuffer::Atlas;
 
-/// Texels in which a unit step of the height would bend the normal more than this hold no relief:
-/// the chart is squeezed there.
-const STEEPEST: f32 = 6.0;
 /// Smallest squared area of a texel, over that of a typical one.
 const LEAST_AREA: f32 = 1e-4;
 
@@ -24,8 +21,9 @@ pub struct HeightField {
 }
 
 impl HeightField {
-    /// The relief of a chart.
-    pub fn new(atlas: &Atlas) -> Self {
+    /// The relief of a chart. Texels in which a unit step of the height would bend the normal by more than
+    /// `steepest` hold none.
+    pub fn new(atlas: &Atlas, steepest: f32) -> Self {
         let size = atlas.size;
         let step = |at: usize, stride: usize, place: usize| {
             let ahead = if place + 1 < size { at + stride } else { at };
@@ -48,7 +46,7 @@ impl HeightField {
             let area = (a * c - b * b).max(LEAST_AREA * squared * squared);
             let right = (c * u - b * v) / area * unit;
             let down = (a * v - b * u) / area * unit;
-            let usable = *inside && right.length() <= STEEPEST && down.length() <= STEEPEST;
+            let usable = *inside && right.length() <= steepest && down.length() <= steepest;
             if usable { (-right, -down) } else { (Vec3::ZERO, Vec3::ZERO) }
         };
         let (right, down) = steps.par_iter().zip(&atlas.inside).map(dual).unzip();
@@ -117,7 +115,7 @@ mod tests {
     #[test]
     fn a_ramp_on_a_plane_tilts_the_normal_by_its_slope() {
         // 2 metres over 32 texels: a texel is 62.5 mm, and the height counts texels.
-        let field = HeightField::new(&Atlas::new(&testing::square(), 32));
+        let field = HeightField::new(&Atlas::new(&testing::square(), 32), 6.0);
         let ramp: Vec<f32> = (0..32 * 32).map(|at| 0.3 * (at % 32) as f32).collect();
         let bend = field.bend(&ramp);
         let middle = Vec3::from_slice(&bend[3 * (16 * 32 + 16)..]);
@@ -131,7 +129,7 @@ mod tests {
     #[test]
     fn a_bump_on_a_sphere_bends_normals_as_the_displaced_surface_has_them() {
         let atlas = Atlas::new(&testing::dome(64), 128);
-        let field = HeightField::new(&atlas);
+        let field = HeightField::new(&atlas, 6.0);
         let bump =
             |p: Vec3| 0.02 * (-(p - Vec3::new(0.3, 0.2, 0.93)).length_squared() / 0.02).exp();
         // Heights in metres, in the unit of the field: found from a known ramp.
@@ -159,7 +157,7 @@ mod tests {
 
     #[test]
     fn adjoint_is_the_transpose() {
-        let field = HeightField::new(&Atlas::new(&testing::dome(8), 24));
+        let field = HeightField::new(&Atlas::new(&testing::dome(8), 24), 6.0);
         let wave =
             |count: usize, k: f32| (0..count).map(|i| (i as f32 * k).sin()).collect::<Vec<_>>();
         let (height, gradient) = (wave(24 * 24, 0.7), wave(3 * 24 * 24, 1.3));

@@ -7,6 +7,7 @@ use glam::{Vec2, Vec3};
 use super::planes::Planes;
 use super::taps::Taps;
 use crate::config::{Config, ViewWeightConfig};
+use crate::transport::skin::schlick;
 use crate::view_weights;
 
 /// Samples in texel order; see [`Taps`].
@@ -60,7 +61,7 @@ impl SampleSpace {
         Self {
             centre: 0.5 * (low + high),
             scale: config.networks.position_scale / half,
-            f0: config.rendering.fresnel.then_some(config.rendering.f0),
+            f0: config.rendering.fresnel.then_some(config.skin.f0),
         }
     }
 
@@ -75,7 +76,7 @@ impl SampleSpace {
         let mut samples = vec![];
         for (number, (view, gbuffer)) in views.iter().zip(gbuffers).enumerate() {
             let weights = match weights.depth {
-                true => view_weights::view_weights(gbuffer, weights.depth_blur),
+                true => view_weights::view_weights(gbuffer, weights),
                 false => view_weights::cosine_weights(gbuffer),
             };
             let target = |pixel: u32| Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
@@ -164,11 +165,6 @@ impl Samples {
     pub fn is_empty(&self) -> bool {
         self.pixel.is_empty()
     }
-}
-
-/// Schlick's approximation, equation (1).
-pub fn schlick(f0: f32, cosine: f32) -> f32 {
-    f0 + (1.0 - f0) * (1.0 - cosine.clamp(0.0, 1.0)).powi(5)
 }
 
 fn sample(gbuffer: &GBuffer, i: usize, target: Vec3, weight: f32) -> Sample {

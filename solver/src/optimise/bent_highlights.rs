@@ -26,7 +26,7 @@ impl<'a> BentHighlights<'a> {
         }
         let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
         let albedo = samples.taps.sample::<1>(&gloss);
-        let glints = site.transport(lit.standing).glints(&lit.light.radiance)?;
+        let glints = site.transport(lit.standing).glints(&site.config.skin, &lit.light.radiance)?;
         Some(Self { backend: site.backend, glints, albedo })
     }
 

@@ -22,7 +22,7 @@ use crate::backend::Backend;
 use crate::config::Config;
 
 /// Counts the changes of what is written.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// Time between two checkpoints of a stage.
 const INTERVAL: Duration = Duration::from_secs(30);
 /// A checkpoint may take this share of the time: large textures on a slow disk are kept less often.

@@ -1,26 +1,22 @@
 //! How far the albedo of a texel may be trusted: it was seen, in light, and what was seen is
 //! explained.
 
+use crate::config::TransportConfig;
 use crate::model::blur::Blur;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
-/// Relative residual at which trust has fallen to 1 / e.
-const MISFIT: f32 = 0.1;
-/// Standard deviation of the smoothing, texels.
-const SMOOTHING: f32 = 1.5;
-
-/// Trust in every texel of the samples' texture, 0 to 1: q / (1 + q) x exp(-r / 0.1). q weighs the
-/// pull of the pictures (the sum of view weight x S_d) against that of the prior of weight `prior`; r is
-/// the mean absolute residual over the mean colour. `layers` has S_d of R, G, B and the specular layer,
+/// Trust in every texel of the samples' texture, 0 to 1: q / (1 + q) x exp(-r / `confidence_misfit`). q
+/// weighs the pull of the pictures (the sum of view weight x S_d) against that of the prior of weight
+/// `refinement_prior`; r is the mean absolute residual over the mean colour. `layers` has S_d of R, G, B and the specular layer,
 /// `diffuse` the albedo at every sample.
 pub(super) fn confidence(
+    config: &TransportConfig,
     samples: &Samples,
     layers: &Planes,
     diffuse: &Planes,
-    prior: f32,
 ) -> Vec<f32> {
-    let size = samples.taps.size();
+    let (size, prior) = (samples.taps.size(), config.refinement_prior);
     let parts = Planes::from_fn(samples.len(), |i| {
         let [r, g, b, specular]: [f32; 4] = layers.sample(i, 0);
         let shading = [r, g, b];
@@ -34,12 +30,13 @@ pub(super) fn confidence(
             sum(&|c| target[c].abs()),
         ]
     });
-    let sums = Blur::new(size, 3, SMOOTHING).apply(&samples.taps.gather::<3>(&parts, 0));
+    let sums =
+        Blur::new(size, 3, config.confidence_blur).apply(&samples.taps.gather::<3>(&parts, 0));
     let pull = (size * size) as f32 / (samples.len().max(1) as f32 * prior.max(f32::MIN_POSITIVE));
     let trust = |[light, misfit, colour]: &[f32; 3]| {
         let q = pull * light;
         let r = misfit / colour.max(f32::MIN_POSITIVE);
-        q / (1.0 + q) * (-r / MISFIT).exp()
+        q / (1.0 + q) * (-r / config.confidence_misfit).exp()
     };
     sums.as_chunks::<3>().0.iter().map(trust).collect()
 }

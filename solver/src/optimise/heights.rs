@@ -86,7 +86,7 @@ mod tests {
     fn a_relief_bends_normals_alike_on_a_texture_of_another_side() {
         let mesh = testing::dome(24);
         let bend = |side: usize, unknowns: &[f32]| {
-            HeightField::new(&Atlas::new(&mesh, side)).bend(&unknowns[..side * side])
+            HeightField::new(&Atlas::new(&mesh, side), 6.0).bend(&unknowns[..side * side])
         };
         let wave = |at: usize| {
             let (x, y) = ((at % 32) as f32, (at / 32) as f32);

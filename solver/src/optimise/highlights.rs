@@ -16,7 +16,7 @@ use super::tint::tint;
 use super::transported::reflectance;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
-use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES, TransportConfig};
+use crate::config::{Config, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
@@ -138,11 +138,12 @@ impl<'a> Highlights<'a> {
         found: Found,
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
-        let samples = samples.thinned(MOST_HIGHLIGHT_SAMPLES);
+        let samples = samples.thinned(t.highlight_samples);
         let gloss = samples.taps.sample::<1>(found.gloss);
         let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
-        let reflection = transport.reflection(&samples, &gloss, peak, found.nearness)?;
+        let reflection =
+            transport.reflection(&config.skin, &samples, &gloss, peak, found.nearness)?;
         Some(Self {
             config: t,
             transport,
@@ -172,7 +173,7 @@ impl<'a> Highlights<'a> {
         let layer = self.layer(state, &shading);
         let shown =
             |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
-        let tint = tint(&self.samples, &self.reflection.radiance(&light), shown);
+        let tint = tint(self.config, &self.samples, &self.reflection.radiance(&light), shown);
         let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
         let [before, after] = [&light, &tinted].map(|light| self.transport.peak(light));
         if before == 0.0 {
@@ -241,7 +242,7 @@ impl Stage for Highlights<'_> {
         self.by_light.step(&mut self.log_light, &gradient.light, share, f32::NEG_INFINITY);
         if let Some(by_nearness) = gradient.nearness {
             self.by_nearness.step(&mut self.nearness, &[by_nearness], share, 0.0);
-            self.nearness[0] = self.nearness[0].min(Transport::nearest());
+            self.nearness[0] = self.nearness[0].min(self.transport.nearest());
         }
         if self.by_light.steps() > self.hold {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
@@ -263,7 +264,7 @@ impl Stage for Highlights<'_> {
         let diffuse = Variable::new(&mut state.diffuse, &mut self.by_diffuse, 0.0);
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
-            Variable { most: Transport::nearest(), ..nearness },
+            Variable { most: self.transport.nearest(), ..nearness },
             Variable { hold: self.hold, ..diffuse },
         ]
     }

@@ -30,6 +30,8 @@ pub(super) struct Lit {
     pub gloss: Vec<f32>,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
+    /// See [`crate::config::TransportConfig::even_contrast`].
+    even_contrast: f32,
     pub standing: Standing,
     /// What is left in the record.
     pub light: RecoveredLight,
@@ -49,7 +51,7 @@ impl Lit {
         let (config, transport) = (site.config, site.transport(standing));
         let veil = match gloss.is_empty() {
             true => vec![],
-            false => veil(&config.networks, transport, samples, &state, backend, &radiance, &gloss),
+            false => veil(config, transport, samples, &state, backend, &radiance, &gloss),
         };
         let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
         Self {
@@ -60,6 +62,7 @@ impl Lit {
             veil,
             gloss,
             explained: false,
+            even_contrast: config.transport.even_contrast,
             standing,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
@@ -80,7 +83,7 @@ impl Lit {
 
     /// 1 of a light that is the same from everywhere, 0 of lamps in the dark.
     fn evenness(&self) -> f32 {
-        1.0 / (1.0 + (self.light.contrast() / EVEN_CONTRAST).powi(2))
+        1.0 / (1.0 + (self.light.contrast() / self.even_contrast).powi(2))
     }
 
     /// The pictures less their share of what all views share of the highlights.
@@ -129,9 +132,6 @@ impl Highlights {
         Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
     }
 }
-
-/// A light with this contrast is half even.
-const EVEN_CONTRAST: f32 = 0.3;
 
 /// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
 pub(super) const LIT: usize = 4 * CHANNELS;

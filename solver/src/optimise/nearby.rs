@@ -10,13 +10,6 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::view_weights::blurred;
 
-/// What skin's relief (radians) and the detail of its albedo (relative) usually amount to.
-const RELIEF: f32 = 0.05;
-const PAINT: f32 = 0.03;
-/// Standard deviation of the neighbourhood in which residuals are compared with what these explain,
-/// pixels.
-const NEIGHBOURHOOD: f32 = 3.0;
-
 /// The samples in the pictures that they come from.
 pub(super) struct Nearby<'a> {
     config: &'a HeightConfig,
@@ -35,19 +28,20 @@ impl<'a> Nearby<'a> {
     /// at most 1: the rest is what the model gets wrong, along shadow edges and hairlines and in the ears.
     /// 0 on the rim.
     pub fn trust(&self, slopes: &Planes, left: &Planes) -> Planes {
-        let floor = self.config.residual_floor;
+        let HeightConfig { residual_floor: floor, usual_bend, usual_albedo_detail, .. } =
+            *self.config;
         let squares = self.each(|i| {
             let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
             let usual = |c: usize| {
                 let bend = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
                 // Half of a bend's square lies along the slope.
-                0.5 * RELIEF * RELIEF * bend.length_squared()
-                    + (PAINT * s[12 + c]).powi(2)
+                0.5 * usual_bend * usual_bend * bend.length_squared()
+                    + (usual_albedo_detail * s[12 + c]).powi(2)
                     + floor * floor
             };
             [left.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
         });
-        let around = self.around(&squares, |_| NEIGHBOURHOOD);
+        let around = self.around(&squares, |_| self.config.neighbourhood);
         Planes::from_fn(self.samples.len(), |i| {
             let [left, usual]: [f32; 2] = around.sample(i, 0);
             let share = (usual / left.max(f32::MIN_POSITIVE)).min(1.0);
@@ -74,7 +68,7 @@ impl<'a> Nearby<'a> {
         let square =
             |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();
         let squares = self.each(|i| [square(a, i), square(b, i), 0.0]);
-        let around = self.around(&squares, |_| NEIGHBOURHOOD);
+        let around = self.around(&squares, |_| self.config.neighbourhood);
         self.each(|i| {
             let [by_a, by_b]: [f32; 2] = around.sample(i, 0);
             let share = by_b / (by_a + by_b).max(f32::MIN_POSITIVE);

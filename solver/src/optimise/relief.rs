@@ -30,16 +30,8 @@ use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::transport::CHANNELS;
 
-/// Darkest albedo that a logarithm is taken of.
-const DARKEST: f32 = 1e-3;
-/// Least square of a light's contrast.
-const LEAST_CONTRAST: f32 = 1e-4;
-/// Squared norm of the rest, over that of the goal, at which a solve has converged.
-const ENOUGH: f64 = 1e-5;
 /// Steps that a device takes between two words with the caller.
 const SUBMITTED: usize = 5;
-/// Pulls heights that no pixel sees to zero.
-const REST: f32 = 1e-3;
 
 /// The deviations among the sampled unknowns.
 fn deviations(unknowns: &Planes) -> Deviations<'_> {
@@ -87,7 +79,8 @@ impl<'a> ReliefSolve<'a> {
         let size = atlas.size;
         let height = &config.height;
         let smooth = Blur::new(state.size, 3, height.albedo_smoothing * state.size as f32);
-        let logs: Vec<f32> = state.diffuse.iter().map(|a| a.max(DARKEST).ln()).collect();
+        let logs: Vec<f32> =
+            state.diffuse.iter().map(|a| a.max(height.darkest_albedo).ln()).collect();
         let diffuse: Vec<f32> = smooth.apply(&logs).iter().map(|log| log.exp()).collect();
         let diffuse = resample(&diffuse, state.size, 3, size);
         let specular = resample(&state.specular, state.size, 1, size);
@@ -98,7 +91,7 @@ impl<'a> ReliefSolve<'a> {
             backend,
             samples,
             scale: DirectionScale::from(&config.networks),
-            field: HeightField::new(atlas),
+            field: HeightField::new(atlas, height.steepest),
             blur: Blur::new(size, 3, config.height.blur * size as f32),
             size,
             albedo,
@@ -107,7 +100,7 @@ impl<'a> ReliefSolve<'a> {
             lit: lit.map(|lit| lit.sampled(samples)),
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
-            flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(LEAST_CONTRAST),
+            flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(height.least_contrast),
             highlights: None,
             steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),
@@ -325,7 +318,7 @@ impl<'a> ReliefSolve<'a> {
             let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
             let mut out = self.carried(&gathered, Some(&penalty));
             let (by_height, by_albedo) = out.split_at_mut(texels);
-            add_scaled(by_height, height, REST);
+            add_scaled(by_height, height, self.config.unseen_damping);
             add_scaled(by_albedo, albedo, self.config.albedo_damping);
             out
         };
@@ -344,7 +337,7 @@ impl<'a> ReliefSolve<'a> {
         let start = normal(x);
         let mut rest: Vec<f32> = goal.iter().zip(&start).map(|(b, ax)| b - ax).collect();
         let mut direction = rest.clone();
-        let enough = ENOUGH * dot(&goal, &goal);
+        let enough = self.config.tolerance * dot(&goal, &goal);
         let mut energy = dot(&rest, &rest);
         for number in 0..self.steps {
             if number >= heard {
@@ -386,10 +379,10 @@ impl<'a> ReliefSolve<'a> {
             blur: &self.blur,
             flatness: self.flatness,
             smoothness: self.config.smoothness,
-            rest: REST,
+            rest: self.config.unseen_damping,
             damping: self.config.albedo_damping,
             doubt: self.config.diffuse_doubt,
-            enough: ENOUGH,
+            enough: self.config.tolerance,
         };
         let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
         let (mut heard, mut told) = (0, Ok(()));

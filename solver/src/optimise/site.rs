@@ -148,16 +148,16 @@ impl<'a> Site<'a> {
     fn colour_regions(&self) -> Option<&ColourRegions> {
         let views = &self.capture.train;
         let find = || {
-            let count = self.config.initialisation.colour_regions;
+            let config = &self.config.colour_regions;
             let labelled = views.iter().any(|view| view.labels.is_some());
             let projections = || Projection::of_views(views, &self.gbuffers);
-            (count > 0 && !labelled)
+            (config.count > 0 && !labelled)
                 .then(|| {
                     ColourRegions::new(
                         &self.capture.mesh,
                         &projections(),
                         &self.config.transport,
-                        count,
+                        config,
                     )
                 })
                 .flatten()
@@ -195,9 +195,14 @@ impl<'a> Site<'a> {
         let mesh = &self.capture.mesh;
         let diffuse = match self.colour_regions().filter(|_| config.initialisation.semantic) {
             Some(regions) => regions.albedo(size),
-            None => {
-                semantic::initial_diffuse_albedo(mesh, views, &self.gbuffers, size, &self.skin())
-            }
+            None => semantic::initial_diffuse_albedo(
+                mesh,
+                views,
+                &self.gbuffers,
+                &config.view_weights,
+                size,
+                &self.skin(),
+            ),
         };
         let diffuse = diffuse.data;
         let grey: Vec<f32> =

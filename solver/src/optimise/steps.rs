@@ -15,7 +15,7 @@ use super::stage::{Stage, State};
 use super::transported::{albedo, light, light_and_albedo};
 use super::veil;
 use super::warm_up::WarmUp;
-use crate::config::{Config, MOST_HIGHLIGHT_SAMPLES};
+use crate::config::Config;
 use crate::model::networks::Networks;
 
 /// A step of a solve; a checkpoint is kept after each of them.
@@ -114,7 +114,7 @@ impl Step {
             }
             Self::Distance | Self::Highlights => {
                 let cells = (2 * t.rows * t.rows) as f64;
-                let entries = cells * few.min(MOST_HIGHLIGHT_SAMPLES as f64);
+                let entries = cells * few.min(t.highlight_samples as f64);
                 let texels = cells * square(t.texture_size);
                 Work { preparation: 25e-9 * entries, ..work(0.4, entries, 0.1, texels) }
             }

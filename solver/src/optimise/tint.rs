@@ -4,13 +4,9 @@
 //! the highlights in it. But what varies in one place from view to view is hardly diffuse: it has the
 //! colour of the light (the dichromatic model of reflection).
 
+use crate::config::TransportConfig;
 use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
-
-/// Channels that differ by a larger factor are not believed.
-const MOST: f64 = 2.0;
-/// Nor is a factor with a larger standard error, relative to itself.
-const LARGEST_ERROR: f64 = 0.05;
 
 /// Sums over the samples of a texel.
 #[derive(Clone, Copy, Default)]
@@ -38,6 +34,7 @@ struct Moments {
 /// sensor was full. 1 if there is too little to tell. Both in linear radiance; what is shown may hold
 /// what is the same all over a texel.
 pub(super) fn tint(
+    config: &TransportConfig,
     samples: &Samples,
     predicted: &[[f32; CHANNELS]],
     shown: impl Fn(usize) -> [f32; CHANNELS],
@@ -76,12 +73,12 @@ pub(super) fn tint(
         let slope = both / predicted;
         let error = ((shown - slope * both).max(0.0) / (freedom * predicted)).sqrt();
         // Also if they are not numbers.
-        if error < LARGEST_ERROR * slope { slope } else { 0.0 }
+        if error < config.tint_error * slope { slope } else { 0.0 }
     };
     let slopes = [0, 1, 2].map(slope);
     let least = slopes.into_iter().fold(f64::MAX, f64::min);
     let largest = slopes.into_iter().fold(0.0, f64::max);
-    let sound = least > 0.0 && largest < MOST * least;
+    let sound = least > 0.0 && largest < config.tint_range * least;
     if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
 }
 
@@ -102,6 +99,10 @@ mod tests {
     use crate::model::samples::SampleSpace;
     use crate::testing;
 
+    fn config() -> TransportConfig {
+        Config::default().transport
+    }
+
     /// Two views of a dome, and highlights that vary within its texels.
     fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
         let config = Config::default();
@@ -121,7 +122,7 @@ mod tests {
     /// `tint` of the prediction over a paint that differs from texel to texel.
     fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
         let paint = |i: usize| samples.taps.nearest(i) as f32;
-        super::tint(samples, predicted, |i| {
+        super::tint(&config(), samples, predicted, |i| {
             std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
         })
     }
@@ -143,7 +144,7 @@ mod tests {
         let none = vec![[0.0; CHANNELS]; samples.len()];
         assert_eq!(shown(&samples, &none, [0.8, 1.0, 1.4]), ones, "no highlights");
         let noise = |i: usize| [(i as f32 * 78.233).sin() * 30.0 + predicted[i][0]; CHANNELS];
-        assert_eq!(tint(&samples, &predicted, noise), ones, "noise");
+        assert_eq!(tint(&config(), &samples, &predicted, noise), ones, "noise");
         let mut alone = samples.clone();
         alone.view_index.fill(0);
         assert_eq!(shown(&alone, &predicted, [0.8, 1.0, 1.4]), ones, "one view");
@@ -158,7 +159,8 @@ mod tests {
             if hit(i) { [2.0, target[1], target[2]] } else { target }
         });
         let red = |i: usize| if hit(i) { 0.0 } else { 0.8 * predicted[i][0] };
-        let found = tint(&samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
+        let found =
+            tint(&config(), &samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
         assert!((found[0] - 0.8).abs() < 1e-3, "{found:?}");
     }
 }

@@ -123,7 +123,7 @@ pub(super) fn refined(
     let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
     run.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
-    let confidence = confidence(samples, &planes, &albedo, prior);
+    let confidence = confidence(t, samples, &planes, &albedo);
     Ok(Physical { diffuse: own.diffuse, scale: lit.peak, confidence })
 }
 
@@ -330,7 +330,7 @@ impl Stage for Transported<'_> {
         let free = f32::NEG_INFINITY;
         self.by_light.step(&mut self.log_light, &gradient.light, share, free);
         self.by_nearness.step(&mut self.nearness, &[gradient.nearness], share, 0.0);
-        self.nearness[0] = self.nearness[0].min(Transport::nearest());
+        self.nearness[0] = self.nearness[0].min(self.transport.nearest());
         if self.by_light.steps() > self.hold {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
         }
@@ -358,7 +358,7 @@ impl Stage for Transported<'_> {
         let networks = &mut state.networks.parameters;
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, free),
-            Variable { most: Transport::nearest(), ..nearness },
+            Variable { most: self.transport.nearest(), ..nearness },
             Variable { hold: self.hold, ..diffuse },
             Variable::new(&mut state.specular, &mut self.by_specular, 0.0),
             Variable::new(networks, &mut self.by_networks, free),

@@ -9,16 +9,13 @@ use super::gloss;
 use super::site::Site;
 use super::stage::State;
 use crate::backend::Backend;
-use crate::config::{Config, NetworkConfig};
+use crate::config::Config;
 use crate::model::blur::Blur;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
 use crate::transport::{CHANNELS, Transport};
-
-/// Standard deviation of the blur over the texture, texels.
-const BLUR: f32 = 1.5;
 
 /// Whether highlights are predicted from the light.
 pub(super) fn wanted(config: &Config) -> bool {
@@ -44,7 +41,7 @@ pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
 /// shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
 /// diffuse albedo takes up. Empty if the transport does not hold what is open.
 pub(super) fn veil(
-    config: &NetworkConfig,
+    config: &Config,
     transport: &Transport,
     samples: &Samples,
     state: &State,
@@ -53,9 +50,9 @@ pub(super) fn veil(
     specular: &[f32],
 ) -> Vec<f32> {
     let taps = &samples.taps;
-    let Some(glints) = transport.glints(light) else { return vec![] };
+    let Some(glints) = transport.glints(&config.skin, light) else { return vec![] };
     let highlights = backend.highlights(&glints, samples, &samples.normal);
-    let directions = DirectionScale::from(config).directions(samples, None);
+    let directions = DirectionScale::from(&config.networks).directions(samples, None);
     let known = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &known, &directions);
     let networks = taps.sample::<1>(&state.specular);
@@ -72,7 +69,7 @@ pub(super) fn veil(
         [weight * r, weight * g, weight * b, weight]
     };
     let texels: Vec<[f32; 4]> = of.par_iter().zip(specular).map(texel).collect();
-    let sums = Blur::new(taps.size(), 4, BLUR).apply(texels.as_flattened());
+    let sums = Blur::new(taps.size(), 4, config.transport.veil_blur).apply(texels.as_flattened());
     let mean = |[r, g, b, weight]: &[f32; 4]| match *weight > 1e-6 {
         true => [r, g, b].map(|sum| sum / weight),
         false => [0.0; CHANNELS],

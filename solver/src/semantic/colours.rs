@@ -13,50 +13,32 @@ use formats::picture::Picture;
 use glam::{DVec3, Vec3};
 
 use super::clusters::{centres, clusters, lloyd};
-use crate::config::TransportConfig;
+use crate::config::{ColourRegionConfig, TransportConfig};
 use crate::model::blur::Blur;
-use crate::transport::{self, Beside, Sky, Transport};
-
-/// Side of the chart on which regions are found, texels.
-const SIDE: usize = 128;
-/// Rows of the sky whose light is found on the way.
-const ROWS: usize = 8;
-/// Standard deviation of the blur that keeps noise out, texels.
-const BLUR: f32 = 0.7;
-/// What a difference in log luminance counts against one in the log ratios of the colours, which white
-/// light leaves alone: before the light is known, and after.
-const LUMINANCE_SHARES: [f32; 2] = [0.1, 0.5];
-/// Radiance below which ratios are noise, relative to the median luminance.
-const DARK: f32 = 0.01;
-/// Times that the light is found, and the regions under it.
-const LIGHTS: usize = 10;
-/// Steps towards a light.
-const STEPS: usize = 30;
-/// Distance over which a boundary is looked at, texels.
-const ACROSS: usize = 3;
-/// Least mean difference in the three log colours, as a vector, across the boundary of two regions.
-const EDGE: f32 = 0.8;
-/// Pairs of texels without which a boundary says nothing.
-const PAIRS: f32 = 25.0;
+use crate::transport::{self, Beside, CHANNELS, Sky, Transport};
 
 /// The regions of a chart and their colours.
 #[derive(Clone, Debug)]
 pub struct ColourRegions {
-    /// Of every texel of a chart of [`SIDE`].
+    /// Side of the chart, texels.
+    side: usize,
+    /// Of every texel.
     regions: Vec<u8>,
     /// Linear RGB of every region, in the unit of the pictures.
     colours: Vec<Vec3>,
 }
 
 impl ColourRegions {
-    /// At most `count` regions; `None` if the pictures are mostly black.
+    /// `None` if the pictures are mostly black.
     pub fn new(
         mesh: &Mesh,
         projections: &[Projection],
         transport: &TransportConfig,
-        count: usize,
+        config: &ColourRegionConfig,
     ) -> Option<Self> {
-        let atlas = Atlas::new(mesh, SIDE);
+        let ColourRegionConfig { count, texture_size: side, rows, blur, luminance_weights, .. } =
+            *config;
+        let atlas = Atlas::new(mesh, side);
         let texel = |seen: &[(usize, Observation)]| {
             let colour = |(view, seen): &(usize, Observation)| {
                 (seen.cosine * projections[*view].colour(seen)).extend(seen.cosine)
@@ -64,30 +46,37 @@ impl ColourRegions {
             seen.iter().map(colour).sum::<glam::Vec4>().to_array()
         };
         let sums: Vec<[f32; 4]> = per_texel(&atlas, projections, texel);
-        let smooth = Blur::new(SIDE, 4, BLUR).apply(sums.as_flattened());
+        let smooth = Blur::new(side, 4, blur).apply(sums.as_flattened());
         let known: Vec<bool> = sums.iter().map(|sum| sum[3] > 0.0).collect();
         let seen: Vec<usize> = (0..known.len()).filter(|at| known[*at]).collect();
         let colour = |at: &usize| Vec3::from_slice(&smooth[4 * at..]) / smooth[4 * at + 3];
         let colours: Vec<Vec3> = seen.iter().map(colour).collect();
-        let config = TransportConfig { texture_size: SIDE, rows: ROWS, ..transport.clone() };
-        let transport = Transport::new(mesh, &Sky::even(ROWS), &config, 0, Beside::Nothing);
+        let transport = TransportConfig { texture_size: side, rows, ..transport.clone() };
+        let transport = Transport::new(mesh, &Sky::even(rows), &transport, 0, Beside::Nothing);
 
         let mut albedo = colours.clone();
-        let mut regions = clusters(&features(&albedo, LUMINANCE_SHARES[0])?, count);
-        for _ in 0..LIGHTS {
-            let shading =
-                shading(&transport, &seen, &colours, &means(&albedo, &regions, count), &regions);
+        let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
+        for _ in 0..config.rounds {
+            let shading = shading(
+                config,
+                &transport,
+                &seen,
+                &colours,
+                &means(&albedo, &regions, config),
+                &regions,
+            );
             albedo =
                 colours.iter().zip(shading).map(|(colour, shading)| *colour / shading).collect();
-            regions = lloyd(&features(&albedo, LUMINANCE_SHARES[1])?, regions, count);
+            regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
         }
-        let regions = merged(&seen, &albedo, regions, count);
+        let regions = merged(config, &seen, &albedo, regions);
         let mut map = vec![0; known.len()];
         seen.iter().zip(&regions).for_each(|(at, region)| map[*at] = *region);
-        let nearest = fill::nearest_known(&known, SIDE, SIDE);
+        let nearest = fill::nearest_known(&known, side, side);
         Some(Self {
+            side,
             regions: nearest.into_iter().map(|at| map[at as usize]).collect(),
-            colours: means(&albedo, &regions, count),
+            colours: means(&albedo, &regions, config),
         })
     }
 
@@ -100,8 +89,8 @@ impl ColourRegions {
 
     /// The region of every texel of a chart of side `size`.
     pub fn map(&self, size: usize) -> Vec<u8> {
-        let at = |i: usize| (2 * i + 1) * SIDE / (2 * size);
-        (0..size * size).map(|i| self.regions[at(i / size) * SIDE + at(i % size)]).collect()
+        let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
+        (0..size * size).map(|i| self.regions[at(i / size) * self.side + at(i % size)]).collect()
     }
 }
 
@@ -113,16 +102,16 @@ fn log(colour: Vec3, dark: f32) -> Vec3 {
     (colour.max(Vec3::ZERO) + dark).map(f32::ln)
 }
 
-/// [`DARK`] in the unit of the colours; `None` of nothing but black.
-fn dark(colours: &[Vec3]) -> Option<f32> {
+/// [`ColourRegionConfig::dark`] in the unit of the colours; `None` of nothing but black.
+fn dark(colours: &[Vec3], relative: f32) -> Option<f32> {
     let mut sorted: Vec<f32> = colours.iter().map(luminance).collect();
     sorted.sort_by(f32::total_cmp);
-    sorted.get(sorted.len() / 2).filter(|median| **median > 0.0).map(|median| DARK * median)
+    sorted.get(sorted.len() / 2).filter(|median| **median > 0.0).map(|median| relative * median)
 }
 
 /// Points whose distances say how alike colours are.
-fn features(colours: &[Vec3], weight: f32) -> Option<Vec<Vec3>> {
-    let dark = dark(colours)?;
+fn features(colours: &[Vec3], weight: f32, relative: f32) -> Option<Vec<Vec3>> {
+    let dark = dark(colours, relative)?;
     let feature = |colour: &Vec3| {
         let log = log(*colour, dark);
         Vec3::new(log.x - log.y, log.z - log.y, weight * (luminance(colour) + dark).ln())
@@ -131,10 +120,10 @@ fn features(colours: &[Vec3], weight: f32) -> Option<Vec<Vec3>> {
 }
 
 /// The mean colour of every region; logarithmic, so that highlights have little say.
-fn means(colours: &[Vec3], regions: &[u8], count: usize) -> Vec<Vec3> {
-    let dark = dark(colours).unwrap_or(f32::MIN_POSITIVE);
+fn means(colours: &[Vec3], regions: &[u8], config: &ColourRegionConfig) -> Vec<Vec3> {
+    let dark = dark(colours, config.dark).unwrap_or(f32::MIN_POSITIVE);
     let logs: Vec<Vec3> = colours.iter().map(|colour| log(*colour, dark)).collect();
-    centres(&logs, regions, count).into_iter().map(|log| log.map(f32::exp)).collect()
+    centres(&logs, regions, config.count).into_iter().map(|log| log.map(f32::exp)).collect()
 }
 
 /// The shading of the texels `seen` under the light that explains their colours best, of mean 1 in
@@ -143,6 +132,7 @@ fn means(colours: &[Vec3], regions: &[u8], count: usize) -> Vec<Vec3> {
 /// Least squares with weights towards L1, over light that is not negative, by multiplicative updates
 /// (Lee and Seung 2001).
 fn shading(
+    config: &ColourRegionConfig,
     transport: &Transport,
     seen: &[usize],
     colours: &[Vec3],
@@ -160,7 +150,7 @@ fn shading(
         seen.iter().map(|at| Vec3::from_slice(&all[3 * at..])).collect()
     };
     let back = |values: &dyn Fn(usize) -> Vec3| {
-        let mut all = vec![0.0; 3 * SIDE * SIDE];
+        let mut all = vec![0.0; CHANNELS * transport.size().pow(2)];
         for (i, at) in seen.iter().enumerate() {
             all[3 * at..][..3].copy_from_slice(&values(i).to_array());
         }
@@ -168,9 +158,10 @@ fn shading(
     };
     let most = means.iter().fold(0.0f32, |m, a| m.max(luminance(a)));
     let share = |i: usize| luminance(&means[regions[i] as usize]) / most;
-    for _ in 0..STEPS {
+    for _ in 0..config.light_steps {
         let found = of(&light);
-        let weight = |i: usize| share(i) * ((wanted[i] - found[i]).abs() + 0.1).recip();
+        let weight =
+            |i: usize| share(i) * ((wanted[i] - found[i]).abs() + config.residual_floor).recip();
         let up = back(&|i| weight(i) * wanted[i]);
         let down = back(&|i| weight(i) * found[i]);
         for (light, (up, down)) in light.iter_mut().zip(up.iter().zip(&down)) {
@@ -181,21 +172,27 @@ fn shading(
     let mean = shading.iter().map(|s| s.as_dvec3()).sum::<DVec3>() / shading.len() as f64;
     let mean = mean.as_vec3().max(Vec3::splat(f32::MIN_POSITIVE));
     // What the light hardly reaches says nothing of its colour.
-    shading.into_iter().map(|s| (s / mean).max(Vec3::splat(0.02))).collect()
+    shading.into_iter().map(|s| (s / mean).max(Vec3::splat(config.shading_floor))).collect()
 }
 
 /// The regions without boundaries that are no edges.
-fn merged(seen: &[usize], albedo: &[Vec3], regions: Vec<u8>, count: usize) -> Vec<u8> {
-    let dark = dark(albedo).unwrap_or(f32::MIN_POSITIVE);
-    let mut texels = vec![None; SIDE * SIDE];
+fn merged(
+    config: &ColourRegionConfig,
+    seen: &[usize],
+    albedo: &[Vec3],
+    regions: Vec<u8>,
+) -> Vec<u8> {
+    let ColourRegionConfig { count, texture_size: side, edge_distance: across, edge, .. } = *config;
+    let dark = dark(albedo, config.dark).unwrap_or(f32::MIN_POSITIVE);
+    let mut texels = vec![None; side * side];
     for ((at, albedo), region) in seen.iter().zip(albedo).zip(&regions) {
         texels[*at] = Some((*region as usize, log(*albedo, dark)));
     }
     // By first and second region: the sum of differences across their boundary, and their number.
     let mut jumps = vec![vec![(Vec3::ZERO, 0.0_f32); count]; count];
     for at in 0..texels.len() {
-        let right = (at % SIDE + ACROSS < SIDE).then(|| at + ACROSS);
-        let below = (at / SIDE + ACROSS < SIDE).then(|| at + ACROSS * SIDE);
+        let right = (at % side + across < side).then(|| at + across);
+        let below = (at / side + across < side).then(|| at + across * side);
         for other in right.into_iter().chain(below) {
             if let (Some((a, here)), Some((b, there))) = (texels[at], texels[other])
                 && a != b
@@ -207,7 +204,7 @@ fn merged(seen: &[usize], albedo: &[Vec3], regions: Vec<u8>, count: usize) -> Ve
     }
     let mut joined: Vec<usize> = (0..count).collect();
     loop {
-        let mut least = (EDGE, None);
+        let mut least = (edge, None);
         for a in 0..count {
             for b in a + 1..count {
                 let mut jump = (Vec3::ZERO, 0.0);
@@ -220,7 +217,7 @@ fn merged(seen: &[usize], albedo: &[Vec3], regions: Vec<u8>, count: usize) -> Ve
                     jump = (jump.0 + sign * jumps[i][j].0, jump.1 + jumps[i][j].1);
                 }
                 let height = jump.0.length() / jump.1;
-                if jump.1 >= PAIRS && height < least.0 {
+                if jump.1 >= config.edge_pairs as f32 && height < least.0 {
                     least = (height, Some((a, b)));
                 }
             }
@@ -251,7 +248,8 @@ mod tests {
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
         let projections = Projection::of_views(&views, &gbuffers);
-        ColourRegions::new(&mesh, &projections, &Config::default().transport, 4)
+        let config = Config::default();
+        ColourRegions::new(&mesh, &projections, &config.transport, &config.colour_regions)
     }
 
     /// The texels of the chart's disc, with where they lie from its centre.

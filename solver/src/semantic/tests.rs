@@ -11,9 +11,13 @@ fn two_regions(p: Vec3) -> (Vec3, u8) {
     if p.x < 0.0 { (LEFT, 3) } else { (RIGHT, 5) }
 }
 
+fn weights() -> ViewWeightConfig {
+    crate::Config::default().view_weights
+}
+
 fn initial(views: &[View], size: usize) -> Picture {
     let mesh = testing::dome(24);
-    initial_diffuse_albedo(&mesh, views, &GBuffer::of_views(&mesh, views), size, &[])
+    initial_diffuse_albedo(&mesh, views, &GBuffer::of_views(&mesh, views), &weights(), size, &[])
 }
 
 fn views() -> Vec<View> {
@@ -45,7 +49,8 @@ fn labels_that_are_alike_begin_with_the_colour_of_the_largest() {
     let views: Vec<View> =
         testing::rig(3, 48).iter().map(|camera| testing::view(&mesh, camera, three)).collect();
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    let initial = |alike: &[u8]| initial_diffuse_albedo(&mesh, &views, &gbuffers, 32, alike);
+    let initial =
+        |alike: &[u8]| initial_diffuse_albedo(&mesh, &views, &gbuffers, &weights(), 32, alike);
     let near = |albedo: &Picture, x: usize, expected: Vec3| {
         (Vec3::from_slice(albedo.pixel(x, 16)) - expected).length() < 1e-5
     };

@@ -2,11 +2,13 @@
 
 use glam::Vec3;
 
-use super::gloss::{F0, GRAZING, LOBES, scale};
+use super::gloss::scale;
 use super::matrix::Matrix;
+use super::skin::{GRAZING, lobe_slopes, schlick};
 use super::{CHANNELS, LUMINANCE, Transport};
+use crate::config::SkinConfig;
 use crate::model::planes::Planes;
-use crate::model::samples::{Samples, schlick};
+use crate::model::samples::Samples;
 use crate::simd::widened;
 
 /// Rows of [`Glints::on`]: R, G, B, and how the luminance changes with the normal's x, y, z.
@@ -19,6 +21,7 @@ const OPPOSITE: f32 = 1e-12;
 /// What makes highlights on skin, whatever its normals: a light, and what of it is open.
 pub struct Glints<'a> {
     transport: &'a Transport,
+    skin: &'a SkinConfig,
     open: &'a Matrix,
     cells: Vec<Cells>,
     scale: f32,
@@ -27,9 +30,9 @@ pub struct Glints<'a> {
 impl Transport {
     /// Of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the transport holds
     /// what is open ([`super::Beside::Open`]).
-    pub fn glints(&self, light: &[f32]) -> Option<Glints<'_>> {
+    pub fn glints<'a>(&'a self, skin: &'a SkinConfig, light: &[f32]) -> Option<Glints<'a>> {
         let open = self.open.as_ref()?;
-        let scale = scale(self.peak(light));
+        let scale = scale(skin, self.peak(light));
         let light = self.through_lobes(light);
         let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
         for (cell, (centre, light)) in self.sky.centres().iter().zip(&light).enumerate() {
@@ -38,7 +41,7 @@ impl Transport {
             let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
             (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
         }
-        Some(Glints { transport: self, open, cells, scale })
+        Some(Glints { transport: self, skin, open, cells, scale })
     }
 }
 
@@ -47,7 +50,7 @@ impl Glints<'_> {
     /// normals (unit), and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`]
     /// rows.
     pub fn on(&self, samples: &Samples, normals: &Planes) -> Planes {
-        let Self { transport, open, cells, scale } = self;
+        let Self { transport, skin, open, cells, scale } = self;
         Planes::from_fn(samples.len(), |i| {
             let row = transport.row_of(samples, i);
             let seen = Seen {
@@ -56,22 +59,23 @@ impl Glints<'_> {
                 from: transport.sky.nearness * transport.places[row],
             };
             let mut sums = [0.0; HIGHLIGHT_ROWS];
-            sum_lobes(cells, &open.rows[row * open.cells..][..open.cells], &seen, &mut sums);
+            let open = &open.rows[row * open.cells..][..open.cells];
+            sum_lobes(skin, cells, open, &seen, &mut sums);
             sums.map(|sum| scale * sum)
         })
     }
 
     /// For a device that does the same.
     pub(crate) fn parts(&self, samples: &Samples) -> GlintParts<'_> {
-        let Self { transport, open, cells, scale } = self;
+        let Self { transport, skin, open, cells, scale } = self;
         GlintParts {
             cells: cells.as_flattened().as_flattened(),
             open: &open.rows,
             row: (0..samples.len()).map(|i| transport.row_of(samples, i) as u32).collect(),
             from: transport.places.iter().map(|place| transport.sky.nearness * *place).collect(),
             scale: *scale,
-            constants: [F0, GRAZING, OPPOSITE],
-            lobes: LOBES,
+            guards: [GRAZING, OPPOSITE],
+            skin,
         }
     }
 }
@@ -88,10 +92,9 @@ pub(crate) struct GlintParts<'a> {
     pub from: Vec<Vec3>,
     /// Of the result.
     pub scale: f32,
-    /// Reflectance at normal incidence, least cosine of the view, least squared length of a sum of directions.
-    pub constants: [f32; 3],
-    /// Roughness and share.
-    pub lobes: [(f32, f32); 2],
+    /// Least cosine of the view, least squared length of a sum of directions.
+    pub guards: [f32; 2],
+    pub skin: &'a SkinConfig,
 }
 
 /// Values of a cell: its direction from the sky's centre, R, G, B, luminance.
@@ -106,9 +109,9 @@ struct Seen {
 }
 
 widened! {
-    /// Sums [`HIGHLIGHT_ROWS`] rows over the cells that are open: with c = n.h, and r(x) for the root in Smith's term
-    /// 2 x / (x + r(x)), a lobe is D(c) / (2 (n.v + r(n.v))) x 2 n.l / (n.l + r(n.l)) x F(v.h).
-    fn sum_lobes(cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; HIGHLIGHT_ROWS]) {
+    /// Sums [`HIGHLIGHT_ROWS`] rows over the cells that are open.
+    fn sum_lobes(skin: &SkinConfig, cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; HIGHLIGHT_ROWS]) {
+        let skin = *skin;
         let Seen { normal: n, view: v, from } = *seen;
         let nv = n.dot(v).max(GRAZING);
         let mut lanes = [[0.0f32; LANES]; HIGHLIGHT_ROWS];
@@ -129,21 +132,8 @@ widened! {
                 let (nl, c, vh) = (n.dot(l), n.dot(h), v.dot(h));
                 let towards = if nl > 0.0 { here[lane] } else { 0.0 };
                 let nl = nl.max(0.0);
-                // The sum of the lobes, and its derivatives by n.h, n.v and n.l.
-                let [mut value, mut by_c, mut by_nv, mut by_nl] = [0.0f32; 4];
-                for (alpha, share) in LOBES {
-                    let a = alpha * alpha;
-                    let spread = 1.0 / (c * c * (a - 1.0) + 1.0);
-                    let d = share * a * std::f32::consts::FRAC_1_PI * spread * spread;
-                    let [rv, rl] = [nv, nl].map(|x| (a + (1.0 - a) * x * x).sqrt());
-                    let [iv, il] = [1.0 / (nv + rv), 1.0 / (nl + rl)];
-                    let lobe = d * iv * il;
-                    value += lobe * nl;
-                    by_c += lobe * nl * 4.0 * c * (1.0 - a) * spread;
-                    by_nv -= lobe * nl * iv * (1.0 + (1.0 - a) * nv / rv);
-                    by_nl += lobe * il * a / rl;
-                }
-                let weight = towards * schlick(F0, vh);
+                let [value, by_c, by_nv, by_nl] = lobe_slopes(&skin, c, nv, nl);
+                let weight = towards * schlick(skin.f0, vh);
                 let by = (h * by_c + v * by_nv + l * by_nl) * (weight * cells[6][lane]);
                 let value = weight * value;
                 lanes[0][lane] += value * cells[3][lane];
@@ -194,8 +184,9 @@ mod tests {
     fn highlights_are_what_the_light_is_solved_for_with() {
         let (transport, light, samples) = scene();
         let ones = Planes::from_fn(samples.len(), |_| [1.0]);
-        let rows = transport.reflection(&samples, &ones, transport.peak(&light), NEARNESS).unwrap();
-        let found = transport.glints(&light).unwrap().on(&samples, &samples.normal);
+        let (skin, peak) = (Config::default().skin, transport.peak(&light));
+        let rows = transport.reflection(&skin, &samples, &ones, peak, NEARNESS).unwrap();
+        let found = transport.glints(&skin, &light).unwrap().on(&samples, &samples.normal);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
             for (c, expected) in expected.into_iter().enumerate() {
@@ -208,6 +199,7 @@ mod tests {
     #[test]
     fn slopes_are_those_of_finite_differences() {
         let (transport, light, samples) = scene();
+        let skin = Config::default().skin;
         const STEP: f32 = 2e-3;
         let along = |axis: Vec3, step: f32| {
             let normal = |i: usize| {
@@ -215,10 +207,10 @@ mod tests {
                 (normal + step * (axis - normal * normal.dot(axis))).to_array()
             };
             let normals = Planes::from_fn(samples.len(), normal);
-            let bent = transport.glints(&light).unwrap().on(&samples, &normals);
+            let bent = transport.glints(&skin, &light).unwrap().on(&samples, &normals);
             move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
         };
-        let bent = transport.glints(&light).unwrap().on(&samples, &samples.normal);
+        let bent = transport.glints(&skin, &light).unwrap().on(&samples, &samples.normal);
         for axis in [Vec3::X, Vec3::Y] {
             let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
             let (mut error, mut energy) = (0.0, 0.0);

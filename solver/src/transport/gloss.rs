@@ -4,21 +4,15 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::matrix::{Matrix, add_scaled};
+use super::skin::reflected;
 use super::{CHANNELS, SkyRay, Transport};
+use crate::config::SkinConfig;
 use crate::model::planes::Planes;
-use crate::model::samples::{Samples, schlick};
+use crate::model::samples::Samples;
 
-/// Reflectance of skin at normal incidence in Schlick's approximation.
-pub(super) const F0: f32 = 0.04;
-/// GGX roughness and share of skin's two lobes.
-pub(super) const LOBES: [(f32, f32); 2] = [(0.15, 0.5), (0.35, 0.5)];
-/// Exponent of the cosine lobe that the light is seen through: 10 degrees, about a cell.
-const LOBE: i32 = 64;
 /// Shares of a lobe that are left out: they change no sum, but their products with other factors would be
 /// subnormal, which some processors take a hundred times as long for.
 const FAINT: f32 = 1e-16;
-/// Least cosine of a direction to the surface.
-pub(super) const GRAZING: f32 = 1e-3;
 
 /// From a light to the highlights of samples, linear.
 #[derive(Debug)]
@@ -52,6 +46,7 @@ impl Transport {
     /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::glints`].
     pub fn reflection(
         &self,
+        skin: &SkinConfig,
         samples: &Samples,
         specular: &Planes,
         peak: f32,
@@ -61,8 +56,8 @@ impl Transport {
         let (cells, lobes) = (self.cells(), self.lobes());
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
-            let scale = scale(peak) * specular.get(0, i);
-            for (cell, weight) in self.reflecting(open, &centres, samples, i, nearness) {
+            let scale = scale(skin, peak) * specular.get(0, i);
+            for (cell, weight) in self.reflecting(skin, open, &centres, samples, i, nearness) {
                 add_scaled(row, &lobes[cell * cells..][..cells], scale * weight);
             }
         });
@@ -73,6 +68,7 @@ impl Transport {
     /// F0 / pi.
     fn reflecting<'a>(
         &'a self,
+        skin: &'a SkinConfig,
         open: &'a Matrix,
         centres: &'a [Vec3],
         samples: &Samples,
@@ -85,7 +81,7 @@ impl Transport {
         let from = nearness * self.places[row];
         let cells = open.rows[row * self.cells()..].iter().zip(centres).enumerate();
         cells.filter(|(_, (open, _))| **open > 0.0).map(move |(cell, (open, centre))| {
-            (cell, open * reflected(normal, view, (*centre - from).normalize()))
+            (cell, open * reflected(skin, normal, view, (*centre - from).normalize()))
         })
     }
 
@@ -107,7 +103,7 @@ impl Transport {
         let (rays, centres) = (self.sky.rays(1, 0), self.sky.centres());
         let lobe = |centre: &Vec3| {
             let weight = |(other, ray): (&Vec3, &SkyRay)| {
-                ray.solid_angle * centre.dot(*other).max(0.0).powi(LOBE)
+                ray.solid_angle * centre.dot(*other).max(0.0).powi(self.light_exponent)
             };
             let row: Vec<f32> = centres.iter().zip(&rays).map(weight).collect();
             let total: f32 = row.iter().sum();
@@ -120,65 +116,6 @@ impl Transport {
 
 /// From [`Transport::reflecting`] to radiance by the reflectance at normal incidence, in a light of this
 /// peak.
-pub(super) fn scale(peak: f32) -> f32 {
-    std::f32::consts::PI / (F0 * peak.max(f32::MIN_POSITIVE))
-}
-
-/// Two GGX lobes with Schlick's term, times the cosine of the light.
-fn reflected(normal: Vec3, view: Vec3, light: Vec3) -> f32 {
-    let (towards_view, towards_light) = (normal.dot(view).max(GRAZING), normal.dot(light));
-    if towards_light <= 0.0 {
-        return 0.0;
-    }
-    let half = (view + light).normalize();
-    let cosine = normal.dot(half);
-    let lobe = |(alpha, share): (f32, f32)| {
-        let squared = alpha * alpha;
-        let smith = |c: f32| 2.0 * c / (c + (squared + (1.0 - squared) * c * c).sqrt());
-        let spread = cosine * cosine * (squared - 1.0) + 1.0;
-        let density = squared * std::f32::consts::FRAC_1_PI / (spread * spread);
-        share * density * smith(towards_view) * smith(towards_light)
-    };
-    LOBES.into_iter().map(lobe).sum::<f32>() / (4.0 * towards_view) * schlick(F0, view.dot(half))
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f32::consts::PI;
-
-    use super::*;
-
-    /// What of an even light of radiance 1 is reflected to a view.
-    fn under_a_dome(cosine: f32) -> f32 {
-        let view = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
-        let (rings, sectors) = (400, 400);
-        let mut sum = 0.0;
-        for ring in 0..rings {
-            let z = (ring as f32 + 0.5) / rings as f32;
-            for sector in 0..sectors {
-                let (sine, cosine) = (2.0 * PI * (sector as f32 + 0.5) / sectors as f32).sin_cos();
-                let radius = (1.0 - z * z).sqrt();
-                sum += reflected(Vec3::Z, view, Vec3::new(radius * cosine, radius * sine, z));
-            }
-        }
-        sum * 2.0 * PI / (rings * sectors) as f32
-    }
-
-    #[test]
-    fn skin_reflects_its_reflectance_from_the_front_and_more_at_a_slant_but_never_all() {
-        let front = under_a_dome(1.0);
-        // Light that meets facets twice is not followed: a tenth is lost.
-        assert!((0.88..1.0).contains(&(front / F0)), "{front}");
-        let slanting = under_a_dome(0.3);
-        assert!(slanting > 2.0 * front, "{slanting} against {front}");
-        assert!((1..10).all(|tenth| under_a_dome(0.1 * tenth as f32) < 1.0));
-    }
-
-    #[test]
-    fn light_and_view_can_be_exchanged() {
-        let (a, b) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.2, 0.4, 0.9).normalize());
-        // The value holds the cosine of the light.
-        let (there, back) = (reflected(Vec3::Z, a, b) / b.z, reflected(Vec3::Z, b, a) / a.z);
-        assert!((there - back).abs() < 1e-5 * there, "{there} {back}");
-    }
+pub(super) fn scale(skin: &SkinConfig, peak: f32) -> f32 {
+    std::f32::consts::PI / (skin.f0 * peak.max(f32::MIN_POSITIVE))
 }

@@ -17,6 +17,7 @@ mod channels;
 mod gloss;
 mod matrix;
 mod rays;
+pub mod skin;
 mod sky;
 
 use capture::Mesh;
@@ -33,15 +34,6 @@ pub use gloss::Reflection;
 use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
 pub use sky::{Sky, SkyRay, contrast};
-
-/// A ray starts this far from the surface, as a share of the mesh's longest side: clear of the
-/// facets next to its own.
-const LIFT: f32 = 1.6e-3;
-/// Nearness is told from its difference between a sphere of this radius and one at infinity, in
-/// halves of the mesh's longest side: about a metre around a head.
-const NEAR_RADIUS: f32 = 6.0;
-/// No light is nearer than this, in the same unit.
-const LEAST_RADIUS: f32 = 2.5;
 
 /// What is asked of a transport beside the shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,6 +58,10 @@ pub struct Transport {
     open: Option<Matrix>,
     /// Nearness that `gain` stands for, per metre.
     near: f32,
+    /// The most that the sky may come nearer, in units of `near`.
+    nearest: f32,
+    /// Exponent of the cosine lobe that highlights see the light through.
+    light_exponent: i32,
     /// From the sky's centre, of every row.
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -94,7 +90,7 @@ impl Transport {
 
         let (low, high) = mesh.bounds();
         let longest = (high - low).max_element();
-        let near = 2.0 / (NEAR_RADIUS * longest);
+        let near = 2.0 / (config.near_radius * longest);
         let rays = sky.rays(config.rays_per_cell_side, seed);
         let caster = Caster {
             occluder: Occluder::new(mesh),
@@ -106,7 +102,7 @@ impl Transport {
             row: &row,
             size,
         };
-        let lift = LIFT * longest;
+        let lift = config.ray_offset * longest;
         let cells = sky.len();
         let asked = |least| if beside >= least { texels.len() * cells } else { 0 };
         let mut direct = vec![0.0; texels.len() * cells];
@@ -128,7 +124,10 @@ impl Transport {
         let gain = (!gain.is_empty()).then(|| with_bounces(gain));
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
-        Self { size, matrix, gain, open, near, places, normals, sky: sky.clone(), row }
+        let (nearest, light_exponent) =
+            (config.near_radius / config.least_radius, config.light_exponent);
+        let sky = sky.clone();
+        Self { size, matrix, gain, open, near, nearest, light_exponent, places, normals, sky, row }
     }
 
     /// Side of the chart's texture.
@@ -162,8 +161,8 @@ impl Transport {
     }
 
     /// The most that a sky at infinity may come nearer, in the same unit.
-    pub fn nearest() -> f32 {
-        NEAR_RADIUS / LEAST_RADIUS
+    pub fn nearest(&self) -> f32 {
+        self.nearest
     }
 
     /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;

@@ -83,7 +83,7 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
     let config = Config::default();
     let (samples, _) = problem(&config);
     let len = samples.len();
-    let field = HeightField::new(&Atlas::new(&testing::dome(24), SIDE));
+    let field = HeightField::new(&Atlas::new(&testing::dome(24), SIDE), 6.0);
     let blur = Blur::new(SIDE, 3, 1.5);
     let slopes = Planes::from_fn::<15>(len, |i| std::array::from_fn(|row| noise(row, i) - 0.3));
     let weight = Planes::from_fn(len, |i| [0.5 + noise(20, i)]);

@@ -190,7 +190,7 @@ pub fn bent_highlights(backend: &dyn Backend) {
     let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Open);
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
-    let glints = transport.glints(&light).unwrap();
+    let glints = transport.glints(&config.skin, &light).unwrap();
     let bent = |i: usize| {
         let bend = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bend)).normalize()

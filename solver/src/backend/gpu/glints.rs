@@ -4,6 +4,7 @@ use super::device::Device;
 use super::pass::Pass;
 use super::pieces::Pieces;
 use crate::backend::resident::DeviceError;
+use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{Glints, HIGHLIGHT_ROWS};
@@ -25,9 +26,11 @@ pub(super) fn highlights(
     let from: Vec<[f32; 3]> = parts.from.iter().map(|from| from.to_array()).collect();
     let from = device.filled("places", &from);
     let kernel = device.kernel("bent highlights", include_str!("wgsl/glints.wgsl"), &[], "urrrrrw");
-    let [(a, a_share), (b, b_share)] = parts.lobes;
-    let [f0, grazing, opposite] = parts.constants;
-    let floats = [parts.scale, f0, grazing, opposite, a, a_share, b, b_share].map(f32::to_bits);
+    let SkinConfig { f0, lobes: [a, b] } = *parts.skin;
+    let [grazing, opposite] = parts.guards;
+    let lobes = [a.roughness, a.weight, b.roughness, b.weight];
+    let floats = [[parts.scale, f0, grazing, opposite], lobes].concat();
+    let floats: Vec<u32> = floats.into_iter().map(f32::to_bits).collect();
     let pass = |(at, piece): (usize, &std::ops::Range<usize>)| {
         let row = device.filled("rows", &parts.row[piece.clone()]);
         let words = [&[piece.len() as u32, cells as u32], floats.as_slice()].concat();

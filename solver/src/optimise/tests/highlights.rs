@@ -3,8 +3,8 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
-use crate::model::samples::schlick;
 use crate::optimise::highlights::{Found, Highlights};
+use crate::transport::skin::schlick;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
 /// Of skin at normal incidence.

@@ -195,7 +195,7 @@ fn the_record_finds_small_faults() {
     type Fault = fn(&mut Config);
     let faults: [(&str, Fault); 13] = [
         ("no Fresnel factor", |c| c.rendering.fresnel = false),
-        ("another F0", |c| c.rendering.f0 = 0.041),
+        ("another F0", |c| c.skin.f0 = 0.041),
         ("another prior", |c| c.warm_up.prior *= 1.001),
         ("a prior in the fine-tuning", |c| c.fine_tuning.prior = 1e-3),
         ("normals of the other sign", |c| c.networks.normal_scale = -1.0),

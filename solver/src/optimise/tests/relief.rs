@@ -48,7 +48,7 @@ fn solve(change: impl Fn(&mut HeightConfig), fault: Fault) -> Found {
         deviation: vec![0.0; 3 * TEXELS],
     };
     let atlas = Atlas::new(&mesh, SIDE);
-    let field = HeightField::new(&atlas);
+    let field = HeightField::new(&atlas, 6.0);
     let wave = |at: usize| {
         let (x, y) = ((at % SIDE) as f32, (at / SIDE) as f32);
         0.3 * (0.9 * x).sin() * (0.7 * y).cos()

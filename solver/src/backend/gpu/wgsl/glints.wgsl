@@ -1,5 +1,5 @@
 // Highlights of a light on bent normals, and how they change with those: one sample a thread. See
-// transport/bent_highlights.rs.
+// transport/bent_highlights.rs; the lobes are those of transport/skin.rs.
 
 struct Parameters {
     samples: u32,
@@ -8,11 +8,11 @@ struct Parameters {
     f0: f32,
     grazing: f32,
     opposite: f32,
-    // Of two lobes: roughness, share.
+    // Of two lobes: roughness, weight.
     rough_a: f32,
-    share_a: f32,
+    weight_a: f32,
     rough_b: f32,
-    share_b: f32,
+    weight_b: f32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -35,10 +35,10 @@ struct Lobes {
     by_nl: f32,
 }
 
-fn lobe(roughness: f32, share: f32, c: f32, nv: f32, nl: f32) -> Lobes {
+fn lobe(roughness: f32, weight: f32, c: f32, nv: f32, nl: f32) -> Lobes {
     let a = roughness * roughness;
     let spread = 1.0 / (c * c * (a - 1.0) + 1.0);
-    let d = share * a * 0.31830987 * spread * spread;
+    let d = weight * a * 0.31830987 * spread * spread;
     let rv = sqrt(a + (1.0 - a) * nv * nv);
     let rl = sqrt(a + (1.0 - a) * nl * nl);
     let iv = 1.0 / (nv + rv);
@@ -88,8 +88,8 @@ fn main(
         }
         let h = unit(v + l);
         let c = dot(n, h);
-        let a = lobe(parameters.rough_a, parameters.share_a, c, nv, nl);
-        let b = lobe(parameters.rough_b, parameters.share_b, c, nv, nl);
+        let a = lobe(parameters.rough_a, parameters.weight_a, c, nv, nl);
+        let b = lobe(parameters.rough_b, parameters.weight_b, c, nv, nl);
         let grazing = 1.0 - clamp(dot(v, h), 0.0, 1.0);
         let squared = grazing * grazing;
         let weight =

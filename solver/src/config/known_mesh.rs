@@ -1,0 +1,199 @@
+//! The tables of what a known mesh allows and the paper leaves unused: regions by colour, explicit transport,
+//! heights.
+
+use serde::{Deserialize, Serialize};
+
+/// Regions of like reflectance that take the place of labels in a capture without any; not in the paper. All
+/// values were found on rendered faces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ColourRegionConfig {
+    /// At most so many; 0: none take the place of labels.
+    pub count: usize,
+    /// Side of the chart on which they are found, texels.
+    pub texture_size: usize,
+    /// Rows of the environment whose light is found on the way.
+    pub rows: usize,
+    /// Standard deviation of the blur that keeps noise out, texels.
+    pub blur: f32,
+    /// Weight of a difference in log luminance against one in the log ratios of the colours, which white light
+    /// leaves alone: before the light is known, and after.
+    pub luminance_weights: [f32; 2],
+    /// Radiance below which ratios are noise, relative to the median luminance.
+    pub dark: f32,
+    /// Times that the light is found, and the regions under it.
+    pub rounds: usize,
+    /// Multiplicative updates of the light in each.
+    pub light_steps: usize,
+    /// Residuals of the shading below this count squared.
+    pub residual_floor: f32,
+    /// Shading, relative to the mean, below which the light says nothing of a colour.
+    pub shading_floor: f32,
+    /// Distance over which a boundary is looked at, texels.
+    pub edge_distance: usize,
+    /// Smallest mean difference in the three log colours, as a vector, across the boundary of two regions.
+    pub edge: f32,
+    /// Pairs of texels without which a boundary says nothing.
+    pub edge_pairs: usize,
+}
+
+/// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light
+/// is an RGB environment of `rows` x `2 rows` cells, positive by its exponential parametrisation,
+/// and starts as 1 from everywhere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransportConfig {
+    /// Take the diffuse albedo from this solve; false leaves it to the networks, as in the paper.
+    pub enabled: bool,
+    /// Side of the texture on which transport is computed, texels.
+    pub texture_size: usize,
+    /// Rows of the environment.
+    pub rows: usize,
+    /// Rays per cell are this number squared.
+    pub rays_per_cell_side: usize,
+    /// Bounces off the mesh.
+    pub bounces: usize,
+    /// A ray starts this far from the surface, as a fraction of the mesh's longest side: clear of the facets
+    /// next to its own.
+    pub ray_offset: f32,
+    /// The albedo that light bounces off while the light is sought; then it is the face's own.
+    pub bounce_albedo: f32,
+    /// Steps that seek the light and its distance alone, the albedo held, on an even sky.
+    pub probe: usize,
+    /// Learning rate of the light's nearness (inverse distance, in units of about 1 per metre around a
+    /// head); 0 leaves the light at infinity.
+    pub nearness_rate: f32,
+    /// The shading's change with the nearness is taken between a sphere of this radius and one at infinity, in
+    /// halves of the mesh's longest side: about a metre around a head.
+    pub near_radius: f32,
+    /// No light is nearer than this, in the same unit.
+    pub least_radius: f32,
+    /// Full-batch steps of light and albedo together.
+    pub iterations: usize,
+    /// Give regions that are no skin a colour anew under the light of the probe; needs
+    /// [`InitialisationConfig::skin_labels`].
+    pub recolour: bool,
+    /// After [`Self::distance`], which it needs, give the light the colour of its highlights, and the
+    /// diffuse albedo what is left.
+    pub tint: bool,
+    /// The colour of highlights is not believed if channels differ by a larger factor than this,
+    pub tint_range: f64,
+    /// nor if the standard error of a channel's factor, relative to it, is larger than this.
+    pub tint_error: f64,
+    /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
+    pub hold: usize,
+    /// Weight of the albedo prior.
+    pub prior: f32,
+    /// Weight of the squared deviation of the mean shading from grey.
+    pub grey_mean: f32,
+    /// Weight of the mean absolute deviation of each texel's shading from grey.
+    pub grey_texel: f32,
+    /// Learning rate of the light's logarithm.
+    pub light_rate: f32,
+    /// Learning rate of the diffuse albedo.
+    pub diffuse_rate: f32,
+    /// Learning rate of the specular albedo.
+    pub specular_rate: f32,
+    /// Learning rate of the networks, which here stand for the specular layer alone.
+    pub network_rate: f32,
+    /// Predict from the found light what all views share of the highlights, and take it out of the
+    /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
+    pub veil: bool,
+    /// Standard deviation of the blur of what is taken out, texels.
+    pub veil_blur: f32,
+    /// A light of this contrast is half even. The evener the light that was found without its highlights, the
+    /// more of what it predicts of them is taken out, and the less its shading says of the normals.
+    pub even_contrast: f32,
+    /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
+    /// highlights that the light itself makes on skin; need what `veil` needs. 0 leaves both as the probe
+    /// has found them, with the networks' highlights.
+    pub distance: usize,
+    /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
+    /// networks; then little of the veil is taken out where the light has contrast.
+    pub highlights: usize,
+    /// Of more samples than this, such highlights are followed on a part: a cell of the sky and a texel of the
+    /// transport are far coarser than pixels.
+    pub highlight_samples: usize,
+    /// Exponent of the cosine lobe that they see the light through: 10 degrees, about a cell. Finer than that, the
+    /// cells do not tell of the light.
+    pub light_exponent: i32,
+    /// Steps that refine the albedo on the final texture and full pictures.
+    pub refinement: usize,
+    /// Weight of the albedo prior in the refinement.
+    pub refinement_prior: f32,
+    /// Residual, relative to the colour, at which the confidence in a texel's albedo has fallen to 1 / e.
+    pub confidence_misfit: f32,
+    /// Standard deviation of the blur of what confidence goes by, texels.
+    pub confidence_blur: f32,
+}
+
+/// Normals by Gauss-Newton on a height texture; not in the paper.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeightConfig {
+    /// Solve for heights; false leaves normals to the deviation texture, as in the paper.
+    pub enabled: bool,
+    /// Side of the height texture over that of the fine-tuned textures.
+    pub texture_share: f32,
+    /// How often the pictures are linearised, each time on a texture of twice the side.
+    pub linearisations: usize,
+    /// Take highlights, and how they change with the normals, from the light that was found with its
+    /// highlights ([`TransportConfig::highlights`]); else, or without such a light, from the networks.
+    pub highlights: bool,
+    /// Reweightings towards an L1 norm per linearisation.
+    pub reweightings: usize,
+    /// Conjugate-gradient steps per reweighting on a texture of side 256, and in proportion to the side on
+    /// others: a step carries what it finds by a texel.
+    pub steps: usize,
+    /// Squared norm of the rest, over that of the goal, at which a solve has converged.
+    pub tolerance: f64,
+    /// Residuals below this radiance count squared.
+    pub residual_floor: f32,
+    /// How much skin's relief usually bends normals, radians. What the model leaves beyond what this and
+    /// `usual_albedo_detail` explain is its own error, and counts the less.
+    pub usual_bend: f32,
+    /// How much the detail of skin's albedo usually amounts to, relative.
+    pub usual_albedo_detail: f32,
+    /// Standard deviation of the neighbourhood in which residuals are compared with that, pixels.
+    pub neighbourhood: f32,
+    /// Texels in which a unit step of the height would bend the normal more than this have no height: the chart
+    /// is squeezed there.
+    pub steepest: f32,
+    /// Darkest albedo that a logarithm is taken of.
+    pub darkest_albedo: f32,
+    /// Standard deviation of the blur that takes detail out of the albedo's logarithm, as a fraction
+    /// of the texture's side: relief must not be in it already.
+    pub albedo_smoothing: f32,
+    /// Standard deviation of the blur between specular and diffuse deviation, as a fraction of the
+    /// texture's side.
+    pub blur: f32,
+    /// Residuals coarser than this are no relief: a standard deviation, as a fraction of the side of a square
+    /// as large as the mesh in the view. 0 keeps them.
+    pub coarsest: f32,
+    /// Pixels this close to where the mesh ends in a view tell nothing of relief: they see two surfaces.
+    pub rim: usize,
+    /// Share of a residual's part in the colour of the diffuse layer that counts for nothing: most of what
+    /// the model gets wrong has that colour, relief in highlights that of the light.
+    pub diffuse_doubt: f32,
+    /// Weight of the squared deviation. Without [`Self::highlights`], under explicit transport, over the
+    /// squared contrast of the light, and more where that is even.
+    pub flatness: f32,
+    /// The least that this squared contrast counts.
+    pub least_contrast: f32,
+    /// Weight of its squared differences from texel to texel.
+    pub smoothness: f32,
+    /// Weight of squared heights, which pulls those to zero that no pixel sees.
+    pub unseen_damping: f32,
+    /// Weight of squared relative changes of the diffuse albedo.
+    pub albedo_damping: f32,
+}
+
+/// The side of the texture on which [`HeightConfig::steps`] are taken.
+const SIDE_OF_STEPS: usize = 256;
+
+impl HeightConfig {
+    /// Conjugate-gradient steps per reweighting on a texture of this side.
+    pub(crate) fn steps_on(&self, side: usize) -> usize {
+        (self.steps * side).div_ceil(SIDE_OF_STEPS)
+    }
+}
