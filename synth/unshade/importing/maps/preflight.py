@@ -1,0 +1,232 @@
+"""What a statement leaves open is tried, and what it says is doubted: which encoding makes plausible maps of a face.
+
+The witnesses are the capture's: its photographs, projected into the chart, for the albedo's pattern and curve; its
+mesh for normals; skin's ranges for highlights. A relief has no curl, which tells green up from green down.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_erosion, gaussian_filter
+
+from ...errors import MapsError
+from . import decoding
+from .counterpart import Counterparts, Layout
+from .statement import AUTO, Statement, Texture
+from .texture import Codes, Floats, padded, sampled
+
+_SIGMAS = (2.0, 6.0)
+"""Widths (texels of the trial) of what is taken away from a pattern, so that shading, slow, does not count."""
+
+_DECIDES, _CONTRADICTS = 0.04, 0.15
+"""By how much a correlation must be better to decide, and to contradict what is stated."""
+
+_SKIN_F0 = (0.008, 0.07)
+_SKIN_ALPHA = (0.12, 0.6)
+"""Medians of skin: reflectance at normal incidence, GGX alpha of one lobe."""
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A capture in a small texture (N,N): ``texture`` its projected photographs, ``seen`` where, ``normals`` its mesh's
+    (M,3) at the M texels of its chart; ``turn`` (3,3) from the other mesh's own axes to the capture's."""
+
+    texture: Floats
+    seen: NDArray[np.bool_]
+    normals: NDArray[np.float32]
+    turn: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One question: what was ``stated``, what was ``taken``, the ``evidence`` by candidate, and in words how it came to
+    be: ``stated``, ``found``, ``assumed`` or ``applied``."""
+
+    key: str
+    stated: str
+    taken: str
+    how: str
+    evidence: dict[str, float]
+
+
+class Preflight:
+    """Settles a statement against a capture. ``apply`` takes what fits better than what is stated; without it that is
+    the error, `MapsError`."""
+
+    def __init__(
+        self, statement: Statement, codes: dict[str, Codes], layouts: dict[str, Layout], counterparts: Counterparts,
+        witness: Witness, *, apply: bool,
+    ) -> None:  # fmt: skip
+        self.statement, self.trials = statement, list[Trial]()
+        self._codes, self._layouts, self._counterparts = codes, layouts, counterparts
+        self._witness, self._apply = witness, apply
+
+    def settle(self) -> Statement:
+        """The statement with nothing left open."""
+        self._first_row()
+        if "diffuse_albedo" in self._codes:
+            self._curve()
+        for name in ("normal", "diffuse_normal", "specular_normal"):
+            if name in self._codes:
+                self._normals(name)
+        self._range("specular_albedo", ("reflectance", "level", "share", "ior"), decoding.reflectance, _SKIN_F0)
+        self._range("roughness", ("perceptual", "alpha", "gloss", "alpha-squared"), decoding.alpha, _SKIN_ALPHA)
+        return self.statement
+
+    def _looked_up(self, values: Floats, v: str) -> Floats:
+        layout = self._layouts[v]
+        chart = layout.chart(len(values))
+        return sampled(padded(values, chart), self._counterparts.at(layout.uv, layout.mesh.triangles))
+
+    def _image(self, values: Floats) -> Floats:
+        return self._counterparts.texels.image(np.asarray(values, np.float32))
+
+    def _settled(
+        self, key: str, stated: str, evidence: dict[str, float], *, decides: float, contradicts: float, default: str
+    ) -> str:
+        """The best candidate, unless what is stated is about as good; closer than ``decides`` it is the default."""
+        best = max(evidence, key=lambda name: evidence[name])
+        rest = max((value for name, value in evidence.items() if name != best), default=-np.inf)
+        if stated == AUTO:
+            sure = evidence[best] - rest >= decides
+            taken, how = (best, "found") if sure else (default, "assumed")
+        elif evidence[best] - evidence.get(stated, -np.inf) < contradicts:
+            taken, how = stated, "stated"
+        elif self._apply:
+            taken, how = best, "applied"
+        else:
+            shown = ", ".join(f"{name} {value:.3g}" for name, value in evidence.items())
+            map_name = key.partition(".")[0]
+            file = self._codes[map_name if map_name in self._codes else "diffuse_albedo"].path
+            raise MapsError(
+                f"{file}: {self.statement.origin} says {key} = {stated}, but {best} fits ({shown}); "
+                f"state {key} = {best}, or import with apply"
+            )
+        self.trials.append(Trial(key, stated, taken, how, {name: round(float(v), 4) for name, v in evidence.items()}))
+        return taken
+
+    def _first_row(self) -> None:
+        """Row 0 at v = 1 or at v = 0: which pattern is that of the photographs."""
+        from dataclasses import replace
+
+        stated = self.statement.v
+        evidence = {}
+        if "diffuse_albedo" in self._codes:
+            values = self._codes["diffuse_albedo"].values
+            for v in ("up", "down"):
+                ours, theirs, mask = self._patterns(self._looked_up(values, v))
+                evidence[v] = float(np.mean([_correlation(a[mask], b[mask]) for a, b in zip(ours, theirs)]))
+        if not evidence:
+            v = "up" if stated == AUTO else stated
+            self.trials.append(Trial("v", stated, v, "assumed" if stated == AUTO else "stated", {}))
+        else:
+            v = self._settled("v", stated, evidence, decides=_DECIDES, contradicts=_CONTRADICTS, default="up")
+        self.statement = replace(self.statement, v=v)
+
+    def _patterns(self, values: Floats) -> tuple[list[Floats], list[Floats], NDArray[np.bool_]]:
+        """Logarithms without what is slow of the map and of the photographs: luminance and red over blue, two widths."""
+        picture = self._image(values)
+        mask = self._witness.seen & self._image(self._counterparts.found.astype(np.float32)).astype(bool)
+        bright = self._witness.texture.mean(-1)
+        mask &= bright > 0.1 * np.quantile(bright[mask], 0.9) if mask.any() else mask
+        planes = []
+        for colours in (picture, self._witness.texture):
+            log = np.log(np.maximum(colours, 1e-3 * np.median(colours[mask]) + 1e-9))
+            planes.append([_fast(p, mask, s) for s in _SIGMAS for p in (log.mean(-1), log[..., 0] - log[..., 2])])
+        return planes[0], planes[1], mask
+
+    def _curve(self) -> None:
+        """Linear or encoded: a curve of 1 / 2.2 nearly halves what a logarithm deviates by."""
+        codes, stated = self._codes["diffuse_albedo"], self.statement.maps["diffuse_albedo"]
+        looked_up = self._looked_up(codes.values, self.statement.v)
+        evidence = {}
+        for curve in dict.fromkeys(("linear", "srgb", decoding.curve_of(stated, colour=True, exact=codes.exact))):
+            ours, theirs, mask = self._patterns(decoding.linear(looked_up, curve))
+            power = np.mean([_slope(a[mask], b[mask]) for a, b in zip(ours, theirs)])
+            factor = np.median(decoding.linear(looked_up, curve).mean(-1)) / np.median(
+                self._witness.texture[self._witness.seen].mean(-1)
+            )
+            # Right albedos: about as much detail as the photographs, about as bright.
+            evidence[curve] = -abs(np.log(max(power, 1e-3))) - 0.5 * abs(np.log(max(float(factor), 1e-3)))
+        default = decoding.curve_of(stated, colour=True, exact=codes.exact)
+        curve = self._settled("diffuse_albedo.curve", stated.curve, evidence, decides=0.15, contradicts=0.4, default=default)
+        self.statement = self.statement.with_map("diffuse_albedo", curve=curve)
+
+    def _normals(self, name: str) -> None:
+        """Object or tangent space: which lies nearer to the mesh. Green up or down: which relief has no curl."""
+        codes, stated = self._codes[name], self.statement.maps[name]
+        values = decoding.vectors(codes)
+        layout = self._layouts[self.statement.v]
+        at = self._looked_up(values, self.statement.v)
+        found = self._counterparts.found
+        evidence = {}
+        for kind in ("object", "tangent"):
+            normals = decoding.normals(at, kind, "up", layout, self._counterparts, self._witness.turn)
+            evidence[kind] = float(np.nanmean((normals * self._witness.normals).sum(1)[found]))
+        kind = self._settled(
+            f"{name}.as", stated.kind, evidence, decides=0.02, contradicts=0.1, default="object" if codes.exact else "tangent"
+        )
+        green = stated.green
+        if kind == "tangent":
+            curl = curl_sign(values, layout.chart(codes.size).inside)
+            evidence = {"up": curl, "down": -curl}
+            green = self._settled(f"{name}.green", green, evidence, decides=0.1, contradicts=0.4, default="up")
+        self.statement = self.statement.with_map(name, kind=kind, green=green)
+
+    def _range(self, name: str, kinds: tuple[str, ...], decoded, skin: tuple[float, float]) -> None:
+        """The first kind whose median is skin's; what is stated counts unless only another one's is."""
+        stated = self.statement.maps.get(name, Texture())
+        if name not in self._codes:
+            return
+        values = decoding.scalar(self._codes[name], stated)
+        middle = float(np.median(self._looked_up(values, self.statement.v)[self._counterparts.found]))
+        if stated.kind == "metalness":
+            return
+        low, high = skin
+        medians = {kind: float(decoded(np.float32(middle), kind)) for kind in kinds}
+        if name == "specular_albedo" and middle < 1:
+            medians.pop("ior")
+        # How far a median is outside of skin's, in factors; a tie goes to the kind that stands first.
+        order = {kind: 0.01 * place for place, kind in enumerate(kinds)}
+        evidence = {
+            kind: -float(np.log(max(low / max(value, 1e-6), value / high, 1.0))) - order[kind] for kind, value in medians.items()
+        }
+        evidence.setdefault(stated.kind, -9.0) if stated.kind != AUTO else None
+        kind = self._settled(f"{name}.as", stated.kind, evidence, decides=0.0, contradicts=0.4, default=kinds[0])
+        self.statement = self.statement.with_map(name, kind=kind)
+
+
+def curl_sign(normals: Floats, inside: NDArray[np.bool_]) -> float:
+    """Correlation, -1 to 1, of d nx / dy and d ny / dx of tangent-space normals (N,N,3), y up the picture: above 0
+    where green points up. A relief's slopes are a gradient, and a gradient has no curl."""
+    z = np.maximum(np.abs(normals[..., 2]), 0.1)
+    across, up = (gaussian_filter(normals[..., axis] / z, 1.0) for axis in range(2))
+    dy = -np.gradient(across, axis=0)
+    dx = np.gradient(up, axis=1)
+    mask = binary_erosion(inside, iterations=4)
+    return _correlation(dy[mask], dx[mask]) if mask.sum() > 50 else 0.0
+
+
+def _fast(plane: Floats, mask: NDArray[np.bool_], sigma: float) -> Floats:
+    """A plane without what a Gaussian of ``sigma`` texels keeps of it inside the mask."""
+    weight = gaussian_filter(mask.astype(np.float64), sigma)
+    mean = gaussian_filter(np.where(mask, plane, 0.0).astype(np.float64), sigma) / np.maximum(weight, 1e-6)
+    return np.asarray(np.where(mask, plane - mean, 0.0), np.float32)
+
+
+def _correlation(a: Floats, b: Floats) -> float:
+    if len(a) < 10:
+        return 0.0
+    a, b = a - a.mean(), b - b.mean()
+    scale = float(np.sqrt((a * a).sum() * (b * b).sum()))
+    return float((a * b).sum()) / scale if scale > 1e-12 else 0.0
+
+
+def _slope(a: Floats, b: Floats) -> float:
+    """How much ``a`` varies with ``b``, which both have noise: the geometric mean of both regressions."""
+    if _correlation(a, b) <= 0.05:
+        return 1.0
+    return float(a.std() / max(b.std(), 1e-9))
