@@ -5,16 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import cv2
-import mitsuba as mi
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-mi.set_variant("llvm_ad_rgb")
-
 import unshade
-from unshade.exporting.surface import Mesh, Surface
-from unshade.exporting.tangents import mikktspace_normals, with_tangents
-from unshade.render.scene import ChartMaps
+from unshade import _native
+from unshade.face.texels import Texels, rasterise
 
 Array = np.ndarray
 
@@ -37,6 +33,7 @@ class Layout:
 
     def __init__(self, capture: unshade.Capture, size: int, *, own: bool = False, down: bool = False) -> None:
         self.mesh, self.size, self.own, self.down = capture.mesh, size, own, down
+        self._frames: list[tuple[Texels, Array]] = []
         self.normals = self.mesh["normals"].astype(float)
         uv, triangles = self.mesh["uvs"].astype(float), self.mesh["triangles"].astype(int)
         self.vertices, self.uv, self.triangles = self.mesh["vertices"].astype(float), uv, triangles
@@ -64,9 +61,18 @@ class Layout:
 
     def tangent(self, normals: Array) -> Array:
         """Object-space normals (size,size,3) in this layout's tangent space, green up the picture."""
-        parts = (values.astype(np.float32) for values in (self.vertices, self.normals, self.uv))
-        surface = Surface(Mesh(*parts, self.triangles), ChartMaps(normals, normals[..., 0], normals, normals))
-        return mikktspace_normals(surface, with_tangents(surface.mesh), normals)
+        if not self._frames:
+            texels = rasterise(self.uv, self.triangles, self.size)
+            parts = (values.astype(np.float32) for values in (self.vertices, self.normals, self.uv))
+            corners = _native.mikktspace(*parts, self.triangles)[texels.triangle]
+            t = np.einsum("mk,mkc->mc", texels.weights, corners[..., :3])
+            n = texels.sample(self.normals)
+            self._frames.append((texels, np.stack([t, corners[:, 0, 3:] * np.cross(n, t), n], -1)))
+        texels, frames = self._frames[0]
+        local = np.linalg.solve(frames, normals[texels.inside][..., None])[..., 0]
+        flat = np.broadcast_to([0.0, 0.0, 1.0], normals.shape).copy()
+        flat[texels.inside] = local / np.linalg.norm(local, axis=1, keepdims=True)
+        return flat
 
     def write_mesh(self, path: Path, scale: float = 1.0, turn: Array | None = None) -> None:
         vertices = self.vertices * scale @ (np.eye(3) if turn is None else turn).T

@@ -22,7 +22,7 @@ PLACES = ("auto", "keep", "source", "fit")
 _POINTS = 1500
 """Points of the capture's mesh that are looked at."""
 
-_STEPS = 40
+_STEPS = 60
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ def align(
     if source is not None and how != "keep":
         moved = (source if unit is None else source @ metres, "moved as the capture was when it was imported")
         candidates = [moved] if how == "source" else [*candidates, moved]
-    found = [_measured(vertices, triangles, points, *candidate) for candidate in candidates]
+    surface = _Surface(vertices, triangles)
+    found = [surface.measured(points, *candidate) for candidate in candidates]
     near = [alignment for alignment in found if alignment.median <= limit / 2]
     if near or how in ("keep", "source"):
         best = near[0] if near else found[0]
@@ -70,9 +71,9 @@ def align(
         tree = cKDTree(vertices)
         some = points[:: max(1, len(points) // 200)]
         matrix, words = min(tried, key=lambda candidate: _rough(tree, some, candidate[0]))
-        best = _measured(vertices, triangles, points, matrix, words)
+        best = surface.measured(points, matrix, words)
     if how == "fit":
-        best = _fitted(vertices, triangles, points, best)
+        best = _fitted(surface, points, best)
     if best.median > limit:
         mend = "state its unit and axes, raise the limit, or let it be fitted (place fit)"
         raise MapsError(
@@ -118,30 +119,30 @@ def _rough(tree: cKDTree, points: NDArray[np.float64], matrix: Matrix) -> float:
     return float(np.median(tree.query(moved(back, points))[0]) * scale)
 
 
-def _nearest(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], points: NDArray[np.float64], matrix: Matrix
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    squared, _, nearest = igl.point_mesh_squared_distance(points, moved(matrix, vertices), triangles)
-    return np.sqrt(squared), nearest
+class _Surface:
+    """A mesh in its own place, with a tree over its triangles, so that points are moved and not the mesh."""
+
+    def __init__(self, vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:
+        self.vertices, self.triangles = np.ascontiguousarray(vertices), np.ascontiguousarray(triangles)
+        self._tree = igl.AABB()
+        self._tree.init(self.vertices, self.triangles)
+
+    def nearest(self, points: NDArray[np.float64], matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Distances (K,) to ``points`` (K,3) of the mesh once it is moved, and its nearest points (K,3)."""
+        back = np.ascontiguousarray(moved(np.linalg.inv(matrix), points))
+        _, _, nearest = self._tree.squared_distance(self.vertices, self.triangles, back)
+        nearest = moved(matrix, np.asarray(nearest))
+        return np.linalg.norm(nearest - points, axis=1), nearest
+
+    def measured(self, points: NDArray[np.float64], matrix: Matrix, words: str) -> Alignment:
+        return Alignment(matrix, words, float(np.median(self.nearest(points, matrix)[0])))
 
 
-def _measured(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.int64],
-    points: NDArray[np.float64],
-    matrix: Matrix,
-    words: str,
-) -> Alignment:
-    return Alignment(matrix, words, float(np.median(_nearest(vertices, triangles, points, matrix)[0])))
-
-
-def _fitted(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], points: NDArray[np.float64], start: Alignment
-) -> Alignment:
+def _fitted(surface: _Surface, points: NDArray[np.float64], start: Alignment) -> Alignment:
     """Iterated closest points, the farthest fifth left out; the similarity of each step is Umeyama's."""
     matrix = start.matrix
     for _ in range(_STEPS):
-        distance, nearest = _nearest(vertices, triangles, points, matrix)
+        distance, nearest = surface.nearest(points, matrix)
         kept = distance <= np.quantile(distance, 0.8)
         a, b = nearest[kept], points[kept]
         middle_a, middle_b = a.mean(0), b.mean(0)
@@ -153,5 +154,5 @@ def _fitted(
         step[:3, :3] = scale * turn
         step[:3, 3] = middle_b - scale * turn @ middle_a
         matrix = step @ matrix
-    fitted = _measured(vertices, triangles, points, matrix, f"{start.words}, then fitted by a similarity (ICP)")
+    fitted = surface.measured(points, matrix, f"{start.words}, then fitted by a similarity (ICP)")
     return fitted if fitted.median < start.median else start

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import igl
 import numpy as np
@@ -112,13 +113,19 @@ class Layout:
 
     def frames(self, counterparts: Counterparts) -> tuple[Floats, Floats, Floats]:
         """Tangent, bitangent and normal (M,3) each at the counterparts, as MikkTSpace has them: green up the picture."""
+        normals, corners = self._tangents
+        corners = corners[counterparts.triangle]
+        n = counterparts.at(normals, self.mesh.triangles)
+        t = np.einsum("mk,mkc->mc", counterparts.weights, corners[..., :3])
+        return t, corners[:, 0, 3:] * np.cross(n, t), n
+
+    @cached_property
+    def _tangents(self) -> tuple[Floats, Floats]:
+        """Normals (V,3) and MikkTSpace's tangents (F,3,4)."""
         mesh = self.mesh
         normals = _unit(mesh.normals if mesh.normals is not None else smooth_normals(mesh.vertices, mesh.triangles))
         parts = [np.ascontiguousarray(values, np.float32) for values in (mesh.vertices, normals, self.uv)]
-        corners = _native.mikktspace(*parts, mesh.triangles)[counterparts.triangle].astype(np.float64)
-        n = counterparts.at(normals, mesh.triangles)
-        t = np.einsum("mk,mkc->mc", counterparts.weights, corners[..., :3])
-        return t, corners[:, 0, 3:] * np.cross(n, t), n
+        return normals, _native.mikktspace(*parts, mesh.triangles).astype(np.float64)
 
 
 def _unit(vectors: Floats) -> Floats:

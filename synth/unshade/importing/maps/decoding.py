@@ -58,7 +58,12 @@ def vectors(codes: Codes) -> Floats:
 
 
 def normals(
-    values: NDArray[np.float32], kind: str, green: str, layout: Layout, counterparts: Counterparts, turn: NDArray[np.float64]
+    values: NDArray[np.float32],
+    kind: str,
+    green: str,
+    layout: Layout,
+    counterparts: Counterparts,
+    turn: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Unit normals (M,3) in the capture's space of vectors (M,3) at the counterparts; NaN where there is none.
 

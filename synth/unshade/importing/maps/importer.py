@@ -32,6 +32,9 @@ AnyPath = str | os.PathLike[str]
 LIMIT_MM = 5.0
 """How far (mm) a point of another mesh may be from the capture's surface and still be the same."""
 
+NORMALS = ("normal", "diffuse_normal", "specular_normal")
+"""Normals that stand for both, and those of one kind."""
+
 _TRIAL = 256
 """Side of the chart on which encodings are tried, texels."""
 
@@ -212,15 +215,17 @@ class _Chart:
         stated, maps = self.settled.maps, dict[str, Floats]()
         if "diffuse_albedo" in self.codes:
             codes, texture = self.codes["diffuse_albedo"], stated["diffuse_albedo"]
-            maps["diffuse_albedo"] = self._at(decoding.linear(codes.values, texture.curve)).clip(0) * np.float32(texture.scale)
+            maps["diffuse_albedo"] = self._at(decoding.linear(codes.values, texture.curve)).clip(0) * np.float32(
+                texture.scale
+            )
         self._specular(maps)
         if "roughness" in stated and (values := self._scalar("roughness")) is not None:
             one = decoding.alpha(values, stated["roughness"].kind)
             maps["roughness"] = np.stack([one, one, np.ones_like(one)], -1)
-        for name in ("diffuse_normal", "specular_normal"):
-            source = name if name in self.codes else "normal"
-            if source in self.codes:
-                maps[name] = self._normals(source)
+        found_normals = {name: self._normals(name) for name in NORMALS if name in self.codes}
+        for name in NORMALS[1:]:
+            if (values := found_normals.get(name, found_normals.get(NORMALS[0]))) is not None:
+                maps[name] = values
         found = self.counterparts.found
         if "coverage" in self.codes:
             found = found & (self._at(self.codes["coverage"].plane(stated["coverage"].channel)) >= 0.5)
@@ -255,11 +260,18 @@ class _Chart:
     def _normals(self, name: str) -> Floats:
         texture = self.settled.maps[name]
         found = decoding.normals(
-            self._at(decoding.vectors(self.codes[name])), texture.kind, texture.green, self.layout, self.counterparts, self.turn
+            self._at(decoding.vectors(self.codes[name])),
+            texture.kind,
+            texture.green,
+            self.layout,
+            self.counterparts,
+            self.turn,
         )
         # Where the picture holds no direction, the mesh's.
-        plain = decoding.normals(np.broadcast_to(np.float32([0, 0, 1]), found.shape), "tangent", "up", self.layout, self.counterparts, self.turn)
-        return np.where(np.isfinite(found), found, np.nan_to_num(plain)).astype(np.float32)
+        missing = ~np.isfinite(found)
+        if missing.any():
+            found[missing] = self.layout.frames(self.counterparts)[2][missing]
+        return found.astype(np.float32)
 
     def _at(self, values: Floats) -> Floats:
         """Values at the counterparts; where texels are finer than the chart's, means of them."""
@@ -291,7 +303,7 @@ def _textures(folder: Path, statement: Statement) -> dict[str, Codes]:
         texture = statement.maps.get(name)
         if texture is None or not texture.file:
             continue
-        path = find_texture(folder, texture.file)
+        path = find_texture(folder, texture.file, read)
         if path is not None:
             found[name] = read[path] = read.get(path) or read_codes(path)
     if not set(found) - {"coverage"}:

@@ -6,7 +6,7 @@ mesh for normals; skin's ranges for highlights. A relief has no curl, which tell
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,10 @@ _SIGMAS = (2.0, 6.0)
 
 _DECIDES, _CONTRADICTS = 0.04, 0.15
 """By how much a correlation must be better to decide, and to contradict what is stated."""
+
+_REDNESS, _FACTOR = (0.75, 1.75), (0.55, 2.0)
+"""Right albedos beside the projected photographs, in lights from one softbox to a uniform sphere: ln(red / blue) over
+theirs, brightness over theirs."""
 
 _SKIN_F0 = (0.008, 0.07)
 _SKIN_ALPHA = (0.12, 0.6)
@@ -110,8 +114,6 @@ class Preflight:
 
     def _first_row(self) -> None:
         """Row 0 at v = 1 or at v = 0: which pattern is that of the photographs."""
-        from dataclasses import replace
-
         stated = self.statement.v
         evidence = {}
         if "diffuse_albedo" in self._codes:
@@ -128,10 +130,7 @@ class Preflight:
 
     def _patterns(self, values: Floats) -> tuple[list[Floats], list[Floats], NDArray[np.bool_]]:
         """Logarithms without what is slow of the map and of the photographs: luminance and red over blue, two widths."""
-        picture = self._image(values)
-        mask = self._witness.seen & self._image(self._counterparts.found.astype(np.float32)).astype(bool)
-        bright = self._witness.texture.mean(-1)
-        mask &= bright > 0.1 * np.quantile(bright[mask], 0.9) if mask.any() else mask
+        picture, mask = self._image(values), self._lit()
         planes = []
         for colours in (picture, self._witness.texture):
             log = np.log(np.maximum(colours, 1e-3 * np.median(colours[mask]) + 1e-9))
@@ -139,21 +138,33 @@ class Preflight:
         return planes[0], planes[1], mask
 
     def _curve(self) -> None:
-        """Linear or encoded: a curve of 1 / 2.2 nearly halves what a logarithm deviates by."""
+        """Linear or encoded: a curve of 1 / 2.2 halves what a logarithm says of colours, and brightens."""
         codes, stated = self._codes["diffuse_albedo"], self.statement.maps["diffuse_albedo"]
+        default = decoding.curve_of(stated, colour=True, exact=codes.exact)
         looked_up = self._looked_up(codes.values, self.statement.v)
         evidence = {}
-        for curve in dict.fromkeys(("linear", "srgb", decoding.curve_of(stated, colour=True, exact=codes.exact))):
-            ours, theirs, mask = self._patterns(decoding.linear(looked_up, curve))
-            power = np.mean([_slope(a[mask], b[mask]) for a, b in zip(ours, theirs)])
-            factor = np.median(decoding.linear(looked_up, curve).mean(-1)) / np.median(
-                self._witness.texture[self._witness.seen].mean(-1)
-            )
-            # Right albedos: about as much detail as the photographs, about as bright.
-            evidence[curve] = -abs(np.log(max(power, 1e-3))) - 0.5 * abs(np.log(max(float(factor), 1e-3)))
-        default = decoding.curve_of(stated, colour=True, exact=codes.exact)
-        curve = self._settled("diffuse_albedo.curve", stated.curve, evidence, decides=0.15, contradicts=0.4, default=default)
+        for curve in dict.fromkeys(("linear", "srgb", default)):
+            redness, factor = self._beside_photographs(decoding.linear(looked_up, curve) * np.float32(stated.scale))
+            evidence[curve] = -_excess(redness, _REDNESS) - _excess(factor, _FACTOR)
+        curve = self._settled(
+            "diffuse_albedo.curve", stated.curve, evidence, decides=0.15, contradicts=0.4, default=default
+        )
         self.statement = self.statement.with_map("diffuse_albedo", curve=curve)
+
+    def _beside_photographs(self, values: Floats) -> tuple[float, float]:
+        """The map's ln(red / blue) over that of the photographs, and its brightness over theirs, where they are lit."""
+        picture, mask = self._image(values), self._lit()
+        ours, theirs = picture[mask].astype(np.float64) + 1e-6, self._witness.texture[mask].astype(np.float64) + 1e-6
+        red, photographed = (float(np.median(np.log(c[:, 0] / c[:, 2].clip(1e-6)))) for c in (ours, theirs))
+        # Photographs without colour tell nothing by it.
+        redness = max(red, 1e-3) / photographed if photographed > 0.1 else 1.0
+        return redness, float(np.median(ours.mean(-1) / theirs.mean(-1)))
+
+    def _lit(self) -> NDArray[np.bool_]:
+        """Texels with a counterpart that photographs show, and not in the dark."""
+        mask = self._witness.seen & self._image(self._counterparts.found).astype(bool)
+        bright = self._witness.texture.mean(-1)
+        return mask & (bright > 0.1 * np.quantile(bright[mask], 0.9)) if mask.any() else mask
 
     def _normals(self, name: str) -> None:
         """Object or tangent space: which lies nearer to the mesh. Green up or down: which relief has no curl."""
@@ -167,7 +178,12 @@ class Preflight:
             normals = decoding.normals(at, kind, "up", layout, self._counterparts, self._witness.turn)
             evidence[kind] = float(np.nanmean((normals * self._witness.normals).sum(1)[found]))
         kind = self._settled(
-            f"{name}.as", stated.kind, evidence, decides=0.02, contradicts=0.1, default="object" if codes.exact else "tangent"
+            f"{name}.as",
+            stated.kind,
+            evidence,
+            decides=0.02,
+            contradicts=0.1,
+            default="object" if codes.exact else "tangent",
         )
         green = stated.green
         if kind == "tangent":
@@ -192,7 +208,8 @@ class Preflight:
         # How far a median is outside of skin's, in factors; a tie goes to the kind that stands first.
         order = {kind: 0.01 * place for place, kind in enumerate(kinds)}
         evidence = {
-            kind: -float(np.log(max(low / max(value, 1e-6), value / high, 1.0))) - order[kind] for kind, value in medians.items()
+            kind: -float(np.log(max(low / max(value, 1e-6), value / high, 1.0))) - order[kind]
+            for kind, value in medians.items()
         }
         evidence.setdefault(stated.kind, -9.0) if stated.kind != AUTO else None
         kind = self._settled(f"{name}.as", stated.kind, evidence, decides=0.0, contradicts=0.4, default=kinds[0])
@@ -225,8 +242,8 @@ def _correlation(a: Floats, b: Floats) -> float:
     return float((a * b).sum()) / scale if scale > 1e-12 else 0.0
 
 
-def _slope(a: Floats, b: Floats) -> float:
-    """How much ``a`` varies with ``b``, which both have noise: the geometric mean of both regressions."""
-    if _correlation(a, b) <= 0.05:
-        return 1.0
-    return float(a.std() / max(b.std(), 1e-9))
+def _excess(value: float, usual: tuple[float, float]) -> float:
+    """How far a ratio is outside of what is usual, in logarithms; a little of how far it is from the middle of it."""
+    low, high = np.log(usual)
+    log = float(np.log(max(value, 1e-6)))
+    return max(low - log, log - high, 0.0) + 0.25 * abs(log - (low + high) / 2)

@@ -22,15 +22,16 @@ ADAPTERS = Path(__file__).resolve().parent.parent / "adapters"
 AUTO = "auto"
 
 KINDS: dict[str, tuple[str, ...]] = {
-    "diffuse_albedo": (AUTO,),
-    "specular_albedo": ("reflectance", "f0", "level", "share", "ior", "metalness", AUTO),
-    "roughness": ("alpha", "perceptual", "gloss", "alpha-squared", AUTO),
-    "normal": ("object", "tangent", AUTO),
     "diffuse_normal": ("object", "tangent", AUTO),
     "specular_normal": ("object", "tangent", AUTO),
+    "normal": ("object", "tangent", AUTO),
+    "roughness": ("alpha", "perceptual", "gloss", "alpha-squared", AUTO),
+    "specular_albedo": ("reflectance", "f0", "level", "share", "ior", "metalness", AUTO),
     "coverage": (AUTO,),
+    "diffuse_albedo": (AUTO,),
 }
-"""The maps that a statement may have, and what the numbers of each may be (``as``).
+"""The maps that a statement may have, and what the numbers of each may be (``as``). They are looked for
+in this order: a pattern takes no file that was taken before.
 
 Specular albedo: reflectance at normal incidence (``f0`` is the same), ``level`` / 0.08, ``share`` of 0.05, index of
 refraction, metalness. Roughness: GGX alpha, its root, 1 minus its root, its square.
@@ -156,5 +157,3 @@ def _choice(origin: str, key: str, value: Any, choices: tuple[str, ...]) -> str:
     if value not in choices:
         raise MapsError(f"{origin}: {key} is {value!r}; there are {', '.join(choices)}")
     return str(value)
-
-

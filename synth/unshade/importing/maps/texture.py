@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,14 +49,15 @@ class Codes:
         return self.values[..., _CHANNELS[channel]]
 
 
-def find_texture(folder: Path, patterns: tuple[str, ...]) -> Path | None:
-    """The first file that a name or pattern fits, without regard to case; a name without an ending fits any picture."""
+def find_texture(folder: Path, patterns: tuple[str, ...], taken: Collection[Path] = ()) -> Path | None:
+    """The first file that a name or pattern fits, without regard to case; a name without an ending fits any picture.
+    A pattern fits no file that is ``taken``."""
     files = sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix.lower() in ENDINGS)
     for pattern in patterns:
         whole = Path(pattern).suffix.lower() in (*ENDINGS, ".*")
         for path in files:
             name = path.relative_to(folder) if whole else path.relative_to(folder).with_suffix("")
-            if Path(name.as_posix().lower()).match(pattern.lower()):
+            if Path(name.as_posix().lower()).match(pattern.lower()) and not ("*" in pattern and path in taken):
                 return path
     return None
 
