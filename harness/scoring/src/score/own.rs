@@ -63,10 +63,9 @@ fn given(capture: &Path, relit: &Path) -> Result<Vec<Relit>, ScoreError> {
     let own = Identity::read(capture)?.light;
     let frames = Frame::withheld(capture, &own)?;
     let lights = truth::lights(capture)?;
-    let known = |name: &String| lights.contains(name);
-    if let Some(strange) = truth::names(relit)?.into_iter().find(|name| !known(name)) {
-        let reason = format!("is no light of the capture; there are {}", lights.join(", "));
-        return Err(ScoreError::text(&relit.join(strange), reason));
+    let strange = |name: &String| relit.join(name).is_dir() && !lights.contains(name);
+    if let Some(name) = truth::names(relit)?.iter().find(|name| strange(name)) {
+        return Err(ScoreError::Light { path: relit.join(name), known: lights.join(", ") });
     }
     let mut all = Vec::new();
     for light in lights.iter().filter(|light| relit.join(light).is_dir()) {

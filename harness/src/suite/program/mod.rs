@@ -98,8 +98,13 @@ impl Program {
         fs::create_dir_all(&maps)?;
         fs::create_dir(&own)?;
         fs::create_dir(&lights)?;
-        if let Some(given) = place.lights {
-            copy_below(given, &lights)?;
+        for entry in place.lights.map(fs::read_dir).transpose()?.into_iter().flatten() {
+            let file = entry?.path();
+            if let Some(name) =
+                file.file_name().filter(|_| file.extension() == Some("exr".as_ref()))
+            {
+                fs::copy(&file, lights.join(name))?;
+            }
         }
         if let Some(folder) = place.log.parent() {
             fs::create_dir_all(folder)?;
