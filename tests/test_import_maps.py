@@ -119,7 +119,7 @@ def test_a_wrong_statement_is_found_and_named(
     with pytest.raises(MapsError) as refusal:
         bring(capture, doubted, tmp_path / "maps", settings=settings)
     message = str(refusal.value)
-    assert words in message and "\n" not in message and not (tmp_path / "maps").exists(), message
+    assert f"settings {words}" in message and "\n" not in message and not (tmp_path / "maps").exists(), message
 
 
 def test_what_fits_better_is_taken_if_asked_and_said(
@@ -152,12 +152,12 @@ def test_a_mesh_of_another_unit_and_axes_is_placed(capture: unshade.Capture, nat
     cosine = (unshade.Maps.read(out).specular_normal * maps.specular_normal).sum(-1)[maps.coverage > 0]
     assert np.degrees(np.arccos(cosine.clip(-1, 1))).mean() < 1.2  # half the texels
     with pytest.raises(MapsError, match=r"lies .* from the capture's mesh as it is"):
-        bring(capture, tmp_path / "theirs", tmp_path / "other", place="keep")
+        bring(capture, tmp_path / "theirs", tmp_path / "other", place="keep", size=64)
     # Neither a unit nor a quarter turn: a similarity is fitted.
     turn = np.eye(3)
     turn[:2, :2] = foreign_maps.rotation(8)
     layout.write_mesh(tmp_path / "theirs" / "head.obj", 1.04, turn)
-    fitted = record(bring(capture, tmp_path / "theirs", tmp_path / "other", place="fit"))
+    fitted = record(bring(capture, tmp_path / "theirs", tmp_path / "other", place="fit", size=64))
     assert fitted["distance_mm"]["median"] < 0.4, fitted
 
 

@@ -127,20 +127,21 @@ class _Import:
             if out.resolve() in (path.resolve(), *path.resolve().parents):
                 raise StorageError(f"{out}: holds {path.name}, which is read; choose another folder for the maps")
         layouts = {v: Layout.of(self.theirs, down=v == "down") for v in ("up", "down")}
-        flight = Preflight(
-            self.statement, self.codes, layouts, trial := self._counterparts(_TRIAL, limit), self._witness(trial),
-            apply=apply,
-        )  # fmt: skip
+        trial = self._counterparts(_TRIAL, limit)
+        flight = Preflight(self.statement, self.codes, layouts, trial, self._witness(trial), apply=apply)
         settled = flight.settle()
         size = size or max(codes.size for codes in self.codes.values())
-        counterparts = self._counterparts(size, limit)
+        counterparts = trial if size == _TRIAL else self._counterparts(size, limit)
         if not counterparts.found.any():
             raise MapsError(f"{self.mesh_file}: has no counterpart of the capture's mesh within {1000 * limit:g} mm")
         maps = _Chart(settled, self.codes, layouts[settled.v], counterparts, self._turn()).maps()
         folder = ResumableFolder(out, self._key(settled, size, limit))
         for name, values in maps.items():
             _write_map(folder.path, name, values)
-        write_text(folder.path / "solve.json", json.dumps({"solver": settled.name}) + "\n")
+        write_text(
+            folder.path / "solve.json",
+            json.dumps({"solver": self.folder.resolve().name if settled.name == "any" else settled.name}) + "\n",
+        )
         findings = json.loads(_native.check_json(folder.path, self.capture.path))
         for finding in findings:
             warnings.warn(f"{finding['map']}: {finding['message']}; {finding['mend']}", MapsWarning, stacklevel=4)

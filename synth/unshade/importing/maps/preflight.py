@@ -106,7 +106,7 @@ class Preflight:
             map_name = key.partition(".")[0]
             file = self._codes[map_name if map_name in self._codes else "diffuse_albedo"].path
             raise MapsError(
-                f"{file}: {self.statement.origin} says {key} = {stated}, but {best} fits ({shown}); "
+                f"{file}: {self.statement.stated_by(key)} says {key} = {stated}, but {best} fits ({shown}); "
                 f"state {key} = {best}, or import with apply"
             )
         self.trials.append(Trial(key, stated, taken, how, {name: round(float(v), 4) for name, v in evidence.items()}))

@@ -64,7 +64,8 @@ class Texture:
 @dataclass(frozen=True)
 class Statement:
     """``name`` of the format, ``origin`` the file that states it, ``source`` where that is known from, ``mesh`` patterns
-    of the OBJ in the folder, ``v`` whether the pictures' first row lies at v = 1 (``up``) or at v = 0 (``down``)."""
+    of the OBJ in the folder, ``v`` whether the pictures' first row lies at v = 1 (``up``) or at v = 0 (``down``). ``laid_over`` are the keys that the
+    settings state."""
 
     name: str
     origin: str
@@ -72,6 +73,11 @@ class Statement:
     mesh: tuple[str, ...] = ()
     v: str = AUTO
     maps: Mapping[str, Texture] = field(default_factory=lambda: dict[str, Texture]())
+    laid_over: frozenset[str] = frozenset()
+
+    def stated_by(self, key: str) -> str:
+        """Who states a key, as ``normal.as``."""
+        return "settings" if key in self.laid_over else self.origin
 
     def with_map(self, name: str, **changes: Any) -> Statement:
         """The statement with other values for one map."""
@@ -99,7 +105,12 @@ def read_statement(adapter: str | None, settings: Mapping[str, Any]) -> Statemen
         raise MapsError(f"{path}: is of no format that is read; write format = 1")
     shown = f"adapter {path.stem}" if path.parent == ADAPTERS else str(path)
     statement = _statement(shown, table, Statement(str(table.pop("name", path.stem)), shown))
-    return _statement("settings", dict(settings), statement)
+    keys = frozenset(
+        key if inner is None else f"{key}.{inner}"
+        for key, value in settings.items()
+        for inner in (value if isinstance(value, Mapping) else (None,))
+    )
+    return replace(_statement("settings", dict(settings), statement), laid_over=keys)
 
 
 def _statement(origin: str, table: dict[str, Any], below: Statement) -> Statement:
