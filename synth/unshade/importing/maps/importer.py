@@ -128,12 +128,12 @@ class _Import:
                 raise StorageError(f"{out}: holds {path.name}, which is read; choose another folder for the maps")
         layouts = {v: Layout.of(self.theirs, down=v == "down") for v in ("up", "down")}
         trial = self._counterparts(_TRIAL, limit)
+        if not trial.found.any():
+            raise MapsError(f"{self.mesh_file}: has no counterpart of the capture's mesh within {1000 * limit:g} mm")
         flight = Preflight(self.statement, self.codes, layouts, trial, self._witness(trial), apply=apply)
         settled = flight.settle()
         size = size or max(codes.size for codes in self.codes.values())
         counterparts = trial if size == _TRIAL else self._counterparts(size, limit)
-        if not counterparts.found.any():
-            raise MapsError(f"{self.mesh_file}: has no counterpart of the capture's mesh within {1000 * limit:g} mm")
         maps = _Chart(settled, self.codes, layouts[settled.v], counterparts, self._turn()).maps()
         folder = ResumableFolder(out, self._key(settled, size, limit))
         for name, values in maps.items():

@@ -6,6 +6,7 @@ mesh for normals; skin's ranges for highlights. A relief has no curl, which tell
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -89,14 +90,22 @@ class Preflight:
         return self._counterparts.texels.image(np.asarray(values, np.float32))
 
     def _settled(
-        self, key: str, stated: str, evidence: dict[str, float], *, decides: float, contradicts: float, default: str
+        self,
+        key: str,
+        stated: str,
+        evidence: dict[str, float],
+        *,
+        decides: float,
+        contradicts: float,
+        default: str = "",
     ) -> str:
-        """The best candidate, unless what is stated is about as good; closer than ``decides`` it is the default."""
+        """The best candidate, unless what is stated is about as good; closer than ``decides`` it is the
+        default, if there is one."""
         best = max(evidence, key=lambda name: evidence[name])
         rest = max((value for name, value in evidence.items() if name != best), default=-np.inf)
         if stated == AUTO:
             sure = evidence[best] - rest >= decides
-            taken, how = (best, "found") if sure else (default, "assumed")
+            taken, how = (best, "found") if sure else (default or best, "assumed")
         elif evidence[best] - evidence.get(stated, -np.inf) < contradicts:
             taken, how = stated, "stated"
         elif self._apply:
@@ -192,27 +201,23 @@ class Preflight:
             green = self._settled(f"{name}.green", green, evidence, decides=0.1, contradicts=0.4, default="up")
         self.statement = self.statement.with_map(name, kind=kind, green=green)
 
-    def _range(self, name: str, kinds: tuple[str, ...], decoded, skin: tuple[float, float]) -> None:
-        """The first kind whose median is skin's; what is stated counts unless only another one's is."""
+    def _range(
+        self, name: str, kinds: tuple[str, ...], decoded: Callable[[Floats, str], Floats], skin: tuple[float, float]
+    ) -> None:
+        """The kind whose median is skin's, of several the first; what is stated counts unless only another one's is."""
         stated = self.statement.maps.get(name, Texture())
-        if name not in self._codes:
+        if name not in self._codes or stated.kind == "metalness":
             return
-        values = decoding.scalar(self._codes[name], stated)
-        middle = float(np.median(self._looked_up(values, self.statement.v)[self._counterparts.found]))
-        if stated.kind == "metalness":
-            return
+        values = self._looked_up(decoding.scalar(self._codes[name], stated), self.statement.v)
+        middle = np.float32(np.median(values[self._counterparts.found]))
         low, high = skin
-        medians = {kind: float(decoded(np.float32(middle), kind)) for kind in kinds}
-        if name == "specular_albedo" and middle < 1:
-            medians.pop("ior")
-        # How far a median is outside of skin's, in factors; a tie goes to the kind that stands first.
-        order = {kind: 0.01 * place for place, kind in enumerate(kinds)}
-        evidence = {
-            kind: -float(np.log(max(low / max(value, 1e-6), value / high, 1.0))) - order[kind]
-            for kind, value in medians.items()
-        }
-        evidence.setdefault(stated.kind, -9.0) if stated.kind != AUTO else None
-        kind = self._settled(f"{name}.as", stated.kind, evidence, decides=0.0, contradicts=0.4, default=kinds[0])
+        evidence = {}
+        for place, kind in enumerate(kinds):
+            # No index of refraction is below 1, but what it would mean is a reflectance.
+            value = 0.0 if kind == "ior" and middle < 1 else float(decoded(middle, kind))
+            # How far it is outside of skin's, in factors.
+            evidence[kind] = -float(np.log(max(low / max(value, 1e-6), value / high, 1.0))) - 0.01 * place
+        kind = self._settled(f"{name}.as", stated.kind, evidence, decides=0.1, contradicts=0.4)
         self.statement = self.statement.with_map(name, kind=kind)
 
 

@@ -52,7 +52,8 @@ class Codes:
 def find_texture(folder: Path, patterns: tuple[str, ...], taken: Collection[Path] = ()) -> Path | None:
     """The first file that a name or pattern fits, without regard to case; a name without an ending fits any picture.
     A pattern fits no file that is ``taken``."""
-    files = sorted(path for path in folder.rglob("*") if path.is_file() and path.suffix.lower() in ENDINGS)
+    files = [path for path in folder.rglob("*") if path.is_file() and path.suffix.lower() in ENDINGS]
+    files.sort(key=lambda path: (len(path.parts), path))
     for pattern in patterns:
         whole = Path(pattern).suffix.lower() in (*ENDINGS, ".*")
         for path in files:
