@@ -192,3 +192,17 @@ def test_the_documentations_examples_run(
     )
     code = examples()[place]
     exec(compile(code, place, "exec"), {"__name__": "example"})
+
+
+def test_pictures_of_views_are_projected_into_the_chart(tiny_run: Path) -> None:
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    flat = {name: np.full((96, 96, 3), [0.1, 0.2, 0.4]) for name in capture.train}
+    texture, seen = capture.project(flat, 64)
+    assert texture.shape == (64, 64, 3) and set(np.unique(seen)) == {0, 255}
+    np.testing.assert_allclose(texture, np.broadcast_to(np.float32([0.1, 0.2, 0.4]), texture.shape), atol=1e-6)
+    one = capture.project({capture.train[0]: flat[capture.train[0]]}, 64)[1]
+    assert (one <= seen).all() and 0 < (one > 0).sum() < (seen > 0).sum()
+    with pytest.raises(KeyError, match="no training view"):
+        capture.project({capture.withheld[0]: flat[capture.train[0]]}, 64)
+    with pytest.raises(ValueError, match=r"expected shape \(96, 96, 3\)"):
+        capture.project({capture.train[0]: np.zeros((8, 8, 3))}, 64)

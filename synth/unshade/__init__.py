@@ -32,6 +32,7 @@ _HOMES = {
     "consistency": "importing",
     "export": "stages",
     "import_capture": "importing",
+    "import_maps": "importing.maps",
     "relight": "stages",
     "report": "stages",
     "run": "stages",

@@ -7,6 +7,7 @@ from unshade._native import solve as solve
 from unshade.importing import Consistency as Consistency
 from unshade.importing import consistency as consistency
 from unshade.importing import import_capture as import_capture
+from unshade.importing.maps import import_maps as import_maps
 from unshade.scores import Score as Score
 from unshade.scores import Scores as Scores
 from unshade.stages import Fidelity as Fidelity

@@ -110,6 +110,9 @@ class Capture:
         """The diffuse shading (N, N, 3) of the mesh in an environment (rows, 2 rows, 3), lat-long
         as ``truth/light.exr``, on a sphere of 1 / ``nearness`` metres, with the mesh's own shadows
         and bounces: 1 for radiance 1 from everywhere. A diffuse layer is albedo times shading."""
+    def project(self, pictures: dict[str, ArrayLike], size: int) -> tuple[_Float, _Byte]:
+        """Pictures (height, width, 3) of training views by name as a texture (size, size, 3): the mean of
+        what they show at a texel, weighted by the cosine, and 255 where one of them shows it."""
     def truth(self) -> Maps:
         """The true maps of a synthetic capture."""
 

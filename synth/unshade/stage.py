@@ -59,6 +59,11 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
 
+    lights = verbs.add_parser("lights", help="write the other lights of a capture as lat-long pictures")
+    lights.add_argument("--capture", type=Path, required=True)
+    lights.add_argument("--out", type=Path, required=True)
+    lights.set_defaults(stage=_lights)
+
     export = verbs.add_parser("export", help="write maps as an asset of another program")
     export.add_argument("--maps", type=Path, required=True)
     export.add_argument("--out", type=Path, required=True)
@@ -88,7 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, export, check, describe, sheet, doctor, physics):
+    for verb in (synth, relight, lights, export, check, describe, sheet, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -135,6 +140,17 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _lights(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+    from .render.truth_scene import captured_scene
+
+    scene = captured_scene(options.capture)
+    _activate(llvm.choose(scene.versions["variant"]))
+    from .render.handed_lights import write_lights
+
+    return {"lights": write_lights(scene, options.out)}
 
 
 def _export(options: argparse.Namespace) -> dict[str, Any]:

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use capture::gbuffer::GBuffer;
 use capture::{Camera, Mesh, View};
-use formats::picture::Picture;
+use formats::picture::{GrayImage, Picture};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
 use pyo3::exceptions::{PyKeyError, PyTypeError};
@@ -154,6 +154,34 @@ impl Capture {
         });
         let (width, height) = (texture_size, texture_size);
         arrays::picture_to_array(py, Picture { width, height, channels: CHANNELS, data })
+    }
+
+    /// Pictures of training views as a texture: the mean of what they show at a texel, weighted by
+    /// the cosine, and 255 where one of them shows it.
+    fn project<'py>(
+        &self,
+        py: Python<'py>,
+        pictures: &Bound<'py, PyDict>,
+        size: usize,
+    ) -> PyResult<(Bound<'py, PyArrayDyn<f32>>, Bound<'py, PyArrayDyn<u8>>)> {
+        let argument = Argument { name: "pictures", class: "ValueError" };
+        if !(1..=8192).contains(&size) {
+            return Err(argument.refused("texture of another size than 1 to 8192 texels"));
+        }
+        let mut views = Vec::new();
+        for (name, picture) in pictures.iter() {
+            let view = self.view(name.extract()?)?;
+            let image = argument.picture(&picture)?;
+            let (w, h) = (view.camera.width, view.camera.height);
+            if (image.width, image.height, image.channels) != (w, h, 3) {
+                return Err(argument.refused(&format!("{name}: expected shape ({h}, {w}, 3)")));
+            }
+            views.push(View { image, ..view.clone() });
+        }
+        let found = py.detach(|| capture::mean_texture::project(&self.inner.mesh, &views, size));
+        let data = found.seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
+        let seen = GrayImage { width: size, height: size, data };
+        Ok((arrays::picture_to_array(py, found.mean)?, arrays::gray_to_array(py, seen)?))
     }
 
     /// The true maps of a synthetic capture.

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
 use super::place;
-use super::program::{Limits, Program, Start};
+use super::program::{Gives, Limits, Program, Start};
 use super::scene::{self, SceneError};
 
 /// How a solver is started.
@@ -70,9 +70,10 @@ struct SolverTable {
     backend: Option<String>,
     command: Option<CommandLine>,
     python: Option<String>,
-    /// Of a baseline.
+    /// Of a baseline, and of a program that gives pictures.
     texture_size: Option<usize>,
     /// Of a program.
+    gives: Option<Gives>,
     timeout_s: Option<f64>,
     memory_gib: Option<f64>,
     threads: Option<usize>,
@@ -119,14 +120,7 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
         (Some(program), _) => Method::Program(program),
         (None, "oracle") => Method::Oracle,
         (None, name) => match baseline {
-            Some(method) => {
-                let texture_size = solver.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
-                if !(16..=8192).contains(&texture_size) {
-                    let reason = format!("{texture_size} of {name:?} is not from 16 to 8192");
-                    return Err(SceneError::in_table(path, name, "texture_size", reason));
-                }
-                Method::Baseline { method, texture_size }
-            }
+            Some(method) => Method::Baseline { method, texture_size: solver.texture_size(path)? },
             None => Method::Fields {
                 config: config_text(path, name, solver.config.as_deref(), &solver.set)?,
                 backend: solver.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
@@ -169,9 +163,15 @@ impl SolverTable {
         if self.threads == Some(0) {
             return wrong("threads", "must be 1 or more");
         }
+        let gives = self.gives.unwrap_or_default();
+        if gives == Gives::Pictures && self.command.is_none() {
+            return wrong("gives", "is pictures, which a function cannot return; write a command");
+        }
         let Self { timeout_s, memory_gib, threads, .. } = *self;
         let folder = place::beside(path, "");
         Ok(Some(Program {
+            gives,
+            texture_size: self.texture_size(path)?,
             start,
             inputs: self.inputs.iter().flatten().map(|input| folder.join(input)).collect(),
             folder: std::path::absolute(&folder).unwrap_or(folder),
@@ -179,6 +179,16 @@ impl SolverTable {
             environment: self.environment.clone().unwrap_or_default(),
             version: self.version.clone(),
         }))
+    }
+
+    /// Side of what is projected into the texture, texels.
+    fn texture_size(&self, path: &Path) -> Result<usize, SceneError> {
+        let size = self.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
+        if (16..=8192).contains(&size) {
+            return Ok(size);
+        }
+        let reason = format!("{size} of {:?} is not from 16 to 8192", self.name);
+        Err(SceneError::in_table(path, &self.name, "texture_size", reason))
     }
 
     /// Refuses keys that would do nothing.
@@ -193,6 +203,7 @@ impl SolverTable {
             command,
             python,
             texture_size,
+            gives,
             timeout_s,
             memory_gib,
             threads,
@@ -209,12 +220,14 @@ impl SolverTable {
             return refused("has both a command and a python function".to_owned());
         }
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
+        let pictures = *gives == Some(Gives::Pictures);
         let fields = !foreign && !baseline && name != "oracle";
         for (key, given, means) in [
             ("config", config.is_some(), fields),
             ("set", !set.is_empty(), fields),
             ("backend", backend.is_some(), fields),
-            ("texture_size", texture_size.is_some(), baseline && !foreign),
+            ("texture_size", texture_size.is_some(), if foreign { pictures } else { baseline }),
+            ("gives", gives.is_some(), foreign),
             ("timeout_s", timeout_s.is_some(), foreign),
             ("memory_gib", memory_gib.is_some(), foreign),
             ("threads", threads.is_some(), foreign),

@@ -19,13 +19,14 @@ use super::entrant;
 use super::error::RunError;
 use super::file::{RENDERERS, Suite};
 use super::manifest::manifest;
-use super::method::Method;
+use super::method::{Entrant, Method};
 use super::preflight::{self, Ready};
 use super::program::{self, Place};
 use super::record::{Made, Records};
+use super::relit::{lights, relit};
 use super::scene::{Scene, SceneError};
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
-use super::stages::{relight, words};
+use super::stages::words;
 use super::tools::{Observer, Tools};
 use crate::synth::run_stage;
 
@@ -74,6 +75,8 @@ pub fn run(
     program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprint()?;
     let rendered = suite.cases.iter().filter(|case| case.photographed.is_none()).count();
+    let handed = suite.entrants.iter().any(Entrant::gives_pictures);
+    let rendered = if handed { 2 * rendered } else { rendered };
     let total = rendered + suite.cases.len() * 3 * suite.entrants.len() + 1;
     let records = Records::open(out)?;
     let failed = BTreeMap::new();
@@ -83,8 +86,10 @@ pub fn run(
     stages.prepare(&renderer)?;
     for case in &suite.cases {
         let capture = stages.capture(case, &renderer)?;
+        let lights = stages.lights(case, &capture, &renderer)?;
         for ready in &ready {
-            stages.entrant(case, ready, &capture, &renderer)?;
+            let given = Given { capture: &capture, lights: lights.as_ref() };
+            stages.entrant(case, ready, given, &renderer)?;
         }
     }
     stages.write_manifest(&renderer)?;
@@ -139,6 +144,13 @@ struct Stages<'a> {
 struct Output {
     path: PathBuf,
     content: String,
+}
+
+/// What the methods of a case start from.
+#[derive(Clone, Copy)]
+struct Given<'g> {
+    capture: &'g Output,
+    lights: Option<&'g Output>,
 }
 
 /// What decides whether a stage's earlier output is still valid.
@@ -234,16 +246,36 @@ impl Stages<'_> {
         })
     }
 
+    /// The lights that methods of pictures relight in, if there are such.
+    fn lights(
+        &mut self,
+        case: &Case,
+        capture: &Output,
+        renderer: &str,
+    ) -> Result<Option<Output>, RunError> {
+        let wanted = self.suite.entrants.iter().any(Entrant::gives_pictures);
+        if !wanted || case.photographed.is_some() {
+            return Ok(None);
+        }
+        let path = self.out.join("lights").join(&case.id);
+        let inputs: &[&str] = &["lights", &capture.content, renderer];
+        let made = self.stage(&format!("lights/{}", case.id), inputs, path, |path, tools, step| {
+            lights(&capture.path, path, tools, step)?;
+            Ok(Made::default())
+        });
+        made.map(Some)
+    }
+
     /// One method on one case; what it does wrong is kept as its failure.
     fn entrant(
         &mut self,
         case: &Case,
         ready: &Ready,
-        capture: &Output,
+        given: Given,
         renderer: &str,
     ) -> Result<(), RunError> {
         let name = format!("{}/{}", case.id, ready.entrant.id);
-        match self.make_and_score(case, ready, capture, renderer, &name) {
+        match self.make_and_score(case, ready, given, renderer, &name) {
             Err(error) if error.is_of_method() => {
                 tracing::warn!("{name}: failed: {error}");
                 // Scores of an earlier state of the method must not pass for this one's.
@@ -264,7 +296,7 @@ impl Stages<'_> {
         &mut self,
         case: &Case,
         ready: &Ready,
-        capture: &Output,
+        Given { capture, lights }: Given,
         renderer: &str,
         name: &str,
     ) -> Result<(), RunError> {
@@ -276,7 +308,9 @@ impl Stages<'_> {
         let scratch = program::scratch_prefix(self.out);
         let scales = &self.suite.scales;
         let redo = self.options.redo.contains(&entrant.id);
-        let inputs = ["maps", &capture.content, &method];
+        let mut inputs = vec!["maps", &capture.content, &method];
+        let lights = lights.filter(|_| entrant.gives_pictures());
+        inputs.extend(lights.map(|lights| lights.content.as_str()));
         let maps = self.stage(
             &format!("maps/{name}"),
             Key { inputs: &inputs, redo, made_from },
@@ -285,6 +319,7 @@ impl Stages<'_> {
                 let place = Place {
                     capture: &capture.path,
                     maps: path,
+                    lights: lights.map(|lights| lights.path.as_path()),
                     log: &log,
                     secret,
                     scratch: &scratch,
@@ -305,7 +340,7 @@ impl Stages<'_> {
             inputs,
             self.out.join("relit").join(name),
             |path, tools, step| {
-                relight(by, &capture.path, &maps.path, path, scales, tools, step)?;
+                relit(by, entrant, [&capture.path, &maps.path, path], scales, tools, step)?;
                 Ok(Made::default())
             },
         )?;

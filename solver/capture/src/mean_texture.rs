@@ -7,15 +7,24 @@ use glam::Vec3;
 
 use crate::gbuffer::{Atlas, GBuffer};
 use crate::projection::{Observation, Projection, per_texel};
-use crate::{Capture, CaptureError};
+use crate::{Capture, CaptureError, Mesh, View};
 
-/// The mean projected texture: the diffuse albedo is the mean of the colours the training views
-/// see at a texel, weighted by the cosine; unseen texels take the nearest seen one's. Normals are
-/// the mesh's; there is no specular albedo. Coverage: seen by at least one view.
-pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
-    let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
-    let projections = Projection::of_views(&capture.train, &gbuffers);
-    let atlas = Atlas::new(&capture.mesh, size);
+/// Pictures of views as a texture.
+pub struct Projected {
+    /// The surface behind the texels.
+    pub atlas: Atlas,
+    /// The mean of the colours that the views see at a texel, weighted by the cosine; unseen texels
+    /// take the nearest seen one's.
+    pub mean: Picture,
+    /// Texels that at least one view sees.
+    pub seen: Vec<bool>,
+}
+
+/// Projects the pictures of `views` of `mesh` into a texture of `size` texels.
+pub fn project(mesh: &Mesh, views: &[View], size: usize) -> Projected {
+    let gbuffers = GBuffer::of_views(mesh, views);
+    let projections = Projection::of_views(views, &gbuffers);
+    let atlas = Atlas::new(mesh, size);
     let mean = |seen: &[(usize, Observation)]| {
         let total: f32 = seen.iter().map(|(_, seen)| seen.cosine).sum();
         let colour =
@@ -25,9 +34,16 @@ pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError
     let colours: Vec<Option<Vec3>> = per_texel(&atlas, &projections, mean);
     let seen: Vec<bool> = colours.iter().map(Option::is_some).collect();
     let data = colours.iter().flat_map(|colour| colour.unwrap_or_default().to_array()).collect();
-    let mut albedo = Picture { width: size, height: size, channels: 3, data };
-    fill::fill_from_nearest(&mut albedo, &seen);
-    with_mesh_normals(capture, &atlas, albedo, &seen)
+    let mut mean = Picture { width: size, height: size, channels: 3, data };
+    fill::fill_from_nearest(&mut mean, &seen);
+    Projected { atlas, mean, seen }
+}
+
+/// The mean projected texture as a diffuse albedo. Normals are the mesh's; there is no specular
+/// albedo. Coverage: seen by at least one training view.
+pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
+    let Projected { atlas, mean, seen } = project(&capture.mesh, &capture.train, size);
+    with_mesh_normals(capture, &atlas, mean, &seen)
 }
 
 /// Maps of a diffuse albedo and the normals of the mesh, without a specular albedo. Coverage: `seen`.

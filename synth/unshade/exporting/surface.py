@@ -12,6 +12,7 @@ import numpy as np
 from .. import _native
 from ..errors import CaptureError, MapsError
 from ..face.texels import Texels, rasterise
+from ..importing.chart_mesh import smooth_normals
 from ..render.relight import read_maps
 from ..render.scene import ChartMaps
 from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS, MIN_ALPHA
@@ -127,19 +128,9 @@ def _read_mesh(path: Path) -> Mesh:
         raise CaptureError(f"{path}: has corners without UV (line {shape['line_without_uv']}); export the mesh with UV")
     normals = shape["normals"]
     if normals is None:
-        normals = _smooth_normals(shape["vertices"], shape["triangles"])
+        normals = smooth_normals(shape["vertices"], shape["triangles"])
     vertices, normals, uv = (values.astype(np.float32) for values in (shape["vertices"], _unit(normals), shape["uv"]))
     return Mesh(vertices, normals, uv, shape["triangles"])
-
-
-def _smooth_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Normals by area, one for all vertices of one place: seams of the UV are none of the surface."""
-    place = np.unique(vertices, axis=0, return_inverse=True)[1].ravel()
-    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
-    normals = np.zeros_like(vertices)
-    for corner in range(3):
-        np.add.at(normals, place[triangles[:, corner]], np.cross(b - a, c - a))
-    return normals[place]
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -92,3 +92,13 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         np.concatenate(given) if len(given) == len(normals) else None,
         data if len(chosen) == len(pieces) else None,
     )
+
+
+def smooth_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Normals (V,3) by area, one for all vertices of one place: seams of the UV are none of the surface. Not unit."""
+    place = np.unique(vertices, axis=0, return_inverse=True)[1].ravel()
+    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
+    normals = np.zeros_like(vertices)
+    for corner in range(3):
+        np.add.at(normals, place[triangles[:, corner]], np.cross(b - a, c - a))
+    return normals[place]

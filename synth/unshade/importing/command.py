@@ -14,11 +14,15 @@ from .pictures import CURVES
 from .placement import PLACES, UNITS
 
 _DESCRIPTION = "Bring photographs, cameras and a mesh of other programs into a capture folder."
-_EPILOG = "docs/photographs.md has each format, what is assumed, and what to do when cameras do not fit."
+_EPILOG = "unshade import maps --help: results of other methods. docs/photographs.md has each format, what is assumed, and what to do when cameras do not fit."
 
 
 def main(arguments: list[str]) -> int:
     """Runs ``unshade import`` with ``arguments``; returns the exit code."""
+    if arguments[:1] == ["maps"]:
+        from .maps.command import main as maps_main
+
+        return maps_main(arguments[1:])
     options = _parser().parse_args(arguments)
     bar = _Bar()
     try:

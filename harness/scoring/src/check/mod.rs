@@ -59,7 +59,8 @@ pub fn check_with(maps: &Path, capture: Option<&Capture>) -> Result<Vec<Finding>
     let mut findings = Vec::new();
     stray::stray_files(maps, &mut findings);
     let found = MapFolder::read(maps, &mut findings);
-    if found.pictures().next().is_none() && findings.is_empty() && !maps.join("views").is_dir() {
+    let pictures = ["views", "relit"].iter().any(|folder| maps.join(folder).is_dir());
+    if found.pictures().next().is_none() && findings.is_empty() && !pictures {
         let shown = maps.file_name().unwrap_or_default().to_string_lossy();
         let message = "holds no map".to_owned();
         let mend = "a solver leaves at least diffuse_albedo.exr";

@@ -69,6 +69,16 @@ pub enum ScoreError {
         /// Why.
         source: MetricError,
     },
+    /// A method relit in a light that the capture does not have.
+    #[error(
+        "{path}: is no light of the capture; there are {known}, name the folder as one of them"
+    )]
+    Light {
+        /// The folder.
+        path: PathBuf,
+        /// The lights that there are.
+        known: String,
+    },
     /// A text file is not what it should be.
     #[error("{path}: cannot be understood: {reason}")]
     Text {

@@ -7,6 +7,7 @@ mod maps;
 mod names;
 mod noise_floor;
 mod oracle;
+mod own;
 mod photographs;
 mod pictures;
 mod protocol;
@@ -23,6 +24,7 @@ use formats::content_hash::hash_path;
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
 pub use oracle::oracle_maps;
+pub use own::keep_own_relit;
 pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
@@ -61,7 +63,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         },
     );
     let (views, relit_rows) = of_pictures?;
-    if views.is_empty() && is_empty(&found) {
+    if views.is_empty() && relit_rows.is_empty() && is_empty(&found) {
         return Err(ScoreError::Nothing(maps.to_path_buf()));
     }
     let mut rows = of_maps?;

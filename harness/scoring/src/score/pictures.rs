@@ -40,6 +40,15 @@ impl Frame {
         names.into_iter().map(open).collect()
     }
 
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The pixels that are compared, row-major.
+    pub fn pixels(&self) -> &[usize] {
+        self.region.pixels()
+    }
+
     /// How much of its mask is compared.
     pub fn region_size(&self) -> RegionSize {
         let name = format!("{}/{}", self.region.name(), self.name);

@@ -1,5 +1,6 @@
 //! The protocol, in words, as every scores file carries it.
 
+use super::own::OWN;
 use serde::{Deserialize, Serialize};
 
 /// Side of the blocks of the bootstrap in pictures, pixels.
@@ -45,6 +46,12 @@ impl Protocol {
             self.id.push_str(&format!(" {renderer}"));
             self.statements.push(format!(
                 "relit by {renderer}: maps were relit by another renderer than the truth; what the two renderers differ by counts against every method."
+            ));
+        }
+        if let Some(renderer @ OWN) = renderer {
+            self.id.push_str(&format!(" {renderer}"));
+            self.statements.push(format!(
+                "relit by {renderer}: the method relit the withheld views itself, given the lights, and no maps were relit. Mode global multiplies its pictures by one factor, the same in all lights and frames, k = <p,g>/<p,p> on linear values over mask-e5: there is no albedo to scale."
             ));
         }
         self

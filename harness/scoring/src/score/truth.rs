@@ -128,7 +128,7 @@ pub(super) fn size(picture: &Picture) -> (usize, usize) {
 }
 
 /// Names in a folder without their extensions, sorted.
-fn names(folder: &Path) -> Result<Vec<String>, ScoreError> {
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, ScoreError> {
     let entries = fs::read_dir(folder).map_err(|error| ScoreError::io(folder, error))?;
     let mut names = Vec::new();
     for entry in entries {

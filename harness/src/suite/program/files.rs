@@ -9,6 +9,7 @@ use formats::content_hash::{hash_parts, hash_path};
 use serde::Deserialize;
 
 use super::confine::is_system;
+use super::pictures::Gives;
 use super::start::{Program, Start};
 use crate::synth::Interpreter;
 
@@ -66,6 +67,13 @@ impl Program {
             if !arguments.iter().any(|word| word.contains(place)) {
                 return Err(format!("command never says {place}, so the program cannot know it"));
             }
+        }
+        if self.gives == Gives::Maps && arguments.iter().any(|word| word.contains("{lights}")) {
+            return Err(
+                "command says {lights}, which maps are made without; state gives = \"pictures\" \
+                        if it relights"
+                    .to_owned(),
+            );
         }
         let executable = self.executable(program)?;
         let mut files = ProgramFiles { arguments: arguments.to_vec(), ..ProgramFiles::default() };
@@ -163,6 +171,9 @@ impl ProgramFiles {
             format!("{:?}", program.environment),
             format!("{:?}", program.version),
         ];
+        if program.gives == Gives::Pictures {
+            parts.push(format!("pictures {}", program.texture_size));
+        }
         for path in self.own.iter().chain(&program.inputs) {
             // A path of the system's changes with its packages, not with the method.
             let content = if is_system(path) { String::new() } else { hash_path(path)? };

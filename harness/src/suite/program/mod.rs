@@ -7,6 +7,7 @@
 mod blind;
 mod confine;
 mod files;
+mod pictures;
 mod start;
 mod watch;
 
@@ -23,6 +24,7 @@ use super::error::RunError;
 use crate::synth::Interrupt;
 use confine::Permissions;
 pub use files::ProgramFiles;
+pub use pictures::Gives;
 pub use start::{Program, Start};
 use watch::{End, watch};
 pub use watch::{Limits, Usage};
@@ -42,6 +44,8 @@ pub(super) struct Place<'a> {
     pub capture: &'a Path,
     pub maps: &'a Path,
     pub log: &'a Path,
+    /// Lat-long pictures of the lights to relight in, for methods of pictures.
+    pub lights: Option<&'a Path>,
     /// What it must not see: the run, and the files of the truth.
     pub secret: Vec<PathBuf>,
     /// The run's [`scratch_prefix`].
@@ -86,25 +90,34 @@ impl Program {
         let output = Folder::begin(place.maps)?;
         // Elsewhere than the run, whose truth a program has no business with.
         let scratch = tempfile::Builder::new().prefix(place.scratch).tempdir()?;
-        let [capture, results, own] =
-            ["capture", "results", "tmp"].map(|name| scratch.path().join(name));
+        let [capture, results, own, lights] =
+            ["capture", "results", "tmp", "lights"].map(|name| scratch.path().join(name));
         // Beside the maps there is room for what is renamed into their place.
         let maps = results.join("maps");
         blind::copy_blind(place.capture, &capture)?;
         fs::create_dir_all(&maps)?;
         fs::create_dir(&own)?;
+        fs::create_dir(&lights)?;
+        for entry in place.lights.map(fs::read_dir).transpose()?.into_iter().flatten() {
+            let file = entry?.path();
+            if let Some(name) =
+                file.file_name().filter(|_| file.extension() == Some("exr".as_ref()))
+            {
+                fs::copy(&file, lights.join(name))?;
+            }
+        }
         if let Some(folder) = place.log.parent() {
             fs::create_dir_all(folder)?;
         }
         let log = File::create(place.log)?;
-        let command = self.command(files, [&capture, &maps, &own], &log)?;
+        let command = self.command(files, [&capture, &maps, &own, &lights], &log)?;
         let mut permissions = Permissions {
             read: files.readable().chain(&self.inputs).cloned().collect(),
             list: vec![self.folder.clone()],
             write: vec![results, own],
             secret: place.secret.clone(),
         };
-        permissions.read.push(capture);
+        permissions.read.extend([capture, lights]);
         let mut usage = Usage::default();
         // A thread of its own: the kernel restricts threads, for good, and what they start.
         let end = thread::scope(|scope| {
@@ -126,9 +139,13 @@ impl Program {
         };
         let left = match what {
             Some(what) => Err(failed(format!("{what}{}", self.last_words(place.log, &usage)))),
+            None if self.gives == Gives::Pictures => {
+                pictures::into_maps(place.capture, &maps, scratch.path(), self.texture_size)
+                    .map_err(failed)
+            }
             None => check(&maps).map_err(failed),
         };
-        if let Err(error) = left.and_then(|()| Ok(move_below(&maps, output.path())?)) {
+        if let Err(error) = left.and_then(|()| Ok(copy_below(&maps, output.path())?)) {
             output.abandon();
             return Err(error);
         }
@@ -139,12 +156,13 @@ impl Program {
     fn command(
         &self,
         files: &ProgramFiles,
-        [capture, maps, own]: [&Path; 3],
+        [capture, maps, own, lights]: [&Path; 4],
         log: &File,
     ) -> io::Result<Command> {
         let fill = |word: &String| {
             word.replace("{capture}", &capture.to_string_lossy())
                 .replace("{maps}", &maps.to_string_lossy())
+                .replace("{lights}", &lights.to_string_lossy())
         };
         let mut command = Command::new(&files.executable);
         command
@@ -189,15 +207,15 @@ fn check(maps: &Path) -> Result<(), String> {
         .map_err(|error| error.to_string().replace(&*maps.to_string_lossy(), "its maps folder"))
 }
 
-/// Moves what is in one folder into another, perhaps on another disk. Links are not followed.
-fn move_below(from: &Path, to: &Path) -> io::Result<()> {
+/// Copies what is in one folder into another, perhaps on another disk. Links are not followed.
+fn copy_below(from: &Path, to: &Path) -> io::Result<()> {
     for entry in fs::read_dir(from)? {
         let entry = entry?;
         let target = to.join(entry.file_name());
         let kind = entry.file_type()?;
         if kind.is_dir() {
             fs::create_dir_all(&target)?;
-            move_below(&entry.path(), &target)?;
+            copy_below(&entry.path(), &target)?;
         } else if kind.is_file() {
             fs::copy(entry.path(), &target)?;
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use super::pictures::Gives;
 use super::watch::Limits;
 
 /// How a program is started.
@@ -17,6 +18,10 @@ pub enum Start {
 /// A `[[solver]]` that names a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
+    /// What it leaves.
+    pub gives: Gives,
+    /// Side of the maps that its pictures become, texels.
+    pub texture_size: usize,
     /// What is started.
     pub start: Start,
     /// Where it is started, and what relative paths start from: the suite's folder.

@@ -10,6 +10,7 @@ mod error;
 mod exr_channels;
 mod exr_dwa;
 mod exr_file;
+mod given;
 mod kind;
 mod light;
 mod limits;
@@ -24,6 +25,7 @@ use std::path::Path;
 
 pub use error::PictureError;
 pub use exr_file::{Content, ExrFile};
+pub use given::Given;
 pub use light::read_light;
 pub use png_file::{Png, read_png_gray};
 pub use radiance::read_radiance_bytes;

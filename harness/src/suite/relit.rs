@@ -1,0 +1,58 @@
+//! What a suite compares with the truth's relit pictures: maps relit, or a method's own pictures.
+
+use std::fs;
+use std::path::Path;
+
+use formats::atomic::Folder;
+use scoring::score;
+
+use super::error::RunError;
+use super::method::{Entrant, Method};
+use super::program::Gives;
+use super::stages::{relight, words};
+use super::tools::Tools;
+use crate::synth::run_stage;
+
+impl Entrant {
+    /// Whether it is handed the lights and gives pictures.
+    pub(super) fn gives_pictures(&self) -> bool {
+        matches!(&self.method, Method::Program(program) if program.gives == Gives::Pictures)
+    }
+}
+
+/// Writes the relit pictures of a method: its own where it gave some, else its maps relit by `renderer`,
+/// else none.
+pub(super) fn relit(
+    renderer: &str,
+    entrant: &Entrant,
+    [capture, maps, out]: [&Path; 3],
+    scales: &[&str],
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    if !entrant.gives_pictures() || maps.join("diffuse_albedo.exr").is_file() && !own(maps) {
+        return relight(renderer, capture, maps, out, scales, tools, step);
+    }
+    if own(maps) {
+        return Ok(score::keep_own_relit(capture, maps, out, scales)?);
+    }
+    let folder = Folder::begin(out)?;
+    fs::write(folder.path().join("relit.json"), "{\"scales\": {}}\n")?;
+    Ok(folder.commit()?)
+}
+
+fn own(maps: &Path) -> bool {
+    maps.join("relit").is_dir()
+}
+
+/// Writes the lights of a capture, without its own, as lat-long pictures.
+pub(super) fn lights(
+    capture: &Path,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    let arguments = words(&[("--capture", capture.as_os_str()), ("--out", out.as_os_str())]);
+    run_stage(&tools.interpreter, "lights", &arguments, &tools.interrupt, step)?;
+    Ok(())
+}
