@@ -121,7 +121,7 @@ mod tests {
         );
         fs::write(root.path().join("ada"), "name = \"mine\"").unwrap();
         assert_eq!(referenced(&suite, "faces", "ada").unwrap(), root.path().join("ada"));
-        let error = referenced(&suite, "rig", "ada").unwrap_err().to_string();
+        let error = referenced(&suite, "rig", "moon").unwrap_err().to_string();
         assert!(
             error.contains("no rig") && error.contains("there are desktop, dome, emily"),
             "{error}"

@@ -34,7 +34,7 @@ def recover(capture: unshade.Capture) -> unshade.Maps:
     colour[seen] /= weight[seen, None]
     normal[seen] /= np.linalg.norm(normal[seen], axis=-1, keepdims=True)
     grey = colour[seen].mean(-1)
-    light = np.linalg.lstsq(harmonics(normal[seen]), grey, rcond=None)[0]  # as if skin had one albedo
+    light: Array = np.linalg.pinv(harmonics(normal[seen])) @ grey  # least squares, as if skin had one albedo
     shading = np.maximum(harmonics(normal[seen]) @ light, 0.3 * grey.mean())
     # Every light here is so bright that the largest shading of the face's front is 1.
     albedo = np.zeros_like(colour)
