@@ -141,7 +141,7 @@ pub(super) struct SolveArgs {
     /// `fields`, or a baseline.
     #[arg(long, value_enum, default_value_t = SolverName::Fields)]
     pub solver: SolverName,
-    /// A preset (unshade, paper, fast) or a TOML file.
+    /// A preset (unshade, paper, paper-tuned, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     pub config: String,
     /// Leave out the maps after every stage and the layers of every training view.

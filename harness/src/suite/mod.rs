@@ -2,6 +2,7 @@
 
 mod baseline;
 mod cases;
+mod competitor;
 mod entrant;
 mod error;
 mod file;
@@ -20,6 +21,7 @@ mod tools;
 
 pub use baseline::BaselineMethod;
 pub use cases::Case;
+pub use competitor::{Class, Competitor};
 pub use entrant::{TIME_LEFT, in_words, solve};
 pub use error::RunError;
 pub use file::{RENDERERS, SCALES, Suite};
