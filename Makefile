@@ -5,10 +5,19 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build demo emily cycles validators results test fuzz software-gpu bench lint miri neon clean
+.PHONY: build wheel demo emily cycles validators results test fuzz software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
+
+# target/wheels, tried in an empty environment and an empty folder: everything that a user does first.
+wheel: build
+	$(BIN)/maturin build --release --quiet -o target/wheels
+	rm -rf target/wheel-try
+	$(UV) venv --quiet --python "$(PYTHON)" target/wheel-try/.venv
+	$(UV) pip install --quiet --python target/wheel-try/.venv target/wheels/unshade-*.whl
+	cd target/wheel-try && PATH="$$PWD/.venv/bin:$$PATH" VIRTUAL_ENV= && unshade doctor && unshade init start && \
+	  unshade run start/suite.toml -o run && unshade synth emily --describe
 
 # uv lives in the project, not in the user's Python.
 $(UV):

@@ -75,6 +75,13 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("--no-fidelity", action="store_true")
     export.set_defaults(stage=_export)
 
+    method = verbs.add_parser("method", help="recover maps by a method that comes with unshade")
+    method.add_argument("--name", required=True)
+    method.add_argument("--capture", type=Path, required=True)
+    method.add_argument("--out", type=Path, required=True)
+    method.add_argument("--settings", type=json.loads, default={})
+    method.set_defaults(stage=_method)
+
     check = verbs.add_parser("check", help="read a scene and render nothing")
     check.add_argument("--scene", type=Path, required=True)
     check.set_defaults(stage=_check)
@@ -93,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, lights, export, check, describe, sheet, doctor, physics):
+    for verb in (synth, relight, lights, export, method, check, describe, sheet, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -175,6 +182,28 @@ def _relight_photographed(options: argparse.Namespace) -> dict[str, Any]:
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _method(options: argparse.Namespace) -> dict[str, Any]:
+    import unshade
+
+    from .methods import CONTROLLED, method
+    from .render import llvm
+
+    recover = method(options.name, options.settings)
+    # A capture without a truth, which passive methods get, was rendered by nobody knows what.
+    controlled = options.name in CONTROLLED
+    from .render.truth_scene import captured_scene
+
+    scene = captured_scene(options.capture) if controlled else None
+    _activate(llvm.choose(scene.versions["variant"] if scene else "auto"))
+    given: list[Any] = [unshade.Capture(options.capture)]
+    if scene is not None:
+        from .methods.laboratory import Laboratory
+
+        given.append(Laboratory(scene, _progress))
+    recover(*given, **options.settings).write(options.out)
+    return {"maps": str(options.out)}
 
 
 def _check(options: argparse.Namespace) -> dict[str, Any]:

@@ -18,6 +18,8 @@ use pyo3::prelude::*;
 /// What the Python package `unshade` is made of.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let package = module.py().import("unshade")?.filename()?.extract::<std::path::PathBuf>()?;
+    harness::suite::set_scenes_folder(package.with_file_name("scenes"));
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("reader_sources", harness::suite::READER_SOURCES)?;
     module.add_class::<capture::Capture>()?;

@@ -119,7 +119,7 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         .iter()
         .map(|column| MatrixRow {
             title: column.entrant.title().to_owned(),
-            kind: column.entrant.kind.name(),
+            kind: column.entrant.role(),
             cells: Vec::new(),
         })
         .collect();

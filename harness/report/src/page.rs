@@ -176,7 +176,7 @@ pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<C
     let pairs = case.solvers.iter().zip(scores);
     let mut columns: Vec<Column> =
         pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
-    columns.sort_by_key(|column| column.entrant.kind);
+    columns.sort_by_key(|column| (column.entrant.class, column.entrant.kind));
     columns
 }
 

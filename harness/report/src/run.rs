@@ -52,6 +52,8 @@ pub(super) struct Case {
 pub(super) struct Entrant {
     pub id: String,
     pub kind: Kind,
+    #[serde(default)]
+    pub class: Class,
     pub title: Option<String>,
     pub maps: Option<PathBuf>,
     pub relit: Option<PathBuf>,
@@ -64,6 +66,35 @@ impl Entrant {
     pub fn title(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.id)
     }
+}
+
+impl Entrant {
+    /// Whether it is marked where it is best: among those that are given what every solver gets.
+    pub fn is_ranked(&self) -> bool {
+        self.kind != Kind::Oracle && self.class == Class::Passive
+    }
+
+    /// What stands below its title: the part it plays, or the class of what it is given.
+    pub fn role(&self) -> &'static str {
+        match (self.kind, self.class) {
+            (Kind::Oracle, _) | (_, Class::Passive) => self.kind.name(),
+            (_, Class::Controlled) => "controlled",
+            (_, Class::Privileged) => "privileged",
+        }
+    }
+}
+
+/// What a method is given.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Class {
+    /// The capture.
+    #[default]
+    Passive,
+    /// Photographs in light of its own choice.
+    Controlled,
+    /// The truth.
+    Privileged,
 }
 
 /// The part that a column plays.

@@ -61,7 +61,7 @@ const KEY_FIGURES: [KeyFigure; 5] = [
 pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
         title: column.entrant.title().to_owned(),
-        kind: column.entrant.kind.name(),
+        kind: column.entrant.role(),
         findings: column.findings(),
         cells: match column.entrant.failed {
             Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],

@@ -147,7 +147,7 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
         .iter()
         .map(|column| Heading {
             title: column.entrant.title().to_owned(),
-            kind: column.entrant.kind.name(),
+            kind: column.entrant.role(),
             findings: column.findings(),
         })
         .collect();
@@ -166,7 +166,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
     let contenders: Vec<f64> = columns
         .iter()
         .zip(&rows)
-        .filter(|(column, _)| column.entrant.kind != Kind::Oracle)
+        .filter(|(column, _)| column.entrant.is_ranked())
         .filter_map(|(_, row)| value(row))
         .chain(trivial)
         .collect();
@@ -180,8 +180,8 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
                 None => shown(value(row), decimals),
             },
             interval: interval(row.and_then(|row| row.ci95), decimals),
-            best: column.entrant.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
-            kind: column.entrant.kind.name(),
+            best: column.entrant.is_ranked() && value(row).is_some() && value(row) == best,
+            kind: column.entrant.role(),
         })
         .collect();
     // The true maps' pictures, where there are some: their floor depends on no method.

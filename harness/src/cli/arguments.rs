@@ -65,9 +65,14 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Write a suite to start from, with comments, and a method of one's own in fifty lines.
+    Init {
+        /// A new folder, or an empty one.
+        folder: PathBuf,
+    },
     /// Everything above for every case of a suite; resumes where it stopped.
     Run {
-        /// The suite.
+        /// The suite: a file, or the name of one that comes with unshade, such as demo.
         suite: PathBuf,
         /// The run's folder.
         #[arg(short, long)]
@@ -108,7 +113,7 @@ pub(super) enum Verb {
 
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// What to render.
+    /// What to render: a file, or the name of a scene that comes with unshade, such as demo.
     #[arg(required_unless_present = "contact_sheet")]
     pub scene: Option<PathBuf>,
     /// The capture's folder, or the contact sheet's PNG.
@@ -136,7 +141,7 @@ pub(super) struct SolveArgs {
     /// `fields`, or a baseline.
     #[arg(long, value_enum, default_value_t = SolverName::Fields)]
     pub solver: SolverName,
-    /// A preset (unshade, paper, fast) or a TOML file.
+    /// A preset (unshade, paper, paper-tuned, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     pub config: String,
     /// Leave out the maps after every stage and the layers of every training view.

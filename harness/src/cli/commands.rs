@@ -15,7 +15,7 @@ use super::arguments::{
 };
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{bench, check, doctor, export};
+use super::{bench, check, doctor, export, start};
 use crate::live::{Live, LiveError};
 use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
 
@@ -40,6 +40,14 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             let scores = score::score(&capture, &maps, relit.as_deref())?;
             scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
             scores.write(&out)?;
+        }
+        Verb::Init { folder } => {
+            start::write(&folder)?;
+            say!(
+                "unshade run {} -o {}",
+                folder.join("suite.toml").display(),
+                folder.join("run").display()
+            );
         }
         Verb::Run { suite, out, redo } => return run_suite(&suite, &out, RunOptions { redo }),
         Verb::Report { run, out } => {

@@ -19,6 +19,7 @@ mod doctor;
 mod exit;
 mod export;
 mod progress;
+mod start;
 
 use std::ffi::OsString;
 

@@ -31,6 +31,9 @@ pub(super) fn make_maps(
         (Method::Baseline { method, texture_size }, _) => {
             method.make(capture, maps, *texture_size)?;
         }
+        (Method::Competitor { method, settings }, _) => {
+            method.make(settings, capture, maps, tools, progress)?;
+        }
         (Method::Fields { config, backend }, _) => {
             let config = solver::Config::from_toml(config)?;
             let backend = backend.open()?;

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use super::cases::{self, Case};
 use super::method::{self, Entrant, Method};
-use super::place;
+use super::packaged;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
@@ -46,8 +46,9 @@ pub struct Suite {
 }
 
 impl Suite {
-    /// Reads a suite file, its scene, faces and lights.
+    /// Reads a suite file, or a suite that comes with unshade, with its scene, faces and lights.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let path = &packaged::file(path, packaged::Kind::Suite)?;
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
         scene::check_keys(path, &table, &KEYS)?;
@@ -87,7 +88,8 @@ impl Suite {
 
 /// The cases of the suite's scene.
 fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
-    let mut base = Scene::open(&place::beside(path, &text_of(path, table, "scene")?))?;
+    let mut base =
+        Scene::open(&packaged::referenced(path, "scene", &text_of(path, table, "scene")?)?)?;
     match table.get("render") {
         None => {}
         Some(Value::Table(_)) => {

@@ -21,7 +21,8 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
                     let name = format!("{}/{}", case.id, entrant.id);
                     let below = |folder| format!("{folder}/{name}");
                     let mut solver = json!({
-                        "id": entrant.id, "kind": entrant.kind(), "title": entrant.title,
+                        "id": entrant.id, "kind": entrant.kind(), "class": entrant.class().name(),
+                        "title": entrant.title,
                     });
                     if let Some(reason) = failed.get(&name) {
                         solver["failed"] = json!(reason);

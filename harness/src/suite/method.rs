@@ -8,6 +8,7 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
+use super::competitor::{Class, Competitor};
 use super::place;
 use super::program::{Gives, Limits, Program, Start};
 use super::scene::{self, SceneError};
@@ -26,6 +27,13 @@ pub enum Method {
     Program(Program),
     /// The true maps: the floor that rendering noise and the pipeline set.
     Oracle,
+    /// One that comes with unshade and is no configuration of its solver.
+    Competitor {
+        /// Which one.
+        method: Competitor,
+        /// Its settings as JSON.
+        settings: String,
+    },
     /// An answer that needs no optimisation.
     Baseline {
         /// Which one.
@@ -52,7 +60,16 @@ impl Entrant {
         match self.method {
             Method::Oracle => "oracle",
             Method::Baseline { .. } => "baseline",
-            Method::Fields { .. } | Method::Program(_) => "solver",
+            Method::Fields { .. } | Method::Program(_) | Method::Competitor { .. } => "solver",
+        }
+    }
+
+    /// What it is given.
+    pub fn class(&self) -> Class {
+        match self.method {
+            Method::Oracle => Class::Privileged,
+            Method::Competitor { method, .. } => method.class,
+            Method::Baseline { .. } | Method::Fields { .. } | Method::Program(_) => Class::Passive,
         }
     }
 }
@@ -116,10 +133,17 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     solver.check_keys(path)?;
     let program = solver.program(path)?;
     let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == solver.name);
+    // With a configuration, it is our solver under that name.
+    let competitor = Competitor::find(&solver.name).filter(|_| solver.config.is_none());
     let method = match (program, solver.name.as_str()) {
         (Some(program), _) => Method::Program(program),
         (None, "oracle") => Method::Oracle,
         (None, name) => match baseline {
+            None if let Some(method) = competitor => {
+                let settings = serde_json::to_string(&solver.set)
+                    .map_err(|error| SceneError::in_table(path, name, "set", error.to_string()))?;
+                Method::Competitor { method, settings }
+            }
             Some(method) => Method::Baseline { method, texture_size: solver.texture_size(path)? },
             None => Method::Fields {
                 config: config_text(path, name, solver.config.as_deref(), &solver.set)?,
@@ -134,6 +158,7 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     let title = solver.title.unwrap_or_else(|| match method {
         Method::Oracle => "oracle (true maps)".to_owned(),
         Method::Baseline { method, .. } => method.title().to_owned(),
+        Method::Competitor { method, .. } => method.title.to_owned(),
         Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
     });
     Ok(Entrant { id: solver.name, title, method })
@@ -221,10 +246,11 @@ impl SolverTable {
         }
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
         let pictures = *gives == Some(Gives::Pictures);
-        let fields = !foreign && !baseline && name != "oracle";
+        let competitor = !foreign && config.is_none() && Competitor::find(name).is_some();
+        let fields = !foreign && !baseline && !competitor && name != "oracle";
         for (key, given, means) in [
             ("config", config.is_some(), fields),
-            ("set", !set.is_empty(), fields),
+            ("set", !set.is_empty(), fields || competitor),
             ("backend", backend.is_some(), fields),
             ("texture_size", texture_size.is_some(), if foreign { pictures } else { baseline }),
             ("gives", gives.is_some(), foreign),
@@ -237,6 +263,7 @@ impl SolverTable {
         ] {
             if given && !means {
                 let mend = match key {
+                    "texture_size" if competitor => "; write set = { texture_size = ... }",
                     "texture_size" if fields => "; write [solver.set.fine_tuning] texture_size",
                     _ => "; leave it out",
                 };

@@ -2,11 +2,13 @@
 
 mod baseline;
 mod cases;
+mod competitor;
 mod entrant;
 mod error;
 mod file;
 mod manifest;
 mod method;
+mod packaged;
 mod place;
 mod preflight;
 mod program;
@@ -20,10 +22,12 @@ mod tools;
 
 pub use baseline::BaselineMethod;
 pub use cases::Case;
+pub use competitor::{Class, Competitor};
 pub use entrant::{TIME_LEFT, in_words, solve};
 pub use error::RunError;
 pub use file::{RENDERERS, SCALES, Suite};
 pub use method::{Entrant, Method};
+pub use packaged::set_folder as set_scenes_folder;
 pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};

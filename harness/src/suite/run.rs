@@ -301,7 +301,7 @@ impl Stages<'_> {
         name: &str,
     ) -> Result<(), RunError> {
         let entrant = ready.entrant;
-        let (method, made_from) = self.method_key(ready)?;
+        let (method, made_from) = self.method_key(ready, renderer)?;
         let files = case.scene.files().into_iter().chain(case.photographed.clone());
         let secret = files.chain([self.out.to_path_buf()]).collect();
         let log = self.out.join("logs").join(format!("{name}.txt"));
@@ -361,7 +361,7 @@ impl Stages<'_> {
     }
 
     /// What decides a method's maps beside the capture, as a key and in words.
-    fn method_key(&self, ready: &Ready) -> Result<(String, String), RunError> {
+    fn method_key(&self, ready: &Ready, renderer: &str) -> Result<(String, String), RunError> {
         Ok(match (&ready.entrant.method, &ready.files) {
             (Method::Fields { config, backend }, _) => {
                 // The resolved values, so that a preset that changed is solved again; and what
@@ -377,6 +377,9 @@ impl Stages<'_> {
             (Method::Baseline { method, texture_size }, _) => {
                 let size = texture_size.to_string();
                 (hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES]), String::new())
+            }
+            (Method::Competitor { method, settings }, _) => {
+                (hash_parts(&["competitor", method.name, settings, renderer]), String::new())
             }
             (Method::Oracle | Method::Program(_), _) => {
                 (hash_parts(&["oracle", SCORE_SOURCES]), String::new())

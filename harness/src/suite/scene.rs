@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use super::packaged;
 use super::place::{self, beside};
 
 /// What can be wrong with a scene or suite file.
@@ -203,7 +204,7 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),
         Value::String(name) => {
-            let path = beside(from, &name);
+            let path = packaged::referenced(from, key, &name)?;
             (read_toml(&path)?, path)
         }
         _ => return Err(SceneError::value(from, key, "must be a file name or a table")),

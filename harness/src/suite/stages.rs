@@ -9,21 +9,23 @@ use scoring::score;
 
 use super::error::RunError;
 use super::file::RENDERERS;
+use super::packaged;
 use super::place;
 use super::scene::Scene;
 use super::tools::Tools;
 use crate::synth::run_stage;
 
-/// Renders the scene file `scene` into the capture folder `out`.
+/// Renders the scene file `scene`, or a scene that comes with unshade, into the capture folder `out`.
 pub fn synth(
     scene: &Path,
     out: &Path,
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
+    let scene = &packaged::file(scene, packaged::Kind::Scene)?;
     let file = resolved(scene)?;
     let inputs = Scene::open(scene)?.files();
-    let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).chain([scene]).collect();
+    let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).chain([scene.as_path()]).collect();
     atomic::apart(out, &inputs)?;
     let arguments = words(&[("--scene", file.path().as_os_str()), ("--out", out.as_os_str())]);
     run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)
@@ -33,6 +35,7 @@ pub fn synth(
 
 /// What the scene file `scene` stands for, in words: face, cameras, and each light in numbers.
 pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
+    let scene = &packaged::file(scene, packaged::Kind::Scene)?;
     let file = resolved(scene)?;
     let arguments = words(&[("--scene", file.path().as_os_str())]);
     let silent = &mut |_, _, _: &str| {};

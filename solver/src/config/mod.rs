@@ -51,10 +51,12 @@ pub struct Config {
 }
 
 impl Config {
-    /// A named configuration: `paper` (every published value), `unshade` (the default), or `fast`.
+    /// A named configuration: `paper` (every published value), `paper-tuned` (its unpublished values and its
+    /// rates chosen), `unshade` (the default), or `fast`.
     pub fn preset(name: &str) -> Result<Self, ConfigError> {
         match name {
             "paper" => Ok(Self::paper()),
+            "paper-tuned" => Ok(Self::paper_tuned()),
             "unshade" => Ok(Self::unshade()),
             "fast" => Ok(Self::fast()),
             other => Err(ConfigError::UnknownPreset(other.to_owned())),
@@ -197,7 +199,7 @@ mod tests {
 
     #[test]
     fn every_preset_is_valid_and_survives_the_round_trip() {
-        for name in ["paper", "unshade", "fast"] {
+        for name in ["paper", "paper-tuned", "unshade", "fast"] {
             let config = Config::preset(name).unwrap();
             assert_eq!(Config::from_toml(&config.to_toml()).unwrap(), config, "{name}");
         }

@@ -49,6 +49,8 @@ pub(super) fn groups(run: &Finished) -> Vec<Group> {
 struct Line<'a> {
     title: String,
     kind: Kind,
+    /// Whether it is marked where it is best.
+    ranked: bool,
     columns: Vec<Column<'a>>,
 }
 
@@ -62,8 +64,12 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
             match lines.iter_mut().find(|(id, _)| *id == entrant.id) {
                 Some((_, line)) => line.columns.push(column),
                 None => {
-                    let title = escape(entrant.title());
-                    let line = Line { title, kind: entrant.kind, columns: vec![column] };
+                    let mut title = escape(entrant.title());
+                    if !entrant.is_ranked() && entrant.kind != Kind::Oracle {
+                        title = format!("{title} ({})", entrant.role());
+                    }
+                    let (kind, ranked) = (entrant.kind, entrant.is_ranked());
+                    let line = Line { title, kind, ranked, columns: vec![column] };
                     lines.push((&entrant.id, line));
                 }
             }
@@ -98,7 +104,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
         text.push_str(&format!("\n{title}\n\n{}", head(&["method"], names)));
         for (line, values) in lines.iter().zip(&values) {
             let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
-                let best = best.as_deref().filter(|_| line.kind != Kind::Oracle);
+                let best = best.as_deref().filter(|_| line.ranked);
                 cell(figure, values, group.cases.len(), best)
             });
             text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
@@ -129,7 +135,7 @@ fn best<'a>(
     figure: &Figure,
     values: impl Fn(usize) -> &'a Vec<Found>,
 ) -> Option<String> {
-    let contenders = lines.iter().enumerate().filter(|(_, line)| line.kind != Kind::Oracle);
+    let contenders = lines.iter().enumerate().filter(|(_, line)| line.ranked);
     let means: Vec<f64> =
         contenders.filter_map(|(i, _)| mean(values(i).iter().map(|found| found.value))).collect();
     let better = |a: f64, b: f64| if figure.better.gain(a, b) > 0.0 { b } else { a };

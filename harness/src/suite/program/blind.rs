@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Copies the mesh, the cameras, and the pictures, masks and labels of the training views of `capture`
 /// into the folder `to`. Nothing of a withheld view but its camera is in it.
-pub(super) fn copy_blind(capture: &Path, to: &Path) -> io::Result<()> {
+pub(in crate::suite) fn copy_blind(capture: &Path, to: &Path) -> io::Result<()> {
     let text = fs::read(capture.join("transforms.json"))?;
     let transforms: Value = serde_json::from_slice(&text)?;
     fs::create_dir_all(to)?;

@@ -22,6 +22,7 @@ use formats::content_hash::hash_parts;
 
 use super::error::RunError;
 use crate::synth::Interrupt;
+pub(in crate::suite) use blind::copy_blind;
 use confine::Permissions;
 pub use files::ProgramFiles;
 pub use pictures::Gives;
@@ -94,7 +95,7 @@ impl Program {
             ["capture", "results", "tmp", "lights"].map(|name| scratch.path().join(name));
         // Beside the maps there is room for what is renamed into their place.
         let maps = results.join("maps");
-        blind::copy_blind(place.capture, &capture)?;
+        copy_blind(place.capture, &capture)?;
         fs::create_dir_all(&maps)?;
         fs::create_dir(&own)?;
         fs::create_dir(&lights)?;

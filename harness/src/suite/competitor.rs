@@ -1,0 +1,91 @@
+//! Methods that come with unshade and are no configuration of its solver: run in the renderer's process.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use formats::atomic;
+
+use super::error::RunError;
+use super::program::copy_blind;
+use super::stages::words;
+use super::tools::Tools;
+use crate::synth::run_stage;
+
+/// What a method is given; methods of different classes are in no ranking together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// The capture that every solver gets.
+    Passive,
+    /// Photographs of the same face in light of the method's own choice.
+    Controlled,
+    /// The truth.
+    Privileged,
+}
+
+impl Class {
+    /// In lower case, as tables show it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Passive => "passive",
+            Self::Controlled => "controlled",
+            Self::Privileged => "privileged",
+        }
+    }
+}
+
+/// A method of the Python package, `unshade.methods`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Competitor {
+    /// As a suite names it.
+    pub name: &'static str,
+    /// As tables name it.
+    pub title: &'static str,
+    /// What it is given.
+    pub class: Class,
+}
+
+/// Name, title and class; the modules stand in `synth/unshade/methods/__init__.py`.
+const ALL: [(&str, &str, Class); 4] = [
+    ("sh-lambert", "spherical harmonics, Lambert", Class::Passive),
+    ("path-traced", "differentiable path tracing", Class::Passive),
+    ("flash-only", "flash at the lens", Class::Controlled),
+    ("light-stage", "light stage", Class::Controlled),
+];
+
+impl Competitor {
+    /// The one that a suite names.
+    pub fn find(name: &str) -> Option<Self> {
+        let (name, title, class) = ALL.into_iter().find(|(known, ..)| *known == name)?;
+        Some(Self { name, title, class })
+    }
+
+    /// Writes the maps folder `maps` from `capture`; `settings` are JSON. A passive method never sees more
+    /// than the blind copy that programs of others get.
+    pub(super) fn make(
+        self,
+        settings: &str,
+        capture: &Path,
+        maps: &Path,
+        tools: &Tools,
+        step: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<(), RunError> {
+        atomic::apart(maps, &[capture]).map_err(formats::MapsError::from)?;
+        let scratch = tempfile::tempdir()?;
+        let blind = scratch.path().join("capture");
+        let given = match self.class {
+            Class::Passive => {
+                copy_blind(capture, &blind)?;
+                blind.as_path()
+            }
+            Class::Controlled | Class::Privileged => capture,
+        };
+        let arguments = words(&[
+            ("--name", OsStr::new(self.name)),
+            ("--capture", given.as_os_str()),
+            ("--out", maps.as_os_str()),
+            ("--settings", OsStr::new(settings)),
+        ]);
+        run_stage(&tools.interpreter, "method", &arguments, &tools.interrupt, step)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,31 @@
+"""Competitors: each a method in a file of its own, run from a suite by its name.
+
+A method's class says what it is given, and no ranking mixes them: *passive* gets the capture that every solver
+gets; *controlled* gets photographs of the same face, from the same places, in light of its own choice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from inspect import signature
+from typing import Any
+
+from ..errors import SolveError
+
+PASSIVE = {"sh-lambert": "sh_lambert", "path-traced": "path_traced"}
+"""Name to module, whose ``recover(capture, **settings)`` returns `Maps`."""
+
+CONTROLLED = {"flash-only": "flash_only", "light-stage": "light_stage"}
+"""Name to module, whose ``recover(capture, laboratory, **settings)`` returns `Maps`."""
+
+
+def method(name: str, settings: dict[str, Any]) -> Callable[..., Any]:
+    """The method's ``recover``. Raises `SolveError` for settings that it has not."""
+    module = import_module(f".{(PASSIVE | CONTROLLED)[name]}", __package__)
+    recover: Callable[..., Any] = module.recover
+    known = [key for key, value in signature(recover).parameters.items() if value.kind is value.KEYWORD_ONLY]
+    for key in settings:
+        if key not in known:
+            raise SolveError(f"{name}: unknown setting {key!r}; there are {', '.join(known)}")
+    return recover

@@ -1,0 +1,94 @@
+"""What a user meets who has installed the package: names of suites and scenes, `init`, the wheel, the method's page."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from doc_examples import ROOT, examples
+
+import unshade
+from conftest import HERE
+from conftest import unshade as command
+
+START = ROOT / "harness" / "src" / "cli" / "start"
+CASE = "tiny-studio"
+
+
+def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert command("synth", "portrait", "--describe").stdout.startswith("scene portrait\n")
+    failed = command("run", "portrait", "-o", "run", check=False)
+    assert failed.returncode == 2 and not Path("run").exists()
+    assert failed.stderr.count("\n") == 1 and "there are degraded, demo, emily" in failed.stderr
+    with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are demo"):
+        unshade.synth("dmeo", "capture")
+    # A file of the same name wins.
+    Path("portrait").write_text((HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes/lights/", ""))
+    Path("studio.toml").write_text('name = "mine"\nkind = "dome"\n')
+    Path("uniform.toml").write_text('name = "other"\nkind = "dome"\n')
+    said = command("synth", "portrait", "--describe").stdout
+    assert said.startswith("scene tiny\n") and "mine" in said
+
+
+def test_a_suite_names_faces_and_lights_that_come_with_unshade(tmp_path: Path) -> None:
+    suite = tmp_path / "suite.toml"
+    text = 'format = 1\nname = "s"\nscene = "demo"\nfaces = ["ada"]\nlights = ["moon"]\n[[solver]]\nname = "oracle"\n'
+    suite.write_text(text)
+    failed = command("run", suite, "-o", tmp_path / "run", check=False)
+    assert failed.returncode == 2
+    assert failed.stderr.startswith(f"unshade: {suite}:5: lights: moon: no such file, and no light of this name")
+    assert "there are courtyard, envmap, flash" in failed.stderr
+
+
+def test_init_writes_a_suite_and_never_over_anything(tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "start"
+    said = command("init", folder)
+    assert said.stdout == f"unshade run {folder / 'suite.toml'} -o {folder / 'run'}\n"
+    assert {path.name for path in folder.iterdir()} == {"suite.toml", "mine.py"}
+    (folder / "mine.py").write_text("mine")
+    failed = command("init", folder, check=False)
+    assert failed.returncode == 2 and "is not empty" in failed.stderr
+    assert (folder / "mine.py").read_text() == "mine"
+    (tmp_path / "empty").mkdir()
+    command("init", tmp_path / "empty")
+    assert (tmp_path / "empty" / "mine.py").read_text() == (START / "mine.py").read_text()
+
+
+def test_the_method_of_the_page_beats_the_mean_texture(tiny_run: Path) -> None:
+    """It is the one that `init` writes, and `check` has nothing against its maps."""
+    text = (START / "mine.py").read_text()
+    assert any(text == code for place, code in examples().items() if "your-method" in place)
+    spec = importlib.util.spec_from_file_location("mine", START / "mine.py")
+    assert spec is not None and spec.loader is not None
+    mine = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(mine)
+    capture = unshade.Capture(tiny_run / "captures" / CASE)
+    maps = mine.recover(capture)
+    assert unshade.check(maps, capture=capture) == []
+
+    def quality(maps: unshade.Maps | Path) -> float:
+        value = unshade.score(capture, maps).value(
+            subject="diffuse_albedo", metric="psnr_srgb", scale="global", label=None, region="coverage-e5"
+        )
+        assert value is not None
+        return value
+
+    assert quality(maps) > quality(tiny_run / "maps" / CASE / "mean_texture")
+
+
+def test_the_wheel_carries_all_that_the_package_reads(tmp_path: Path) -> None:
+    """Compiled before, so this only packs; `make wheel` installs it into an empty environment and runs it there."""
+    maturin = [Path(sys.executable).with_name("maturin"), "build", "--release", "--quiet", "-o", tmp_path]
+    subprocess.run(maturin, cwd=ROOT, check=True, capture_output=True)
+    (wheel,) = tmp_path.glob("*.whl")
+    held = set(zipfile.ZipFile(wheel).namelist())
+    files = [path.relative_to(ROOT / "synth") for path in (ROOT / "synth" / "unshade").rglob("*") if path.is_file()]
+    scenes = [Path("unshade") / path.relative_to(ROOT) for path in (ROOT / "scenes").rglob("*") if path.is_file()]
+    wanted = {path.as_posix() for path in (*files, *scenes) if "__pycache__" not in path.parts}
+    assert "unshade/scenes/suites/demo.toml" in wanted and "unshade/_native.abi3.so" in wanted
+    assert wanted <= held, wanted - held
