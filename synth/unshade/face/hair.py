@@ -34,6 +34,8 @@ class HairStyle:
     beard: float
     opacity: float = 0.93
     """Share of the skin that thick hair hides."""
+    grey: float = 0.0
+    """Share of grey strands among those of natural hair."""
     softness: float = 6.0
     """Way (mm) over which hair thickens behind the hairline."""
     ragged: float = 0.0
@@ -54,13 +56,14 @@ def hair_style(spec: FaceSpec) -> HairStyle:
     )
     if spec.detail == "smooth":
         return style
-    # Between strands no light returns; beards have the brows' colour.
+    # Between strands hardly any light returns, and single strands go grey; beards have the brows' colour.
     own = stream(spec.seed, "natural hair")
-    darker = own.uniform(0.5, 0.9)
+    darker = own.uniform(0.35, 0.75)
     return dataclasses.replace(
         style,
-        scalp=darker * style.scalp,
+        scalp=darker * (shade + 0.3 * grey * (_GREY - shade)),
         brow=darker * style.brow,
+        grey=grey,
         beard=manly * own.uniform(0.5, 1.0),
         opacity=0.985,
         softness=own.uniform(9.0, 18.0),

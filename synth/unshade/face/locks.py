@@ -16,8 +16,11 @@ from .strands import Field, Ground, Strands
 _PER_CM2 = 90
 """Drawn strands per square centimetre of thick hair: each stands for two or three that lie together."""
 
-_WIDTH_MM = (0.10, 0.20)
-_TONES = 0.45
+_GREYER = 4.0
+"""Factor on the brightness of a strand that has lost its pigment."""
+
+_WIDTH_MM = (0.14, 0.26)
+_TONES = 0.20
 """Standard deviation of a strand's log brightness: the light that hairs lose and pass on to one another."""
 
 
@@ -37,7 +40,7 @@ def lock_tone(points: np.ndarray, seed: int) -> np.ndarray:
     # Combed back, hair runs along -z and up over the brow: locks are narrow across, long along.
     angle = np.arctan2(x, np.maximum(y + 40, 1.0)) * 70
     along = np.stack([angle, 0.18 * y, 0.18 * z], axis=1).astype(np.float32)
-    return np.exp(0.38 * octaves(along, 9.0, 3, 0.0, stream(seed, "locks"))).astype(np.float32)
+    return np.exp(0.55 * octaves(along, 12.0, 3, 0.0, stream(seed, "locks"))).astype(np.float32)
 
 
 def scalp_colour(points: np.ndarray, style: HairStyle, spec: FaceSpec) -> np.ndarray:
@@ -63,7 +66,7 @@ def draw_hairs(
     count = len(roots)
     # A strand goes its own way all along, and sways a little.
     turns = rng.normal(0, 0.16, (count, 1)) + np.cumsum(rng.normal(0, 0.07, (count, 8)), axis=1)
-    shade = np.exp(rng.normal(0, _TONES, count))
+    shade = np.exp(rng.normal(0, _TONES, count)) * np.where(rng.random(count) < 0.8 * style.grey, _GREYER, 1.0)
     combed = Strands(
         field.grow(roots, rng.uniform(8, 24, count), _combed(stream(spec.seed, "comb")), turns),
         rng.uniform(*_WIDTH_MM, count),

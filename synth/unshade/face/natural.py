@@ -97,7 +97,7 @@ def draw_natural(
     threads, veins = draw_vessels(field, sites, ground, texel, spec)
     hairs = draw_hairs(field, regions.points, sites, scalp, ground, style, person, spec)
     # Pores hold sebum that has gone dark.
-    melanin = melanin + spots.melanin + np.float32(0.22) * np.clip(pores, 0, 1)
+    melanin = melanin + spots.melanin + np.float32(0.12) * np.clip(pores, 0, 1)
     height = spots.height + _STRAND_MM * hairs.cover + _WHISKER_MM * hairs.beard_cover
     for wavelength, deviation in _UNDULATION:
         if wavelength >= 2 * texel:

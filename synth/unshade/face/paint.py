@@ -99,7 +99,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
         natural = draw_natural(regions, sites, texels, nearest, ground, hair_here, relief.pores, texel, style, spec)
         pigments, marks = natural.pigments(pigments, fade), np.zeros_like(marks)
         # Hair is strands; between them the skin is in their shade.
-        cover["scalp"] = cover["scalp"] * (1 - 0.4 * rims["edge"])
+        cover["scalp"] = cover["scalp"] * (1 - 0.15 * rims["edge"])
         relief = dataclasses.replace(relief, height=relief.height + natural.height)
     diffuse, specular = chart_colour(regions, pigments, relief, marks, cover, rims, texel, style, spec)
     roughness = draw_roughness(regions, relief, cover, rims, texel, spec)

@@ -52,7 +52,7 @@ def _kinds(sites: Regions, spec: FaceSpec) -> list[Kind]:
     return [
         Kind("freckles", int(rng.poisson(freckled)), sunny, (0.3, 1.1), (0.04, 0.30)),
         Kind("age spots", int(60 * spec.age**2 * rng.uniform(0.3, 1.3)), anywhere, (1.2, 4.0), (0.10, 0.40)),
-        Kind("moles", int(rng.integers(4, 18)), anywhere, (0.6, 1.9), (0.5, 1.3), height=(0.0, 0.35)),
+        Kind("moles", int(rng.integers(4, 18)), anywhere, (0.5, 1.5), (0.3, 1.0), height=(0.0, 0.35)),
         Kind(
             "papules",
             int((40 if spec.fitzpatrick in ("V", "VI") else 0) * spec.age * rng.uniform(0.2, 1.5)),

@@ -71,14 +71,14 @@ def luminance(albedo: np.ndarray) -> np.ndarray:
     return np.log(np.maximum(albedo @ _REC709, 0.002))
 
 
-def pigment_amounts(albedo: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def pigment_amounts(albedo: np.ndarray, fitzpatrick: str = "III") -> tuple[np.ndarray, np.ndarray]:
     """Melanin and haemoglobin (...) of an albedo, each in units of the log luminance that it takes away.
 
     Log colours are split along the directions in which the two pigments move the colour of
-    skin of type III, and along grey, which takes shading and hair (Tsumura et al. 1999, with the
+    skin of the type, and along grey, which takes shading and hair (Tsumura et al. 1999, with the
     axes of `pigment` in place of independent components).
     """
-    base, less = np.array([MELANOSOMES["III"], BLOOD["III"]]), []
+    base, less = np.array([MELANOSOMES[fitzpatrick], BLOOD[fitzpatrick]]), []
     for more in (np.array([1.02, 1.0]), np.array([1.0, 1.02])):
         before, after = (exact_colour(*amounts) for amounts in (base, base * more))
         less.append((log_colour(after) - log_colour(before)) / (luminance(before) - luminance(after)))
@@ -181,3 +181,13 @@ def label_mean_psnr(albedo: np.ndarray, labels: np.ndarray, inside: np.ndarray) 
         return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
 
     return float(-10 * np.log10(np.mean((srgb(flat[inside]) - srgb(albedo[inside])) ** 2)))
+
+
+def bare_skin(albedo: np.ndarray, skin: np.ndarray, surface: Surface) -> np.ndarray:
+    """The front's skin (N,N) bool at least 3 mm from other labels (`skin` (N,N): those of skin and nose), without what is
+    darker than a third of its median: nostrils, and hair that labels leave out."""
+    region = surface.front() & skin
+    step = float(np.median(_texel_mm(surface)[region]))
+    region = inner(region, max(1, round(3.0 / step)))
+    light = luminance(albedo)
+    return region & (light > np.median(light[region]) - np.log(3.0))
