@@ -58,7 +58,7 @@ def hair_style(spec: FaceSpec) -> HairStyle:
         return style
     # Between strands hardly any light returns, and single strands go grey; beards have the brows' colour.
     own = stream(spec.seed, "natural hair")
-    darker = own.uniform(0.35, 0.75)
+    darker = own.uniform(0.3, 0.6)
     return dataclasses.replace(
         style,
         scalp=darker * (shade + 0.3 * grey * (_GREY - shade)),

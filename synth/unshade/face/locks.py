@@ -19,8 +19,8 @@ _PER_CM2 = 90
 _GREYER = 4.0
 """Factor on the brightness of a strand that has lost its pigment."""
 
-_WIDTH_MM = (0.14, 0.26)
-_TONES = 0.20
+_WIDTH_MM = (0.18, 0.32)
+_TONES = 0.12
 """Standard deviation of a strand's log brightness: the light that hairs lose and pass on to one another."""
 
 

@@ -20,7 +20,7 @@ from .texels import rasterise
 BANDS = 2.0 ** np.arange(-5, 1)
 """Lower ends of the octaves, cycles per mm: wavelengths of 32 to 16 mm down to 1 to 0.5 mm."""
 
-_WINDOWS_MM = (40.0, 12.0)
+_WINDOWS_MM = (40.0, 24.0)
 """Sides of the windows: one for wavelengths over 4 mm, one for the rest."""
 
 _FILLED = 0.6
@@ -71,14 +71,15 @@ def luminance(albedo: np.ndarray) -> np.ndarray:
     return np.log(np.maximum(albedo @ _REC709, 0.002))
 
 
-def pigment_amounts(albedo: np.ndarray, fitzpatrick: str = "III") -> tuple[np.ndarray, np.ndarray]:
+def pigment_amounts(albedo: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Melanin and haemoglobin (...) of an albedo, each in units of the log luminance that it takes away.
 
     Log colours are split along the directions in which the two pigments move the colour of
-    skin of the type, and along grey, which takes shading and hair (Tsumura et al. 1999, with the
-    axes of `pigment` in place of independent components).
+    skin of type III, and along grey, which takes shading and hair (Tsumura et al. 1999, with the
+    axes of `pigment` in place of independent components). Melanin moves the colour of dark skin almost
+    along grey, where much of it then counts.
     """
-    base, less = np.array([MELANOSOMES[fitzpatrick], BLOOD[fitzpatrick]]), []
+    base, less = np.array([MELANOSOMES["III"], BLOOD["III"]]), []
     for more in (np.array([1.02, 1.0]), np.array([1.0, 1.02])):
         before, after = (exact_colour(*amounts) for amounts in (base, base * more))
         less.append((log_colour(after) - log_colour(before)) / (luminance(before) - luminance(after)))

@@ -114,11 +114,12 @@ class Field:
         places = (paths[:, :-1, None] + share[:, None] * ahead).reshape(-1, 2)
         along = ((np.arange(paths.shape[1] - 1)[:, None] + share) / (paths.shape[1] - 1)).ravel()
         at = self._at(places)
-        texel = np.sqrt(np.linalg.norm(np.cross(self.across[at], self.down[at]), axis=1))
-        width = strands.width[part, None] * (1 - taper * along**2)
-        # Area in texels that each point stands for: its piece of the length times the width.
-        area = np.repeat(pieces[:, :, None] / count, count, axis=2).reshape(len(paths), -1) * width
-        area = area.ravel() / np.maximum(texel, 1e-6)
+        across, down = self.across[at], self.down[at]
+        step = np.repeat(ahead / count, count, axis=2).reshape(-1, 2)
+        length = np.linalg.norm(step[:, :1] * across + step[:, 1:] * down, axis=1)
+        width = (strands.width[part, None] * (1 - taper * along**2)).ravel()
+        # Texels that each point stands for: its piece of the strand over a texel's surface.
+        area = length * width / np.maximum(np.linalg.norm(np.cross(across, down), axis=1), 1e-9)
         tone = np.repeat(strands.tone[part], along.size)
         corner = np.floor(places - 0.5).astype(np.int64)
         within = places - 0.5 - corner
