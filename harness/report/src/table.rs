@@ -166,7 +166,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
     let contenders: Vec<f64> = columns
         .iter()
         .zip(&rows)
-        .filter(|(column, _)| column.entrant.kind != Kind::Oracle)
+        .filter(|(column, _)| column.entrant.kind.competes())
         .filter_map(|(_, row)| value(row))
         .chain(trivial)
         .collect();
@@ -180,7 +180,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
                 None => shown(value(row), decimals),
             },
             interval: interval(row.and_then(|row| row.ci95), decimals),
-            best: column.entrant.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
+            best: column.entrant.kind.competes() && value(row).is_some() && value(row) == best,
             kind: column.entrant.kind.name(),
         })
         .collect();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
-use super::method::{self, Entrant, Method};
+use super::method::{self, Entrant};
 use super::place;
 use super::scene::{self, Scene, SceneError};
 
@@ -68,10 +68,10 @@ impl Suite {
             return Err(SceneError::value(path, "captures", reason));
         }
         let entrants = method::entrants_of(path, &table)?;
-        let oracle = entrants.iter().find(|entrant| matches!(entrant.method, Method::Oracle));
-        if let (Some(oracle), false) = (oracle, photographed.is_empty()) {
-            let reason = "photographs have no true maps; leave the oracle out";
-            return Err(SceneError::in_table(path, &oracle.id, "name", reason));
+        let privileged = entrants.iter().find(|entrant| entrant.reads_truth());
+        if let (Some(entrant), false) = (privileged, photographed.is_empty()) {
+            let reason = format!("photographs have no true maps; leave {:?} out", entrant.id);
+            return Err(SceneError::in_table(path, &entrant.id, "name", reason));
         }
         cases.extend(photographed);
         let scales = scales_of(path, &table)?;
@@ -310,6 +310,10 @@ mod tests {
             (
                 &*format!("{head}[[solver]]\nname = \"oracle\"\nversion = \"2\"\n"),
                 "has no use for version; leave it out",
+            ),
+            (
+                &*format!("{head}[[solver]]\nname = \"label-means\"\ntexture_size = 512\n"),
+                "\"label-means\" has no use for texture_size; leave it out",
             ),
             ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
             (

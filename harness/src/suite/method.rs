@@ -12,6 +12,10 @@ use super::place;
 use super::program::{Limits, Program, Start};
 use super::scene::{self, SceneError};
 
+/// The methods that read the truth, as a suite names them.
+const ORACLE: &str = "oracle";
+const LABEL_MEANS: &str = "label-means";
+
 /// How a solver is started.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
@@ -26,6 +30,8 @@ pub enum Method {
     Program(Program),
     /// The true maps: the floor that rendering noise and the pipeline set.
     Oracle,
+    /// The true mean colour of every label: made from the truth too, see [`scoring::score::label_mean_maps`].
+    LabelMeans,
     /// An answer that needs no optimisation.
     Baseline {
         /// Which one.
@@ -47,10 +53,16 @@ pub struct Entrant {
 }
 
 impl Entrant {
-    /// `solver`, `baseline` or `oracle`.
+    /// Whether its maps are made from the truth, which photographs do not have.
+    pub fn reads_truth(&self) -> bool {
+        matches!(self.method, Method::Oracle | Method::LabelMeans)
+    }
+
+    /// `solver`, `baseline`, `privileged` or `oracle`.
     pub fn kind(&self) -> &'static str {
         match self.method {
-            Method::Oracle => "oracle",
+            Method::Oracle => ORACLE,
+            Method::LabelMeans => "privileged",
             Method::Baseline { .. } => "baseline",
             Method::Fields { .. } | Method::Program(_) => "solver",
         }
@@ -117,7 +129,8 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == solver.name);
     let method = match (program, solver.name.as_str()) {
         (Some(program), _) => Method::Program(program),
-        (None, "oracle") => Method::Oracle,
+        (None, ORACLE) => Method::Oracle,
+        (None, LABEL_MEANS) => Method::LabelMeans,
         (None, name) => match baseline {
             Some(method) => {
                 let texture_size = solver.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
@@ -139,6 +152,7 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     };
     let title = solver.title.unwrap_or_else(|| match method {
         Method::Oracle => "oracle (true maps)".to_owned(),
+        Method::LabelMeans => "true mean of each label (privileged)".to_owned(),
         Method::Baseline { method, .. } => method.title().to_owned(),
         Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
     });
@@ -209,7 +223,7 @@ impl SolverTable {
             return refused("has both a command and a python function".to_owned());
         }
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
-        let fields = !foreign && !baseline && name != "oracle";
+        let fields = !foreign && !baseline && ![ORACLE, LABEL_MEANS].contains(&&**name);
         for (key, given, means) in [
             ("config", config.is_some(), fields),
             ("set", !set.is_empty(), fields),

@@ -343,6 +343,9 @@ impl Stages<'_> {
                 let size = texture_size.to_string();
                 (hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES]), String::new())
             }
+            (Method::LabelMeans, _) => {
+                (hash_parts(&["label-means", SOLVER_SOURCES, SCORE_SOURCES]), String::new())
+            }
             (Method::Oracle | Method::Program(_), _) => {
                 (hash_parts(&["oracle", SCORE_SOURCES]), String::new())
             }

@@ -13,10 +13,10 @@ use crate::table::{self, Column};
 
 /// The cases of one light and variant.
 pub(super) struct Group {
-    light: String,
-    variant: Option<String>,
+    pub light: String,
+    pub variant: Option<String>,
     /// Indices of the cases.
-    cases: Vec<usize>,
+    pub cases: Vec<usize>,
 }
 
 impl Group {
@@ -98,7 +98,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
         text.push_str(&format!("\n{title}\n\n{}", head(&["method"], names)));
         for (line, values) in lines.iter().zip(&values) {
             let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
-                let best = best.as_deref().filter(|_| line.kind != Kind::Oracle);
+                let best = best.as_deref().filter(|_| line.kind.competes());
                 cell(figure, values, group.cases.len(), best)
             });
             text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
@@ -123,13 +123,13 @@ fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
     format!("{} ({})", figure.name, escape(&lights.join(", ")))
 }
 
-/// The best mean as it is shown, the oracle aside; none without a competition.
+/// The best mean as it is shown, what is made from the truth aside; none without a competition.
 fn best<'a>(
     lines: &[Line],
     figure: &Figure,
     values: impl Fn(usize) -> &'a Vec<Found>,
 ) -> Option<String> {
-    let contenders = lines.iter().enumerate().filter(|(_, line)| line.kind != Kind::Oracle);
+    let contenders = lines.iter().enumerate().filter(|(_, line)| line.kind.competes());
     let means: Vec<f64> =
         contenders.filter_map(|(i, _)| mean(values(i).iter().map(|found| found.value))).collect();
     let better = |a: f64, b: f64| if figure.better.gain(a, b) > 0.0 { b } else { a };

@@ -6,6 +6,7 @@ mod geometry;
 mod maps;
 mod names;
 mod noise_floor;
+mod label_means;
 mod oracle;
 mod photographs;
 mod pictures;
@@ -22,6 +23,7 @@ use formats::content_hash::hash_path;
 
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
+pub use label_means::label_mean_maps;
 pub use oracle::oracle_maps;
 pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
