@@ -100,6 +100,20 @@ def test_another_detail_is_refused_and_the_default_is_not_written():
     assert FaceSpec.from_table(natural.to_table()) == natural
 
 
+@pytest.mark.parametrize("detail", ["smooth", "natural"])
+def test_scales_change_the_sheen_and_nothing_else(detail):
+    table = TABLE | {"detail": detail, "texture_size": 128}
+    plain = build_face(FaceSpec.from_table(table))
+    scaled = build_face(FaceSpec.from_table(table | {"specular_scale": 0.6, "roughness_scale": 1.5}))
+    np.testing.assert_allclose(scaled.maps.specular_albedo, 0.6 * plain.maps.specular_albedo, rtol=1e-5)
+    np.testing.assert_allclose(scaled.maps.roughness[..., :2], 1.5 * plain.maps.roughness[..., :2], rtol=1e-5)
+    for name in ("diffuse_albedo", "specular_normal", "labels"):
+        np.testing.assert_array_equal(getattr(scaled.maps, name), getattr(plain.maps, name))
+    rest = [next(part for part in face.parts if part.name == "rest") for face in (plain, scaled)]
+    np.testing.assert_allclose(rest[1].specular, 0.6 * rest[0].specular, rtol=1e-5)
+    assert FaceSpec.from_table(scaled.spec.to_table()) == scaled.spec
+
+
 @pytest.fixture(scope="module")
 def flat():
     """A sheet of 40 x 20 mm over the unit square, 100 texels a side."""

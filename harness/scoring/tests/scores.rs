@@ -177,7 +177,8 @@ fn label_means_are_flat_and_right_in_the_mean() {
     let bench = Bench::new(1e-5);
     let maps = bench.root.path().join("means");
     label_mean_maps(&bench.capture(), &maps).unwrap();
-    let truth = read_exr(&bench.capture().join("truth/diffuse_albedo.exr"), &["R", "G", "B"]).unwrap();
+    let truth =
+        read_exr(&bench.capture().join("truth/diffuse_albedo.exr"), &["R", "G", "B"]).unwrap();
     let flat = read_exr(&maps.join("diffuse_albedo.exr"), &["R", "G", "B"]).unwrap();
     let labels = read_png_gray(&bench.capture().join("truth/labels.png")).unwrap().data;
     let cover = read_png_gray(&maps.join("coverage.png")).unwrap().data;

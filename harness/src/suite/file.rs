@@ -129,6 +129,7 @@ fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> 
 #[cfg(test)]
 mod tests {
     use super::super::baseline::BaselineMethod;
+    use super::super::method::Method;
     use super::super::program::Start;
     use super::*;
 
@@ -235,7 +236,7 @@ mod tests {
              lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n\
              [[variant]]\nname = \"as captured\"\n\
              [[variant]]\nname = \"no labels\"\n[variant.labels]\nomit = true\n\
-             [variant.render]\nwidth = 32\n[face]\ntexture_size = 1024\n\
+             [variant.render]\nwidth = 32\n[variant.light]\nexposure = 0.5\n[face]\ntexture_size = 1024\n\
              [[solver]]\nname = \"semantic_initialisation\"\n",
         );
         let suite = Suite::open(&path).unwrap();
@@ -258,6 +259,8 @@ mod tests {
             ["width", "height"].map(|key| table(case)["render"][key].as_integer().unwrap())
         };
         assert_eq!((size(0), size(1)), ([8, 8], [32, 8]));
+        let exposed = |case: usize| table(case)["light"].get("exposure").and_then(Value::as_float);
+        assert_eq!((exposed(0), exposed(1)), (None, Some(0.5)));
         // The text of a varied scene is one that can be read again.
         let text = suite.cases[3].scene.to_toml().unwrap();
         assert_eq!(&text.parse::<Table>().unwrap(), table(3));
@@ -342,6 +345,12 @@ mod tests {
             ),
             (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),
             (&*format!("{head}[variant]\nname = \"a\"\n"), "variant: must be tables"),
+            (
+                &*format!(
+                    "{head}[[variant]]\nname = \"a\"\n[variant.rig]\nname = \"b\"\n[[solver]]\nname = \"fast\"\n"
+                ),
+                "[variant.rig] changes one and cannot name another",
+            ),
             (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),
             (
                 &*format!("{head}[[variant]]\nname = \"a\"\nface = {{}}\n"),

@@ -17,8 +17,8 @@ from .normals import DIFFUSION_MM, relief_normals, smoothed, tangents
 from .pores import stubble_roots
 from .regions import Regions, find_regions, sample_masks, smoothstep
 from .relief import draw_relief
-from .roughness import draw_roughness
-from .skin import Pigments, base_pigments, chart_colour, draw_marks
+from .roughness import MIN_ALPHA, draw_roughness
+from .skin import SPECULAR_LIMIT, Pigments, base_pigments, chart_colour, draw_marks
 from .spec import FaceSpec
 from .strands import Ground
 from .strokes import Sketch
@@ -109,6 +109,11 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
             natural.specular(specular, fade, rims["edge"]),
         )
         roughness = natural.roughness(roughness, fade)
+    if spec.specular_scale != 1:
+        specular = np.clip(np.float32(spec.specular_scale) * specular, 0, SPECULAR_LIMIT)
+    if spec.roughness_scale != 1:
+        scales = np.float32([spec.roughness_scale, spec.roughness_scale, 1])
+        roughness = np.clip(roughness * scales, MIN_ALPHA, 1)
 
     smooth = unit(texels.sample(normals))
     du, dv = (texels.sample(t) for t in tangents(positions, uv, triangles))

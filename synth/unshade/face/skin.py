@@ -76,6 +76,8 @@ def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.
     specular = _specular_base(regions, scalp, spec)
     if spec.detail == "natural":
         specular = np.clip(np.float32(character(spec).specular) * specular, 0, SPECULAR_LIMIT)
+    if spec.specular_scale != 1:
+        specular = np.clip(np.float32(spec.specular_scale) * specular, 0, SPECULAR_LIMIT)
     return _with_hair(colour, scalp, scalp_colour(regions.points, style, spec), style.opacity), specular
 
 

@@ -24,6 +24,9 @@ DETAILS = ("smooth", "natural")
 """How much a face shows: even skin and painted hair, or what photographed faces have (`natural`)."""
 
 
+_SCALES = ("specular_scale", "roughness_scale")
+
+
 class FaceError(UnshadeError):
     """A face that cannot be built."""
 
@@ -47,7 +50,8 @@ class FaceSpec:
     independent of the shape; `texture_size` is the side of the truth maps in texels;
     `expression` is what the face does, nothing by default: it moves the surface and leaves
     the identity, the chart's UV and the colours alone; `detail` one of `DETAILS`: the same person
-    with even or with natural skin, hair and sheen.
+    with even or with natural skin, hair and sheen; `specular_scale` and `roughness_scale` multiply
+    the specular albedo (at most 0.05 in all) and the lobes' alphas on top of all that is painted.
     """
 
     name: str
@@ -60,6 +64,8 @@ class FaceSpec:
     texture_size: int = 512
     expression: Expression = ()
     detail: str = "smooth"
+    specular_scale: float = 1.0
+    roughness_scale: float = 1.0
 
     @property
     def years(self) -> float:
@@ -114,6 +120,7 @@ class FaceSpec:
             texture_size=size,
             expression=_expression(table.get("expression", {}), place),
             detail=detail,
+            **{key: _number(table[key], key, 0.25, 4.0, place) for key in _SCALES if key in table},
         )
 
     def to_table(self) -> dict[str, Any]:
@@ -123,8 +130,10 @@ class FaceSpec:
         table["expression"] = dict(self.expression)
         if not self.expression:
             del table["expression"]
-        if self.detail == type(self).detail:
-            del table["detail"]
+        # A default is not written, so that scenes from before there was a choice stay as they were.
+        for key in ("detail", *_SCALES):
+            if table[key] == getattr(type(self), key):
+                del table[key]
         return table
 
 

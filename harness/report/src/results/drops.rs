@@ -68,8 +68,11 @@ fn changes(run: &Finished, first: &Group, others: &[&Group]) -> String {
                     Some(at(*after)? - at(*before)?)
                 });
                 match mean(pairs) {
-                    // A minus of nothing at all is none.
-                    Some(change) => table::shown(Some(change), figure.decimals).replace("-0.0", "0.0"),
+                    // What rounds to nothing has no sign.
+                    Some(change) if change.abs() < 0.5 * 0.1_f64.powi(figure.decimals as i32) => {
+                        table::shown(Some(0.0), figure.decimals)
+                    }
+                    Some(change) => table::shown(Some(change), figure.decimals),
                     None => table::EMPTY.to_owned(),
                 }
             });

@@ -3,10 +3,10 @@
 mod confidence;
 mod error;
 mod geometry;
+mod label_means;
 mod maps;
 mod names;
 mod noise_floor;
-mod label_means;
 mod oracle;
 mod photographs;
 mod pictures;
