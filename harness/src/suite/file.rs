@@ -353,8 +353,8 @@ mod tests {
             ),
             (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),
             (
-                &*format!("{head}[[variant]]\nname = \"a\"\nface = {{}}\n"),
-                "variant \"a\": face is unknown; there are name, captured_mesh",
+                &*format!("{head}[[variant]]\nname = \"a\"\nmesh = {{}}\n"),
+                "variant \"a\": mesh is unknown; there are name, captured_mesh",
             ),
             (
                 &*format!("{head}[[variant]]\nname = \"a\"\nlabels = 1\n"),
