@@ -3,7 +3,8 @@
     python synth/bench/skin_spectra.py --head HEAD.toml [--size 1024] [--document docs/ground-truth.md]
 
 HEAD.toml is the `[face]` table of a head of one's own with a photographed texture and labels.
-Prints the tables; with `--document` writes them there, and the picture beside it. Of the head
+Prints the tables; with `--document` writes them there, and the pictures beside it: the curves,
+and a contact sheet of sampled faces with natural skin. Of the head
 only curves and single numbers are kept.
 """
 
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +24,7 @@ from unshade.render import llvm
 llvm.activate(llvm.choose())
 from unshade.face import Face, FaceSpec, Label, build_face, statistics  # noqa: E402
 from unshade.heads import build_head  # noqa: E402
+from unshade.render.contact_sheet import contact_sheet  # noqa: E402
 from unshade.scene_file.face import parse_face  # noqa: E402
 
 if sys.version_info >= (3, 11):
@@ -32,7 +35,7 @@ else:
 ROOT = Path(__file__).resolve().parents[2]
 FACES = ("ada", "kofi", "mei", "noor")
 START, END = "<!-- figures: written by synth/bench/skin_spectra.py -->", "<!-- end of figures -->"
-PICTURE = "skin-spectra.png"
+PICTURE, SHEET, SITTERS = "skin-spectra.png", "natural-sheet.jpg", 12
 CURVES = ("luminance", "melanin", "haemoglobin", "relief")
 REGIONS = (Label.LIPS, Label.BROW, Label.EYELID, Label.SCALP)
 GROUPS = ("scan", "natural", "smooth")
@@ -67,6 +70,14 @@ def main() -> None:
         after = rest.split(END)[1]
         options.document.write_text(f"{before}{START}\n{text}\n{END}{after}")
         draw(measured).save(options.document.with_name(PICTURE), optimize=True)
+        _sheet(options.document.with_name(SHEET))
+
+
+def _sheet(out: Path) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "sheet.png"
+        contact_sheet(SITTERS, page, detail="natural")
+        Image.open(page).save(out, quality=88, optimize=True)
 
 
 def measure(face: Face) -> Measured:
