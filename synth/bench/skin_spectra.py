@@ -107,7 +107,7 @@ def tables(measured: dict[str, list[Measured]]) -> str:
     for curve in (*CURVES, "hair"):
         for group in GROUPS:
             values = np.stack([m.curves[curve] for m in measured[group]])[:, bands]
-            if values.max() < 1e-6:
+            if values.max() < 1e-3:  # float normals turn by as much
                 continue
             scale, digits = (1, 1) if curve == "relief" else (100, 1)
             unit = "°" if curve == "relief" else " %"
@@ -181,7 +181,7 @@ def draw(measured: dict[str, list[Measured]]) -> Image.Image:
 def _curve(pen: ImageDraw.ImageDraw, frame: Frame, curve: np.ndarray, group: str) -> None:
     """Through the middles of the octaves; nothing where a face has none of it."""
     middles = 1 / (statistics.BANDS * 2**0.5)
-    points = [frame.at(wave, value) for wave, value in zip(middles, curve) if np.isfinite(value) and value > 1e-6]
+    points = [frame.at(wave, value) for wave, value in zip(middles, curve) if np.isfinite(value) and value > 1e-3]
     if len(points) > 1:
         pen.line(points, fill=_COLOURS[group], width=4 if group == "scan" else 2)
 
