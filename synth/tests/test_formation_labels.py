@@ -118,3 +118,15 @@ def test_the_table_survives_writing_and_reading():
         assert full.labels == LabelFaults(**table)
         assert parse_scene(tomllib.loads(scene_text(full)), "again", Path()) == full
     assert "labels" not in scene_text(scene())
+
+
+def test_one_label_covers_all_that_has_any_in_training_views_alone():
+    perfect = regions()
+    views = cameras(scene().rig, SIZE, SIZE)
+    training, withheld = views[0], views[-1]
+    np.testing.assert_array_equal(stated_labels(perfect, training, scene(one=True)), perfect > 0)
+    assert not withheld.train
+    np.testing.assert_array_equal(stated_labels(perfect, withheld, scene(one=True)), perfect)
+    for other in ({"omit": True}, {"boundary_error": 0.2}):
+        with pytest.raises(SceneError, match="one = true in .* keep one of them"):
+            scene(one=True, **other)

@@ -105,6 +105,8 @@ pub(super) enum Kind {
     Solver,
     /// A method to beat.
     Baseline,
+    /// Made from the truth, to say what a score is worth.
+    Privileged,
     /// The true maps: the bound that noise and the pipeline set.
     Oracle,
 }
@@ -114,8 +116,14 @@ impl Kind {
         match self {
             Kind::Solver => "solver",
             Kind::Baseline => "baseline",
+            Kind::Privileged => "privileged",
             Kind::Oracle => "oracle",
         }
+    }
+
+    /// Whether it can be best: what is made from the truth cannot.
+    pub fn competes(self) -> bool {
+        matches!(self, Kind::Solver | Kind::Baseline)
     }
 }
 

@@ -8,12 +8,12 @@ mod plane;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use formats::picture::write_exr;
+use formats::picture::{read_exr, read_png_gray, write_exr};
 use noise::normal_noise;
 use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
 use scoring::compare::{Baseline, Tolerances, Verdict, compare};
 use scoring::metrics::METRICS;
-use scoring::score::{Scores, fit_scale, oracle_maps, score};
+use scoring::score::{Scores, fit_scale, label_mean_maps, oracle_maps, score};
 
 struct Bench {
     root: tempfile::TempDir,
@@ -170,6 +170,42 @@ fn a_confidence_that_knows_the_error_is_told_from_one_that_says_nothing() {
     assert!(rank > 0.99 && sparse > 1.45, "{rank} {sparse}");
     assert_eq!(scored(&|_| 0.7)[0], None);
     assert!((scored(&|_| 0.7)[1].unwrap() - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn label_means_are_flat_and_right_in_the_mean() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.root.path().join("means");
+    label_mean_maps(&bench.capture(), &maps).unwrap();
+    let truth =
+        read_exr(&bench.capture().join("truth/diffuse_albedo.exr"), &["R", "G", "B"]).unwrap();
+    let flat = read_exr(&maps.join("diffuse_albedo.exr"), &["R", "G", "B"]).unwrap();
+    let labels = read_png_gray(&bench.capture().join("truth/labels.png")).unwrap().data;
+    let cover = read_png_gray(&maps.join("coverage.png")).unwrap().data;
+    let mut seen = 0;
+    for label in (1..=7).filter(|label| labels.contains(label)) {
+        let texels: Vec<usize> =
+            (0..labels.len()).filter(|i| labels[*i] == label && cover[*i] > 0).collect();
+        let mean = |channel: usize| {
+            let values = texels.iter().map(|i| f64::from(truth.data[3 * i + channel]));
+            values.sum::<f64>() / texels.len() as f64
+        };
+        for channel in 0..3 {
+            let expected = mean(channel);
+            let here = |i: &usize| f64::from(flat.data[3 * i + channel]);
+            assert!(texels.iter().all(|i| (here(i) - expected).abs() < 1e-4), "label {label}");
+        }
+        seen += 1;
+    }
+    assert!(seen >= 2, "{seen} labels");
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert_eq!(scores.solver, "label-means");
+    assert!(value(&scores, "diffuse_albedo/psnr_srgb@coverage-e5:none") > 15.0);
+    assert!(scores.row("specular_albedo/rmse@coverage-e5:none").is_none());
+
+    fs::remove_dir_all(bench.capture().join("truth")).unwrap();
+    let message = label_mean_maps(&bench.capture(), &maps).unwrap_err().to_string();
+    assert!(message.contains("has no truth"), "{message}");
 }
 
 #[test]

@@ -179,6 +179,8 @@ pub(super) enum SolverName {
     MeanTexture,
     /// One colour for each label region.
     SemanticInitialisation,
+    /// The true mean colour of each label (opens `truth/`).
+    LabelMeans,
     /// The true maps (opens `truth/`).
     Oracle,
 }

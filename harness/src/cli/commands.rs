@@ -126,6 +126,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
         SolverName::SemanticInitialisation => {
             baseline(BaselineMethod::SemanticInitialisation, arguments)
         }
+        SolverName::LabelMeans => alone("solve", |_, _| Ok(score::label_mean_maps(capture, out)?)),
         SolverName::Oracle => alone("solve", |_, _| Ok(score::oracle_maps(capture, out)?)),
     }
 }

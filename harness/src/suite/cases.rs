@@ -22,7 +22,11 @@ pub struct Case {
 }
 
 /// The tables of a scene that a variant may change.
-const VARIED: [&str; 4] = ["captured_mesh", "image_formation", "labels", "render"];
+const VARIED: [&str; 7] =
+    ["captured_mesh", "face", "image_formation", "labels", "light", "render", "rig"];
+
+/// Those of them that have a name, which is the case's and stays.
+const NAMED: [&str; 3] = ["face", "light", "rig"];
 
 /// A `[[variant]]`: what is laid over the scene.
 struct Variant {
@@ -48,6 +52,14 @@ impl Variant {
         if let Some((name, _)) = changes.iter().find(|(_, value)| !value.is_table()) {
             let reason = format!("{name} must be a table; write [variant.{name}]");
             return Err(SceneError::value(path, &key, reason));
+        }
+        for section in NAMED {
+            let Some(Value::Table(table)) = changes.get_mut(section) else { continue };
+            if table.contains_key("name") {
+                let reason = format!("[variant.{section}] changes one and cannot name another");
+                return Err(SceneError::value(path, &key, reason));
+            }
+            scene::resolve_files(path, table);
         }
         Ok(Self { name, changes })
     }

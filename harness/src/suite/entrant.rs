@@ -45,6 +45,7 @@ pub(super) fn make_maps(
         (Method::Program(program), Some(files)) => {
             return program.run(&entrant.id, files, &place, &tools.interrupt).map(Some);
         }
+        (Method::LabelMeans, _) => score::label_mean_maps(capture, maps)?,
         (Method::Oracle | Method::Program(_), _) => score::oracle_maps(capture, maps)?,
     }
     Ok(None)

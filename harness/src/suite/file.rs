@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
-use super::method::{self, Entrant, Method};
-use super::packaged;
+use super::method::{self, Entrant};
+use super::{packaged, place};
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
@@ -69,10 +69,10 @@ impl Suite {
             return Err(SceneError::value(path, "captures", reason));
         }
         let entrants = method::entrants_of(path, &table)?;
-        let oracle = entrants.iter().find(|entrant| matches!(entrant.method, Method::Oracle));
-        if let (Some(oracle), false) = (oracle, photographed.is_empty()) {
-            let reason = "photographs have no true maps; leave the oracle out";
-            return Err(SceneError::in_table(path, &oracle.id, "name", reason));
+        let privileged = entrants.iter().find(|entrant| entrant.reads_truth());
+        if let (Some(entrant), false) = (privileged, photographed.is_empty()) {
+            let reason = format!("photographs have no true maps; leave {:?} out", entrant.id);
+            return Err(SceneError::in_table(path, &entrant.id, "name", reason));
         }
         cases.extend(photographed);
         let scales = scales_of(path, &table)?;
@@ -131,6 +131,7 @@ fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> 
 #[cfg(test)]
 mod tests {
     use super::super::baseline::BaselineMethod;
+    use super::super::method::Method;
     use super::super::program::Start;
     use super::*;
 
@@ -237,7 +238,7 @@ mod tests {
              lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n\
              [[variant]]\nname = \"as captured\"\n\
              [[variant]]\nname = \"no labels\"\n[variant.labels]\nomit = true\n\
-             [variant.render]\nwidth = 32\n[face]\ntexture_size = 1024\n\
+             [variant.render]\nwidth = 32\n[variant.light]\nexposure = 0.5\n[face]\ntexture_size = 1024\n\
              [[solver]]\nname = \"semantic_initialisation\"\n",
         );
         let suite = Suite::open(&path).unwrap();
@@ -260,6 +261,8 @@ mod tests {
             ["width", "height"].map(|key| table(case)["render"][key].as_integer().unwrap())
         };
         assert_eq!((size(0), size(1)), ([8, 8], [32, 8]));
+        let exposed = |case: usize| table(case)["light"].get("exposure").and_then(Value::as_float);
+        assert_eq!((exposed(0), exposed(1)), (None, Some(0.5)));
         // The text of a varied scene is one that can be read again.
         let text = suite.cases[3].scene.to_toml().unwrap();
         assert_eq!(&text.parse::<Table>().unwrap(), table(3));
@@ -313,6 +316,10 @@ mod tests {
                 &*format!("{head}[[solver]]\nname = \"oracle\"\nversion = \"2\"\n"),
                 "has no use for version; leave it out",
             ),
+            (
+                &*format!("{head}[[solver]]\nname = \"label-means\"\ntexture_size = 512\n"),
+                "\"label-means\" has no use for texture_size; leave it out",
+            ),
             ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
             (
                 &*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"),
@@ -340,10 +347,16 @@ mod tests {
             ),
             (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),
             (&*format!("{head}[variant]\nname = \"a\"\n"), "variant: must be tables"),
+            (
+                &*format!(
+                    "{head}[[variant]]\nname = \"a\"\n[variant.rig]\nname = \"b\"\n[[solver]]\nname = \"fast\"\n"
+                ),
+                "[variant.rig] changes one and cannot name another",
+            ),
             (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),
             (
-                &*format!("{head}[[variant]]\nname = \"a\"\nface = {{}}\n"),
-                "variant \"a\": face is unknown; there are name, captured_mesh",
+                &*format!("{head}[[variant]]\nname = \"a\"\nmesh = {{}}\n"),
+                "variant \"a\": mesh is unknown; there are name, captured_mesh",
             ),
             (
                 &*format!("{head}[[variant]]\nname = \"a\"\nlabels = 1\n"),

@@ -13,6 +13,10 @@ use super::place;
 use super::program::{Gives, Limits, Program, Start};
 use super::scene::{self, SceneError};
 
+/// The methods that read the truth, as a suite names them.
+const ORACLE: &str = "oracle";
+const LABEL_MEANS: &str = "label-means";
+
 /// How a solver is started.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
@@ -34,6 +38,8 @@ pub enum Method {
         /// Its settings as JSON.
         settings: String,
     },
+    /// The true mean colour of every label: made from the truth too, see [`scoring::score::label_mean_maps`].
+    LabelMeans,
     /// An answer that needs no optimisation.
     Baseline {
         /// Which one.
@@ -55,10 +61,16 @@ pub struct Entrant {
 }
 
 impl Entrant {
-    /// `solver`, `baseline` or `oracle`.
+    /// Whether its maps are made from the truth, which photographs do not have.
+    pub fn reads_truth(&self) -> bool {
+        matches!(self.method, Method::Oracle | Method::LabelMeans)
+    }
+
+    /// `solver`, `baseline`, `privileged` or `oracle`.
     pub fn kind(&self) -> &'static str {
         match self.method {
-            Method::Oracle => "oracle",
+            Method::Oracle => ORACLE,
+            Method::LabelMeans => "privileged",
             Method::Baseline { .. } => "baseline",
             Method::Fields { .. } | Method::Program(_) | Method::Competitor { .. } => "solver",
         }
@@ -67,7 +79,7 @@ impl Entrant {
     /// What it is given.
     pub fn class(&self) -> Class {
         match self.method {
-            Method::Oracle => Class::Privileged,
+            Method::Oracle | Method::LabelMeans => Class::Privileged,
             Method::Competitor { method, .. } => method.class,
             Method::Baseline { .. } | Method::Fields { .. } | Method::Program(_) => Class::Passive,
         }
@@ -137,7 +149,8 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     let competitor = Competitor::find(&solver.name).filter(|_| solver.config.is_none());
     let method = match (program, solver.name.as_str()) {
         (Some(program), _) => Method::Program(program),
-        (None, "oracle") => Method::Oracle,
+        (None, ORACLE) => Method::Oracle,
+        (None, LABEL_MEANS) => Method::LabelMeans,
         (None, name) => match baseline {
             None if let Some(method) = competitor => {
                 let settings = serde_json::to_string(&solver.set)
@@ -157,6 +170,7 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
     };
     let title = solver.title.unwrap_or_else(|| match method {
         Method::Oracle => "oracle (true maps)".to_owned(),
+        Method::LabelMeans => "true mean of each label (privileged)".to_owned(),
         Method::Baseline { method, .. } => method.title().to_owned(),
         Method::Competitor { method, .. } => method.title.to_owned(),
         Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
@@ -247,7 +261,7 @@ impl SolverTable {
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
         let pictures = *gives == Some(Gives::Pictures);
         let competitor = !foreign && config.is_none() && Competitor::find(name).is_some();
-        let fields = !foreign && !baseline && !competitor && name != "oracle";
+        let fields = !foreign && !baseline && !competitor && ![ORACLE, LABEL_MEANS].contains(&&**name);
         for (key, given, means) in [
             ("config", config.is_some(), fields),
             ("set", !set.is_empty(), fields || competitor),

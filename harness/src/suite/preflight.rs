@@ -44,7 +44,10 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
                 backend.open().map_err(|error| wrong("backend", error.to_string()))?;
                 None
             }
-            Method::Oracle | Method::Baseline { .. } | Method::Competitor { .. } => None,
+            Method::Oracle
+            | Method::LabelMeans
+            | Method::Baseline { .. }
+            | Method::Competitor { .. } => None,
         };
         Ok(Ready { entrant, files })
     };

@@ -381,6 +381,9 @@ impl Stages<'_> {
             (Method::Competitor { method, settings }, _) => {
                 (hash_parts(&["competitor", method.name, settings, renderer]), String::new())
             }
+            (Method::LabelMeans, _) => {
+                (hash_parts(&["label-means", SOLVER_SOURCES, SCORE_SOURCES]), String::new())
+            }
             (Method::Oracle | Method::Program(_), _) => {
                 (hash_parts(&["oracle", SCORE_SOURCES]), String::new())
             }

@@ -32,6 +32,14 @@ class HairStyle:
     brow: np.ndarray
     recession: float
     beard: float
+    opacity: float = 0.93
+    """Share of the skin that thick hair hides."""
+    grey: float = 0.0
+    """Share of grey strands among those of natural hair."""
+    softness: float = 6.0
+    """Way (mm) over which hair thickens behind the hairline."""
+    ragged: float = 0.0
+    """Standard deviation (mm) of the hairline's fine raggedness."""
 
 
 def hair_style(spec: FaceSpec) -> HairStyle:
@@ -40,11 +48,26 @@ def hair_style(spec: FaceSpec) -> HairStyle:
     shade = _SHADES[rng.integers(_LIGHTEST[spec.fitzpatrick])]
     grey = smoothstep(0.35, 1.0, np.float64(spec.age)) * rng.uniform(0.3, 0.85)
     manly = float(smoothstep(0.5, 0.9, np.float64(spec.gender)))
-    return HairStyle(
+    style = HairStyle(
         scalp=shade + grey * (_GREY - shade),
         brow=0.85 * shade + 0.38 * grey * (_GREY - shade),
         recession=manly * (3.0 + 12.0 * spec.age * rng.uniform()) + rng.normal(0.0, 2.0),
         beard=manly * rng.uniform(0.25, 0.85),
+    )
+    if spec.detail == "smooth":
+        return style
+    # Between strands hardly any light returns, and single strands go grey; beards have the brows' colour.
+    own = stream(spec.seed, "natural hair")
+    darker = own.uniform(0.3, 0.6)
+    return dataclasses.replace(
+        style,
+        scalp=darker * (shade + 0.3 * grey * (_GREY - shade)),
+        brow=darker * style.brow,
+        grey=grey,
+        beard=manly * own.uniform(0.5, 1.0),
+        opacity=0.985,
+        softness=own.uniform(9.0, 18.0),
+        ragged=own.uniform(1.5, 3.5),
     )
 
 
@@ -56,8 +79,10 @@ def scalp_cover(points: np.ndarray, style: HairStyle, seed: int) -> np.ndarray:
     temple = np.exp(-0.5 * ((angle - 34) / 14) ** 2)
     line = np.interp(angle, _HAIRLINE_ANGLE, _HAIRLINE) + style.recession * (0.4 + 0.9 * temple) * (angle < 75)
     rag = 2.0 * octaves(points, 16.0, 2, 0.0, stream(seed, "hairline"))
+    if style.ragged:
+        rag += style.ragged * octaves(points, 5.0, 3, 0.0, stream(seed, "ragged hairline"))
     thin = 0.03 + 0.012 * octaves(points, 12.0, 2, 0.0, stream(seed, "thin hair"))
-    cover = smoothstep(-5.0, 6.0, y - line + rag) * np.clip(1 - thin, 0, 1)
+    cover = smoothstep(-5.0, style.softness, y - line + rag) * np.clip(1 - thin, 0, 1)
     # Ears stand in front of hair that grows behind them.
     ear = smoothstep(70.0, 75.0, np.abs(x)) * smoothstep(30.0, 22.0, y)
     return (cover * (1 - ear)).astype(np.float32)

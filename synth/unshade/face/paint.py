@@ -12,13 +12,15 @@ from .hair import HairStyle, beard_cover, draw_brows, scalp_cover, scalp_grain
 from .head import Head
 from .labels import Label
 from .lids import margin_distance
+from .natural import draw_natural
 from .normals import DIFFUSION_MM, relief_normals, smoothed, tangents
 from .pores import stubble_roots
 from .regions import Regions, find_regions, sample_masks, smoothstep
 from .relief import draw_relief
-from .roughness import draw_roughness
-from .skin import Pigments, base_pigments, chart_colour, draw_marks
+from .roughness import MIN_ALPHA, draw_roughness
+from .skin import SPECULAR_LIMIT, Pigments, base_pigments, chart_colour, draw_marks
 from .spec import FaceSpec
+from .strands import Ground
 from .strokes import Sketch
 from .texels import Texels, rasterise
 
@@ -46,6 +48,7 @@ class Maps:
 
 # Detail of the chart fades out over this distance (mm) from its outer rim.
 _RIM_FADE_MM = 18.0
+_HAIR_FADE_MM = 5.0
 
 
 def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec) -> Maps:
@@ -88,7 +91,29 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     stubble = 1 - rims["outer"][hairy] * (1 - scalp_grain(points[hairy], 2 * texel, spec.seed))
     cover["scalp"] = scalp.copy()
     cover["scalp"][hairy] *= stubble
-    diffuse, specular = chart_colour(regions, Pigments(melanin, blood), relief, marks, cover, rims, texel, style, spec)
+    pigments, fade = Pigments(melanin, blood), rims["outer"]
+    natural = None
+    if spec.detail == "natural":
+        hair_here = scalp_cover(sites.points, style, spec.seed)
+        ground = _ground(head)
+        natural = draw_natural(regions, sites, texels, nearest, ground, hair_here, relief.pores, texel, style, spec)
+        pigments, marks = natural.pigments(pigments, fade), np.zeros_like(marks)
+        # Hair is strands; between them the skin is in their shade.
+        cover["scalp"] = cover["scalp"] * (1 - 0.15 * rims["edge"])
+        relief = dataclasses.replace(relief, height=relief.height + natural.height)
+    diffuse, specular = chart_colour(regions, pigments, relief, marks, cover, rims, texel, style, spec)
+    roughness = draw_roughness(regions, relief, cover, rims, texel, spec)
+    if natural is not None:
+        diffuse, specular = (
+            natural.colour(diffuse, style, fade, rims["edge"]),
+            natural.specular(specular, fade, rims["edge"]),
+        )
+        roughness = natural.roughness(roughness, fade)
+    if spec.specular_scale != 1:
+        specular = np.clip(np.float32(spec.specular_scale) * specular, 0, SPECULAR_LIMIT)
+    if spec.roughness_scale != 1:
+        scales = np.float32([spec.roughness_scale, spec.roughness_scale, 1])
+        roughness = np.clip(roughness * scales, MIN_ALPHA, 1)
 
     smooth = unit(texels.sample(normals))
     du, dv = (texels.sample(t) for t in tangents(positions, uv, triangles))
@@ -105,7 +130,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
         diffuse_normal=extended(relief_normals(blurred, texels, nearest, smooth, du, dv)),
         labels=texels.image(labels),
         inside=texels.inside,
-        roughness=extended(draw_roughness(regions, relief, cover, rims, texel, spec)),
+        roughness=extended(roughness),
     )
 
 
@@ -116,8 +141,14 @@ def chart_scale(head: Head) -> float:
     return float(np.sqrt(0.5 * doubled / signed_areas(head.chart_uv, head.chart_triangles).sum()))
 
 
+def _ground(head: Head) -> Ground:
+    corner = head.template[head.part_chart]
+    doubled = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    return Ground(head.chart_uv, head.chart_triangles, 0.5 * doubled)
+
+
 def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:
-    """`outer`: 0 at the chart's outer rim to 1 inside; `lash`, `wet`: dark line and moist edge of the lids.
+    """`outer`: 0 at the chart's outer rim to 1 inside, `edge` the same for hair; `lash`, `wet`: dark line and moist edge of the lids.
 
     `margin` and `rim`: distances (C,) in mm from the chart's vertices to the lid margins and the outer rim.
     """
@@ -126,7 +157,12 @@ def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions)
     width = 0.55 + 0.75 * upper
     lash = (0.45 + 0.55 * upper) * smoothstep(width, 0.4 * width, lid) * smoothstep(0.0, 0.25, lid + 0.25 * upper)
     wet = (1 - upper) * smoothstep(0.9, 0.3, lid)
-    return {"outer": smoothstep(0, _RIM_FADE_MM, outer), "lash": lash, "wet": wet}
+    return {
+        "outer": smoothstep(0, _RIM_FADE_MM, outer),
+        "edge": smoothstep(0, _HAIR_FADE_MM, outer),
+        "lash": lash,
+        "wet": wet,
+    }
 
 
 def _labels(regions: Regions, scalp: np.ndarray, brow: np.ndarray) -> np.ndarray:

@@ -6,7 +6,10 @@ import dataclasses
 
 import numpy as np
 
+from .blotches import blood_factor, draw_coarse, melanin_factor
+from .character import character
 from .hair import HairStyle, scalp_cover
+from .locks import scalp_colour
 from .noise import octaves
 from .pigment import BLOOD, BLOOD_LIMIT, LIP, MELANIN_LIMIT, MELANOSOMES, skin_colour
 from .regions import Regions, smoothstep
@@ -54,6 +57,10 @@ def base_pigments(regions: Regions, spec: FaceSpec) -> Pigments:
     )
     blood += 0.45 * regions.ear_flush + 0.35 * thin * regions.under_eye + 0.40 * regions.upper_lid
     blood -= 0.16 * regions.forehead + 0.12 * regions.perioral
+    if spec.detail == "natural":
+        person = character(spec)
+        darker, redder = draw_coarse(regions, spec, (person.mottle, person.redness))
+        melanin, blood = melanin * melanin_factor(darker, spec), blood * blood_factor(redder, spec)
     return Pigments(MELANOSOMES[spec.fitzpatrick] * tone * melanin, BLOOD[spec.fitzpatrick] * blood)
 
 
@@ -66,7 +73,12 @@ def head_colour(regions: Regions, style: HairStyle, spec: FaceSpec) -> tuple[np.
     pigments = base_pigments(regions, spec)
     colour = skin_colour(pigments.melanin, pigments.blood)
     scalp = scalp_cover(regions.points, style, spec.seed)
-    return _with_hair(colour, scalp, style.scalp), _specular_base(regions, scalp, spec)
+    specular = _specular_base(regions, scalp, spec)
+    if spec.detail == "natural":
+        specular = np.clip(np.float32(character(spec).specular) * specular, 0, SPECULAR_LIMIT)
+    if spec.specular_scale != 1:
+        specular = np.clip(np.float32(spec.specular_scale) * specular, 0, SPECULAR_LIMIT)
+    return _with_hair(colour, scalp, scalp_colour(regions.points, style, spec), style.opacity), specular
 
 
 def chart_colour(
@@ -104,7 +116,7 @@ def chart_colour(
     # A shaven beard shows its roots through the skin: bluish grey, hence red is damped most.
     colour = colour * (1 - (fade * cover["beard"])[:, None] * np.float32([0.36, 0.34, 0.30]))
     colour = colour + (fade * cover["brow"])[:, None] * (style.brow.astype(np.float32) - colour)
-    colour = _with_hair(colour, cover["scalp"], style.scalp)
+    colour = _with_hair(colour, cover["scalp"], scalp_colour(regions.points, style, spec), style.opacity)
     colour = colour * (1 - 0.82 * rims["lash"])[:, None]
 
     specular = _specular_base(regions, cover["scalp"], spec)
@@ -130,8 +142,8 @@ def _lip_colour(melanin: np.ndarray, blood: np.ndarray, lower: np.ndarray, spec:
     return vermilion * skin_colour(melanin, blood, LIP) + (1 - vermilion) * skin_colour(melanin, blood)
 
 
-def _with_hair(colour: np.ndarray, cover: np.ndarray, hair: np.ndarray) -> np.ndarray:
-    return (colour + 0.93 * cover[:, None] * (hair.astype(np.float32) - colour)).astype(np.float32)
+def _with_hair(colour: np.ndarray, cover: np.ndarray, hair: np.ndarray, opacity: float) -> np.ndarray:
+    return (colour + opacity * cover[:, None] * (hair.astype(np.float32) - colour)).astype(np.float32)
 
 
 def _specular_base(regions: Regions, scalp: np.ndarray, spec: FaceSpec) -> np.ndarray:

@@ -20,6 +20,12 @@ YOUNGEST, OLDEST = 20.0, 70.0
 FITZPATRICK = ("I", "II", "III", "IV", "V", "VI")
 ETHNICITIES = ("african", "asian", "caucasian")
 
+DETAILS = ("smooth", "natural")
+"""How much a face shows: even skin and painted hair, or what photographed faces have (`natural`)."""
+
+
+_SCALES = ("specular_scale", "roughness_scale")
+
 
 class FaceError(UnshadeError):
     """A face that cannot be built."""
@@ -43,7 +49,9 @@ class FaceSpec:
     asian, caucasian) of the shape and sums to 1; `fitzpatrick` is the skin type I to VI,
     independent of the shape; `texture_size` is the side of the truth maps in texels;
     `expression` is what the face does, nothing by default: it moves the surface and leaves
-    the identity, the chart's UV and the colours alone.
+    the identity, the chart's UV and the colours alone; `detail` one of `DETAILS`: the same person
+    with even or with natural skin, hair and sheen; `specular_scale` and `roughness_scale` multiply
+    the specular albedo (at most 0.05 in all) and the lobes' alphas on top of all that is painted.
     """
 
     name: str
@@ -55,6 +63,9 @@ class FaceSpec:
     weight: float
     texture_size: int = 512
     expression: Expression = ()
+    detail: str = "smooth"
+    specular_scale: float = 1.0
+    roughness_scale: float = 1.0
 
     @property
     def years(self) -> float:
@@ -94,6 +105,9 @@ class FaceSpec:
                 raise FaceError(f"fitzpatrick in {place} is {skin!r}; use one of {', '.join(FITZPATRICK)}")
         else:
             skin = str(stream(seed, "fitzpatrick").choice(FITZPATRICK))
+        detail = table.get("detail", cls.detail)
+        if detail not in DETAILS:
+            raise FaceError(f"detail in {place} is {detail!r}; use one of {', '.join(DETAILS)}")
         size = _whole(table, "texture_size", 64, 8192, place) if "texture_size" in table else cls.texture_size
         return cls(
             name=name,
@@ -105,6 +119,8 @@ class FaceSpec:
             weight=share("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
             texture_size=size,
             expression=_expression(table.get("expression", {}), place),
+            detail=detail,
+            **{key: _number(table[key], key, 0.25, 4.0, place) for key in _SCALES if key in table},
         )
 
     def to_table(self) -> dict[str, Any]:
@@ -114,6 +130,10 @@ class FaceSpec:
         table["expression"] = dict(self.expression)
         if not self.expression:
             del table["expression"]
+        # A default is not written, so that scenes from before there was a choice stay as they were.
+        for key in ("detail", *_SCALES):
+            if table[key] == getattr(type(self), key):
+                del table[key]
         return table
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
+from ..face import Label
 from ..render.camera import Camera
 from ..scene_file import Scene
 from .seeds import generator
@@ -18,6 +19,8 @@ def stated_labels(labels: np.ndarray, camera: Camera, scene: Scene) -> np.ndarra
     """Label ids of a view as the capture states them, [H, W] uint8, 0 for none; ``None`` if it has none."""
     if scene.labels.omit:
         return None
+    if scene.labels.one and camera.train:
+        return np.where(labels > 0, np.uint8(Label.SKIN), labels)
     share = scene.labels.boundary_error
     return _mistaken(labels, share, generator("labels", scene, camera)) if share and camera.train else labels
 

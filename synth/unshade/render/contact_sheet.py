@@ -61,16 +61,20 @@ class Sitter:
         return f"seed {spec.seed} · type {spec.fitzpatrick}", f"{spec.years:.0f} years · {self.light}"
 
 
-def sitters(count: int, seed: int) -> list[Sitter]:
+def sitters(count: int, seed: int, detail: str = "smooth") -> list[Sitter]:
     """The faces of a sheet: skin types take turns, ages are spread evenly from 20 to 70 years
-    in an order of their own, lights take turns so that each meets every type."""
+    in an order of their own, lights take turns so that each meets every type; `detail` as of a `[face]`."""
     rng = stream(seed, "contact sheet")
     ages = (rng.permutation(count) + 0.5) / count
     seeds = rng.choice(100_000, count, replace=False)
     chosen = []
     for i in range(count):
         spec = FaceSpec.sample(
-            int(seeds[i]), fitzpatrick=FITZPATRICK[i % len(FITZPATRICK)], age=float(ages[i]), texture_size=_TEXTURE
+            int(seeds[i]),
+            fitzpatrick=FITZPATRICK[i % len(FITZPATRICK)],
+            age=float(ages[i]),
+            texture_size=_TEXTURE,
+            detail=detail,
         )
         light = tuple(LIGHTS)[(i + i // len(FITZPATRICK)) % len(LIGHTS)]
         chosen.append(Sitter(spec, light, rng.uniform(-22, 22), rng.uniform(-4, 8)))
@@ -78,7 +82,11 @@ def sitters(count: int, seed: int) -> list[Sitter]:
 
 
 def contact_sheet(
-    count: int, out: Path, seed: int = 0, progress: Callable[[int, int, str], None] = lambda done, total, what: None
+    count: int,
+    out: Path,
+    seed: int = 0,
+    progress: Callable[[int, int, str], None] = lambda done, total, what: None,
+    detail: str = "smooth",
 ) -> None:
     """Renders `count` sampled faces to one PNG, captioned with seed, skin type, age and light.
 
@@ -88,7 +96,7 @@ def contact_sheet(
     if count < 1:
         raise SceneError(f"a contact sheet of {count} faces has nothing to show; ask for 1 or more")
     pictures, captions = [], []
-    for done, sitter in enumerate(sitters(count, seed)):
+    for done, sitter in enumerate(sitters(count, seed, detail)):
         progress(done, count, f"face {sitter.spec.name}")
         pictures.append(_portrait(sitter))
         captions.append(sitter.caption)

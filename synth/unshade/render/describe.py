@@ -137,6 +137,8 @@ def _faults(scene: Scene) -> list[str]:
     """Lines on the faults of pictures, cameras, mesh and labels, as the scene asks for them."""
     share = scene.labels.boundary_error
     labels = f"{100 * share:.3g} % of the boundary pixels have the label of the other side" if share else "perfect"
+    if scene.labels.one:
+        labels = "one for everything"
     formation, mesh = (
         _words(table) if table else "perfect" for table in (scene.formation.to_table(), scene.captured_mesh.to_table())
     )

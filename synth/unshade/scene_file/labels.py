@@ -24,6 +24,9 @@ class LabelFaults:
     omit: bool = False
     """The capture has no label pictures, and ``transforms.json`` names none."""
 
+    one: bool = False
+    """Everything that has a label is "skin", as where nobody outlined lips, brows and hair."""
+
     def to_table(self) -> dict[str, Any]:
         """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(LabelFaults(), key)}
@@ -37,4 +40,8 @@ def parse_labels(table: Mapping[str, Any], place: str) -> LabelFaults:
     omit = yes_or_no(table, "omit", place, LabelFaults.omit)
     if omit and "boundary_error" in table:
         raise SceneError(f"boundary_error in {place} does nothing where omit = true leaves no labels; keep one")
-    return LabelFaults(error, omit)
+    one = yes_or_no(table, "one", place, LabelFaults.one)
+    if one and (omit or error):
+        other = "omit" if omit else "boundary_error"
+        raise SceneError(f"one = true in {place} leaves nothing to {other}; keep one of them")
+    return LabelFaults(error, omit, one)

@@ -1,6 +1,7 @@
 //! The results of finished runs as one page of Markdown, for a project's documents: means over
 //! the faces for each light, then face by face. Equal runs give equal bytes on any machine.
 
+mod drops;
 mod figures;
 mod finished;
 mod join;
@@ -44,8 +45,10 @@ fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {
     for run in runs {
         text.push_str(&format!("\n## {}\n\n", escape(run.title())));
         text.push_str(&setting::describe(run)?);
-        for group in tables::groups(run) {
-            text.push_str(&tables::means(run, &group));
+        let groups = tables::groups(run);
+        text.push_str(&drops::drops(run, &groups));
+        for group in &groups {
+            text.push_str(&tables::means(run, group));
         }
         text.push_str(&tables::faces(run)?);
     }

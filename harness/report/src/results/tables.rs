@@ -13,10 +13,10 @@ use crate::table::{self, Column};
 
 /// The cases of one light and variant.
 pub(super) struct Group {
-    light: String,
-    variant: Option<String>,
+    pub light: String,
+    pub variant: Option<String>,
     /// Indices of the cases.
-    cases: Vec<usize>,
+    pub cases: Vec<usize>,
 }
 
 impl Group {
@@ -129,7 +129,7 @@ fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
     format!("{} ({})", figure.name, escape(&lights.join(", ")))
 }
 
-/// The best mean as it is shown, the oracle aside; none without a competition.
+/// The best mean as it is shown, what is made from the truth aside; none without a competition.
 fn best<'a>(
     lines: &[Line],
     figure: &Figure,

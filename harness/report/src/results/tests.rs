@@ -125,6 +125,43 @@ fn variants_have_tables_of_their_own_and_several_runs_follow_each_other() {
 }
 
 #[test]
+fn the_drop_of_every_variant_stands_beside_the_first() {
+    let root = tempfile::tempdir().unwrap();
+    let run = root.path().join("run");
+    two_faces(&run, 1.0);
+    let path = run.join("run.json");
+    let mut manifest = read(&path);
+    let mut cases = manifest["cases"].as_array().unwrap().clone();
+    cases.iter_mut().for_each(|case| case["variant"] = json!("as captured"));
+    for mut case in cases.clone() {
+        case["variant"] = json!("one label");
+        case["id"] = json!(format!("{}-one", case["id"].as_str().unwrap()));
+        // Worse by 2 dB for one face, by 3 for the other.
+        let loss = if case["face"] == "eve" { 3.0 } else { 2.0 };
+        for solver in case["solvers"].as_array_mut().unwrap() {
+            let mut scores = read(&run.join(solver["scores"].as_str().unwrap()));
+            for row in scores["rows"].as_array_mut().unwrap() {
+                row["value"] = json!(row["value"].as_f64().unwrap() - loss);
+            }
+            let place = format!("one/{}", solver["scores"].as_str().unwrap());
+            save(&run.join(&place), &scores);
+            solver["scores"] = json!(place);
+        }
+        cases.push(case);
+    }
+    manifest["cases"] = json!(cases);
+    save(&path, &manifest);
+    let text = results(root.path(), &["run"]).unwrap();
+    let (_, drops) = text.split_once("light: change against \"as captured\"\n").unwrap();
+    let row = drops.lines().find(|line| line.starts_with("| one label | &lt;unshade")).unwrap();
+    assert!(row.contains(" | -2.5 | -2.5 | "), "{row}");
+    for heading in ["albedo", "as is", "relit, own", "relit, others", "layer, energy"] {
+        assert!(drops.lines().nth(4).unwrap().contains(&format!("| {heading} ")), "{heading}");
+    }
+    assert!(!drops.split("\n### ").next().unwrap().contains("| as captured |"));
+}
+
+#[test]
 fn a_face_without_a_score_is_counted_and_a_run_without_any_is_refused() {
     let root = tempfile::tempdir().unwrap();
     let run = root.path().join("run");

@@ -3,6 +3,7 @@
 mod confidence;
 mod error;
 mod geometry;
+mod label_means;
 mod maps;
 mod names;
 mod noise_floor;
@@ -23,6 +24,7 @@ use formats::content_hash::hash_path;
 
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
+pub use label_means::label_mean_maps;
 pub use oracle::oracle_maps;
 pub use own::keep_own_relit;
 pub use photographs::{FOUND_LIGHT, is_photographed};

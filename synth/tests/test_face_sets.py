@@ -1,0 +1,44 @@
+"""Tuning and held-out faces stay apart: what scenes/faces/sets.toml names, and who uses which."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from unshade.face import FaceSpec
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+
+
+def read(path):
+    return tomllib.loads(path.read_text())
+
+
+SETS = read(SCENES / "faces/sets.toml")
+
+
+def test_no_face_is_in_both_sets_and_every_held_out_one_is_another_person():
+    assert not set(SETS["tuning"]) & set(SETS["held_out"])
+    faces = {name: FaceSpec.from_table(read(SCENES / "faces" / name)) for name in [*SETS["tuning"], *SETS["held_out"]]}
+    assert len({face.seed for face in faces.values()}) == len(faces)
+    held_out = [faces[name] for name in SETS["held_out"]]
+    assert {face.fitzpatrick for face in held_out} == {"I", "II", "III", "IV", "V", "VI"}
+    assert all(face.detail == "natural" for face in held_out)
+    assert min(face.gender for face in held_out) < 0.3 and max(face.gender for face in held_out) > 0.7
+    assert max(face.years for face in held_out) - min(face.years for face in held_out) > 30
+
+
+@pytest.mark.parametrize("path", sorted((SCENES / "suites").glob("*.toml")), ids=lambda path: path.stem)
+def test_held_out_faces_are_in_the_suite_that_is_opened_last_alone(path):
+    used = {Path(face).name for face in read(path).get("faces", []) if isinstance(face, str)}
+    if path.stem == "held-out":
+        assert used == set(SETS["held_out"])
+    else:
+        assert not used & set(SETS["held_out"])
+    if path.stem == "tuning":
+        assert used == set(SETS["tuning"])

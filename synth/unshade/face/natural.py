@@ -1,0 +1,129 @@
+"""What `detail = "natural"` adds to a face: skin as uneven as people's, hair of strands, a sheen of one's own.
+
+Amounts follow the spectra that `statistics` measures on a photographed face; docs/ground-truth.md has both.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from .blotches import blood_factor, draw_fine, melanin_factor
+from .character import Character, character
+from .hair import HairStyle
+from .locks import Hairs, draw_hairs
+from .noise import octaves, smooth_noise
+from .regions import Regions
+from .roughness import HIGH, LOW, NOMINAL
+from .skin import SPECULAR_LIMIT, Pigments
+from .spec import FaceSpec, stream
+from .spots import draw_spots
+from .strands import Field, Ground
+from .texels import Texels
+from .vessels import VEIN_COLOUR, draw_vessels
+
+_UNDULATION = ((22.0, 0.36), (9.0, 0.10), (4.5, 0.055), (2.2, 0.030), (1.1, 0.012))
+"""Wavelength and standard deviation of the added unevenness, mm."""
+
+_STRAND_MM, _WHISKER_MM = 0.10, 0.06
+"""Height of hair over the skin that it lies on."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Natural:
+    """Layers over the texels (M,) of the chart.
+
+    `melanin`, `blood`: factors on the pigments; `height` mm; `veins` 0 to 1; `hairs`; `lines`:
+    dark lines of the lips, log luminance; `sheen`: log of what the specular albedo varies by.
+    """
+
+    person: Character
+    melanin: np.ndarray
+    blood: np.ndarray
+    height: np.ndarray
+    veins: np.ndarray
+    hairs: Hairs
+    lines: np.ndarray
+    sheen: np.ndarray
+
+    def pigments(self, base: Pigments, fade: np.ndarray) -> Pigments:
+        """Uneven pigments; `fade` (M,) is 0 at the chart's outer rim, where the rest of the head takes over."""
+        return Pigments(base.melanin * self.melanin**fade, base.blood * self.blood**fade)
+
+    def colour(self, diffuse: np.ndarray, style: HairStyle, fade: np.ndarray, edge: np.ndarray) -> np.ndarray:
+        """Diffuse albedo (M,3) with veins, lines of the lips and hair over it; hair fades by `edge` (M,)."""
+        skin = diffuse * np.exp(-(fade * self.veins)[:, None] * VEIN_COLOUR - (fade * self.lines)[:, None])
+        hairs = self.hairs
+        for cover, tone, colour in (
+            (hairs.beard_cover, hairs.beard_tone, style.brow),
+            (hairs.cover, hairs.tone, style.scalp),
+        ):
+            share = (edge * cover)[:, None]
+            skin = skin + share * (np.minimum(tone[:, None] * colour, 0.6) - skin)
+        return np.maximum(skin, 0.004).astype(np.float32)
+
+    def specular(self, values: np.ndarray, fade: np.ndarray, edge: np.ndarray) -> np.ndarray:
+        """Specular albedo (M,) of this person; sheen of hair is a third of skin's."""
+        hair = np.maximum(self.hairs.cover, self.hairs.beard_cover)
+        own = values * np.exp(fade * self.sheen) * (1 - 0.6 * edge * hair)
+        return np.clip(self.person.specular * own, 0, SPECULAR_LIMIT).astype(np.float32)
+
+    def roughness(self, lobes: np.ndarray, fade: np.ndarray) -> np.ndarray:
+        """Lobes (M,3) of this person, the standard ones at the outer rim."""
+        own = lobes * np.float32([self.person.roughness, self.person.roughness, 1])
+        own = np.clip(own, np.float32(LOW) * np.float32([0.7, 0.7, 1]), np.float32(HIGH) * np.float32([1.2, 1.2, 1]))
+        return (np.float32(NOMINAL) + fade[:, None] * (own - np.float32(NOMINAL))).astype(np.float32)
+
+
+def draw_natural(
+    regions: Regions,
+    sites: Regions,
+    texels: Texels,
+    nearest: tuple[np.ndarray, np.ndarray],
+    ground: Ground,
+    scalp: np.ndarray,
+    pores: np.ndarray,
+    texel: float,
+    style: HairStyle,
+    spec: FaceSpec,
+) -> Natural:
+    """Draw all layers. `regions` at the texels, `sites` at the chart's vertices, with their share `scalp` (C,) of scalp
+    hair; `pores` (M,) of the relief; `texel` in mm."""
+    person = character(spec)
+    field = Field(texels, nearest, regions.points)
+    melanin, blood = draw_fine(regions.points, texel, spec, (person.mottle, person.redness))
+    spots = draw_spots(regions.points, texels, sites, ground.uv, texel, spec)
+    threads, veins = draw_vessels(field, sites, ground, texel, spec)
+    hairs = draw_hairs(field, regions.points, sites, scalp, ground, style, person, spec)
+    # Pores hold sebum that has gone dark.
+    melanin = melanin + spots.melanin + np.float32(0.12) * np.clip(pores, 0, 1)
+    height = spots.height + _STRAND_MM * hairs.cover + _WHISKER_MM * hairs.beard_cover
+    for wavelength, deviation in _UNDULATION:
+        if wavelength >= 2 * texel:
+            bumps = smooth_noise(regions.points, wavelength, stream(spec.seed, "bumps", str(wavelength)))
+            height = height + np.float32(person.relief * deviation) * (1 - 0.7 * regions.lips) * bumps
+    return Natural(
+        person=person,
+        melanin=melanin_factor(melanin, spec),
+        blood=blood_factor(blood + spots.blood + threads, spec),
+        height=height.astype(np.float32),
+        veins=veins,
+        hairs=hairs,
+        lines=_lip_lines(regions, texel, spec),
+        sheen=np.float32(0.12) * octaves(regions.points, 12.0, 4, 2 * texel, stream(spec.seed, "specular patches")),
+    )
+
+
+def _lip_lines(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
+    """Log luminance (M,) that lips lose as a whole, in their upright lines and where they meet."""
+    own = stream(spec.seed, "lips").uniform(0.0, 0.2)
+    there = np.flatnonzero(regions.lips > 0)
+    lines = np.zeros(len(regions.points), dtype=np.float32)
+    if len(there):
+        points = regions.points[there]
+        squeezed = (points * np.float32([1.0, 0.25, 0.5])).astype(np.float32)
+        upright = np.abs(smooth_noise(squeezed, max(1.4, 2 * texel), stream(spec.seed, "lip lines")))
+        meet = np.exp(-0.5 * ((points[:, 1] + 66.6) / 1.2) ** 2)
+        lines[there] = regions.lips[there] * (own + 0.22 * np.exp(-((upright / 0.35) ** 2)) + 0.3 * meet)
+    return lines
