@@ -120,11 +120,6 @@ impl Kind {
             Kind::Oracle => "oracle",
         }
     }
-
-    /// Whether it can be best: what is made from the truth cannot.
-    pub fn competes(self) -> bool {
-        matches!(self, Kind::Solver | Kind::Baseline)
-    }
 }
 
 /// `timing.json`: wall times, the only part of a report that changes between equal runs.
