@@ -30,7 +30,6 @@ gives = "pictures"
 name = "decomposer"
 command = ["{sys.executable}", "decomposer.py", "{{capture}}", "{{maps}}"]
 gives = "pictures"
-texture_size = 128
 
 [[solver]]
 name = "incomplete"
@@ -44,7 +43,6 @@ gives = "pictures"
 
 [[solver]]
 name = "mean_texture"
-texture_size = 128
 """
 
 # A grey face in every light that is handed over: albedo times the shading of the mesh.
@@ -113,7 +111,7 @@ os.symlink(Path("run/captures/tiny-studio/truth/relit/uniform/004.exr").absolute
 @pytest.fixture(scope="session")
 def run(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("pictures")
-    # The same scene: its capture is kept.
+    # The same scene: its capture is kept, and what the baseline made of it.
     shutil.copytree(tiny_run, folder / "run")
     (folder / "suite.toml").write_text(SUITE)
     for name, text in (
@@ -173,7 +171,7 @@ def test_albedo_and_normals_by_view_become_maps(run: Path) -> None:
     assert abs(ours[name].value - baseline[name].value) < 0.5  # pixels are coarser than texels
     assert not any(row.subject == "specular_albedo" for row in ours.values())
     maps = unshade.Maps.read(run / "maps" / CASE / "decomposer")
-    assert maps.size == 128 and maps.specular_albedo is None
+    assert maps.size == 512 and maps.specular_albedo is None
 
 
 def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:

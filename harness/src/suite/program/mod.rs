@@ -147,8 +147,9 @@ impl Program {
             let (size, scratch) = (self.texture_size, scratch.path());
             match self.gives {
                 Gives::Maps => Ok(()),
-                Gives::Pictures => pictures::into_maps(place.capture, output.path(), scratch, size)
-                    .map_err(failed),
+                Gives::Pictures => {
+                    pictures::into_maps(place.capture, output.path(), scratch, size).map_err(failed)
+                }
             }
         });
         if let Err(error) = kept {
