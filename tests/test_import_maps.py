@@ -14,6 +14,7 @@ from foreign_maps import Layout
 import unshade
 from conftest import unshade as command
 from unshade.errors import MapsError, StorageError
+from unshade.importing.maps.statement import known_adapters
 
 CASE = "tiny-studio"
 LOSS_DB = 0.05
@@ -77,6 +78,10 @@ def test_foreign_files_of_another_layout_score_as_the_native_maps(
     if back.roughness is not None:
         alpha = 0.45**2 if adapter == "opendelight" else 0.3
         assert np.abs(back.roughness[..., :2] - alpha).max() < 0.01
+
+
+def test_every_adapter_has_files_written_for_it() -> None:
+    assert {*known_adapters()} == {*foreign_maps.WRITERS, "any"}
 
 
 def test_the_same_layout_loses_nothing_but_the_codes(capture: unshade.Capture, native: Path, tmp_path: Path) -> None:

@@ -30,7 +30,6 @@ gives = "pictures"
 name = "decomposer"
 command = ["{sys.executable}", "decomposer.py", "{{capture}}", "{{maps}}"]
 gives = "pictures"
-texture_size = 128
 
 [[solver]]
 name = "incomplete"
@@ -38,8 +37,12 @@ command = ["{sys.executable}", "incomplete.py", "{{capture}}", "{{maps}}"]
 gives = "pictures"
 
 [[solver]]
+name = "thief"
+command = ["{sys.executable}", "thief.py", "{{capture}}", "{{maps}}", "{{lights}}"]
+gives = "pictures"
+
+[[solver]]
 name = "mean_texture"
-texture_size = 128
 """
 
 # A grey face in every light that is handed over: albedo times the shading of the mesh.
@@ -93,17 +96,33 @@ from unshade.render.pictures import write_exr
 write_exr(Path(sys.argv[2]) / "relit" / "moon" / "000.exr", {"": np.zeros((96, 96, 3))})
 """
 
+# A link to what it cannot read itself.
+THIEF = """
+import os
+import sys
+from pathlib import Path
+
+folder = Path(sys.argv[2]) / "relit" / "uniform"
+folder.mkdir(parents=True)
+os.symlink(Path("run/captures/tiny-studio/truth/relit/uniform/004.exr").absolute(), folder / "004.exr")
+"""
+
 
 @pytest.fixture(scope="session")
 def run(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("pictures")
-    # The same scene: its capture is kept.
+    # The same scene: its capture is kept, and what the baseline made of it.
     shutil.copytree(tiny_run, folder / "run")
     (folder / "suite.toml").write_text(SUITE)
-    for name, text in (("relighter", RELIGHTER), ("decomposer", DECOMPOSER), ("incomplete", INCOMPLETE)):
+    for name, text in (
+        ("relighter", RELIGHTER),
+        ("decomposer", DECOMPOSER),
+        ("incomplete", INCOMPLETE),
+        ("thief", THIEF),
+    ):
         (folder / f"{name}.py").write_text(text)
     done = command("run", folder / "suite.toml", "-o", folder / "run", check=False)
-    assert done.returncode == 1, done.stderr  # one of them is incomplete
+    assert done.returncode == 1, done.stderr  # two of them fail
     return folder / "run"
 
 
@@ -152,7 +171,7 @@ def test_albedo_and_normals_by_view_become_maps(run: Path) -> None:
     assert abs(ours[name].value - baseline[name].value) < 0.5  # pixels are coarser than texels
     assert not any(row.subject == "specular_albedo" for row in ours.values())
     maps = unshade.Maps.read(run / "maps" / CASE / "decomposer")
-    assert maps.size == 128 and maps.specular_albedo is None
+    assert maps.size == 512 and maps.specular_albedo is None
 
 
 def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
@@ -161,7 +180,8 @@ def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
         for solver in json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
     }
     assert "moon: is no light of the capture; there are studio, uniform" in failed["incomplete"]
-    assert [name for name, reason in failed.items() if reason] == ["incomplete"]
+    assert "uniform/004.exr: is missing" in failed["thief"]
+    assert [name for name, reason in failed.items() if reason] == ["incomplete", "thief"]
     page = (run / "report" / "index.html").read_text()
     assert "relighter" in page and "relit by own" in page
 

@@ -16,6 +16,8 @@ use super::arrays::{self, Argument};
 use super::errors::raise;
 use super::maps::Maps;
 
+type Floats<'py> = Bound<'py, PyArrayDyn<f32>>;
+
 /// A capture folder, opened and checked.
 #[pyclass(module = "unshade", frozen)]
 pub(super) struct Capture {
@@ -163,7 +165,7 @@ impl Capture {
         py: Python<'py>,
         pictures: &Bound<'py, PyDict>,
         size: usize,
-    ) -> PyResult<(Bound<'py, PyArrayDyn<f32>>, Bound<'py, PyArrayDyn<u8>>)> {
+    ) -> PyResult<(Floats<'py>, Bound<'py, PyArrayDyn<u8>>)> {
         let argument = Argument { name: "pictures", class: "ValueError" };
         if !(1..=8192).contains(&size) {
             return Err(argument.refused("texture of another size than 1 to 8192 texels"));

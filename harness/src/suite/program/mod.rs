@@ -140,13 +140,20 @@ impl Program {
         };
         let left = match what {
             Some(what) => Err(failed(format!("{what}{}", self.last_words(place.log, &usage)))),
-            None if self.gives == Gives::Pictures => {
-                pictures::into_maps(place.capture, &maps, scratch.path(), self.texture_size)
-                    .map_err(failed)
-            }
-            None => check(&maps).map_err(failed),
+            None if self.gives == Gives::Maps => check(&maps).map_err(failed),
+            None => Ok(()),
         };
-        if let Err(error) = left.and_then(|()| Ok(copy_below(&maps, output.path())?)) {
+        // Of what was copied, in which no link leads to what the program itself could not read.
+        let kept = left.and_then(|()| Ok(copy_below(&maps, output.path())?)).and_then(|()| {
+            let (size, scratch) = (self.texture_size, scratch.path());
+            match self.gives {
+                Gives::Maps => Ok(()),
+                Gives::Pictures => {
+                    pictures::into_maps(place.capture, output.path(), scratch, size).map_err(failed)
+                }
+            }
+        });
+        if let Err(error) = kept {
             output.abandon();
             return Err(error);
         }
