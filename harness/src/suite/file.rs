@@ -6,7 +6,8 @@ use toml::{Table, Value};
 
 use super::cases::{self, Case};
 use super::method::{self, Entrant};
-use super::{packaged, place};
+use super::packaged::Kind;
+use super::place;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
@@ -48,7 +49,7 @@ pub struct Suite {
 impl Suite {
     /// Reads a suite file, or a suite that comes with unshade, with its scene, faces and lights.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
-        let path = &packaged::file(path, packaged::Kind::Suite)?;
+        let path = &scene::typed(path, Kind::Suite)?;
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
         scene::check_keys(path, &table, &KEYS)?;
@@ -89,7 +90,7 @@ impl Suite {
 /// The cases of the suite's scene.
 fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
     let mut base =
-        Scene::open(&packaged::referenced(path, "scene", &text_of(path, table, "scene")?)?)?;
+        Scene::open(&scene::referenced(path, "scene", &text_of(path, table, "scene")?)?)?;
     match table.get("render") {
         None => {}
         Some(Value::Table(_)) => {
@@ -269,6 +270,31 @@ mod tests {
         let method = BaselineMethod::SemanticInitialisation;
         assert_eq!(suite.entrants[0].method, Method::Baseline { method, texture_size: 512 });
         assert_eq!(suite.entrants[0].kind(), "baseline");
+    }
+
+    #[test]
+    fn a_competitor_is_named_with_its_settings_and_has_a_class() {
+        let root = tempfile::tempdir().unwrap();
+        scenes(root.path());
+        let open = |lines: &str| {
+            let text =
+                format!("format = 1\nname = \"m\"\nscene = \"scene.toml\"\n[[solver]]\n{lines}");
+            Suite::open(&write(root.path(), "suite.toml", &text))
+        };
+        let suite = open(
+            "name = \"sh-lambert\"\nset = { order = 3 }\n[[solver]]\nname = \"light-stage\"\n\
+             [[solver]]\nname = \"oracle\"\n[[solver]]\nname = \"paper-tuned\"\n",
+        );
+        let suite = suite.unwrap();
+        let classes: Vec<_> = suite.entrants.iter().map(|e| e.class().name()).collect();
+        assert_eq!(classes, ["passive", "controlled", "privileged", "passive"]);
+        let Method::Competitor { settings, .. } = &suite.entrants[0].method else { panic!() };
+        assert_eq!(settings, "{\"order\":3}");
+        let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
+        assert!(wrong.contains("set = { texture_size"), "{wrong}");
+        // Under a configuration, it is our solver's name for once.
+        let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
+        assert!(matches!(ours.entrants[0].method, Method::Fields { .. }));
     }
 
     #[test]

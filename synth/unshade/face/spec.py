@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UnshadeError
+from ..errors import SceneError
 from .expression import UNITS, Expression
 
 YOUNGEST, OLDEST = 20.0, 70.0
@@ -27,7 +27,7 @@ DETAILS = ("smooth", "natural")
 _SCALES = ("specular_scale", "roughness_scale")
 
 
-class FaceError(UnshadeError):
+class FaceError(SceneError):
     """A face that cannot be built."""
 
 

@@ -51,7 +51,7 @@ def recover(capture: Capture, *, order: int = 2, shadows: bool = True, texture_s
     largest = float(np.percentile(open_sky, 99))
     shading = np.maximum(basis @ light, _DARKEST * largest) / largest
     albedo = np.clip(colour / shading, 0, 1)
-    normal = samples.filled(samples.normals)
+    normal = samples.normals_filled()
     return Maps(
         diffuse_albedo=samples.filled(albedo), diffuse_normal=normal, specular_normal=normal, coverage=samples.coverage
     )
@@ -88,7 +88,6 @@ def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray
     count = sky.shape[-1]
     sky = np.concatenate([sky, np.zeros((*sky.shape[:2], -count % 3))], -1)
     pictures = [
-        capture.shading(sky[..., k : k + 3], texture_size=_TRANSFER_SIZE, bounces=1)
-        for k in range(0, sky.shape[-1], 3)
+        capture.shading(sky[..., k : k + 3], texture_size=_TRANSFER_SIZE, bounces=1) for k in range(0, sky.shape[-1], 3)
     ]
     return samples.of_picture(np.concatenate(pictures, -1)[..., :count].astype(float))
