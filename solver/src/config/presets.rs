@@ -18,7 +18,7 @@ impl Config {
                 normal_scale: 1.0,
                 reflection_scale: 1.0,
             },
-            rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false },
+            rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false, exposure: 0.0 },
             view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
             initialisation: InitialisationConfig {
                 semantic: true,
@@ -38,7 +38,7 @@ impl Config {
                 specular_rate: 1e-3,
             },
             fine_tuning: FineTuningConfig {
-                rounds: 2,
+                rounds: 3,
                 iterations: 250,
                 texture_size: TextureSize::Side(2048),
                 prior: 0.0,
@@ -84,6 +84,13 @@ impl Config {
                 refinement: 250,
                 refinement_prior: 3.0,
             },
+            reflectance: ReflectanceConfig {
+                rounds: 3,
+                skin_deviation: 0.5,
+                region_deviation: 0.5,
+                model_error: 0.1,
+                exposure_share: 0.33,
+            },
             height: HeightConfig {
                 enabled: false,
                 texture_share: 0.5,
@@ -113,6 +120,7 @@ impl Config {
         config.networks.normal_scale = 2.0;
         config.networks.reflection_scale = 3.0;
         config.rendering.positive_albedo = true;
+        config.rendering.exposure = 0.13;
         // Some weights never learn the highlights, and the loss shows it early.
         config.initialisation.starts = 4;
         config.initialisation.skin_labels = SKIN.map(str::to_owned).to_vec();

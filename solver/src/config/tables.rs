@@ -30,6 +30,10 @@ pub struct RenderingConfig {
     pub f0: f32,
     /// Keep both albedos at or above zero after every step; the paper leaves them free.
     pub positive_albedo: bool,
+    /// Mean luminance of the mesh that the training pictures are brought to before anything is solved, and
+    /// back from in the end, so that no rate or weight depends on a capture's exposure. 0 takes them as they
+    /// are, as in the paper.
+    pub exposure: f32,
 }
 
 /// Section 5.3: cosine x inverse blurred depth derivative, scaled to mean 1 over all pixels.
@@ -250,6 +254,24 @@ pub struct TransportConfig {
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.
     pub refinement_prior: f32,
+}
+
+/// How much regions mirror, by their highlights; not in the paper. Needs regions and
+/// [`TransportConfig::distance`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReflectanceConfig {
+    /// Rounds of [`TransportConfig::distance`], with the reflectances measured after each. 0 leaves them at
+    /// [`NormalisationConfig::specular_skin`].
+    pub rounds: usize,
+    /// Standard deviation of skin's reflectance among people, relative.
+    pub skin_deviation: f32,
+    /// Standard deviation of another region's around that of skin, relative.
+    pub region_deviation: f32,
+    /// Standard error of every measurement, relative: of the light and the normals that it goes by.
+    pub model_error: f32,
+    /// Which power of skin's factor over the expected is the exposure's, and not skin's.
+    pub exposure_share: f32,
 }
 
 /// Normals by Gauss-Newton on a height texture; not in the paper.

@@ -4,6 +4,7 @@
 //! the highlights in it. But what varies in one place from view to view is hardly diffuse: it has the
 //! colour of the light (the dichromatic model of reflection).
 
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
@@ -33,56 +34,83 @@ struct Moments {
     shown_squared: f64,
 }
 
-/// By what factor R, G and B of the highlights that samples show differ from the predicted ones: the
-/// slopes of a regression within the texels that several views see, without the samples where the
-/// sensor was full. 1 if there is too little to tell. Both in linear radiance; what is shown may hold
-/// what is the same all over a texel.
-pub(super) fn tint(
-    samples: &Samples,
-    predicted: &[[f32; CHANNELS]],
-    shown: impl Fn(usize) -> [f32; CHANNELS],
-) -> [f32; CHANNELS] {
-    let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
-    let full = full(samples);
-    for (i, predicted) in predicted.iter().enumerate() {
-        let (weight, view) = (f64::from(samples.weight.get(0, i)), samples.view_index[i]);
-        if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
-            continue;
+/// The regression of what samples show on the highlights that are predicted of them, within the texels that
+/// several views see, without the samples where the sensor was full. What is shown may hold what is the same
+/// all over a texel.
+pub(super) struct Regression {
+    texels: Vec<Sums>,
+}
+
+impl Regression {
+    /// Both in linear radiance; the samples count by `weight`.
+    pub fn new(
+        samples: &Samples,
+        weight: &Planes,
+        predicted: &[[f32; CHANNELS]],
+        shown: impl Fn(usize) -> [f32; CHANNELS],
+    ) -> Self {
+        let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
+        let full = full(samples);
+        for (i, predicted) in predicted.iter().enumerate() {
+            let (weight, view) = (f64::from(weight.get(0, i)), samples.view_index[i]);
+            if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
+                continue;
+            }
+            let sums = &mut texels[samples.taps.nearest(i)];
+            sums.shared |= sums.count > 0.0 && sums.view != view;
+            sums.view = view;
+            sums.count += 1.0;
+            sums.weight += weight;
+            for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
+                let (p, s) = (f64::from(*p), f64::from(s));
+                moments.predicted += weight * p;
+                moments.shown += weight * s;
+                moments.both += weight * (p * s);
+                moments.predicted_squared += weight * (p * p);
+                moments.shown_squared += weight * (s * s);
+            }
         }
-        let sums = &mut texels[samples.taps.nearest(i)];
-        sums.shared |= sums.count > 0.0 && sums.view != view;
-        sums.view = view;
-        sums.count += 1.0;
-        sums.weight += weight;
-        for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
-            let (p, s) = (f64::from(*p), f64::from(s));
-            moments.predicted += weight * p;
-            moments.shown += weight * s;
-            moments.both += weight * (p * s);
-            moments.predicted_squared += weight * (p * p);
-            moments.shown_squared += weight * (s * s);
-        }
+        Self { texels }
     }
-    let shared: Vec<&Sums> = texels.iter().filter(|sums| sums.shared).collect();
-    let freedom = shared.iter().map(|sums| sums.count - 1.0).sum::<f64>() - 1.0;
-    let slope = |channel: usize| {
-        let [mut both, mut predicted, mut shown] = [0.0; 3];
-        for Sums { weight, moments, .. } in &shared {
-            let m = &moments[channel];
-            both += m.both - m.predicted * m.shown / weight;
-            predicted += m.predicted_squared - m.predicted * m.predicted / weight;
-            shown += m.shown_squared - m.shown * m.shown / weight;
+
+    /// Slope and its standard error over the texels `within` and some channels; `None` of too little.
+    fn fitted(
+        &self,
+        within: impl Fn(usize) -> bool,
+        channels: std::ops::Range<usize>,
+    ) -> Option<(f64, f64)> {
+        let [mut both, mut predicted, mut shown, mut freedom] = [0.0, 0.0, 0.0, -1.0];
+        let shared = self.texels.iter().enumerate().filter(|(at, sums)| sums.shared && within(*at));
+        for (_, Sums { count, weight, moments, .. }) in shared {
+            freedom += count - 1.0;
+            for m in &moments[channels.clone()] {
+                both += m.both - m.predicted * m.shown / weight;
+                predicted += m.predicted_squared - m.predicted * m.predicted / weight;
+                shown += m.shown_squared - m.shown * m.shown / weight;
+            }
         }
         let slope = both / predicted;
         let error = ((shown - slope * both).max(0.0) / (freedom * predicted)).sqrt();
-        // Also if they are not numbers.
-        if error < LARGEST_ERROR * slope { slope } else { 0.0 }
-    };
-    let slopes = [0, 1, 2].map(slope);
-    let least = slopes.into_iter().fold(f64::MAX, f64::min);
-    let largest = slopes.into_iter().fold(0.0, f64::max);
-    let sound = least > 0.0 && largest < MOST * least;
-    if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
+        (slope.is_finite() && error.is_finite()).then_some((slope, error))
+    }
+
+    /// Slope of all channels together and its standard error, over the texels `within`; `None` of too little.
+    pub fn slope(&self, within: impl Fn(usize) -> bool) -> Option<(f64, f64)> {
+        self.fitted(within, 0..CHANNELS)
+    }
+
+    /// The slopes of R, G and B; 1 if there is too little to tell.
+    pub fn tint(&self) -> [f32; CHANNELS] {
+        let slope = |channel: usize| match self.fitted(|_| true, channel..channel + 1) {
+            Some((slope, error)) if error < LARGEST_ERROR * slope => slope,
+            _ => 0.0,
+        };
+        let slopes = [0, 1, 2].map(slope);
+        let least = slopes.into_iter().fold(f64::MAX, f64::min);
+        let largest = slopes.into_iter().fold(0.0, f64::max);
+        let sound = least > 0.0 && largest < MOST * least;
+        if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
+    }
 }
 
 /// What a full sensor has left in the pictures: their largest value, if it occurs more than once.
@@ -118,10 +146,18 @@ mod tests {
         (samples, predicted)
     }
 
+    fn tint(
+        samples: &Samples,
+        predicted: &[[f32; CHANNELS]],
+        shown: impl Fn(usize) -> [f32; CHANNELS],
+    ) -> [f32; CHANNELS] {
+        Regression::new(samples, &samples.weight, predicted, shown).tint()
+    }
+
     /// `tint` of the prediction over a paint that differs from texel to texel.
     fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
         let paint = |i: usize| samples.taps.nearest(i) as f32;
-        super::tint(samples, predicted, |i| {
+        tint(samples, predicted, |i| {
             std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
         })
     }
