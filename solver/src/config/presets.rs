@@ -18,7 +18,12 @@ impl Config {
                 normal_scale: 1.0,
                 reflection_scale: 1.0,
             },
-            rendering: RenderingConfig { fresnel: true, f0: 0.04, positive_albedo: false, exposure: 0.0 },
+            rendering: RenderingConfig {
+                fresnel: true,
+                f0: 0.04,
+                positive_albedo: false,
+                exposure: 0.0,
+            },
             view_weights: ViewWeightConfig { depth: true, depth_blur: 2.0 },
             initialisation: InitialisationConfig {
                 semantic: true,
@@ -38,7 +43,7 @@ impl Config {
                 specular_rate: 1e-3,
             },
             fine_tuning: FineTuningConfig {
-                rounds: 3,
+                rounds: 2,
                 iterations: 250,
                 texture_size: TextureSize::Side(2048),
                 prior: 0.0,
@@ -85,7 +90,8 @@ impl Config {
                 refinement_prior: 3.0,
             },
             reflectance: ReflectanceConfig {
-                rounds: 3,
+                rounds: 2,
+                relaxation: 2.0,
                 skin_deviation: 0.5,
                 region_deviation: 0.5,
                 model_error: 0.1,

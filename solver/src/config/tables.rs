@@ -264,6 +264,9 @@ pub struct ReflectanceConfig {
     /// Rounds of [`TransportConfig::distance`], with the reflectances measured after each. 0 leaves them at
     /// [`NormalisationConfig::specular_skin`].
     pub rounds: usize,
+    /// Power of skin's slope that counts: the light was found by skin's highlights and has bent halfway to a
+    /// reflectance that was wrong, so that a slope shows about half of what is wrong in it.
+    pub relaxation: f32,
     /// Standard deviation of skin's reflectance among people, relative.
     pub skin_deviation: f32,
     /// Standard deviation of another region's around that of skin, relative.

@@ -86,7 +86,8 @@ impl SampleSpace {
                 true => view_weights::view_weights(gbuffer, weights.depth_blur),
                 false => view_weights::cosine_weights(gbuffer),
             };
-            let target = |pixel: u32| self.gain * Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
+            let target =
+                |pixel: u32| self.gain * Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
             samples.extend(usable.map(|(i, weight)| Sample {
                 view_index: number as u32,

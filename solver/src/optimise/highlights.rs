@@ -48,27 +48,23 @@ pub(super) fn distance(
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let rounds = site.config.reflectance.rounds;
-    // First by the light that the networks' highlights led to: it has not bent to wrong reflectances.
-    for round in 0..=rounds.max(1) {
-        if round == 0 && rounds == 0 {
-            continue;
-        }
+    let update = site.config.reflectance.rounds > 0;
+    let rounds = site.config.reflectance.rounds.max(1);
+    for round in 1..=rounds {
         let gloss = reflectances.of(&regions);
         let nearness = probed.standing.nearness;
         let found = Found { log_light: &probed.log_light, nearness, gloss: &gloss };
         let stage = Highlights::new(site.config, transport, &samples, &state, found);
         let Some(stage) = stage else { return Ok(t.distance) };
-        let (name, iterations) = (format!("distance {round}"), if round == 0 { 0 } else { t.distance / rounds.max(1) });
+        let done = |rounds_done: usize| t.distance * rounds_done / rounds;
+        let (name, iterations) = (format!("distance {round}"), done(round) - done(round - 1));
         let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
-        if round > 0 {
-            run.stage(&mut stage, &mut state)?;
-        }
+        run.stage(&mut stage, &mut state)?;
         let regression = stage.regression(&state, &weight);
-        if rounds > 0 {
+        if update {
             reflectances.update(&site.config.reflectance, &regression, &regions);
         }
-        if t.tint && round == rounds.max(1) {
+        if t.tint && round == rounds {
             probed.tint = stage.take_tint(&state);
             let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
             texels.for_each(|(albedo, tint)| *albedo /= tint);

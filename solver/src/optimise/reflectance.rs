@@ -51,29 +51,66 @@ impl Reflectances {
     /// `regions`. Both what is expected and what is said weigh by their variances; a region that says
     /// nothing mirrors like skin.
     pub fn update(&mut self, config: &ReflectanceConfig, regression: &Regression, regions: &[u8]) {
-        let posterior = |now: f32, prior: f32, deviation: f32, of: &dyn Fn(u8) -> bool| {
-            let Some((slope, error)) = regression.slope(|texel| of(regions[texel])) else {
-                return prior;
-            };
-            let error = error.hypot(f64::from(config.model_error) * slope) * f64::from(now);
-            let (said, spread) = (slope * f64::from(now), f64::from(deviation * prior));
+        let said = |now: f32, power: f32, of: &dyn Fn(u8) -> bool| {
+            let (slope, error) = regression.slope(|texel| of(regions[texel]))?;
+            let now = f64::from(now);
+            let error = error.hypot(f64::from(config.model_error) * slope);
+            Some((now * slope.max(0.0).powf(f64::from(power)), now * error))
+        };
+        let posterior = |said: Option<(f64, f64)>, prior: f32, deviation: f32| {
+            let Some((said, error)) = said else { return prior };
+            let (prior, spread) = (f64::from(prior), f64::from(deviation * prior));
             let weight = spread * spread / (spread * spread + error * error);
-            (weight * said + (1.0 - weight) * f64::from(prior)).max(0.0) as f32
+            (weight * said + (1.0 - weight) * prior) as f32
         };
         let is_skin = |region: u8| self.skin.contains(&region);
-        let now = self.regions[usize::from(self.skin[0])];
-        let skin = posterior(now, self.expected, config.skin_deviation, &is_skin);
-        let of = |region: u8| match is_skin(region) {
-            true => skin,
-            false => {
-                let now = self.regions[usize::from(region)];
-                posterior(now, skin, config.region_deviation, &|other| other == region)
+        let said_of_skin =
+            said(self.regions[usize::from(self.skin[0])], config.relaxation, &is_skin);
+        let skin = posterior(said_of_skin, self.expected, config.skin_deviation);
+        let of = |region: u8| {
+            if is_skin(region) {
+                return skin;
             }
+            let said = said(self.regions[usize::from(region)], 1.0, &|other| other == region);
+            posterior(said, skin, config.region_deviation)
         };
         self.regions = (0..=u8::MAX).map(of).collect();
-        if std::env::var("DEBUG_G").is_ok() {
-            let mut ids: Vec<u8> = regions.to_vec(); ids.sort(); ids.dedup();
-            for id in ids { eprintln!("region {id} {:.4} slope {:?}", self.regions[id as usize], regression.slope(|t| regions[t]==id)); }
-        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+    use crate::optimise::tint::tests::scene;
+    use crate::transport::CHANNELS;
+
+    const SKIN: f32 = 0.028;
+
+    /// What is found of two halves of a texture whose highlights are `factors` of the predicted ones.
+    fn found(factors: [f32; 2]) -> [f32; 2] {
+        let (samples, predicted) = scene();
+        let texels = samples.taps.size() * samples.taps.size();
+        let regions: Vec<u8> = (0..texels).map(|at| 1 + u8::from(2 * at > texels)).collect();
+        let factor = |i: usize| factors[usize::from(regions[samples.taps.nearest(i)]) - 1];
+        let shown = |i: usize| {
+            std::array::from_fn::<f32, CHANNELS, _>(|c| 3.0 + factor(i) * predicted[i][c])
+        };
+        let regression = Regression::new(&samples, &samples.weight, &predicted, shown);
+        let mut all = Reflectances { regions: vec![SKIN; 256], expected: SKIN, skin: vec![1] };
+        let config = ReflectanceConfig { relaxation: 1.0, ..Config::default().reflectance };
+        all.update(&config, &regression, &regions);
+        all.of(&[1, 2]).try_into().unwrap()
+    }
+
+    #[test]
+    fn regions_mirror_what_their_highlights_show_but_for_what_is_expected() {
+        let [skin, hair] = found([1.3, 0.4]);
+        // A tenth of error of the model against half of deviation.
+        assert!((skin / (1.3 * SKIN) - 1.0).abs() < 0.02, "{skin}");
+        assert!((hair / (0.4 * SKIN) - 1.0).abs() < 0.1, "{hair}");
+        let [skin, hair] = found([1.0, -0.5]);
+        assert!((skin / SKIN - 1.0).abs() < 1e-4, "{skin}");
+        assert!((0.0..0.1 * SKIN).contains(&hair), "{hair}");
     }
 }

@@ -122,7 +122,7 @@ fn full(samples: &Samples) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use capture::gbuffer::GBuffer;
 
     use super::*;
@@ -131,7 +131,7 @@ mod tests {
     use crate::testing;
 
     /// Two views of a dome, and highlights that vary within its texels.
-    fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
+    pub fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
         let config = Config::default();
         let mesh = testing::dome(12);
         let shade = |p: glam::Vec3| (glam::Vec3::splat(0.5 + 0.1 * p.x), 1);
@@ -157,9 +157,7 @@ mod tests {
     /// `tint` of the prediction over a paint that differs from texel to texel.
     fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
         let paint = |i: usize| samples.taps.nearest(i) as f32;
-        tint(samples, predicted, |i| {
-            std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
-        })
+        tint(samples, predicted, |i| std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c]))
     }
 
     #[test]

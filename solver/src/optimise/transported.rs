@@ -131,7 +131,8 @@ pub(super) fn albedo(site: &Site, run: &mut Run, solve: &mut Solve) -> Result<()
         solve.state.resize(site.size);
         let (fine, state) = (site.fine(), &solve.state);
         let (samples, deviation) = (&fine.samples, &fine.deviation);
-        solve.physical = Some(refined(run, site.config, site.gain, samples, deviation, state, lit)?);
+        solve.physical =
+            Some(refined(run, site.config, site.gain, samples, deviation, state, lit)?);
     }
     Ok(())
 }
