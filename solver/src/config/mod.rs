@@ -46,6 +46,8 @@ pub struct Config {
     pub transport: TransportConfig,
     /// Normals from one height texture.
     pub height: HeightConfig,
+    /// How much regions mirror.
+    pub reflectance: ReflectanceConfig,
     /// What is kept for the report.
     pub records: RecordConfig,
 }

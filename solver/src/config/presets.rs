@@ -18,7 +18,7 @@ impl Config {
                 normal_scale: 1.0,
                 reflection_scale: 1.0,
             },
-            rendering: RenderingConfig { fresnel: true, positive_albedo: false },
+            rendering: RenderingConfig { fresnel: true, positive_albedo: false, exposure: 0.0 },
             skin: SkinConfig {
                 f0: 0.04,
                 lobes: [0.15, 0.35].map(|roughness| Lobe { roughness, weight: 0.5 }),
@@ -118,6 +118,14 @@ impl Config {
                 confidence_misfit: 0.1,
                 confidence_blur: 1.5,
             },
+            reflectance: ReflectanceConfig {
+                rounds: 2,
+                relaxation: 2.0,
+                skin_deviation: 0.5,
+                region_deviation: 0.5,
+                model_error: 0.1,
+                exposure_share: 0.33,
+            },
             height: HeightConfig {
                 enabled: false,
                 texture_share: 0.5,
@@ -155,6 +163,7 @@ impl Config {
         config.networks.normal_scale = 2.0;
         config.networks.reflection_scale = 3.0;
         config.rendering.positive_albedo = true;
+        config.rendering.exposure = 0.13;
         // Some weights never learn the highlights, and the loss shows it early.
         config.initialisation.starts = 4;
         config.initialisation.skin_labels = SKIN.map(str::to_owned).to_vec();

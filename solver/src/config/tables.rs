@@ -28,6 +28,10 @@ pub struct RenderingConfig {
     pub fresnel: bool,
     /// Keep both albedos at or above zero after every step; the paper leaves them free.
     pub positive_albedo: bool,
+    /// Mean luminance of the mesh that the training pictures are brought to before anything is solved, and
+    /// back from in the end, so that no rate or weight depends on a capture's exposure. 0 takes them as they
+    /// are, as in the paper.
+    pub exposure: f32,
 }
 
 /// The specular reflection of skin. The renderer's material has the same numbers.
@@ -207,6 +211,27 @@ pub struct NormalisationConfig {
     /// metres (standard deviation), since within a region pictures tell next to nothing of it. 0 leaves
     /// it as solved, as in the paper.
     pub specular_pooling: f32,
+}
+
+/// How much regions mirror, by their highlights; not in the paper. Needs regions and
+/// [`TransportConfig::distance`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReflectanceConfig {
+    /// Rounds of [`TransportConfig::distance`], with the reflectances measured after each. 0 leaves them at
+    /// [`NormalisationConfig::specular_skin`].
+    pub rounds: usize,
+    /// Power of skin's slope that counts: the light was found by skin's highlights and has bent halfway to a
+    /// reflectance that was wrong, so that a slope shows about half of what is wrong in it.
+    pub relaxation: f32,
+    /// Standard deviation of skin's reflectance among people, relative.
+    pub skin_deviation: f32,
+    /// Standard deviation of another region's around that of skin, relative.
+    pub region_deviation: f32,
+    /// Standard error of every measurement, relative: of the light and the normals that it goes by.
+    pub model_error: f32,
+    /// Which power of skin's factor over the expected is the exposure's, and not skin's.
+    pub exposure_share: f32,
 }
 
 /// What a maps folder holds besides the maps, for whoever wants to see how they came about.

@@ -39,6 +39,8 @@ pub struct SampleSpace {
     centre: Vec3,
     scale: f32,
     f0: Option<f32>,
+    /// What the pictures are multiplied with.
+    gain: f32,
 }
 
 /// One sample before the samples are sorted and laid out.
@@ -62,7 +64,13 @@ impl SampleSpace {
             centre: 0.5 * (low + high),
             scale: config.networks.position_scale / half,
             f0: config.rendering.fresnel.then_some(config.skin.f0),
+            gain: 1.0,
         }
+    }
+
+    /// The same for pictures multiplied with `gain`.
+    pub fn exposed(self, gain: f32) -> Self {
+        Self { gain, ..self }
     }
 
     /// The usable pixels of training views (those that count at all), for textures of side `size`.
@@ -79,7 +87,8 @@ impl SampleSpace {
                 true => view_weights::view_weights(gbuffer, weights),
                 false => view_weights::cosine_weights(gbuffer),
             };
-            let target = |pixel: u32| Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
+            let target =
+                |pixel: u32| self.gain * Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
             samples.extend(usable.map(|(i, weight)| Sample {
                 view_index: number as u32,

@@ -56,6 +56,7 @@ pub(super) fn finish(
     let covered = state.specular.iter().zip(&seen).filter(|(_, seen)| **seen);
     let specular = covered.map(|(value, _)| *value).collect();
     let mut scales = Scales::new(&config.normalisation, shading, specular);
+    scales.diffuse /= site.gain;
     if config.normalisation.specular_skin > 0.0 {
         let regions = site.regions(&Atlas::new(mesh, size), &projections);
         let skin = gloss::of_largest_region(regions.as_deref(), &seen, &state.specular);
@@ -70,6 +71,11 @@ pub(super) fn finish(
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
     }
+    let reflectances = lit.as_ref().and_then(|lit| {
+        let mut all = lit.reflectances.clone()?;
+        all.scale(1.0 / (site.gain * lit.exposure));
+        Some(all)
+    });
     let light = lit.map(|lit| lit.light);
     let mut confidence = None;
     if let Some(physical) = physical {
@@ -87,7 +93,13 @@ pub(super) fn finish(
         let config = &config.normalisation;
         let regions = site.regions(&atlas, &projections);
         let regions = regions.as_deref();
-        state.specular = gloss::pooled(config, &atlas, regions, &seen, &state.specular);
+        state.specular = match (&reflectances, regions) {
+            (Some(reflectances), Some(regions)) => {
+                scales.specular = 1.0;
+                reflectances.of(regions)
+            }
+            _ => gloss::pooled(config, &atlas, regions, &seen, &state.specular),
+        };
     }
     let mut maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
     maps.confidence = confidence.map(|confidence| Picture {
@@ -183,11 +195,12 @@ fn synthesised(
         let out = &mut picture.data[*pixel as usize * channels..][..channels];
         for (channel, albedo) in albedo.sample::<3>(i, 0).into_iter().enumerate() {
             let whole = albedo * diffuse + specular;
+            let out_of = |value: f32| value / site.gain;
             let part = |highlights: &Planes| highlights.get(0, i).min(whole).max(0.0);
             let specular = highlights.as_ref().map_or(specular, part);
-            out[channel] = whole;
-            out[3 + channel] = whole - specular;
-            out[6 + channel] = specular;
+            out[channel] = out_of(whole);
+            out[3 + channel] = out_of(whole - specular);
+            out[6 + channel] = out_of(specular);
         }
     }
     ViewLayers { name: camera.name.clone(), picture }

@@ -12,7 +12,7 @@ use super::probed::Probed;
 use super::run::Run;
 use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State};
-use super::tint::tint;
+use super::tint::Regression;
 use super::transported::reflectance;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
@@ -23,8 +23,9 @@ use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Reflection, Transport};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
-/// alone if the capture names it, since the rest has but the mean colours of the pictures; then the colour
-/// of the light, by its highlights. The number of steps that are not taken: without regions there is no gloss.
+/// alone if the capture names it, since the rest has but the mean colours of the pictures. In rounds: after
+/// each, the regions' reflectance by their highlights; in the end the colour of the light by them. The
+/// number of steps that are not taken: without regions there is nothing to predict highlights with.
 pub(super) fn distance(
     run: &mut Run,
     site: &Site,
@@ -32,38 +33,48 @@ pub(super) fn distance(
     probed: &mut Probed,
 ) -> Result<usize, SolveError> {
     let t = &site.config.transport;
-    if probed.gloss.is_empty() {
-        return Ok(t.distance);
-    }
     let transport = site.far_transport();
-    state.resize(transport.size());
-    let mut samples = site.pictures().samples(&site.space, transport.size());
+    let size = transport.size();
+    let (Some(reflectances), Some(regions)) = (&mut probed.reflectances, site.regions_on(size))
+    else {
+        return Ok(t.distance);
+    };
+    state.resize(size);
+    let mut samples = site.pictures().samples(&site.space, size);
+    let weight = samples.thinned(MOST_HIGHLIGHT_SAMPLES).weight;
     let skin = site.skin();
-    if let Some(regions) = site.regions_on(transport.size()).filter(|_| !skin.is_empty()) {
+    if !skin.is_empty() {
         let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let found = Found {
-        log_light: &probed.log_light,
-        nearness: probed.standing.nearness,
-        gloss: &probed.gloss,
-    };
-    let stage = Highlights::new(site.config, transport, &samples, &state, found);
-    let Some(stage) = stage else { return Ok(t.distance) };
-    let (name, iterations) = ("distance", t.distance);
-    let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
-    run.stage(&mut stage, &mut state)?;
-    if t.tint {
-        probed.tint = stage.take_tint(&state);
-        let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
-        texels.for_each(|(albedo, tint)| *albedo /= tint);
+    let update = site.config.reflectance.rounds > 0;
+    let rounds = site.config.reflectance.rounds.max(1);
+    for round in 1..=rounds {
+        let gloss = reflectances.of(&regions);
+        let nearness = probed.standing.nearness;
+        let found = Found { log_light: &probed.log_light, nearness, gloss: &gloss };
+        let stage = Highlights::new(site.config, transport, &samples, &state, found);
+        let Some(stage) = stage else { return Ok(t.distance) };
+        let done = |rounds_done: usize| t.distance * rounds_done / rounds;
+        let (name, iterations) = (format!("distance {round}"), done(round) - done(round - 1));
+        let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
+        run.stage(&mut stage, &mut state)?;
+        let regression = stage.regression(&state, &weight);
+        if update {
+            reflectances.update(&site.config.reflectance, &regression, &regions);
+        }
+        if t.tint && round == rounds {
+            probed.tint = stage.take_tint(&state);
+            let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
+            texels.for_each(|(albedo, tint)| *albedo /= tint);
+        }
+        probed.standing = Standing {
+            nearness: stage.nearness[0] * transport.near(),
+            bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
+        };
+        probed.log_light = stage.log_light;
     }
-    probed.standing = Standing {
-        nearness: stage.nearness[0] * transport.near(),
-        bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
-    };
-    probed.log_light = stage.log_light;
     Ok(0)
 }
 
@@ -83,7 +94,8 @@ pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<us
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run.backend, site, &samples, state, gloss, lit.standing, light);
+    let reflectances = lit.reflectances.take();
+    *lit = Lit::new(run.backend, site, &samples, state, reflectances, lit.standing, light);
     lit.explained = true;
     Ok(0)
 }
@@ -110,7 +122,7 @@ pub struct Highlights<'a> {
     /// How near the light is, in the transport's unit; one value, which only moves if the transport says
     /// what that changes.
     pub(super) nearness: Vec<f32>,
-    name: &'static str,
+    name: String,
     iterations: usize,
     pub(super) hold: usize,
     by_light: Adam,
@@ -151,7 +163,7 @@ impl<'a> Highlights<'a> {
             reflection,
             log_light: found.log_light.to_vec(),
             nearness: vec![found.nearness / transport.near()],
-            name: "highlights",
+            name: "highlights".to_owned(),
             iterations: t.highlights,
             hold: 0,
             by_light: Adam::new(adam, t.light_rate, light.len()),
@@ -169,11 +181,7 @@ impl<'a> Highlights<'a> {
     /// it was multiplied; the albedo of `state`, with which the light was found, is to be divided by it.
     pub(super) fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
         let light = self.light();
-        let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);
-        let layer = self.layer(state, &shading);
-        let shown =
-            |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
-        let tint = tint(self.config, &self.samples, &self.reflection.radiance(&light), shown);
+        let tint = self.regression(state, &self.samples.weight).tint(self.config);
         let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
         let [before, after] = [&light, &tinted].map(|light| self.transport.peak(light));
         if before == 0.0 {
@@ -182,6 +190,16 @@ impl<'a> Highlights<'a> {
         let tint = tint.map(|t| t * before / after);
         self.log_light.iter_mut().zip(tint.iter().cycle()).for_each(|(l, t)| *l += t.ln());
         tint
+    }
+
+    /// Of what the samples show besides the diffuse layer, on the highlights.
+    fn regression(&self, state: &State, weight: &Planes) -> Regression {
+        let light = self.light();
+        let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);
+        let layer = self.layer(state, &shading);
+        let shown =
+            |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
+        Regression::new(&self.samples, weight, &self.reflection.radiance(&light), shown)
     }
 
     /// The diffuse layer of every sample.
@@ -230,7 +248,7 @@ impl<'a> Highlights<'a> {
 
 impl Stage for Highlights<'_> {
     fn name(&self) -> String {
-        self.name.to_owned()
+        self.name.clone()
     }
 
     fn iterations(&self) -> usize {

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::reflectance::Reflectances;
 use super::site::{Site, Standing};
 use super::stage::{State, layers};
 use super::veil::{unveiled, veil};
@@ -28,6 +29,10 @@ pub(super) struct Lit {
     pub veil: Vec<f32>,
     /// The specular albedo that the veil goes by; empty if it is switched off.
     pub gloss: Vec<f32>,
+    /// The same by region.
+    pub reflectances: Option<Reflectances>,
+    /// By what the pictures are brighter than those of a light with this peak.
+    pub exposure: f32,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
     /// See [`crate::config::TransportConfig::even_contrast`].
@@ -38,17 +43,24 @@ pub(super) struct Lit {
 }
 
 impl Lit {
-    /// What a light makes of the textures of `state`; `gloss` is [`Lit::gloss`].
+    /// What a light makes of the textures of `state`; `reflectances` are [`Lit::reflectances`].
     pub fn new(
         backend: &dyn Backend,
         site: &Site,
         samples: &Samples,
         state: State,
-        gloss: Vec<f32>,
+        reflectances: Option<Reflectances>,
         standing: Standing,
         radiance: Vec<f32>,
     ) -> Self {
         let (config, transport) = (site.config, site.transport(standing));
+        let regions = reflectances.as_ref().and_then(|_| site.regions_on(state.size));
+        let gloss = match (&reflectances, regions) {
+            (Some(reflectances), Some(regions)) => reflectances.of(&regions),
+            _ => vec![],
+        };
+        let share = config.reflectance.exposure_share;
+        let exposure = reflectances.as_ref().map_or(1.0, |all| all.skin().powf(share));
         let veil = match gloss.is_empty() {
             true => vec![],
             false => veil(config, transport, samples, &state, backend, &radiance, &gloss),
@@ -61,6 +73,8 @@ impl Lit {
             peak: transport.peak(&radiance),
             veil,
             gloss,
+            reflectances,
+            exposure,
             explained: false,
             even_contrast: config.transport.even_contrast,
             standing,

@@ -22,6 +22,7 @@ pub mod normalise;
 mod probed;
 pub(crate) mod progress;
 mod recolour;
+mod reflectance;
 pub mod relief;
 mod run;
 mod site;

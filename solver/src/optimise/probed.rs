@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::reflectance::Reflectances;
 use super::site::Standing;
 use crate::model::networks::Networks;
 use crate::transport::CHANNELS;
@@ -21,8 +22,8 @@ pub(super) struct Probed {
     pub log_light: Vec<f32>,
     pub standing: Standing,
     pub networks: Networks,
-    /// The specular albedo by which the light makes highlights; empty if the networks make them.
-    pub gloss: Vec<f32>,
+    /// By which the light makes highlights; none if the networks make them.
+    pub reflectances: Option<Reflectances>,
     /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
     /// with is to be divided by it.
     pub tint: [f32; CHANNELS],

@@ -1,9 +1,11 @@
 //! The colours of hair, brows and lips under the light that skin has shown. They begin as mean colours
 //! of the pictures, shadow and all; skin of every label begins in one colour.
 
+use super::reflectance::Reflectances;
 use super::site::Site;
 use super::stage::{State, layers};
 use crate::model::deviation::Deviation;
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Transport};
 
@@ -15,6 +17,7 @@ pub(super) fn recolour(
     transport: &Transport,
     samples: &Samples,
     light: &[f32],
+    gloss: Option<&Reflectances>,
     state: &mut State,
 ) {
     let skin = site.skin();
@@ -22,8 +25,18 @@ pub(super) fn recolour(
         return;
     }
     let Some(regions) = site.regions_on(state.size) else { return };
-    let deviation = Deviation::new(site.config, state.size);
-    let highlights = layers(samples, &deviation, state, site.backend);
+    let predicted = gloss.and_then(|gloss| {
+        let highlights =
+            site.backend.highlights(&transport.glints(light)?, samples, &samples.normal);
+        let gloss = gloss.of(&regions);
+        let of = |i: usize, c: usize| gloss[samples.taps.nearest(i)] * highlights.get(c, i);
+        Some(Planes::from_fn(samples.len(), |i| [of(i, 0), of(i, 1), of(i, 2)]))
+    });
+    let highlights = predicted.unwrap_or_else(|| {
+        let deviation = Deviation::new(site.config, state.size);
+        let layers = layers(samples, &deviation, state, site.backend);
+        Planes::from_fn(samples.len(), |i| [layers.get(1, i); CHANNELS])
+    });
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));
     // Of every region and channel: what is seen, and what white would show.
     let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
@@ -31,7 +44,7 @@ pub(super) fn recolour(
         let weight = samples.weight.get(0, i);
         let sums = &mut sums[usize::from(regions[samples.taps.nearest(i)])];
         for (c, sums) in sums.iter_mut().enumerate() {
-            let seen = samples.target.get(c, i) - highlights.get(1, i);
+            let seen = samples.target.get(c, i) - highlights.get(c, i);
             sums[0] += f64::from(weight * seen);
             sums[1] += f64::from(weight * shading.get(c, i));
         }

@@ -16,7 +16,7 @@ use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
 use crate::semantic::{self, colours::ColourRegions};
-use crate::transport::{Beside, Sky, Transport};
+use crate::transport::{Beside, CHANNELS, LUMINANCE, Sky, Transport};
 
 /// The place where a solve happens.
 pub(super) struct Site<'a> {
@@ -24,6 +24,8 @@ pub(super) struct Site<'a> {
     pub capture: &'a Capture,
     pub config: &'a Config,
     pub space: SampleSpace,
+    /// What the pictures are multiplied with, so that no rate or weight depends on their exposure.
+    pub gain: f32,
     /// Of the training views, in full resolution.
     pub gbuffers: Vec<GBuffer>,
     /// Their samples.
@@ -57,11 +59,13 @@ impl<'a> Site<'a> {
     pub fn new(backend: &'a dyn Backend, capture: &'a Capture, config: &'a Config) -> Self {
         let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
         let pixels = gbuffers.iter().map(GBuffer::len).sum();
+        let gain = gain(capture, &gbuffers, config.rendering.exposure);
         Self {
             backend,
             capture,
             config,
-            space: SampleSpace::new(&capture.mesh, config),
+            space: SampleSpace::new(&capture.mesh, config).exposed(gain),
+            gain,
             gbuffers,
             pixels,
             size: texture_size(config.fine_tuning.texture_size, pixels),
@@ -101,7 +105,7 @@ impl<'a> Site<'a> {
 
     /// The labels that are skin, as far as the capture names them.
     pub fn skin(&self) -> Vec<u8> {
-        let labelled = self.capture.train.iter().any(|view| view.labels.is_some());
+        let labelled = several_labels(&self.capture.train);
         if !labelled || !self.config.initialisation.semantic {
             return vec![];
         }
@@ -149,7 +153,7 @@ impl<'a> Site<'a> {
         let views = &self.capture.train;
         let find = || {
             let config = &self.config.colour_regions;
-            let labelled = views.iter().any(|view| view.labels.is_some());
+            let labelled = several_labels(views);
             let projections = || Projection::of_views(views, &self.gbuffers);
             (config.count > 0 && !labelled)
                 .then(|| {
@@ -204,7 +208,8 @@ impl<'a> Site<'a> {
                 &self.skin(),
             ),
         };
-        let diffuse = diffuse.data;
+        let mut diffuse = diffuse.data;
+        diffuse.iter_mut().for_each(|value| *value *= self.gain);
         let grey: Vec<f32> =
             diffuse.chunks_exact(3).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
         let brightest = grey.iter().fold(f32::MIN_POSITIVE, |m, g| m.max(*g));
@@ -217,6 +222,30 @@ impl<'a> Site<'a> {
             diffuse,
         }
     }
+}
+
+/// Whether labels part the face: one label for everything says no more than none.
+fn several_labels(views: &[View]) -> bool {
+    let labels = views.iter().filter_map(|view| view.labels.as_ref());
+    let mut seen = labels.flat_map(|labels| &labels.data).filter(|label| **label != 0);
+    let first = seen.next();
+    seen.any(|label| Some(label) != first)
+}
+
+/// What brings the mean luminance of the training pictures, where they show the mesh, to `wanted`; 1 if that is
+/// 0, or if they are black.
+fn gain(capture: &Capture, gbuffers: &[GBuffer], wanted: f32) -> f32 {
+    let luminance = |view: &View, pixel: usize| -> f64 {
+        let colour = &view.image.data[CHANNELS * pixel..][..CHANNELS];
+        colour.iter().zip(LUMINANCE).map(|(value, weight)| f64::from(value * weight)).sum()
+    };
+    let views = capture.train.iter().zip(gbuffers);
+    let of_view = |(view, gbuffer): (&View, &GBuffer)| -> f64 {
+        gbuffer.pixels.iter().map(|pixel| luminance(view, *pixel as usize)).sum()
+    };
+    let count: usize = gbuffers.iter().map(GBuffer::len).sum();
+    let mean = (views.map(of_view).sum::<f64>() / count.max(1) as f64) as f32;
+    if wanted > 0.0 && mean > 0.0 { wanted / mean } else { 1.0 }
 }
 
 /// The training pictures as the warm-up takes them.

@@ -5,6 +5,7 @@
 //! colour of the light (the dichromatic model of reflection).
 
 use crate::config::TransportConfig;
+use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
@@ -29,57 +30,83 @@ struct Moments {
     shown_squared: f64,
 }
 
-/// By what factor R, G and B of the highlights that samples show differ from the predicted ones: the
-/// slopes of a regression within the texels that several views see, without the samples where the
-/// sensor was full. 1 if there is too little to tell. Both in linear radiance; what is shown may hold
-/// what is the same all over a texel.
-pub(super) fn tint(
-    config: &TransportConfig,
-    samples: &Samples,
-    predicted: &[[f32; CHANNELS]],
-    shown: impl Fn(usize) -> [f32; CHANNELS],
-) -> [f32; CHANNELS] {
-    let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
-    let full = full(samples);
-    for (i, predicted) in predicted.iter().enumerate() {
-        let (weight, view) = (f64::from(samples.weight.get(0, i)), samples.view_index[i]);
-        if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
-            continue;
+/// The regression of what samples show on the highlights that are predicted of them, within the texels that
+/// several views see, without the samples where the sensor was full. What is shown may hold what is the same
+/// all over a texel.
+pub(super) struct Regression {
+    texels: Vec<Sums>,
+}
+
+impl Regression {
+    /// Both in linear radiance; the samples count by `weight`.
+    pub fn new(
+        samples: &Samples,
+        weight: &Planes,
+        predicted: &[[f32; CHANNELS]],
+        shown: impl Fn(usize) -> [f32; CHANNELS],
+    ) -> Self {
+        let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
+        let full = full(samples);
+        for (i, predicted) in predicted.iter().enumerate() {
+            let (weight, view) = (f64::from(weight.get(0, i)), samples.view_index[i]);
+            if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
+                continue;
+            }
+            let sums = &mut texels[samples.taps.nearest(i)];
+            sums.shared |= sums.count > 0.0 && sums.view != view;
+            sums.view = view;
+            sums.count += 1.0;
+            sums.weight += weight;
+            for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
+                let (p, s) = (f64::from(*p), f64::from(s));
+                moments.predicted += weight * p;
+                moments.shown += weight * s;
+                moments.both += weight * (p * s);
+                moments.predicted_squared += weight * (p * p);
+                moments.shown_squared += weight * (s * s);
+            }
         }
-        let sums = &mut texels[samples.taps.nearest(i)];
-        sums.shared |= sums.count > 0.0 && sums.view != view;
-        sums.view = view;
-        sums.count += 1.0;
-        sums.weight += weight;
-        for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
-            let (p, s) = (f64::from(*p), f64::from(s));
-            moments.predicted += weight * p;
-            moments.shown += weight * s;
-            moments.both += weight * (p * s);
-            moments.predicted_squared += weight * (p * p);
-            moments.shown_squared += weight * (s * s);
-        }
+        Self { texels }
     }
-    let shared: Vec<&Sums> = texels.iter().filter(|sums| sums.shared).collect();
-    let freedom = shared.iter().map(|sums| sums.count - 1.0).sum::<f64>() - 1.0;
-    let slope = |channel: usize| {
-        let [mut both, mut predicted, mut shown] = [0.0; 3];
-        for Sums { weight, moments, .. } in &shared {
-            let m = &moments[channel];
-            both += m.both - m.predicted * m.shown / weight;
-            predicted += m.predicted_squared - m.predicted * m.predicted / weight;
-            shown += m.shown_squared - m.shown * m.shown / weight;
+
+    /// Slope and its standard error over the texels `within` and some channels; `None` of too little.
+    fn fitted(
+        &self,
+        within: impl Fn(usize) -> bool,
+        channels: std::ops::Range<usize>,
+    ) -> Option<(f64, f64)> {
+        let [mut both, mut predicted, mut shown, mut freedom] = [0.0, 0.0, 0.0, -1.0];
+        let shared = self.texels.iter().enumerate().filter(|(at, sums)| sums.shared && within(*at));
+        for (_, Sums { count, weight, moments, .. }) in shared {
+            freedom += count - 1.0;
+            for m in &moments[channels.clone()] {
+                both += m.both - m.predicted * m.shown / weight;
+                predicted += m.predicted_squared - m.predicted * m.predicted / weight;
+                shown += m.shown_squared - m.shown * m.shown / weight;
+            }
         }
         let slope = both / predicted;
         let error = ((shown - slope * both).max(0.0) / (freedom * predicted)).sqrt();
-        // Also if they are not numbers.
-        if error < config.tint_error * slope { slope } else { 0.0 }
-    };
-    let slopes = [0, 1, 2].map(slope);
-    let least = slopes.into_iter().fold(f64::MAX, f64::min);
-    let largest = slopes.into_iter().fold(0.0, f64::max);
-    let sound = least > 0.0 && largest < config.tint_range * least;
-    if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
+        (slope.is_finite() && error.is_finite()).then_some((slope, error))
+    }
+
+    /// Slope of all channels together and its standard error, over the texels `within`; `None` of too little.
+    pub fn slope(&self, within: impl Fn(usize) -> bool) -> Option<(f64, f64)> {
+        self.fitted(within, 0..CHANNELS)
+    }
+
+    /// The slopes of R, G and B; 1 if there is too little to tell.
+    pub fn tint(&self, config: &TransportConfig) -> [f32; CHANNELS] {
+        let slope = |channel: usize| match self.fitted(|_| true, channel..channel + 1) {
+            Some((slope, error)) if error < config.tint_error * slope => slope,
+            _ => 0.0,
+        };
+        let slopes = [0, 1, 2].map(slope);
+        let least = slopes.into_iter().fold(f64::MAX, f64::min);
+        let largest = slopes.into_iter().fold(0.0, f64::max);
+        let sound = least > 0.0 && largest < config.tint_range * least;
+        if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
+    }
 }
 
 /// What a full sensor has left in the pictures: their largest value, if it occurs more than once.
@@ -91,7 +118,7 @@ fn full(samples: &Samples) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use capture::gbuffer::GBuffer;
 
     use super::*;
@@ -104,7 +131,7 @@ mod tests {
     }
 
     /// Two views of a dome, and highlights that vary within its texels.
-    fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
+    pub fn scene() -> (Samples, Vec<[f32; CHANNELS]>) {
         let config = Config::default();
         let mesh = testing::dome(12);
         let shade = |p: glam::Vec3| (glam::Vec3::splat(0.5 + 0.1 * p.x), 1);
@@ -119,12 +146,18 @@ mod tests {
         (samples, predicted)
     }
 
+    fn tint(
+        samples: &Samples,
+        predicted: &[[f32; CHANNELS]],
+        shown: impl Fn(usize) -> [f32; CHANNELS],
+    ) -> [f32; CHANNELS] {
+        Regression::new(samples, &samples.weight, predicted, shown).tint(&config())
+    }
+
     /// `tint` of the prediction over a paint that differs from texel to texel.
     fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
         let paint = |i: usize| samples.taps.nearest(i) as f32;
-        super::tint(&config(), samples, predicted, |i| {
-            std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
-        })
+        tint(samples, predicted, |i| std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c]))
     }
 
     #[test]
@@ -144,7 +177,7 @@ mod tests {
         let none = vec![[0.0; CHANNELS]; samples.len()];
         assert_eq!(shown(&samples, &none, [0.8, 1.0, 1.4]), ones, "no highlights");
         let noise = |i: usize| [(i as f32 * 78.233).sin() * 30.0 + predicted[i][0]; CHANNELS];
-        assert_eq!(tint(&config(), &samples, &predicted, noise), ones, "noise");
+        assert_eq!(tint(&samples, &predicted, noise), ones, "noise");
         let mut alone = samples.clone();
         alone.view_index.fill(0);
         assert_eq!(shown(&alone, &predicted, [0.8, 1.0, 1.4]), ones, "one view");
@@ -160,7 +193,7 @@ mod tests {
         });
         let red = |i: usize| if hit(i) { 0.0 } else { 0.8 * predicted[i][0] };
         let found =
-            tint(&config(), &samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
+            tint(&samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
         assert!((found[0] - 0.8).abs() < 1e-3, "{found:?}");
     }
 }

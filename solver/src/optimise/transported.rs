@@ -12,10 +12,11 @@ use super::found::Solve;
 use super::lit::{Lit, bent_shading};
 use super::probed::{Physical, Probed};
 use super::recolour::recolour;
+use super::reflectance::Reflectances;
 use super::run::Run;
 use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State, layers};
-use super::veil::{self, specular_albedo};
+use super::veil;
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
@@ -38,8 +39,10 @@ pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Prob
     let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
     let standing = Standing { nearness, bounce_albedo };
     let log_light = stage.log_light;
-    let gloss = gloss(site, &start);
-    Ok(Probed { log_light, standing, networks: start.networks, gloss, tint: [1.0; CHANNELS] })
+    let regions = veil::wanted(site.config).then(|| site.regions_on(transport.size())).flatten();
+    let reflectances = regions.map(|regions| Reflectances::expected(site, &regions));
+    let networks = start.networks;
+    Ok(Probed { log_light, standing, networks, reflectances, tint: [1.0; CHANNELS] })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -62,13 +65,13 @@ pub(super) fn light_and_albedo(
     let samples = site.pictures().samples(&site.space, transport.size());
     if t.recolour {
         let light: Vec<f32> = probed.log_light.iter().map(|light| light.exp()).collect();
-        recolour(site, transport, &samples, &light, &mut state);
+        recolour(site, transport, &samples, &light, probed.reflectances.as_ref(), &mut state);
     }
     let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
     run.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let gloss = gloss(site, &state);
-    Ok(Lit::new(run.backend, site, &samples, state, gloss, probed.standing, light))
+    let Probed { reflectances, standing, .. } = probed;
+    Ok(Lit::new(run.backend, site, &samples, state, reflectances, standing, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
@@ -80,17 +83,12 @@ pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32])
     (*median * transport.peak(light)).min(1.0)
 }
 
-/// See [`Lit::gloss`].
-fn gloss(site: &Site, state: &State) -> Vec<f32> {
-    let wanted = veil::wanted(site.config);
-    wanted.then(|| specular_albedo(site, state)).flatten().unwrap_or_default()
-}
-
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
 /// light. `state` has the normals.
 pub(super) fn refined(
     run: &mut Run,
     config: &Config,
+    gain: f32,
     samples: &Samples,
     deviation: &Deviation,
     state: &State,
@@ -124,7 +122,7 @@ pub(super) fn refined(
     run.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(t, samples, &planes, &albedo);
-    Ok(Physical { diffuse: own.diffuse, scale: lit.peak, confidence })
+    Ok(Physical { diffuse: own.diffuse, scale: lit.peak / (gain * lit.exposure), confidence })
 }
 
 /// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
@@ -133,7 +131,8 @@ pub(super) fn albedo(site: &Site, run: &mut Run, solve: &mut Solve) -> Result<()
         solve.state.resize(site.size);
         let (fine, state) = (site.fine(), &solve.state);
         let (samples, deviation) = (&fine.samples, &fine.deviation);
-        solve.physical = Some(refined(run, site.config, samples, deviation, state, lit)?);
+        solve.physical =
+            Some(refined(run, site.config, site.gain, samples, deviation, state, lit)?);
     }
     Ok(())
 }

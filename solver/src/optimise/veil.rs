@@ -1,12 +1,8 @@
 //! What all views share of the highlights. No picture tells it from diffuse colour, so that the
 //! networks leave it there, but the found light does, with the reflectance that skin is known to have.
 
-use capture::gbuffer::Atlas;
-use capture::projection::{Projection, per_texel};
 use rayon::prelude::*;
 
-use super::gloss;
-use super::site::Site;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::config::Config;
@@ -20,21 +16,6 @@ use crate::transport::{CHANNELS, Transport};
 /// Whether highlights are predicted from the light.
 pub(super) fn wanted(config: &Config) -> bool {
     config.transport.veil && config.normalisation.specular_skin > 0.0
-}
-
-/// The specular albedo of the maps on the texture of `state`: pooled over the regions, with skin at
-/// its reflectance. `None` if the face is one region: what is solved texel by texel is no measure of hair.
-pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
-    let State { size, specular, .. } = state;
-    let config = &site.config.normalisation;
-    let atlas = Atlas::new(&site.capture.mesh, *size);
-    let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
-    let regions = site.regions(&atlas, &projections)?;
-    let seen = per_texel(&atlas, &projections, |_| true);
-    let skin = gloss::of_largest_region(Some(&regions), &seen, specular);
-    let scale = config.specular_skin / skin.max(f32::MIN_POSITIVE);
-    let pooled = gloss::pooled(config, &atlas, Some(&regions), &seen, specular);
-    Some(pooled.into_iter().map(|value| value * scale).collect())
 }
 
 /// The veil, R, G, B per texel: the median over the views of what skin of the albedo `specular`

@@ -2,6 +2,7 @@
 //! scene whose answer is known.
 
 mod confidence;
+mod exposure;
 mod gradients;
 mod highlights;
 mod interrupts;

@@ -80,7 +80,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     state.specular.fill(0.0);
     let before = state.diffuse.clone();
     let samples = site.pictures().samples(&site.space, transport.size());
-    recolour(&site, transport, &samples, &light, &mut state);
+    recolour(&site, transport, &samples, &light, None, &mut state);
     let of = |diffuse: &[f32], label: u8| -> Vec<Vec3> {
         let atlas = capture::gbuffer::Atlas::new(&mesh, state.size);
         let inside = (0..atlas.positions.len()).filter(|at| {
@@ -92,7 +92,10 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     };
     let [(skin, _), _, (shaded, albedo)] = REGIONS;
     let off = |texels: &[Vec3]| {
-        texels.iter().map(|a| (*a / albedo - 1.0).abs().max_element()).fold(0.0, f32::max)
+        texels
+            .iter()
+            .map(|a| (*a / (site.gain * albedo) - 1.0).abs().max_element())
+            .fold(0.0, f32::max)
     };
     let [begun, found] = [&before, &state.diffuse].map(|diffuse| off(&of(diffuse, shaded)));
     assert!(begun > 0.2 && found < 0.05, "off by {begun}, then by {found}");
