@@ -261,7 +261,8 @@ impl SolverTable {
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
         let pictures = *gives == Some(Gives::Pictures);
         let competitor = !foreign && config.is_none() && Competitor::find(name).is_some();
-        let fields = !foreign && !baseline && !competitor && ![ORACLE, LABEL_MEANS].contains(&&**name);
+        let fields =
+            !foreign && !baseline && !competitor && ![ORACLE, LABEL_MEANS].contains(&&**name);
         for (key, given, means) in [
             ("config", config.is_some(), fields),
             ("set", !set.is_empty(), fields || competitor),

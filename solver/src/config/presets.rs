@@ -120,11 +120,11 @@ impl Config {
             },
             reflectance: ReflectanceConfig {
                 rounds: 2,
-                relaxation: 2.0,
+                relaxation: 1.5,
                 skin_deviation: 0.5,
                 region_deviation: 0.5,
                 model_error: 0.1,
-                exposure_share: 0.33,
+                exposure_share: 0.25,
             },
             height: HeightConfig {
                 enabled: false,

@@ -41,7 +41,7 @@ pub(super) fn distance(
     };
     state.resize(size);
     let mut samples = site.pictures().samples(&site.space, size);
-    let weight = samples.thinned(MOST_HIGHLIGHT_SAMPLES).weight;
+    let weight = samples.thinned(t.highlight_samples).weight;
     let skin = site.skin();
     if !skin.is_empty() {
         let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);

@@ -26,8 +26,11 @@ pub(super) fn recolour(
     }
     let Some(regions) = site.regions_on(state.size) else { return };
     let predicted = gloss.and_then(|gloss| {
-        let highlights =
-            site.backend.highlights(&transport.glints(light)?, samples, &samples.normal);
+        let highlights = site.backend.highlights(
+            &transport.glints(&site.config.skin, light)?,
+            samples,
+            &samples.normal,
+        );
         let gloss = gloss.of(&regions);
         let of = |i: usize, c: usize| gloss[samples.taps.nearest(i)] * highlights.get(c, i);
         Some(Planes::from_fn(samples.len(), |i| [of(i, 0), of(i, 1), of(i, 2)]))

@@ -146,7 +146,7 @@ pub(super) mod tests {
         (samples, predicted)
     }
 
-    fn tint(
+    fn measured(
         samples: &Samples,
         predicted: &[[f32; CHANNELS]],
         shown: impl Fn(usize) -> [f32; CHANNELS],
@@ -157,7 +157,9 @@ pub(super) mod tests {
     /// `tint` of the prediction over a paint that differs from texel to texel.
     fn shown(samples: &Samples, predicted: &[[f32; CHANNELS]], tint: [f32; 3]) -> [f32; CHANNELS] {
         let paint = |i: usize| samples.taps.nearest(i) as f32;
-        tint(samples, predicted, |i| std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c]))
+        measured(samples, predicted, |i| {
+            std::array::from_fn(|c| paint(i) + tint[c] * predicted[i][c])
+        })
     }
 
     #[test]
@@ -177,7 +179,7 @@ pub(super) mod tests {
         let none = vec![[0.0; CHANNELS]; samples.len()];
         assert_eq!(shown(&samples, &none, [0.8, 1.0, 1.4]), ones, "no highlights");
         let noise = |i: usize| [(i as f32 * 78.233).sin() * 30.0 + predicted[i][0]; CHANNELS];
-        assert_eq!(tint(&samples, &predicted, noise), ones, "noise");
+        assert_eq!(measured(&samples, &predicted, noise), ones, "noise");
         let mut alone = samples.clone();
         alone.view_index.fill(0);
         assert_eq!(shown(&alone, &predicted, [0.8, 1.0, 1.4]), ones, "one view");
@@ -192,8 +194,7 @@ pub(super) mod tests {
             if hit(i) { [2.0, target[1], target[2]] } else { target }
         });
         let red = |i: usize| if hit(i) { 0.0 } else { 0.8 * predicted[i][0] };
-        let found =
-            tint(&samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
+        let found = measured(&samples, &predicted, |i| [red(i), predicted[i][1], predicted[i][2]]);
         assert!((found[0] - 0.8).abs() < 1e-3, "{found:?}");
     }
 }

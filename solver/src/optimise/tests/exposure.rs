@@ -16,7 +16,7 @@ fn maps(factor: f32) -> Maps {
     testing::write_capture(folder.path(), &testing::dome(16), &views, 1);
     let capture = Capture::open(folder.path()).unwrap();
     let mut config = small();
-    config.initialisation.colour_regions = 0;
+    config.colour_regions.count = 0;
     config.warm_up.iterations = 50;
     config.height.steps = 10;
     solve(&capture, &config, &mut silent).unwrap().maps
