@@ -9,10 +9,8 @@ use formats::picture::{Given, Picture, write_exr_rgb};
 use super::error::ScoreError;
 use super::photographs::is_photographed;
 use super::pictures::Frame;
+use super::protocol::OWN;
 use super::truth::{self, AGAIN, Identity, present};
-
-/// What `relit.json` says relit such pictures.
-pub const OWN: &str = "own";
 
 const INCOMPLETE: &str = "either all withheld frames of a light are given or none";
 

@@ -1,7 +1,9 @@
 //! The protocol, in words, as every scores file carries it.
 
-use super::own::OWN;
 use serde::{Deserialize, Serialize};
+
+/// What `relit.json` calls the renderer of pictures that a method relit itself.
+pub(super) const OWN: &str = "own";
 
 /// Side of the blocks of the bootstrap in pictures, pixels.
 pub(super) const PICTURE_BLOCK: usize = 16;
