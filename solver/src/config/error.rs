@@ -4,7 +4,9 @@
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
     /// No preset has this name.
-    #[error("no configuration is named {0:?}; the named ones are paper, paper-tuned, unshade and fast")]
+    #[error(
+        "no configuration is named {0:?}; the named ones are paper, paper-tuned, unshade and fast"
+    )]
     UnknownPreset(String),
     /// The text is not TOML, has an unknown key, or a value of the wrong type.
     #[error("configuration: {0}")]

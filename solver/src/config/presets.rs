@@ -137,8 +137,8 @@ impl Config {
         config
     }
 
-    /// The paper's method and model, with the values that it does not publish, and the rates, chosen on tuning
-    /// faces: a rate of its own for every quantity, the prior kept in the fine-tuning, percentiles where a
+    /// The paper's method and model, with the values that it does not publish, and the rates, chosen on
+    /// the four faces of the suite `method`: a rate of its own for every quantity, the prior kept in the fine-tuning, percentiles where a
     /// maximum rests on one texel, four starts, and textures of one texel a pixel. What the published rates cost
     /// is no part of the method.
     pub(super) fn paper_tuned() -> Self {

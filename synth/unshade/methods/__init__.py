@@ -13,10 +13,10 @@ from typing import Any
 
 from ..errors import SolveError
 
-PASSIVE = {"sh-lambert": "sh_lambert"}
+PASSIVE = {"sh-lambert": "sh_lambert", "path-traced": "path_traced"}
 """Name to module, whose ``recover(capture, **settings)`` returns `Maps`."""
 
-CONTROLLED: dict[str, str] = {}
+CONTROLLED = {"flash-only": "flash_only", "light-stage": "light_stage"}
 """Name to module, whose ``recover(capture, laboratory, **settings)`` returns `Maps`."""
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from unshade import Capture, Maps
 
 from .harmonics import harmonics, irradiance
+from .regions import regions
 from .texel_samples import TexelSamples, sample_texels
 
 _ROWS = 16
@@ -42,7 +43,7 @@ def recover(capture: Capture, *, order: int = 2, shadows: bool = True, texture_s
     colour = samples.mean(samples.colours([capture.image(name).astype(float) for name in capture.train]))
     basis = _shadowed(capture, order, samples) if shadows else irradiance(samples.normals, order)
     seen = samples.seen
-    light = _light(basis[seen], colour[seen], _regions(capture, samples)[seen], samples.weights.sum(0)[seen])
+    light = _light(basis[seen], colour[seen], regions(capture, samples)[seen], samples.weights.sum(0)[seen])
 
     front = samples.normals[:, 2] > 0
     light *= 1 / (basis[seen] @ light).mean(0)
@@ -91,16 +92,3 @@ def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray
         for k in range(0, sky.shape[-1], 3)
     ]
     return samples.of_picture(np.concatenate(pictures, -1)[..., :count].astype(float))
-
-
-def _regions(capture: Capture, samples: TexelSamples) -> np.ndarray:
-    """(M,) the label of each texel in the view that sees it best, as 0 to n - 1; 0 for all without labels."""
-    labels = [capture.labels(name) for name in capture.train]
-    best = samples.weights.argmax(0)
-    found = np.zeros(len(best), int)
-    for view, picture in enumerate(labels):
-        if picture is not None:
-            mine = best == view
-            column, row = np.rint(samples.pixels[view, mine]).astype(int).T
-            found[mine] = picture[row.clip(0, picture.shape[0] - 1), column.clip(0, picture.shape[1] - 1)]
-    return np.unique(found, return_inverse=True)[1]
