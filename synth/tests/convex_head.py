@@ -24,7 +24,16 @@ def _place(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return sphere * SEMI_AXES, normal / np.linalg.norm(normal, axis=-1, keepdims=True)
 
 
-def write_scene(folder: Path, *, size: int = 128, samples: int = 128, views: int = 5, specular: float = SPECULAR, light: str = 'kind = "dome"', waves: float = 0.12) -> Path:
+def write_scene(
+    folder: Path,
+    *,
+    size: int = 128,
+    samples: int = 128,
+    views: int = 5,
+    specular: float = SPECULAR,
+    light: str = 'kind = "dome"',
+    waves: float = 0.12,
+) -> Path:
     """A scene file with a mesh, colours, and normals that wave by some 8 degrees if ``waves`` says nothing else."""
     line = np.linspace(0, 1, _STEPS + 1)
     u, v = (part.ravel() for part in np.meshgrid(line, line))

@@ -17,6 +17,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+from . import errors
 from .errors import UnshadeError
 
 _INTERRUPTED, _FAULT = 3, 1
@@ -30,7 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         result = options.stage(options)
     except UnshadeError as error:
-        _say("error", kind=type(error).__name__, message=" ".join(str(error).split()))
+        _say("error", kind=_public_kind(error), message=" ".join(str(error).split()))
         return error.exit_code
     except KeyboardInterrupt:
         return _INTERRUPTED
@@ -39,6 +40,11 @@ def main(arguments: list[str] | None = None) -> int:
         return _FAULT
     _say("result", **result)
     return 0
+
+
+def _public_kind(error: UnshadeError) -> str:
+    """The nearest class of `unshade.errors`, which is all that callers can catch."""
+    return next(kind.__name__ for kind in type(error).__mro__ if hasattr(errors, kind.__name__))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -174,13 +180,14 @@ def _method(options: argparse.Namespace) -> dict[str, Any]:
     from .methods import CONTROLLED, method
     from .render import llvm
 
-    recover = method(options.name, options.settings)
     # A capture without a truth, which passive methods get, was rendered by nobody knows what.
     controlled = options.name in CONTROLLED
     from .render.truth_scene import captured_scene
 
     scene = captured_scene(options.capture) if controlled else None
     _activate(llvm.choose(scene.versions["variant"] if scene else "auto"))
+    # Their modules name the renderer's classes, which need a variant.
+    recover = method(options.name, options.settings)
     given: list[Any] = [unshade.Capture(options.capture)]
     if scene is not None:
         from .methods.laboratory import Laboratory

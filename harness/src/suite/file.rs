@@ -269,6 +269,31 @@ mod tests {
     }
 
     #[test]
+    fn a_competitor_is_named_with_its_settings_and_has_a_class() {
+        let root = tempfile::tempdir().unwrap();
+        scenes(root.path());
+        let open = |lines: &str| {
+            let text =
+                format!("format = 1\nname = \"m\"\nscene = \"scene.toml\"\n[[solver]]\n{lines}");
+            Suite::open(&write(root.path(), "suite.toml", &text))
+        };
+        let suite = open(
+            "name = \"sh-lambert\"\nset = { order = 3 }\n[[solver]]\nname = \"light-stage\"\n\
+             [[solver]]\nname = \"oracle\"\n[[solver]]\nname = \"paper-tuned\"\n",
+        );
+        let suite = suite.unwrap();
+        let classes: Vec<_> = suite.entrants.iter().map(|e| e.class().name()).collect();
+        assert_eq!(classes, ["passive", "controlled", "privileged", "passive"]);
+        let Method::Competitor { settings, .. } = &suite.entrants[0].method else { panic!() };
+        assert_eq!(settings, "{\"order\":3}");
+        let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
+        assert!(wrong.contains("set = { texture_size"), "{wrong}");
+        // Under a configuration, it is our solver's name for once.
+        let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
+        assert!(matches!(ours.entrants[0].method, Method::Fields { .. }));
+    }
+
+    #[test]
     fn every_suite_of_the_project_can_be_read() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/suites");
         let mut count = 0;

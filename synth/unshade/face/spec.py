@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UnshadeError
+from ..errors import SceneError
 from .expression import UNITS, Expression
 
 YOUNGEST, OLDEST = 20.0, 70.0
@@ -21,7 +21,7 @@ FITZPATRICK = ("I", "II", "III", "IV", "V", "VI")
 ETHNICITIES = ("african", "asian", "caucasian")
 
 
-class FaceError(UnshadeError):
+class FaceError(SceneError):
     """A face that cannot be built."""
 
 

@@ -42,6 +42,14 @@ def recover(
     whose gradients path replay gives without bias. ``rows`` of the environment, at infinity. One step of 256 x 256
     pixels takes some .3 s on two cores, all of it some 3 minutes; 0.5 GB.
     """
+    sizes = {"texture_size": texture_size, "rows": rows, "samples": samples}
+    return fit(capture, **sizes, basis_steps=basis_steps, free_steps=free_steps, seed=seed).maps
+
+
+def fit(
+    capture: Capture, *, texture_size: int, samples: int, basis_steps: int, free_steps: int, rows: int = 16, seed: int = 0
+) -> Fit:  # fmt: skip
+    """The fitted scene, with its maps; see `recover`."""
     texels = sample_texels(capture, texture_size)
     region = texels.filled(regions(capture, texels)[:, None])[..., 0].astype(np.uint32)
     mesh = SimpleNamespace(**{key: np.asarray(value) for key, value in capture.mesh.items()}, uv=capture.mesh["uvs"])
@@ -50,7 +58,7 @@ def recover(
     sky = {"type": "envmap", "bitmap": mi.Bitmap(np.ones((rows, 2 * rows, 3), np.float32)), "scale": 1.0}
     integrator = {"type": "prb", "max_depth": _DEPTH, "hide_emitters": True}
     scene = mi.load_dict({"type": "scene", "chart": head.chart, "sky": sky, "integrator": integrator})
-    fit = _Fit(scene, _views(capture, samples), samples, seed)
+    found = Fit(scene, _views(capture, samples), samples, seed)
 
     colours = dr.full(mi.TensorXf, 0.4, (int(region.max()) + 1, 3))
     place = mi.UInt32(np.repeat(region.ravel() * 3, 3) + np.tile(np.arange(3, dtype=np.uint32), region.size))
@@ -58,18 +66,21 @@ def recover(
     def painted(colours):
         return mi.TensorXf(dr.gather(mi.Float, colours.array, place), start.shape)
 
-    colours = fit.run(colours, painted, basis_steps, 0.02)
-    albedo = fit.run(dr.detach(painted(colours)), lambda albedo: albedo, free_steps, 0.01)
-    return _maps(texels, np.array(albedo), np.array(fit.params[fit.sky]))
+    colours = found.run(colours, painted, basis_steps, 0.02)
+    albedo = found.run(dr.detach(painted(colours)), lambda albedo: albedo, free_steps, 0.01)
+    found.maps = _maps(texels, np.array(albedo), np.array(found.params[found.sky]))
+    return found
 
 
-class _Fit:
+class Fit:
     """The scene's albedo and light, moved towards the pictures."""
+
+    maps: Maps
 
     def __init__(self, scene, views: list[tuple], samples: int, seed: int) -> None:
         self.scene, self.views, self.samples, self.seed = scene, views, samples, seed
         self.params = mi.traverse(scene)
-        self.albedo, self.sky = (next(key for key in self.params.keys() if key.endswith(end)) for end in
+        self.albedo, self.sky = (next(key for key, _ in self.params if key.endswith(end)) for end in
                                  ("diffuse.data", "sky.data"))  # fmt: skip
         self.step = 0
 
@@ -103,8 +114,12 @@ def _views(capture: Capture, samples: int) -> list[tuple]:
     for name in capture.train:
         given = capture.camera(name)
         width, height = given["width"], given["height"]
-        if not np.allclose([given["focal"][0], *given["centre"]], [given["focal"][1], width / 2, height / 2], rtol=1e-4):
-            raise SolveError(f"{capture.path}: camera {name} is no centred pinhole with square pixels; undistort its picture")
+        if not np.allclose(
+            [given["focal"][0], *given["centre"]], [given["focal"][1], width / 2, height / 2], rtol=1e-4
+        ):
+            raise SolveError(
+                f"{capture.path}: camera {name} is no centred pinhole with square pixels; undistort its picture"
+            )
         matrix = given["camera_to_world"].astype(float)
         sensor = Camera(name, width, height, given["focal"][0], matrix, True).sensor(samples)
         inside = capture.mask(name) > 127

@@ -88,7 +88,6 @@ def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray
     count = sky.shape[-1]
     sky = np.concatenate([sky, np.zeros((*sky.shape[:2], -count % 3))], -1)
     pictures = [
-        capture.shading(sky[..., k : k + 3], texture_size=_TRANSFER_SIZE, bounces=1)
-        for k in range(0, sky.shape[-1], 3)
+        capture.shading(sky[..., k : k + 3], texture_size=_TRANSFER_SIZE, bounces=1) for k in range(0, sky.shape[-1], 3)
     ]
     return samples.of_picture(np.concatenate(pictures, -1)[..., :count].astype(float))

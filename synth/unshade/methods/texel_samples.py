@@ -36,7 +36,9 @@ class TexelSamples:
 
     def colours(self, pictures: list[np.ndarray]) -> np.ndarray:
         """(V, M, C) of pictures (H, W, C), bilinear; 0 where a view does not see the texel."""
-        return np.stack([np.where(w[:, None] > 0, _bilinear(p, at), 0) for p, at, w in zip(pictures, self.pixels, self.weights)])
+        return np.stack(
+            [np.where(w[:, None] > 0, _bilinear(p, at), 0) for p, at, w in zip(pictures, self.pixels, self.weights)]
+        )
 
     def mean(self, colours: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
         """(M, C) of (V, M, C), weighted by the cosine unless by ``weights`` (V, M); 0 where no view has any."""
