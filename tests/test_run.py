@@ -186,3 +186,22 @@ def test_without_a_viewer_the_message_says_how_to_get_one(tiny_run: Path, tmp_pa
     # By a program without the viewer's feature, and by one with it.
     assert "--features rerun" in done.stderr or "start one with `rerun`" in done.stderr
     assert not (tmp_path / "maps").exists()
+
+
+def test_a_competitor_runs_by_its_name_in_the_class_of_what_it_is_given(tiny_run: Path, tmp_path: Path) -> None:
+    """On the captures of another run, whose stages are still valid."""
+    run = shutil.copytree(tiny_run, tmp_path / "tiny")
+    suite = tmp_path / "suite.toml"
+    text = TINY.read_text().split("[[solver]]")[0].replace("tiny-scene.toml", str(TINY.with_name("tiny-scene.toml")))
+    passive = '[[solver]]\nname = "sh-lambert"\nset = { shadows = false, texture_size = 64 }\n'
+    controlled = '[[solver]]\nname = "flash-only"\nset = { samples = 16, texture_size = 64 }\n'
+    suite.write_text(f'scales = ["global"]\n{text}{passive}{controlled}')
+    said = unshade("run", suite, "-o", run).stderr
+    assert f"capture/{CASE}: still valid" in said
+    solvers = json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
+    assert [solver["class"] for solver in solvers] == ["passive", "controlled"]
+    page = (run / "report" / "index.html").read_text()
+    assert "<small>controlled</small>" in page and "spherical harmonics, Lambert" in page
+    suite.write_text(text + passive.replace("shadows", "shadow"))
+    failed = unshade("run", suite, "-o", run, check=False)
+    assert failed.returncode == 1 and "unknown setting 'shadow'; there are order, shadows" in failed.stderr

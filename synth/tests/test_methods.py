@@ -63,7 +63,11 @@ def test_highlights_in_light_from_everywhere_are_those_of_the_renderers_material
     for cosine in (0.95, 0.7, 0.4):
         si = dr.zeros(mi.SurfaceInteraction3f)
         view = np.array([np.sqrt(1 - cosine**2), 0, cosine])
-        si.wi, si.n, si.sh_frame = mi.Vector3f(*map(float, view)), mi.Normal3f(0, 0, 1), mi.Frame3f(mi.Vector3f(0, 0, 1))
+        si.wi, si.n, si.sh_frame = (
+            mi.Vector3f(*map(float, view)),
+            mi.Normal3f(0, 0, 1),
+            mi.Frame3f(mi.Vector3f(0, 0, 1)),
+        )
         sample, weight = skin.sample(context, si, numbers[0], mi.Point2f(numbers[1], numbers[2]))
         weight = np.broadcast_to(np.array(weight)[0], count)
         np.testing.assert_allclose(everywhere(np.array(cosine)), weight.mean(), rtol=0.02)

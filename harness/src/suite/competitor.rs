@@ -7,7 +7,6 @@ use formats::atomic;
 
 use super::error::RunError;
 use super::program::copy_blind;
-use super::stages::words;
 use super::tools::Tools;
 use crate::synth::run_stage;
 
@@ -79,12 +78,17 @@ impl Competitor {
             }
             Class::Controlled | Class::Privileged => capture,
         };
-        let arguments = words(&[
-            ("--name", OsStr::new(self.name)),
-            ("--capture", given.as_os_str()),
-            ("--out", maps.as_os_str()),
-            ("--settings", OsStr::new(settings)),
-        ]);
+        let arguments = [
+            OsStr::new("--name"),
+            OsStr::new(self.name),
+            OsStr::new("--capture"),
+            given.as_os_str(),
+            OsStr::new("--out"),
+            maps.as_os_str(),
+            OsStr::new("--settings"),
+            OsStr::new(settings),
+        ]
+        .map(OsStr::to_os_string);
         run_stage(&tools.interpreter, "method", &arguments, &tools.interrupt, step)?;
         Ok(())
     }

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use super::cases::{self, Case};
 use super::method::{self, Entrant, Method};
-use super::packaged;
+use super::packaged::Kind;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
@@ -48,7 +48,7 @@ pub struct Suite {
 impl Suite {
     /// Reads a suite file, or a suite that comes with unshade, with its scene, faces and lights.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
-        let path = &packaged::file(path, packaged::Kind::Suite)?;
+        let path = &scene::typed(path, Kind::Suite)?;
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
         scene::check_keys(path, &table, &KEYS)?;
@@ -89,7 +89,7 @@ impl Suite {
 /// The cases of the suite's scene.
 fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
     let mut base =
-        Scene::open(&packaged::referenced(path, "scene", &text_of(path, table, "scene")?)?)?;
+        Scene::open(&scene::referenced(path, "scene", &text_of(path, table, "scene")?)?)?;
     match table.get("render") {
         None => {}
         Some(Value::Table(_)) => {

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use super::place::beside;
-use super::scene::SceneError;
 
 static FOLDER: OnceLock<PathBuf> = OnceLock::new();
 
@@ -68,17 +67,17 @@ impl Kind {
     }
 }
 
-/// The file that was typed, or, if there is none and it is a plain name, that of the package.
-pub(super) fn file(typed: &Path, kind: Kind) -> Result<PathBuf, SceneError> {
-    let found = named(typed, typed.as_os_str(), kind);
-    found.map_err(|reason| SceneError::Read { path: typed.to_path_buf(), reason })
+/// The file that was typed, or, if there is none and it is a plain name, that of the package; the error is
+/// the reason alone.
+pub(super) fn file(typed: &Path, kind: Kind) -> Result<PathBuf, String> {
+    named(typed, typed.as_os_str(), kind)
 }
 
 /// The file that the value `name` of `key` in the file `from` stands for: one beside it, or, if there is
-/// none and it is a plain name, that of the package.
-pub(super) fn referenced(from: &Path, key: &str, name: &str) -> Result<PathBuf, SceneError> {
+/// none and it is a plain name, that of the package; the error is the reason alone.
+pub(super) fn referenced(from: &Path, key: &str, name: &str) -> Result<PathBuf, String> {
     named(&beside(from, name), OsStr::new(name), Kind::of_key(key))
-        .map_err(|reason| SceneError::value(from, key, format!("{name}: {reason}")))
+        .map_err(|reason| format!("{name}: {reason}"))
 }
 
 /// `file` if it is there or no plain name stands for it; the error is the reason alone.
@@ -121,7 +120,7 @@ mod tests {
         );
         fs::write(root.path().join("ada"), "name = \"mine\"").unwrap();
         assert_eq!(referenced(&suite, "faces", "ada").unwrap(), root.path().join("ada"));
-        let error = referenced(&suite, "rig", "moon").unwrap_err().to_string();
+        let error = referenced(&suite, "rig", "moon").unwrap_err();
         assert!(
             error.contains("no rig") && error.contains("there are desktop, dome, emily"),
             "{error}"
@@ -139,7 +138,7 @@ mod tests {
             assert!(names.len() >= 4, "{names:?}");
             for name in names {
                 let path = file(Path::new(&name), kind).unwrap();
-                let table = super::super::scene::read_toml(&path).unwrap();
+                let table: toml::Table = fs::read_to_string(&path).unwrap().parse().unwrap();
                 assert_eq!(table["name"].as_str(), Some(name.as_str()));
             }
         }

@@ -199,12 +199,23 @@ impl Scene {
     }
 }
 
+/// The file that was typed or, of a plain name, that comes with unshade.
+pub(super) fn typed(path: &Path, kind: packaged::Kind) -> Result<PathBuf, SceneError> {
+    packaged::file(path, kind)
+        .map_err(|reason| SceneError::Read { path: path.to_path_buf(), reason })
+}
+
+/// The file that `name`, the value of `key` in the file `from`, stands for.
+pub(super) fn referenced(from: &Path, key: &str, name: &str) -> Result<PathBuf, SceneError> {
+    packaged::referenced(from, key, name).map_err(|reason| SceneError::value(from, key, reason))
+}
+
 /// Reads a face, light or rig: a table as it stands, or the file that a string names.
 pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, SceneError> {
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),
         Value::String(name) => {
-            let path = packaged::referenced(from, key, &name)?;
+            let path = referenced(from, key, &name)?;
             (read_toml(&path)?, path)
         }
         _ => return Err(SceneError::value(from, key, "must be a file name or a table")),

@@ -9,9 +9,9 @@ use scoring::score;
 
 use super::error::RunError;
 use super::file::RENDERERS;
-use super::packaged;
+use super::packaged::Kind;
 use super::place;
-use super::scene::Scene;
+use super::scene::{self, Scene};
 use super::tools::Tools;
 use crate::synth::run_stage;
 
@@ -22,7 +22,7 @@ pub fn synth(
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let scene = &packaged::file(scene, packaged::Kind::Scene)?;
+    let scene = &scene::typed(scene, Kind::Scene)?;
     let file = resolved(scene)?;
     let inputs = Scene::open(scene)?.files();
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).chain([scene.as_path()]).collect();
@@ -35,7 +35,7 @@ pub fn synth(
 
 /// What the scene file `scene` stands for, in words: face, cameras, and each light in numbers.
 pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
-    let scene = &packaged::file(scene, packaged::Kind::Scene)?;
+    let scene = &scene::typed(scene, Kind::Scene)?;
     let file = resolved(scene)?;
     let arguments = words(&[("--scene", file.path().as_os_str())]);
     let silent = &mut |_, _, _: &str| {};

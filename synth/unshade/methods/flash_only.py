@@ -49,7 +49,7 @@ def recover(capture: Capture, laboratory: Laboratory, *, texture_size: int = 512
     damping = _DAMPING * (back.max() ** 2) * total / len(eyes)
     specular = ((shared + damping * _MEAN_SPECULAR) / (spread + damping)).clip(0, 0.05)
     albedo = (mean_value - (specular * mean_back)[:, None]).clip(0, 1)
-    normal = texels.filled(texels.normals)
+    normal = texels.normals_filled()
     return Maps(
         diffuse_albedo=texels.filled(albedo), specular_albedo=texels.filled(specular[:, None])[..., 0],
         diffuse_normal=normal, specular_normal=normal, coverage=texels.coverage,

@@ -56,8 +56,8 @@ def recover(
     return Maps(
         diffuse_albedo=texels.filled(albedo),
         specular_albedo=texels.filled(reflectance[:, None])[..., 0],
-        diffuse_normal=_unit(texels.filled(normal)),
-        specular_normal=_unit(texels.filled(specular_normal)),
+        diffuse_normal=texels.normals_filled(normal),
+        specular_normal=texels.normals_filled(specular_normal),
         coverage=texels.coverage,
     )
 

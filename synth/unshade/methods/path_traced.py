@@ -138,7 +138,7 @@ def _maps(texels: TexelSamples, albedo: np.ndarray, sky: np.ndarray) -> Maps:
     irradiance = np.einsum("nhw,hwc->nc", arriving, sky) / np.pi
     tint = irradiance.mean(0) / (irradiance @ LUMINANCE).mean()
     factor = tint * np.percentile(irradiance / tint @ LUMINANCE, 99.9)
-    normal = texels.filled(texels.normals)
+    normal = texels.normals_filled()
     size = len(albedo)
     return Maps(
         diffuse_albedo=(albedo * factor).clip(0, 1), specular_albedo=np.full((size, size), _SPECULAR),

@@ -51,7 +51,7 @@ def recover(capture: Capture, *, order: int = 2, shadows: bool = True, texture_s
     largest = float(np.percentile(open_sky, 99))
     shading = np.maximum(basis @ light, _DARKEST * largest) / largest
     albedo = np.clip(colour / shading, 0, 1)
-    normal = samples.filled(samples.normals)
+    normal = samples.normals_filled()
     return Maps(
         diffuse_albedo=samples.filled(albedo), diffuse_normal=normal, specular_normal=normal, coverage=samples.coverage
     )

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from unshade import Capture
 
+from ..errors import SolveError
 from ..face.texels import Texels, rasterise
 
 _REACH = 0.003
 """Metres that a texel may lie behind what the pixels around its place show: more is hidden."""
+
+_OFF = 0.1
+"""Pixels that a picture may differ from a pinhole's."""
 
 _STEEPEST = 0.1
 """Least cosine at which a view counts: beyond it a pixel spans many texels."""
@@ -56,6 +62,14 @@ class TexelSamples:
         rows, columns = distance_transform_edt(~known, return_distances=False, return_indices=True)
         return self.texels.image(np.ascontiguousarray(values, np.float32))[rows, columns]
 
+    def normals_filled(self, normals: np.ndarray | None = None) -> np.ndarray:
+        """(N, N, 3) float32, unit: ``normals`` (M, 3) where a view sees the texel, elsewhere the mesh's, which is known
+        all over the chart; texels beside it take the nearest one's."""
+        known = self.normals if normals is None else np.where(self.seen[:, None], normals, self.normals)
+        known = known / np.maximum(np.linalg.norm(known, axis=1, keepdims=True), 1e-12)
+        rows, columns = self.texels.nearest_inside()
+        return self.texels.image(known.astype(np.float32))[rows, columns]
+
     def of_picture(self, picture: np.ndarray) -> np.ndarray:
         """(M, C) of a picture of the chart (n, n, C) of any size, bilinear; row 0 at v = 1."""
         size, n = len(self.texels.inside), len(picture)
@@ -82,26 +96,39 @@ def sample_texels(capture: Capture, size: int, views: list[str] | None = None) -
 
 def _seen_by(capture: Capture, name: str, points: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, ...]:
     camera = capture.camera(name)
-    matrix = camera["camera_to_world"].astype(float)
-    away = matrix[:3, 3] - points
+    eye = camera["camera_to_world"][:3, 3].astype(float)
+    away = eye - points
     distance = np.linalg.norm(away, axis=1)
     to_eye = away / distance[:, None]
-    local = -away @ matrix[:3, :3]
-    depth = np.maximum(-local[:, 2], 1e-9)
-    at = np.stack([local[:, 0] / depth, -local[:, 1] / depth], 1) * camera["focal"] + camera["centre"] - 0.5
+    at = _project(camera, points)
     cosine = (to_eye * normals).sum(1)
     place = np.floor(at).astype(int)
     size = np.array([camera["width"], camera["height"]])
     seen = (cosine > _STEEPEST) & (place >= 0).all(1) & (place + 1 < size).all(1)
-    shown = np.linalg.norm(capture.gbuffer(name)["positions"].astype(float) - matrix[:3, 3], axis=-1)
-    inside = np.isfinite(shown)
+    positions = capture.gbuffer(name)["positions"].astype(float)
+    inside = np.isfinite(positions).all(-1)
+    _require_pinhole(capture, name, np.argwhere(inside)[:, ::-1], _project(camera, positions[inside]))
     if name in capture.train:
         inside &= capture.mask(name) > 127
-    shown = np.where(inside, shown, -np.inf)
+    shown = np.where(inside, np.linalg.norm(positions - eye, axis=-1), -np.inf)
     column, row = place[seen].T
     nearest = np.min([shown[row + down, column + right] for down in (0, 1) for right in (0, 1)], 0)
     seen[seen] = nearest > distance[seen] - _REACH
     return to_eye, np.where(seen, cosine, 0), at
+
+
+def _project(camera: Mapping[str, Any], points: np.ndarray) -> np.ndarray:
+    """Column and row (M, 2) of world points (M, 3) in a pinhole's picture."""
+    matrix = camera["camera_to_world"].astype(float)
+    local = (points - matrix[:3, 3]) @ matrix[:3, :3]
+    depth = np.maximum(-local[:, 2:], 1e-9)
+    return local[:, :2] * [1, -1] / depth * camera["focal"] + camera["centre"] - 0.5
+
+
+def _require_pinhole(capture: Capture, name: str, pixels: np.ndarray, projected: np.ndarray) -> None:
+    """Raises `SolveError` where a lens sends what ``pixels`` (M, 2) show elsewhere than a pinhole does."""
+    if len(pixels) and np.abs(projected - pixels).max() > _OFF:
+        raise SolveError(f"{capture.path}: view {name} has a lens that distorts; undistort its picture for this method")
 
 
 def _bilinear(picture: np.ndarray, at: np.ndarray) -> np.ndarray:
