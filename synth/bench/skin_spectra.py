@@ -35,7 +35,7 @@ else:
 ROOT = Path(__file__).resolve().parents[2]
 FACES = ("ada", "kofi", "mei", "noor")
 START, END = "<!-- figures: written by synth/bench/skin_spectra.py -->", "<!-- end of figures -->"
-PICTURE, SHEET, SITTERS = "skin-spectra.png", "natural-sheet.jpg", 12
+PICTURE, SHEET, SITTERS = "skin-spectra.png", "natural-sheet.jpg", 8
 CURVES = ("luminance", "melanin", "haemoglobin", "relief")
 REGIONS = (Label.LIPS, Label.BROW, Label.EYELID, Label.SCALP)
 GROUPS = ("scan", "natural", "smooth")

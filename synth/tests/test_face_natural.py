@@ -20,9 +20,13 @@ def faces():
     return {detail: build_face(FaceSpec.from_table(TABLE | {"detail": detail})) for detail in ("smooth", "natural")}
 
 
-def test_equal_specifications_give_equal_bytes_and_the_same_person(faces):
-    small = FaceSpec.from_table(TABLE | {"detail": "natural", "texture_size": 128})
-    first, again = build_face(small).maps, build_face(small).maps
+@pytest.fixture(scope="module")
+def small():
+    return build_face(FaceSpec.from_table(TABLE | {"detail": "natural", "texture_size": 128}))
+
+
+def test_equal_specifications_give_equal_bytes_and_the_same_person(faces, small):
+    first, again = small.maps, build_face(small.spec).maps
     assert all(getattr(first, name).tobytes() == getattr(again, name).tobytes() for name in vars(first))
     smooth, natural = faces["smooth"], faces["natural"]
     np.testing.assert_array_equal(smooth.chart.vertices, natural.chart.vertices)
@@ -100,11 +104,9 @@ def test_another_detail_is_refused_and_the_default_is_not_written():
     assert FaceSpec.from_table(natural.to_table()) == natural
 
 
-@pytest.mark.parametrize("detail", ["smooth", "natural"])
-def test_scales_change_the_sheen_and_nothing_else(detail):
-    table = TABLE | {"detail": detail, "texture_size": 128}
-    plain = build_face(FaceSpec.from_table(table))
-    scaled = build_face(FaceSpec.from_table(table | {"specular_scale": 0.6, "roughness_scale": 1.5}))
+def test_scales_change_the_sheen_and_nothing_else(small):
+    scales = {"specular_scale": 0.6, "roughness_scale": 1.5}
+    plain, scaled = small, build_face(FaceSpec.from_table(small.spec.to_table() | scales))
     np.testing.assert_allclose(scaled.maps.specular_albedo, 0.6 * plain.maps.specular_albedo, rtol=1e-5)
     np.testing.assert_allclose(scaled.maps.roughness[..., :2], 1.5 * plain.maps.roughness[..., :2], rtol=1e-5)
     for name in ("diffuse_albedo", "specular_normal", "labels"):

@@ -1,4 +1,4 @@
-"""Tuning and held-out faces stay apart: what scenes/faces/sets.toml names, and who uses which."""
+"""Tuning and held-out faces stay apart: what scenes/face-sets.toml names, and who uses which."""
 
 import sys
 from pathlib import Path
@@ -19,7 +19,7 @@ def read(path):
     return tomllib.loads(path.read_text())
 
 
-SETS = read(SCENES / "faces/sets.toml")
+SETS = read(SCENES / "face-sets.toml")
 
 
 def test_no_face_is_in_both_sets_and_every_held_out_one_is_another_person():
