@@ -23,13 +23,10 @@ ETHNICITIES = ("african", "asian", "caucasian")
 DETAILS = ("smooth", "natural")
 """How much a face shows: even skin and painted hair, or what photographed faces have (`natural`)."""
 
-<<<<<<< HEAD
 
 _SCALES = ("specular_scale", "roughness_scale")
 
 
-=======
->>>>>>> c/main
 class FaceError(SceneError):
     """A face that cannot be built."""
 

@@ -27,13 +27,8 @@ def recover(capture: Capture, laboratory: Laboratory, *, texture_size: int = 512
 
     At a texel, view and light have one direction and angle t: radiance over irradiance is a + s g(t), with g the
     highlight that skin of unit specular albedo sends straight back. The least squares of four unknowns (RGB and s)
-<<<<<<< HEAD
-    over the views is solved for all texels at once. Interreflection stays in the albedo. Some seconds beside the
-    photographs; 0.5 GB at 512.
-=======
     over the views is solved for all texels at once. Interreflection stays in the albedo. 15 s of processor
     time for ten views of 256 x 256, beside the photographs; 1 GB.
->>>>>>> c/main
     """
     texels = sample_texels(capture, texture_size)
     colours = texels.colours([picture.astype(float) for picture in laboratory.with_flash(_INTENSITY, samples)])

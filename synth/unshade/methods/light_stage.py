@@ -33,11 +33,7 @@ def recover(
     Under a gradient (1 + w) / 2 along an axis a Lambert surface is 1/2 + n / 3 as bright as under the full sphere, and
     highlights as bright as the gradient where they come from on average. ``shadows``: what the mesh shades itself from,
     and the light that it bounces, are those of the known mesh; without, the surface is taken for convex, as in the
-<<<<<<< HEAD
-    papers. ``samples`` a pixel: a normal is three times as noisy as the pictures. Some ten seconds beside 40 photographs; 1 GB at 512.
-=======
     papers. ``samples`` a pixel: a normal is three times as noisy as the pictures.
->>>>>>> c/main
     """
     texels = sample_texels(capture, texture_size)
     taken = laboratory.in_lights([_gradient("full"), *(_gradient(axis) for axis in _AXES)], samples)

@@ -39,13 +39,8 @@ def recover(
     """Diffuse albedo, and the mesh's normals; a constant specular albedo.
 
     Each step takes one view, ``samples`` paths a pixel, and Adam; the loss is the squared error of linear radiance,
-<<<<<<< HEAD
-    whose gradients path replay gives without bias. ``rows`` of the environment, at infinity. One step of 256 x 256
-    pixels takes some .3 s on two cores, all of it some 3 minutes; 0.5 GB.
-=======
     whose gradients path replay gives without bias. ``rows`` of the environment, at infinity. One step of
     256 x 256 pixels takes some 1.2 s of processor time; 0.35 GB.
->>>>>>> c/main
     """
     sizes = {"texture_size": texture_size, "rows": rows, "samples": samples}
     return fit(capture, **sizes, basis_steps=basis_steps, free_steps=free_steps, seed=seed).maps
