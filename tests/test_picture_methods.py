@@ -21,27 +21,27 @@ format = 1
 name = "pictures"
 scene = "{HERE / "scenes" / "tiny-scene.toml"}"
 
-[[solver]]
+[[method]]
 name = "relighter"
 command = ["{sys.executable}", "relighter.py", "{{capture}}", "{{maps}}", "{{lights}}"]
 gives = "pictures"
 
-[[solver]]
+[[method]]
 name = "decomposer"
 command = ["{sys.executable}", "decomposer.py", "{{capture}}", "{{maps}}"]
 gives = "pictures"
 
-[[solver]]
+[[method]]
 name = "incomplete"
 command = ["{sys.executable}", "incomplete.py", "{{capture}}", "{{maps}}"]
 gives = "pictures"
 
-[[solver]]
+[[method]]
 name = "thief"
 command = ["{sys.executable}", "thief.py", "{{capture}}", "{{maps}}", "{{lights}}"]
 gives = "pictures"
 
-[[solver]]
+[[method]]
 name = "mean_texture"
 """
 
@@ -188,7 +188,7 @@ def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
 
 def test_an_empty_hand_and_keys_without_use_are_refused(tmp_path: Path, tiny_run: Path) -> None:
     suite = tmp_path / "suite.toml"
-    head = f'format = 1\nname = "x"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\n[[solver]]\nname = "x"\n'
+    head = f'format = 1\nname = "x"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\n[[method]]\nname = "x"\n'
     words = f'command = ["{sys.executable}", "x.py", "{{capture}}", "{{maps}}"'
 
     def refused(text: str, reason: str) -> None:

@@ -192,9 +192,9 @@ def test_a_competitor_runs_by_its_name_in_the_class_of_what_it_is_given(tiny_run
     """On the captures of another run, whose stages are still valid."""
     run = shutil.copytree(tiny_run, tmp_path / "tiny")
     suite = tmp_path / "suite.toml"
-    text = TINY.read_text().split("[[solver]]")[0].replace("tiny-scene.toml", str(TINY.with_name("tiny-scene.toml")))
-    passive = '[[solver]]\nname = "sh-lambert"\nset = { shadows = false, texture_size = 64 }\n'
-    controlled = '[[solver]]\nname = "flash-only"\nset = { samples = 16, texture_size = 64 }\n'
+    text = TINY.read_text().split("[[method]]")[0].replace("tiny-scene.toml", str(TINY.with_name("tiny-scene.toml")))
+    passive = '[[method]]\nname = "sh-lambert"\nset = { shadows = false, texture_size = 64 }\n'
+    controlled = '[[method]]\nname = "flash-only"\nset = { samples = 16, texture_size = 64 }\n'
     suite.write_text(f'scales = ["global"]\n{text}{passive}{controlled}')
     said = unshade("run", suite, "-o", run).stderr
     assert f"capture/{CASE}: still valid" in said

@@ -37,7 +37,7 @@ def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: 
 
 def test_a_suite_names_faces_and_lights_that_come_with_unshade(tmp_path: Path) -> None:
     suite = tmp_path / "suite.toml"
-    text = 'format = 1\nname = "s"\nscene = "demo"\nfaces = ["ada"]\nlights = ["moon"]\n[[solver]]\nname = "oracle"\n'
+    text = 'format = 1\nname = "s"\nscene = "demo"\nfaces = ["ada"]\nlights = ["moon"]\n[[method]]\nname = "oracle"\n'
     suite.write_text(text)
     failed = command("run", suite, "-o", tmp_path / "run", check=False)
     assert failed.returncode == 2

@@ -5,10 +5,10 @@ use std::time::Duration;
 use serde::Serialize;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
-use solver::memory::Hoard;
+use solver::memory::KeepFreedMemory;
 use solver::model::deviation::Deviation;
-use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
+use solver::optimise::normals::Normals;
 use solver::optimise::stage::Stage;
 use solver::optimise::warm_up::WarmUp;
 
@@ -113,13 +113,13 @@ pub fn measure(
     budget: Duration,
 ) -> Step {
     // As in a solve; dropped last, so that the next measurement begins with little memory.
-    let _hoard = Hoard::begin();
+    let _kept = KeepFreedMemory::begin();
     let forgot = forget_peak();
     let Problem { config, samples, mut state } = Problem::new(pixels, texture);
     let deviation = Deviation::new(&config, texture);
     let mut stage: Box<dyn Stage> = match kind {
         Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
-        Kind::Normals => Box::new(Relief::new(&config, &samples, &deviation, &state, backend, 1)),
+        Kind::Normals => Box::new(Normals::new(&config, &samples, &deviation, &state, backend, 1)),
         Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, backend, 1)),
     };
     let seconds = best(budget, 2, || {

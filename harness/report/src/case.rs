@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use scoring::score::RegionSize;
 use serde::Serialize;
 
+use super::comparison_figures::{self, ComparisonFigure, Input, MethodFolders, Studio};
 use super::error::ReportError;
 use super::methods::{self as made, MethodRow};
-use super::plates::{self, Input, Method, Plate, Studio};
 use super::run::{Case, Frames, Timing};
 use super::solve::Solve;
 use super::table::{self, Column, Table};
@@ -28,9 +28,9 @@ pub(super) struct CaseView {
     table: Table,
     complete: Table,
     regions: Vec<Region>,
-    maps: Vec<Plate>,
-    pub views: Vec<Plate>,
-    layers: Vec<Plate>,
+    maps: Vec<ComparisonFigure>,
+    pub views: Vec<ComparisonFigure>,
+    layers: Vec<ComparisonFigure>,
     solves: Vec<Solve>,
     hashes: Vec<Hashes>,
     scene_toml: Option<String>,
@@ -88,15 +88,15 @@ impl CaseView {
         let capture = run.join(&case.capture);
         let frames = Frames::read(&capture)?;
         let below = |path: &Option<PathBuf>| path.as_ref().map(|path| run.join(path));
-        let methods: Vec<Method> = columns
+        let methods: Vec<MethodFolders> = columns
             .iter()
-            .map(|column| Method {
+            .map(|column| MethodFolders {
                 column,
-                maps: below(&column.entrant.maps),
-                relit: below(&column.entrant.relit),
+                maps: below(&column.method.maps),
+                relit: below(&column.method.relit),
             })
             .collect();
-        let anchor = plates::file_name(&case.id);
+        let anchor = comparison_figures::file_name(&case.id);
         let studio = Studio {
             frames: &frames,
             light: &case.light,
@@ -107,13 +107,13 @@ impl CaseView {
         let mut solves = Vec::new();
         let mut hashes = Vec::new();
         for method in &methods {
-            let Method { column, maps, .. } = method;
+            let MethodFolders { column, maps, .. } = method;
             if let Some(maps) = maps {
                 solves.extend(studio.solve(method, maps)?);
             }
             let mut data = None;
-            if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
-                let name = plates::file_name(&column.entrant.id);
+            if let Some(path) = below(&column.method.scores).filter(|path| path.exists()) {
+                let name = comparison_figures::file_name(&column.method.id);
                 let target = format!("data/{anchor}/{name}.json");
                 copy(&path, &root.join(&target))?;
                 data = Some(target);
@@ -132,9 +132,9 @@ impl CaseView {
             table: table::chosen(columns, &case.light),
             complete: table::complete(columns, &case.light),
             regions: regions(columns),
-            maps: studio.map_plates()?,
-            views: studio.view_plates()?,
-            layers: studio.layer_plates()?,
+            maps: studio.map_figures()?,
+            views: studio.view_figures()?,
+            layers: studio.layer_figures()?,
             solves,
             hashes,
             scene_toml: fs::read_to_string(capture.join("truth/scene.toml")).ok(),
@@ -143,7 +143,7 @@ impl CaseView {
     }
 
     /// The training view nearest to the first withheld one.
-    pub fn main_input(&self) -> Option<&plates::Tile> {
+    pub fn main_input(&self) -> Option<&comparison_figures::Tile> {
         let index = self.views.first()?.strips.first()?.input?;
         Some(&self.inputs.get(index)?.tile)
     }
@@ -158,7 +158,7 @@ impl Hashes {
             inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
         }
         Self {
-            title: column.entrant.title().to_owned(),
+            title: column.method.title().to_owned(),
             data,
             inputs,
             factor: column.factor().map(|factor| format!("{factor:.4}")),

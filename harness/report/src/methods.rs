@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::comparison_figures;
 use super::error::ReportError;
-use super::plates;
 use super::run::{Case, Timing};
 use super::table::{Column, EMPTY};
 
@@ -36,8 +36,8 @@ pub(super) fn rows(
     root: &Path,
 ) -> Result<Vec<MethodRow>, ReportError> {
     let row = |column: &Column| -> Result<MethodRow, ReportError> {
-        let name = format!("{}/{}", case.id, column.entrant.id);
-        let failed = column.entrant.failed.clone();
+        let name = format!("{}/{}", case.id, column.method.id);
+        let failed = column.method.failed.clone();
         let id = format!("maps/{name}");
         let stage = timing.stages.iter().find(|stage| stage.id == id && failed.is_none());
         let made = stage.map(|stage| &stage.made);
@@ -50,7 +50,7 @@ pub(super) fn rows(
         }
         let log = run.join("logs").join(format!("{name}.txt"));
         Ok(MethodRow {
-            title: column.entrant.title().to_owned(),
+            title: column.method.title().to_owned(),
             failed,
             made: if words.is_empty() { EMPTY.to_owned() } else { words.join("; ") },
             seconds: stage.map_or(EMPTY.to_owned(), |stage| format!("{:.1} s", stage.seconds)),
@@ -58,7 +58,7 @@ pub(super) fn rows(
                 .and_then(|made| made.peak_bytes)
                 .map_or(EMPTY.to_owned(), |bytes| format!("{:.2} GiB", bytes as f64 / GIB)),
             confined: made.and_then(|made| made.confined),
-            log: keep_log(&log, &case.id, &column.entrant.id, root)?,
+            log: keep_log(&log, &case.id, &column.method.id, root)?,
         })
     };
     columns.iter().map(row).collect()
@@ -71,7 +71,11 @@ fn keep_log(
     root: &Path,
 ) -> Result<Option<String>, ReportError> {
     let Ok(text) = fs::read(log) else { return Ok(None) };
-    let name = format!("data/{}/{}.log.txt", plates::file_name(case), plates::file_name(method));
+    let name = format!(
+        "data/{}/{}.log.txt",
+        comparison_figures::file_name(case),
+        comparison_figures::file_name(method)
+    );
     let target = root.join(&name);
     if let Some(folder) = target.parent() {
         fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;

@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::case::CaseView;
 use super::error::ReportError;
 use super::matrix::{self, Matrix};
-use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
+use super::run::{self, Case, Method, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
@@ -23,13 +23,13 @@ const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
 /// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
 /// go on.
-pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
+pub type ProgressCallback<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 
 /// Every template by the name that others include it by.
 pub(super) const TEMPLATES: [(&str, &str); 8] = [
     ("index.html", include_str!("templates/index.html")),
     ("table.html", include_str!("templates/table.html")),
-    ("plate.html", include_str!("templates/plate.html")),
+    ("comparison_figure.html", include_str!("templates/comparison_figure.html")),
     ("matrix.html", include_str!("templates/matrix.html")),
     ("solve.html", include_str!("templates/solve.html")),
     ("reading.html", include_str!("templates/reading.html")),
@@ -89,7 +89,7 @@ impl Page {
         run: &Path,
         manifest: &RunFile,
         root: &Path,
-        hearer: &mut Hearer,
+        progress: &mut ProgressCallback,
     ) -> Result<Self, ReportError> {
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
         let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
@@ -99,7 +99,7 @@ impl Page {
             run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
         let (mut summaries, mut cases) = (Vec::new(), Vec::new());
         for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
-            if !hearer(done as u64, manifest.cases.len() as u64, &case.id) {
+            if !progress(done as u64, manifest.cases.len() as u64, &case.id) {
                 return Err(ReportError::Interrupted);
             }
             summaries.push(summary(case, columns));
@@ -111,7 +111,7 @@ impl Page {
             variant: case.variant.as_deref(),
             light: &case.light,
             columns,
-            plates: &view.views,
+            figures: &view.views,
             input: view.main_input(),
         });
         let matrices = matrix::matrices(&sources.collect::<Vec<_>>());
@@ -153,11 +153,11 @@ impl Page {
 }
 
 pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
-    let read = |entrant: &Entrant| match &entrant.scores {
+    let read = |method: &Method| match &method.scores {
         Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
         _ => Ok(None),
     };
-    case.solvers.iter().map(read).collect()
+    case.methods.iter().map(read).collect()
 }
 
 /// Each protocol once, in the order in which the scores name them.
@@ -173,10 +173,10 @@ fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
 pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
-    let pairs = case.solvers.iter().zip(scores);
+    let pairs = case.methods.iter().zip(scores);
     let mut columns: Vec<Column> =
-        pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
-    columns.sort_by_key(|column| (column.entrant.class, column.entrant.kind));
+        pairs.map(|(method, scores)| Column { method, scores: scores.as_ref() }).collect();
+    columns.sort_by_key(|column| (column.method.class, column.method.kind));
     columns
 }
 
@@ -208,7 +208,7 @@ impl Times {
         };
         let mut stages = Vec::new();
         for stage in timing.stages {
-            let solvers = manifest.cases.iter().flat_map(|case| &case.solvers);
+            let solvers = manifest.cases.iter().flat_map(|case| &case.methods);
             let maps: Vec<_> = solvers.filter_map(|solver| solver.maps.as_ref()).collect();
             let solve = maps.into_iter().find(|maps| **maps == Path::new(&stage.id));
             stages.push(row(stage.id, stage.seconds, stage.cached, false));

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::run::Case;
 use super::table::{self, Column};
-use super::{metric, plates};
+use super::{comparison_figures, metric};
 
 /// The figures that decide, of one case.
 #[derive(Serialize)]
@@ -60,15 +60,19 @@ const KEY_FIGURES: [KeyFigure; 5] = [
 /// The key figures of one case.
 pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
-        title: column.entrant.title().to_owned(),
-        kind: column.entrant.role(),
+        title: column.method.title().to_owned(),
+        kind: column.method.role(),
         findings: column.findings(),
-        cells: match column.entrant.failed {
+        cells: match column.method.failed {
             Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
             None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
         },
     });
-    SummaryCase { id: case.id.clone(), anchor: plates::file_name(&case.id), rows: rows.collect() }
+    SummaryCase {
+        id: case.id.clone(),
+        anchor: comparison_figures::file_name(&case.id),
+        rows: rows.collect(),
+    }
 }
 
 /// One value (for normals beside that of the plain mesh), or the range over the other lights.

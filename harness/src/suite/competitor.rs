@@ -68,7 +68,7 @@ impl Competitor {
         tools: &Tools,
         step: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<(), RunError> {
-        atomic::apart(maps, &[capture]).map_err(formats::MapsError::from)?;
+        atomic::refuse_overlap(maps, &[capture]).map_err(formats::MapsError::from)?;
         let scratch = tempfile::tempdir()?;
         let blind = scratch.path().join("capture");
         let given = match self.class {

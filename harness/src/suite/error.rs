@@ -9,7 +9,7 @@ use scoring::compare::CompareError;
 use scoring::score::ScoreError;
 
 use super::scene::SceneError;
-use crate::live::LiveError;
+use crate::rerun_viewer::ViewerError;
 use crate::synth::{InterpreterError, StageError};
 
 /// How a run can end badly; each message is one line.
@@ -41,12 +41,12 @@ pub enum RunError {
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
-    Live(#[from] LiveError),
+    Viewer(#[from] ViewerError),
     #[error(transparent)]
     Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },
-    #[error("solver {name}: {reason}")]
+    #[error("method {name}: {reason}")]
     Program { name: String, reason: String },
     #[error("{0}: another run is using this folder; wait for it or choose another")]
     Busy(PathBuf),
@@ -56,7 +56,7 @@ pub enum RunError {
     File { path: PathBuf, reason: io::Error },
     #[error("the run folder cannot be used: {0}; make room or choose another")]
     Folder(#[from] io::Error),
-    #[error("--redo: the suite has no solver {name:?}; there are {known}")]
+    #[error("--redo: the suite has no method {name:?}; there are {known}")]
     Redo { name: String, known: String },
     #[error("interrupted; the same command goes on from here")]
     Interrupted,

@@ -1,4 +1,4 @@
-//! The `[[solver]]` tables of a suite: who is run, and how each is started.
+//! The `[[method]]` tables of a suite: who is run, and how each is started.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,7 +19,7 @@ const LABEL_MEANS: &str = "label-means";
 
 /// How a solver is started.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Method {
+pub enum MethodKind {
     /// Our own solver with these settings (TOML text that names its `base`).
     Fields {
         /// A preset's name or the text of a configuration.
@@ -43,7 +43,7 @@ pub enum Method {
     /// An answer that needs no optimisation.
     Baseline {
         /// Which one.
-        method: BaselineMethod,
+        baseline: BaselineMethod,
         /// Side of its textures, texels.
         texture_size: usize,
     },
@@ -51,44 +51,48 @@ pub enum Method {
 
 /// A column of the table.
 #[derive(Clone, Debug)]
-pub struct Entrant {
+pub struct Method {
     /// Names its folders; letters, digits, `-` and `_`.
     pub id: String,
     /// Shown in the report.
     pub title: String,
     /// How it is started.
-    pub method: Method,
+    pub kind: MethodKind,
 }
 
-impl Entrant {
+impl Method {
     /// Whether its maps are made from the truth, which photographs do not have.
     pub fn reads_truth(&self) -> bool {
-        matches!(self.method, Method::Oracle | Method::LabelMeans)
+        matches!(self.method, MethodKind::Oracle | Method::LabelMeans)
     }
 
     /// `solver`, `baseline`, `privileged` or `oracle`.
-    pub fn kind(&self) -> &'static str {
-        match self.method {
-            Method::Oracle => ORACLE,
+    pub fn role(&self) -> &'static str {
+        match self.kind {
+            MethodKind::Oracle => ORACLE,
             Method::LabelMeans => "privileged",
-            Method::Baseline { .. } => "baseline",
-            Method::Fields { .. } | Method::Program(_) | Method::Competitor { .. } => "solver",
+            MethodKind::Baseline { .. } => "baseline",
+            MethodKind::Fields { .. } | MethodKind::Program(_) | Method::Competitor { .. } => {
+                "solver"
+            }
         }
     }
 
     /// What it is given.
     pub fn class(&self) -> Class {
-        match self.method {
-            Method::Oracle | Method::LabelMeans => Class::Privileged,
+        match self.kind {
+            MethodKind::Oracle | Method::LabelMeans => Class::Privileged,
             Method::Competitor { method, .. } => method.class,
-            Method::Baseline { .. } | Method::Fields { .. } | Method::Program(_) => Class::Passive,
+            MethodKind::Baseline { .. } | MethodKind::Fields { .. } | MethodKind::Program(_) => {
+                Class::Passive
+            }
         }
     }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SolverTable {
+struct MethodTable {
     name: String,
     title: Option<String>,
     /// Preset or configuration file; without it the name is the preset.
@@ -118,49 +122,51 @@ enum CommandLine {
     Line(String),
 }
 
-/// The entrants in the order of the file.
-pub(super) fn entrants_of(path: &Path, table: &Table) -> Result<Vec<Entrant>, SceneError> {
-    let list = match table.get("solver") {
+/// The methods in the order of the file.
+pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, SceneError> {
+    let list = match table.get("method") {
         Some(Value::Array(list)) if !list.is_empty() => list,
-        _ => return Err(SceneError::value(path, "solver", "is missing; write [[solver]] tables")),
+        _ => return Err(SceneError::value(path, "method", "is missing; write [[method]] tables")),
     };
-    let mut entrants: Vec<Entrant> = Vec::new();
+    let mut methods: Vec<Method> = Vec::new();
     for value in list {
-        let solver: SolverTable = value.clone().try_into().map_err(|error: toml::de::Error| {
+        let table: MethodTable = value.clone().try_into().map_err(|error: toml::de::Error| {
             let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
-            SceneError::in_table(path, name, "solver", error.message())
+            SceneError::in_table(path, name, "method", error.message())
         })?;
-        let entrant = entrant_of(path, solver)?;
-        if entrants.iter().any(|other| other.id == entrant.id) {
-            let reason = format!("{:?} occurs twice; rename one", entrant.id);
-            return Err(SceneError::value(path, "solver", reason));
+        let method = method_of(path, table)?;
+        if methods.iter().any(|other| other.id == method.id) {
+            let reason = format!("{:?} occurs twice; rename one", method.id);
+            return Err(SceneError::value(path, "method", reason));
         }
-        entrants.push(entrant);
+        methods.push(method);
     }
-    Ok(entrants)
+    Ok(methods)
 }
 
-fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
-    scene::check_id(path, &solver.name)?;
-    solver.check_keys(path)?;
-    let program = solver.program(path)?;
-    let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == solver.name);
+fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
+    scene::check_id(path, &table.name)?;
+    table.check_keys(path)?;
+    let program = table.program(path)?;
+    let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == table.name);
     // With a configuration, it is our solver under that name.
-    let competitor = Competitor::find(&solver.name).filter(|_| solver.config.is_none());
-    let method = match (program, solver.name.as_str()) {
-        (Some(program), _) => Method::Program(program),
-        (None, ORACLE) => Method::Oracle,
+    let competitor = Competitor::find(&table.name).filter(|_| table.config.is_none());
+    let kind = match (program, table.name.as_str()) {
+        (Some(program), _) => MethodKind::Program(program),
+        (None, ORACLE) => MethodKind::Oracle,
         (None, LABEL_MEANS) => Method::LabelMeans,
         (None, name) => match baseline {
             None if let Some(method) = competitor => {
-                let settings = serde_json::to_string(&solver.set)
+                let settings = serde_json::to_string(&table.set)
                     .map_err(|error| SceneError::in_table(path, name, "set", error.to_string()))?;
                 Method::Competitor { method, settings }
             }
-            Some(method) => Method::Baseline { method, texture_size: solver.texture_size(path)? },
-            None => Method::Fields {
-                config: config_text(path, name, solver.config.as_deref(), &solver.set)?,
-                backend: solver.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
+            Some(method) => {
+                MethodKind::Baseline { baseline, texture_size: table.texture_size(path)? }
+            }
+            None => MethodKind::Fields {
+                config: config_text(path, name, table.config.as_deref(), &table.set)?,
+                backend: table.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
                     |error: BackendError| {
                         SceneError::in_table(path, name, "backend", error.to_string())
                     },
@@ -168,17 +174,17 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
             },
         },
     };
-    let title = solver.title.unwrap_or_else(|| match method {
-        Method::Oracle => "oracle (true maps)".to_owned(),
+    let title = table.title.unwrap_or_else(|| match kind {
+        MethodKind::Oracle => "oracle (true maps)".to_owned(),
         Method::LabelMeans => "true mean of each label (privileged)".to_owned(),
-        Method::Baseline { method, .. } => method.title().to_owned(),
+        MethodKind::Baseline { baseline, .. } => baseline.title().to_owned(),
         Method::Competitor { method, .. } => method.title.to_owned(),
-        Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
+        MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
     });
-    Ok(Entrant { id: solver.name, title, method })
+    Ok(Method { id: table.name, title, kind })
 }
 
-impl SolverTable {
+impl MethodTable {
     /// The program of the table, if it names one.
     fn program(&self, path: &Path) -> Result<Option<Program>, SceneError> {
         let start = match (&self.command, &self.python) {
@@ -252,7 +258,7 @@ impl SolverTable {
         } = self;
         let refused = |reason: String| {
             let reason = format!("{name:?} {reason}");
-            Err(SceneError::in_table(path, name, "solver", reason))
+            Err(SceneError::in_table(path, name, "method", reason))
         };
         let foreign = command.is_some() || python.is_some();
         if command.is_some() && python.is_some() {
@@ -279,7 +285,7 @@ impl SolverTable {
             if given && !means {
                 let mend = match key {
                     "texture_size" if competitor => "; write set = { texture_size = ... }",
-                    "texture_size" if fields => "; write [solver.set.fine_tuning] texture_size",
+                    "texture_size" if fields => "; write [method.set.fine_tuning] texture_size",
                     _ => "; leave it out",
                 };
                 return refused(format!("has no use for {key}{mend}"));

@@ -7,16 +7,16 @@ use formats::atomic::Folder;
 use scoring::score;
 
 use super::error::RunError;
-use super::method::{Entrant, Method};
+use super::method::{Method, MethodKind};
 use super::program::Gives;
 use super::stages::{relight, words};
 use super::tools::Tools;
 use crate::synth::run_stage;
 
-impl Entrant {
+impl Method {
     /// Whether it is handed the lights and gives pictures.
     pub(super) fn gives_pictures(&self) -> bool {
-        matches!(&self.method, Method::Program(program) if program.gives == Gives::Pictures)
+        matches!(&self.method, MethodKind::Program(program) if program.gives == Gives::Pictures)
     }
 }
 
@@ -24,13 +24,13 @@ impl Entrant {
 /// else none.
 pub(super) fn relit(
     renderer: &str,
-    entrant: &Entrant,
+    method: &Method,
     [capture, maps, out]: [&Path; 3],
     scales: &[&str],
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    if !entrant.gives_pictures() || maps.join("diffuse_albedo.exr").is_file() && !own(maps) {
+    if !method.gives_pictures() || maps.join("diffuse_albedo.exr").is_file() && !own(maps) {
         return relight(renderer, capture, maps, out, scales, tools, step);
     }
     if own(maps) {

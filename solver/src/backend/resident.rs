@@ -40,16 +40,16 @@ pub enum Job<'a> {
         prior: f32,
     },
     /// Moves deviation and specular albedo under frozen networks.
-    Relief(ReliefJob<'a>),
+    Normals(NormalsJob<'a>),
     /// Moves the light's logarithm, its nearness, diffuse and specular albedo, networks.
     Transported(TransportedJob<'a>),
     /// Moves the light's logarithm, its nearness, the diffuse albedo.
     Highlights(HighlightsJob<'a>),
 }
 
-/// See [`Job::Relief`].
+/// See [`Job::Normals`].
 #[derive(Clone, Copy)]
-pub struct ReliefJob<'a> {
+pub struct NormalsJob<'a> {
     /// The pixels.
     pub samples: &'a Samples,
     /// From the deviation texture to directions.
@@ -101,22 +101,22 @@ pub struct Variable<'a> {
     /// Rate, step count and moments.
     pub adam: &'a mut Adam,
     /// No value falls below this.
-    pub least: f32,
+    pub minimum: f32,
     /// Nor rises above this.
-    pub most: f32,
+    pub maximum: f32,
     /// Steps of the stage before it moves; 0 for a stage's first variable.
-    pub hold: usize,
+    pub frozen_steps: usize,
 }
 
 impl<'a> Variable<'a> {
     /// Of these values.
-    pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, least: f32) -> Self {
-        Self { values, adam, least, most: f32::INFINITY, hold: 0 }
+    pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, minimum: f32) -> Self {
+        Self { values, adam, minimum, maximum: f32::INFINITY, frozen_steps: 0 }
     }
 
     /// A step on the host.
-    pub fn step(&mut self, gradient: &[f32], share: f32) {
-        self.adam.step(self.values, gradient, share, self.least);
+    pub fn step(&mut self, gradient: &[f32], decay: f32) {
+        self.adam.step(self.values, gradient, decay, self.minimum);
     }
 }
 
@@ -132,7 +132,7 @@ pub trait Resident {
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
 }
 
-/// The normal equations of the height solve, see [`crate::optimise::relief`]: unknown are a height per texel
+/// The normal equations of the height solve, see [`crate::optimise::height_solve`]: unknown are a height per texel
 /// and three changes of the albedo.
 pub struct NormalEquations<'a> {
     /// From texels to pixels.

@@ -67,7 +67,7 @@ pub struct TransportConfig {
     /// halves of the mesh's longest side: about a metre around a head.
     pub near_radius: f32,
     /// No light is nearer than this, in the same unit.
-    pub least_radius: f32,
+    pub minimum_radius: f32,
     /// Full-batch steps of light and albedo together.
     pub iterations: usize,
     /// Give regions that are no skin a colour anew under the light of the probe; needs
@@ -81,7 +81,7 @@ pub struct TransportConfig {
     /// nor if the standard error of a channel's factor, relative to it, is larger than this.
     pub tint_error: f64,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
-    pub hold: usize,
+    pub albedo_frozen_steps: usize,
     /// Weight of the albedo prior.
     pub prior: f32,
     /// Weight of the squared deviation of the mean shading from grey.
@@ -98,18 +98,18 @@ pub struct TransportConfig {
     pub network_rate: f32,
     /// Predict from the found light what all views share of the highlights, and take it out of the
     /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
-    pub veil: bool,
+    pub specular_floor: bool,
     /// Standard deviation of the blur of what is taken out, texels.
-    pub veil_blur: f32,
+    pub specular_floor_blur: f32,
     /// A light of this contrast is half even. The evener the light that was found without its highlights, the
     /// more of what it predicts of them is taken out, and the less its shading says of the normals.
     pub even_contrast: f32,
     /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
-    /// highlights that the light itself makes on skin; need what `veil` needs. 0 leaves both as the probe
+    /// highlights that the light itself makes on skin; need what `specular_floor` needs. 0 leaves both as the probe
     /// has found them, with the networks' highlights.
     pub distance: usize,
     /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
-    /// networks; then little of the veil is taken out where the light has contrast.
+    /// networks; then little of the specular floor is taken out where the light has contrast.
     pub highlights: usize,
     /// Of more samples than this, such highlights are followed on a part: a cell of the sky and a texel of the
     /// transport are far coarser than pixels.
@@ -134,7 +134,7 @@ pub struct HeightConfig {
     /// Solve for heights; false leaves normals to the deviation texture, as in the paper.
     pub enabled: bool,
     /// Side of the height texture over that of the fine-tuned textures.
-    pub texture_share: f32,
+    pub texture_scale: f32,
     /// How often the pictures are linearised, each time on a texture of twice the side.
     pub linearisations: usize,
     /// Take highlights, and how they change with the normals, from the light that was found with its
@@ -151,7 +151,7 @@ pub struct HeightConfig {
     pub residual_floor: f32,
     /// How much skin's relief usually bends normals, radians. What the model leaves beyond what this and
     /// `usual_albedo_detail` explain is its own error, and counts the less.
-    pub usual_bend: f32,
+    pub usual_deviation: f32,
     /// How much the detail of skin's albedo usually amounts to, relative.
     pub usual_albedo_detail: f32,
     /// Standard deviation of the neighbourhood in which residuals are compared with that, pixels.
@@ -179,7 +179,7 @@ pub struct HeightConfig {
     /// squared contrast of the light, and more where that is even.
     pub flatness: f32,
     /// The least that this squared contrast counts.
-    pub least_contrast: f32,
+    pub minimum_contrast: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,
     /// Weight of squared heights, which pulls those to zero that no pixel sees.

@@ -3,11 +3,11 @@
 
 use capture::gbuffer::Atlas;
 
-use super::bent_highlights::BentHighlights;
+use super::context::SolveContext;
+use super::deviated_highlights::DeviatedHighlights;
 use super::error::SolveError;
-use super::lit::Lit;
-use super::relief::ReliefSolve;
-use super::site::Site;
+use super::height_solve::HeightSolve;
+use super::lighting::Lighting;
 use super::stage::State;
 use crate::config::HeightConfig;
 use crate::model::texture::resample;
@@ -15,41 +15,43 @@ use crate::model::texture::resample;
 /// Least side of a texture of heights.
 const LEAST_SIDE: usize = 16;
 
-/// The deviation of the normals, 3 channels per texel of a texture of side `site.size`. `step` hears of
+/// The deviation of the normals, 3 channels per texel of a texture of side `context.size`. `step` hears of
 /// every conjugate-gradient step; if it stops the solve with [`SolveError::Interrupted`], the deviation is
 /// as fine as it is then.
 pub(super) fn heights(
-    site: &Site,
+    context: &SolveContext,
     state: &State,
-    lit: Option<&Lit>,
+    lighting: Option<&Lighting>,
     step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
 ) -> Result<Vec<f32>, SolveError> {
-    let config = &site.config.height;
-    let sides = sides(config, site.size);
+    let config = &context.config.height;
+    let sides = sides(config, context.size);
     let (mut unknowns, mut of) = (vec![], sides[0]);
-    let mut bend = vec![0.0; 3 * of * of];
+    let mut deviation = vec![0.0; 3 * of * of];
     for (round, side) in sides.into_iter().enumerate() {
-        let atlas = Atlas::new(&site.capture.mesh, side);
-        let samples = site.samples(side);
-        let (config, backend, views) = (site.config, site.backend, &site.gbuffers);
-        let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lit);
-        let relief = match lit.and_then(|lit| BentHighlights::new(site, lit, &samples)) {
-            Some(highlights) => relief.with(highlights),
-            None => relief,
+        let atlas = Atlas::new(&context.capture.mesh, side);
+        let samples = context.samples(side);
+        let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
+        let solve = HeightSolve::new(config, backend, &samples, views, &atlas, state, lighting);
+        let solve = match lighting
+            .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples))
+        {
+            Some(highlights) => solve.with(highlights),
+            None => solve,
         };
         unknowns = match round {
-            0 => vec![0.0; relief.unknowns()],
+            0 => vec![0.0; solve.unknowns()],
             _ => enlarged(&unknowns, of, side),
         };
         of = side;
-        let done = relief.solve(&mut unknowns, step);
-        bend = relief.bend(&unknowns);
+        let done = solve.solve(&mut unknowns, step);
+        deviation = solve.deviation(&unknowns);
         match done {
             Err(SolveError::Interrupted) => break,
             done => done?,
         }
     }
-    Ok(resample(&bend, of, 3, site.size))
+    Ok(resample(&deviation, of, 3, context.size))
 }
 
 /// Conjugate-gradient steps for textures of side `size`.
@@ -60,7 +62,7 @@ pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
 
 /// The sides of the textures of heights, one for every linearisation.
 fn sides(config: &HeightConfig, size: usize) -> Vec<usize> {
-    let finest = (size as f32 * config.texture_share) as usize;
+    let finest = (size as f32 * config.texture_scale) as usize;
     (0..config.linearisations).rev().map(|halved| (finest >> halved).max(LEAST_SIDE)).collect()
 }
 
@@ -83,10 +85,10 @@ mod tests {
     use crate::testing;
 
     #[test]
-    fn a_relief_bends_normals_alike_on_a_texture_of_another_side() {
+    fn heights_deviate_normals_alike_on_a_texture_of_another_side() {
         let mesh = testing::dome(24);
-        let bend = |side: usize, unknowns: &[f32]| {
-            HeightField::new(&Atlas::new(&mesh, side), 6.0).bend(&unknowns[..side * side])
+        let deviation = |side: usize, unknowns: &[f32]| {
+            HeightField::new(&Atlas::new(&mesh, side), 6.0).deviation(&unknowns[..side * side])
         };
         let wave = |at: usize| {
             let (x, y) = ((at % 32) as f32, (at / 32) as f32);
@@ -95,11 +97,11 @@ mod tests {
         let coarse: Vec<f32> = (0..4 * 32 * 32).map(wave).collect();
         let fine = enlarged(&coarse, 32, 64);
         assert_eq!(fine.len(), 4 * 64 * 64);
-        let (coarse, fine) = (resample(&bend(32, &coarse), 32, 3, 64), bend(64, &fine));
+        let (coarse, fine) = (resample(&deviation(32, &coarse), 32, 3, 64), deviation(64, &fine));
         let inside = Atlas::new(&mesh, 64).inside;
         let (mut error, mut energy) = (0.0, 0.0);
         for at in (0..64 * 64).filter(|at| inside[*at]) {
-            let [a, b] = [&coarse, &fine].map(|bend| Vec3::from_slice(&bend[3 * at..]));
+            let [a, b] = [&coarse, &fine].map(|deviation| Vec3::from_slice(&deviation[3 * at..]));
             error += a.distance_squared(b);
             energy += a.length_squared();
         }

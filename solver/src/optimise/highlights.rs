@@ -6,12 +6,12 @@
 //! what colour the lamp has, and what glows at the sides of a face is no light from behind.
 
 use super::adam::Adam;
+use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
-use super::lit::Lit;
-use super::probed::Probed;
-use super::run::Run;
-use super::site::{Site, Standing};
+use super::light_estimate::LightEstimate;
+use super::lighting::Lighting;
 use super::stage::{Memory, Stage, State};
+use super::stage_runner::StageRunner;
 use super::tint::Regression;
 use super::transported::reflectance;
 use crate::backend::Backend;
@@ -27,76 +27,94 @@ use crate::transport::{CHANNELS, Reflection, Transport};
 /// each, the regions' reflectance by their highlights; in the end the colour of the light by them. The
 /// number of steps that are not taken: without regions there is nothing to predict highlights with.
 pub(super) fn distance(
-    run: &mut Run,
-    site: &Site,
+    runner: &mut StageRunner,
+    context: &SolveContext,
     mut state: State,
-    probed: &mut Probed,
+    light_estimate: &mut LightEstimate,
 ) -> Result<usize, SolveError> {
-    let t = &site.config.transport;
-    let transport = site.far_transport();
+    let t = &context.config.transport;
+    let transport = context.far_transport();
     let size = transport.size();
-    let (Some(reflectances), Some(regions)) = (&mut probed.reflectances, site.regions_on(size))
+    let (Some(reflectances), Some(regions)) =
+        (&mut light_estimate.reflectances, context.regions_on(size))
     else {
         return Ok(t.distance);
     };
     state.resize(size);
-    let mut samples = site.pictures().samples(&site.space, size);
+    let mut samples = context.pictures().samples(&context.space, size);
     let weight = samples.thinned(t.highlight_samples).weight;
-    let skin = site.skin();
+    let skin = context.skin();
     if !skin.is_empty() {
         let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let update = site.config.reflectance.rounds > 0;
-    let rounds = site.config.reflectance.rounds.max(1);
+    let update = context.config.reflectance.rounds > 0;
+    let rounds = context.config.reflectance.rounds.max(1);
     for round in 1..=rounds {
-        let gloss = reflectances.of(&regions);
-        let nearness = probed.standing.nearness;
-        let found = Found { log_light: &probed.log_light, nearness, gloss: &gloss };
-        let stage = Highlights::new(site.config, transport, &samples, &state, found);
+        let skin_specular = reflectances.of(&regions);
+        let nearness = light_estimate.setup.nearness;
+        let found =
+            Found { log_light: &light_estimate.log_light, nearness, skin_specular: &skin_specular };
+        let stage = Highlights::new(context.config, transport, &samples, &state, found);
         let Some(stage) = stage else { return Ok(t.distance) };
         let done = |rounds_done: usize| t.distance * rounds_done / rounds;
         let (name, iterations) = (format!("distance {round}"), done(round) - done(round - 1));
-        let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
-        run.stage(&mut stage, &mut state)?;
+        let mut stage = Highlights { name, iterations, frozen_steps: iterations, ..stage };
+        runner.stage(&mut stage, &mut state)?;
         let regression = stage.regression(&state, &weight);
         if update {
-            reflectances.update(&site.config.reflectance, &regression, &regions);
+            reflectances.update(&context.config.reflectance, &regression, &regions);
         }
         if t.tint && round == rounds {
-            probed.tint = stage.take_tint(&state);
-            let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
+            light_estimate.tint = stage.take_tint(&state);
+            let texels = state.diffuse.iter_mut().zip(light_estimate.tint.iter().cycle());
             texels.for_each(|(albedo, tint)| *albedo /= tint);
         }
-        probed.standing = Standing {
+        light_estimate.setup = TransportSetup {
             nearness: stage.nearness[0] * transport.near(),
             bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
         };
-        probed.log_light = stage.log_light;
+        light_estimate.log_light = stage.log_light;
     }
     Ok(0)
 }
 
 /// Light and diffuse albedo again, as [`distance`].
-pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<usize, SolveError> {
-    let t = &site.config.transport;
-    if lit.gloss.is_empty() {
+pub(super) fn highlights(
+    runner: &mut StageRunner,
+    context: &SolveContext,
+    lighting: &mut Lighting,
+) -> Result<usize, SolveError> {
+    let t = &context.config.transport;
+    if lighting.skin_specular.is_empty() {
         return Ok(t.highlights);
     }
-    let transport = site.transport(lit.standing);
-    let samples = site.pictures().samples(&site.space, transport.size());
-    let mut state = lit.state.clone();
-    let log_light: Vec<f32> = lit.light.radiance.iter().map(|light| light.ln()).collect();
-    let gloss = std::mem::take(&mut lit.gloss);
-    let found = Found { log_light: &log_light, nearness: lit.standing.nearness, gloss: &gloss };
-    let stage = Highlights::new(site.config, transport, &samples, &state, found);
+    let transport = context.transport(lighting.setup);
+    let samples = context.pictures().samples(&context.space, transport.size());
+    let mut state = lighting.state.clone();
+    let log_light: Vec<f32> = lighting.light.radiance.iter().map(|light| light.ln()).collect();
+    let skin_specular = std::mem::take(&mut lighting.skin_specular);
+    let found = Found {
+        log_light: &log_light,
+        nearness: lighting.setup.nearness,
+        skin_specular: &skin_specular,
+    };
+    let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
-    run.stage(&mut stage, &mut state)?;
+    runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let reflectances = lit.reflectances.take();
-    *lit = Lit::new(run.backend, site, &samples, state, reflectances, lit.standing, light);
-    lit.explained = true;
+    let reflectances = lighting.reflectances.take();
+    *lighting = Lighting::new(
+        runner.backend,
+        context,
+        &samples,
+        state,
+        reflectances,
+        lighting.setup,
+        light,
+    );
+    lighting.explained = true;
     Ok(0)
 }
 
@@ -108,7 +126,7 @@ pub struct Found<'a> {
     /// Per metre.
     pub nearness: f32,
     /// Reflectance at normal incidence, texel by texel of the transport's texture.
-    pub gloss: &'a [f32],
+    pub skin_specular: &'a [f32],
 }
 
 /// Light and diffuse albedo on the transport's texture.
@@ -124,7 +142,7 @@ pub struct Highlights<'a> {
     pub(super) nearness: Vec<f32>,
     name: String,
     iterations: usize,
-    pub(super) hold: usize,
+    pub(super) frozen_steps: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -151,11 +169,11 @@ impl<'a> Highlights<'a> {
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
         let samples = samples.thinned(t.highlight_samples);
-        let gloss = samples.taps.sample::<1>(found.gloss);
+        let skin_specular = samples.taps.sample::<1>(found.skin_specular);
         let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
         let reflection =
-            transport.reflection(&config.skin, &samples, &gloss, peak, found.nearness)?;
+            transport.reflection(&config.skin, &samples, &skin_specular, peak, found.nearness)?;
         Some(Self {
             config: t,
             transport,
@@ -165,7 +183,7 @@ impl<'a> Highlights<'a> {
             nearness: vec![found.nearness / transport.near()],
             name: "highlights".to_owned(),
             iterations: t.highlights,
-            hold: 0,
+            frozen_steps: 0,
             by_light: Adam::new(adam, t.light_rate, light.len()),
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
@@ -255,15 +273,15 @@ impl Stage for Highlights<'_> {
         self.iterations
     }
 
-    fn step(&mut self, state: &mut State, _: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, _: &dyn Backend, decay: f32) -> f64 {
         let gradient = self.gradient(state);
-        self.by_light.step(&mut self.log_light, &gradient.light, share, f32::NEG_INFINITY);
+        self.by_light.step(&mut self.log_light, &gradient.light, decay, f32::NEG_INFINITY);
         if let Some(by_nearness) = gradient.nearness {
-            self.by_nearness.step(&mut self.nearness, &[by_nearness], share, 0.0);
+            self.by_nearness.step(&mut self.nearness, &[by_nearness], decay, 0.0);
             self.nearness[0] = self.nearness[0].min(self.transport.nearest());
         }
-        if self.by_light.steps() > self.hold {
-            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
+        if self.by_light.steps() > self.frozen_steps {
+            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, decay, 0.0);
         }
         gradient.loss
     }
@@ -282,8 +300,8 @@ impl Stage for Highlights<'_> {
         let diffuse = Variable::new(&mut state.diffuse, &mut self.by_diffuse, 0.0);
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
-            Variable { most: self.transport.nearest(), ..nearness },
-            Variable { hold: self.hold, ..diffuse },
+            Variable { maximum: self.transport.nearest(), ..nearness },
+            Variable { frozen_steps: self.frozen_steps, ..diffuse },
         ]
     }
 

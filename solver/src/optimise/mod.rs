@@ -1,40 +1,40 @@
 //! The optimisation: Adam, the stages and their order, normalisation.
 
 pub mod adam;
-mod bending_penalty;
-mod bent_highlights;
 pub mod checkpoint;
 mod clock;
 mod confidence;
-pub mod deviation;
+mod context;
+mod deviated_highlights;
+mod deviation_penalty;
 pub mod diffuse;
 pub(crate) mod error;
 mod finish;
 mod found;
-mod gloss;
+pub mod height_solve;
 mod heights;
 pub mod highlights;
+mod light_estimate;
+mod lighting;
 mod linear_colour;
-mod lit;
 mod log;
 mod nearby;
 pub mod normalise;
-mod probed;
+pub mod normals;
+mod pooled_specular;
 pub(crate) mod progress;
 mod recolour;
 mod reflectance;
-pub mod relief;
-mod run;
-mod site;
 mod snapshot;
 pub mod solve;
 pub mod specular;
+mod specular_floor;
 pub mod stage;
+mod stage_runner;
 mod steps;
 mod tint;
 pub mod transported;
 mod vectors;
-mod veil;
 pub mod warm_up;
 
 #[cfg(test)]

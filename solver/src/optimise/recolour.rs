@@ -1,8 +1,8 @@
 //! The colours of hair, brows and lips under the light that skin has shown. They begin as mean colours
 //! of the pictures, shadow and all; skin of every label begins in one colour.
 
+use super::context::SolveContext;
 use super::reflectance::Reflectances;
-use super::site::Site;
 use super::stage::{State, layers};
 use crate::model::deviation::Deviation;
 use crate::model::planes::Planes;
@@ -11,33 +11,33 @@ use crate::transport::{CHANNELS, Transport};
 
 /// Gives every region that is no skin, in the diffuse albedo of `state`, the one colour that explains
 /// what the samples show of it besides highlights, in the mean, under `light` (R, G, B per cell). Without
-/// [`Site::skin`] the albedo stays.
+/// [`SolveContext::skin`] the albedo stays.
 pub(super) fn recolour(
-    site: &Site,
+    context: &SolveContext,
     transport: &Transport,
     samples: &Samples,
     light: &[f32],
-    gloss: Option<&Reflectances>,
+    skin_specular: Option<&Reflectances>,
     state: &mut State,
 ) {
-    let skin = site.skin();
+    let skin = context.skin();
     if skin.is_empty() {
         return;
     }
-    let Some(regions) = site.regions_on(state.size) else { return };
-    let predicted = gloss.and_then(|gloss| {
-        let highlights = site.backend.highlights(
-            &transport.glints(&site.config.skin, light)?,
+    let Some(regions) = context.regions_on(state.size) else { return };
+    let predicted = skin_specular.and_then(|skin_specular| {
+        let highlights = context.backend.highlights(
+            &transport.skin_highlights(&context.config.skin, light)?,
             samples,
             &samples.normal,
         );
-        let gloss = gloss.of(&regions);
-        let of = |i: usize, c: usize| gloss[samples.taps.nearest(i)] * highlights.get(c, i);
+        let skin_specular = skin_specular.of(&regions);
+        let of = |i: usize, c: usize| skin_specular[samples.taps.nearest(i)] * highlights.get(c, i);
         Some(Planes::from_fn(samples.len(), |i| [of(i, 0), of(i, 1), of(i, 2)]))
     });
     let highlights = predicted.unwrap_or_else(|| {
-        let deviation = Deviation::new(site.config, state.size);
-        let layers = layers(samples, &deviation, state, site.backend);
+        let deviation = Deviation::new(context.config, state.size);
+        let layers = layers(samples, &deviation, state, context.backend);
         Planes::from_fn(samples.len(), |i| [layers.get(1, i); CHANNELS])
     });
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));

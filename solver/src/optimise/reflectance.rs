@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::site::Site;
+use super::context::SolveContext;
 use super::tint::Regression;
 use crate::config::ReflectanceConfig;
 
@@ -20,9 +20,9 @@ pub(super) struct Reflectances {
 
 impl Reflectances {
     /// What is expected of skin, everywhere; `regions` are those of a texture.
-    pub fn expected(site: &Site, regions: &[u8]) -> Self {
-        let expected = site.gain * site.config.normalisation.specular_skin;
-        let mut skin = site.skin();
+    pub fn expected(context: &SolveContext, regions: &[u8]) -> Self {
+        let expected = context.gain * context.config.normalisation.specular_skin;
+        let mut skin = context.skin();
         if skin.is_empty() {
             let mut counts = [0usize; 256];
             regions.iter().for_each(|region| counts[usize::from(*region)] += 1);

@@ -1,7 +1,7 @@
 //! The stage "normals and specular" with normals that stay: only the specular albedo moves.
 
 use super::adam::Adam;
-use super::stage::{Memory, Stage, State, layers, least_albedo};
+use super::stage::{Memory, Stage, State, layers, minimum_albedo};
 use crate::backend::Backend;
 use crate::backend::resident::{Job, Variable};
 use crate::config::Config;
@@ -37,11 +37,11 @@ impl<'a> Specular<'a> {
             layers(samples, deviation, &State { specular: white, ..state.clone() }, backend);
         let albedo = samples.taps.sample::<3>(&state.diffuse);
         let rest = Planes::from_fn(samples.len(), |i| {
-            let [shading, gloss]: [f32; 2] = layers.sample(i, 0);
+            let [shading, specular_shading]: [f32; 2] = layers.sample(i, 0);
             let (albedo, target): ([f32; 3], [f32; 3]) =
                 (albedo.sample(i, 0), samples.target.sample(i, 0));
             let [r, g, b]: [f32; 3] = std::array::from_fn(|c| target[c] - albedo[c] * shading);
-            [r, g, b, gloss, samples.weight.get(0, i)]
+            [r, g, b, specular_shading, samples.weight.get(0, i)]
         });
         let rate = config.fine_tuning.specular_rate;
         Self {
@@ -63,13 +63,13 @@ impl Stage for Specular<'_> {
         self.config.fine_tuning.iterations
     }
 
-    fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, _backend: &dyn Backend, decay: f32) -> f64 {
         let scale = 1.0 / (3.0 * self.samples.len() as f32);
         let value = |block: usize, albedo: &[Row; 1], gradient: &mut [Row; 1], loss: &mut Row| {
             specular_block(self.rest.rows_of(block), scale, albedo, gradient, loss);
         };
         let (gradient, sum) = self.samples.taps.exchange(&state.specular, value);
-        self.by_specular.step(&mut state.specular, &gradient, share, least_albedo(self.config));
+        self.by_specular.step(&mut state.specular, &gradient, decay, minimum_albedo(self.config));
         sum * f64::from(scale)
     }
 
@@ -79,15 +79,15 @@ impl Stage for Specular<'_> {
 
     fn job(&self) -> Option<Job<'_>> {
         let known = Planes::from_fn(self.samples.len(), |i| {
-            let [r, g, b, gloss, weight]: [f32; 5] = self.rest.sample(i, 0);
-            [r, g, b, weight, gloss]
+            let [r, g, b, specular_shading, weight]: [f32; 5] = self.rest.sample(i, 0);
+            [r, g, b, weight, specular_shading]
         });
         Some(Job::Layer { taps: &self.samples.taps, known, prior: 0.0 })
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
-        let least = least_albedo(self.config);
-        vec![Variable::new(&mut state.specular, &mut self.by_specular, least)]
+        let minimum = minimum_albedo(self.config);
+        vec![Variable::new(&mut state.specular, &mut self.by_specular, minimum)]
     }
 }
 
@@ -99,9 +99,9 @@ widened! {
         gradient: &mut [Row; 1],
         loss: &mut Row,
     ) {
-        let [r, g, b, gloss, weight] = rest;
+        let [r, g, b, specular_shading, weight] = rest;
         for lane in 0..BLOCK {
-            let highlight = albedo[0].0[lane] * gloss.0[lane];
+            let highlight = albedo[0].0[lane] * specular_shading.0[lane];
             let (mut signs, mut sum) = (0.0, 0.0);
             for rest in [r, g, b] {
                 let residual = highlight - rest.0[lane];
@@ -109,7 +109,7 @@ widened! {
                 sum += residual.abs();
             }
             loss.0[lane] = weight.0[lane] * sum;
-            gradient[0].0[lane] = weight.0[lane] * scale * signs * gloss.0[lane];
+            gradient[0].0[lane] = weight.0[lane] * scale * signs * specular_shading.0[lane];
         }
     }
 }

@@ -7,8 +7,8 @@ use super::adam::Adam;
 use crate::backend::resident::{Job, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
-use crate::model::bend::{BLURRED, SPECULAR};
 use crate::model::deviation::Deviation;
+use crate::model::deviation_textures::{BLURRED, SPECULAR};
 use crate::model::networks::Networks;
 use crate::model::normals::Deviations;
 use crate::model::planes::Planes;
@@ -59,8 +59,8 @@ pub trait Stage {
     fn name(&self) -> String;
     /// How many steps.
     fn iterations(&self) -> usize;
-    /// One step, by `share` of the learning rates; the loss before it.
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
+    /// One step, by `decay` of the learning rates; the loss before it.
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64;
     /// For checkpoints: with the state, all that is needed to go on with the same bits.
     fn memory(&mut self) -> Memory<'_>;
     /// For a device that may take the stage in; nothing if there is no program for it.
@@ -96,7 +96,7 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let bent = deviation.bent(&state.deviation, &state.specular).sample(&samples.taps);
+    let bent = deviation.packed(&state.deviation, &state.specular).sample(&samples.taps);
     let deviations = Deviations { planes: &bent, blurred: BLURRED };
     let directions = deviation.scale.directions(samples, Some(deviations));
     let light = backend.light(&state.networks, &samples.position);
@@ -108,6 +108,6 @@ pub fn layers(
 }
 
 /// The least that an optimiser leaves of an albedo.
-pub(super) fn least_albedo(config: &Config) -> f32 {
+pub(super) fn minimum_albedo(config: &Config) -> f32 {
     if config.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
 }

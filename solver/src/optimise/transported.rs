@@ -6,17 +6,17 @@ use rayon::prelude::*;
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::context::{SolveContext, TransportSetup};
 use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::Solve;
-use super::lit::{Lit, bent_shading};
-use super::probed::{Physical, Probed};
+use super::light_estimate::{DiffuseReflectance, LightEstimate};
+use super::lighting::{Lighting, bent_shading};
 use super::recolour::recolour;
 use super::reflectance::Reflectances;
-use super::run::Run;
-use super::site::{Site, Standing};
+use super::specular_floor;
 use super::stage::{Memory, Stage, State, layers};
-use super::veil;
+use super::stage_runner::StageRunner;
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
@@ -28,50 +28,64 @@ use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Transport};
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
-pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Probed, SolveError> {
-    let transport = site.far_transport();
-    run.lap("rays");
+pub(super) fn light(
+    runner: &mut StageRunner,
+    context: &SolveContext,
+    mut start: State,
+) -> Result<LightEstimate, SolveError> {
+    let transport = context.far_transport();
+    runner.lap("rays");
     start.resize(transport.size());
-    let samples = site.pictures().samples(&site.space, transport.size());
-    let mut stage = Transported::probe(site.config, transport, &samples, &start);
-    run.stage(&mut stage, &mut start)?;
+    let samples = context.pictures().samples(&context.space, transport.size());
+    let mut stage = Transported::probe(context.config, transport, &samples, &start);
+    runner.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
     let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
-    let standing = Standing { nearness, bounce_albedo };
+    let setup = TransportSetup { nearness, bounce_albedo };
     let log_light = stage.log_light;
-    let regions = veil::wanted(site.config).then(|| site.regions_on(transport.size())).flatten();
-    let reflectances = regions.map(|regions| Reflectances::expected(site, &regions));
+    let regions = specular_floor::wanted(context.config)
+        .then(|| context.regions_on(transport.size()))
+        .flatten();
+    let reflectances = regions.map(|regions| Reflectances::expected(context, &regions));
     let networks = start.networks;
-    Ok(Probed { log_light, standing, networks, reflectances, tint: [1.0; CHANNELS] })
+    Ok(LightEstimate { log_light, setup, networks, reflectances, tint: [1.0; CHANNELS] })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
 /// `start`.
 pub(super) fn light_and_albedo(
-    run: &mut Run,
-    site: &Site,
+    runner: &mut StageRunner,
+    context: &SolveContext,
     start: State,
-    probed: Probed,
-) -> Result<Lit, SolveError> {
-    let t = &site.config.transport;
-    let transport = site.transport(probed.standing);
-    run.lap("rays at the light's distance");
-    let mut state = State { networks: probed.networks, ..start };
+    light_estimate: LightEstimate,
+) -> Result<Lighting, SolveError> {
+    let t = &context.config.transport;
+    let transport = context.transport(light_estimate.setup);
+    runner.lap("rays at the light's distance");
+    let mut state = State { networks: light_estimate.networks, ..start };
     state.resize(transport.size());
     let (texels, _) = state.diffuse.as_chunks_mut();
     texels.iter_mut().for_each(|texel: &mut [f32; CHANNELS]| {
-        texel.iter_mut().zip(probed.tint).for_each(|(albedo, tint)| *albedo /= tint);
+        texel.iter_mut().zip(light_estimate.tint).for_each(|(albedo, tint)| *albedo /= tint);
     });
-    let samples = site.pictures().samples(&site.space, transport.size());
+    let samples = context.pictures().samples(&context.space, transport.size());
     if t.recolour {
-        let light: Vec<f32> = probed.log_light.iter().map(|light| light.exp()).collect();
-        recolour(site, transport, &samples, &light, probed.reflectances.as_ref(), &mut state);
+        let light: Vec<f32> = light_estimate.log_light.iter().map(|light| light.exp()).collect();
+        recolour(
+            context,
+            transport,
+            &samples,
+            &light,
+            light_estimate.reflectances.as_ref(),
+            &mut state,
+        );
     }
-    let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
-    run.stage(&mut stage, &mut state)?;
+    let mut stage =
+        Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
+    runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let Probed { reflectances, standing, .. } = probed;
-    Ok(Lit::new(run.backend, site, &samples, state, reflectances, standing, light))
+    let LightEstimate { reflectances, setup, .. } = light_estimate;
+    Ok(Lighting::new(runner.backend, context, &samples, state, reflectances, setup, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
@@ -86,24 +100,24 @@ pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32])
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
 /// light. `state` has the normals.
 pub(super) fn refined(
-    run: &mut Run,
+    runner: &mut StageRunner,
     config: &Config,
     gain: f32,
     samples: &Samples,
     deviation: &Deviation,
     state: &State,
-    lit: &Lit,
-) -> Result<Physical, SolveError> {
-    let mut own = lit.state.clone();
+    lighting: &Lighting,
+) -> Result<DiffuseReflectance, SolveError> {
+    let mut own = lighting.state.clone();
     own.resize(state.size);
     own.deviation.clone_from(&state.deviation);
-    let shading = lit.sampled(samples);
-    let specular = layers(samples, deviation, &own, run.backend);
-    let bends = deviation.textures(&state.deviation).blurred;
-    let bends = samples.taps.sample::<3>(&bends);
+    let shading = lighting.sampled(samples);
+    let specular = layers(samples, deviation, &own, runner.backend);
+    let deviations = deviation.textures(&state.deviation).blurred;
+    let deviations = samples.taps.sample::<3>(&deviations);
     let planes = Planes::from_fn(samples.len(), |i| {
         let normal = Vec3::from_array(samples.normal.sample(i, 0));
-        let bent = (normal + Vec3::from_array(bends.sample(i, 0))).normalize();
+        let bent = (normal + Vec3::from_array(deviations.sample(i, 0))).normalize();
         let [r, g, b] = bent_shading(&shading.sample(i, 0), normal, bent);
         [r, g, b, specular.get(1, i)]
     });
@@ -112,27 +126,42 @@ pub(super) fn refined(
     let (steps, prior) = (t.refinement, t.refinement_prior);
     // What the stage reads, and no more.
     let rest = Samples {
-        target: lit.unveiled(samples),
+        target: lighting.without_specular_floor(samples),
         weight: samples.weight.clone(),
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
         ..Samples::none(state.size)
     };
     let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
-    run.stage(&mut stage, &mut own)?;
+    runner.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(t, samples, &planes, &albedo);
-    Ok(Physical { diffuse: own.diffuse, scale: lit.peak / (gain * lit.exposure), confidence })
+    Ok(DiffuseReflectance {
+        diffuse: own.diffuse,
+        scale: lighting.peak / (gain * lighting.exposure),
+        confidence,
+    })
 }
 
 /// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
-pub(super) fn albedo(site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
-    if let (Some(lit), None) = (&solve.lit, &solve.physical) {
-        solve.state.resize(site.size);
-        let (fine, state) = (site.fine(), &solve.state);
+pub(super) fn albedo(
+    context: &SolveContext,
+    runner: &mut StageRunner,
+    solve: &mut Solve,
+) -> Result<(), SolveError> {
+    if let (Some(lighting), None) = (&solve.lighting, &solve.diffuse_reflectance) {
+        solve.state.resize(context.size);
+        let (fine, state) = (context.fine(), &solve.state);
         let (samples, deviation) = (&fine.samples, &fine.deviation);
-        solve.physical =
-            Some(refined(run, site.config, site.gain, samples, deviation, state, lit)?);
+        solve.diffuse_reflectance = Some(refined(
+            runner,
+            context.config,
+            context.gain,
+            samples,
+            deviation,
+            state,
+            lighting,
+        )?);
     }
     Ok(())
 }
@@ -153,7 +182,7 @@ pub struct Transported<'a> {
     nearness: Vec<f32>,
     name: &'static str,
     iterations: usize,
-    hold: usize,
+    frozen_steps: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -172,7 +201,7 @@ impl<'a> Transported<'a> {
         let log_light = vec![0.0; CHANNELS * transport.cells()];
         let iterations = config.transport.probe;
         let stage = Self::new(config, transport, samples, state, log_light);
-        Self { name: "light", iterations, hold: iterations, ..stage }
+        Self { name: "light", iterations, frozen_steps: iterations, ..stage }
     }
 
     /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
@@ -195,7 +224,7 @@ impl<'a> Transported<'a> {
             nearness: vec![0.0],
             name: "transport",
             iterations: t.iterations,
-            hold: t.hold,
+            frozen_steps: t.albedo_frozen_steps,
             by_light: Adam::new(adam, t.light_rate, log_light.len()),
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
@@ -324,17 +353,17 @@ impl Stage for Transported<'_> {
         self.iterations
     }
 
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64 {
         let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
-        self.by_light.step(&mut self.log_light, &gradient.light, share, free);
-        self.by_nearness.step(&mut self.nearness, &[gradient.nearness], share, 0.0);
+        self.by_light.step(&mut self.log_light, &gradient.light, decay, free);
+        self.by_nearness.step(&mut self.nearness, &[gradient.nearness], decay, 0.0);
         self.nearness[0] = self.nearness[0].min(self.transport.nearest());
-        if self.by_light.steps() > self.hold {
-            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
+        if self.by_light.steps() > self.frozen_steps {
+            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, decay, 0.0);
         }
-        self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);
-        self.by_networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
+        self.by_specular.step(&mut state.specular, &gradient.specular, decay, 0.0);
+        self.by_networks.step(&mut state.networks.parameters, &gradient.networks, decay, free);
         gradient.loss
     }
 
@@ -357,8 +386,8 @@ impl Stage for Transported<'_> {
         let networks = &mut state.networks.parameters;
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, free),
-            Variable { most: self.transport.nearest(), ..nearness },
-            Variable { hold: self.hold, ..diffuse },
+            Variable { maximum: self.transport.nearest(), ..nearness },
+            Variable { frozen_steps: self.frozen_steps, ..diffuse },
             Variable::new(&mut state.specular, &mut self.by_specular, 0.0),
             Variable::new(networks, &mut self.by_networks, free),
         ]

@@ -12,11 +12,11 @@
 //! point x, and brings it the cosine-weighted solid angle
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
-mod bent_highlights;
 mod channels;
-mod gloss;
+mod highlights;
 mod matrix;
 mod rays;
+mod reflection;
 pub mod skin;
 mod sky;
 
@@ -27,12 +27,12 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::config::TransportConfig;
-pub use bent_highlights::{Glints, HIGHLIGHT_ROWS};
 pub use channels::CHANNELS;
 pub(crate) use channels::LUMINANCE;
-pub use gloss::Reflection;
+pub use highlights::{HIGHLIGHT_ROWS, SkinHighlights};
 use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
+pub use reflection::Reflection;
 pub use sky::{Sky, SkyRay, contrast};
 
 /// What is asked of a transport beside the shading.
@@ -125,7 +125,7 @@ impl Transport {
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
         let (nearest, light_exponent) =
-            (config.near_radius / config.least_radius, config.light_exponent);
+            (config.near_radius / config.minimum_radius, config.light_exponent);
         let sky = sky.clone();
         Self { size, matrix, gain, open, near, nearest, light_exponent, places, normals, sky, row }
     }
@@ -208,7 +208,7 @@ impl Transport {
     /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
     /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
     /// the texel's horizon nothing.
-    pub fn bending(&self, light: &[f32]) -> Option<Vec<f32>> {
+    pub fn shading_by_normal(&self, light: &[f32]) -> Option<Vec<f32>> {
         let open = self.open.as_ref()?;
         let centres = self.sky.centres();
         let (light, _) = light.as_chunks::<CHANNELS>();

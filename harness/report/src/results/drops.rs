@@ -52,8 +52,8 @@ fn changes(run: &Finished, first: &Group, others: &[&Group]) -> String {
     let headings = figures.iter().map(|figure| figure.short.to_owned());
     let mut text = head(&["variant", "method"], headings);
     let titles = |case: &Case| -> Vec<(String, String)> {
-        let ids = case.solvers.iter().map(|entrant| entrant.id.clone());
-        ids.zip(case.solvers.iter().map(|entrant| escape(entrant.title()))).collect()
+        let ids = case.methods.iter().map(|method| method.id.clone());
+        ids.zip(case.methods.iter().map(|method| escape(method.title()))).collect()
     };
     let methods = first.cases.first().map_or(Vec::new(), |case| titles(&run.manifest.cases[*case]));
     for group in others {
@@ -86,6 +86,6 @@ fn changes(run: &Finished, first: &Group, others: &[&Group]) -> String {
 fn value(run: &Finished, case: usize, id: &str, figure: &Figure) -> Option<f64> {
     let shown = &run.manifest.cases[case];
     let columns = page::columns(shown, &run.scores[case]);
-    let column = columns.into_iter().find(|column| column.entrant.id == id)?;
+    let column = columns.into_iter().find(|column| column.method.id == id)?;
     Some(figure.find(&column, &shown.light)?.value)
 }

@@ -2,7 +2,7 @@
 
 use scoring::metrics::Metric;
 
-use super::figures::{Figure, Found, Lit, TABLES, mean, others};
+use super::figures::{Figure, Found, RelitIn, TABLES, mean, others};
 use super::finished::Finished;
 use super::markdown::{escape, head, row};
 use super::setting;
@@ -60,17 +60,17 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
     for index in &group.cases {
         let case = &run.manifest.cases[*index];
         for column in page::columns(case, &run.scores[*index]) {
-            let entrant = column.entrant;
-            match lines.iter_mut().find(|(id, _)| *id == entrant.id) {
+            let method = column.method;
+            match lines.iter_mut().find(|(id, _)| *id == method.id) {
                 Some((_, line)) => line.columns.push(column),
                 None => {
-                    let mut title = escape(entrant.title());
-                    if !entrant.is_ranked() && entrant.kind != Kind::Oracle {
-                        title = format!("{title} ({})", entrant.role());
+                    let mut title = escape(method.title());
+                    if !method.is_ranked() && method.kind != Kind::Oracle {
+                        title = format!("{title} ({})", method.role());
                     }
-                    let (kind, ranked) = (entrant.kind, entrant.is_ranked());
+                    let (kind, ranked) = (method.kind, method.is_ranked());
                     let line = Line { title, kind, ranked, columns: vec![column] };
-                    lines.push((&entrant.id, line));
+                    lines.push((&method.id, line));
                 }
             }
         }
@@ -116,7 +116,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
 
 /// The name of a column; that of the other lights says which they are.
 fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
-    if figure.lit != Lit::Others {
+    if figure.relit_in != RelitIn::Others {
         return figure.name.to_owned();
     }
     let mut lights: Vec<&str> = lines
@@ -245,7 +245,7 @@ pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
                 let cells = figures
                     .iter()
                     .map(|figure| cell_of_face(figure, figure.find(&column, &case.light)));
-                let names = [escape(&light), escape(column.entrant.title())];
+                let names = [escape(&light), escape(column.method.title())];
                 text.push_str(&row(names.into_iter().chain(cells)));
             }
         }

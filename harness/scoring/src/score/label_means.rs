@@ -17,7 +17,7 @@ use super::truth::Truth;
 /// its label, and the normals of the mesh. Texels without a label take the nearest colour.
 pub fn label_mean_maps(capture: &Path, out: &Path) -> Result<(), ScoreError> {
     let truth = Truth::open(capture)?;
-    atomic::apart(out, &[capture])?;
+    atomic::refuse_overlap(out, &[capture])?;
     let covered: Vec<bool> = truth.coverage.data.iter().map(|value| *value > 0).collect();
     let labels = &truth.labels.data;
     let mut sums = [([0.0_f64; 3], 0.0_f64); 256];

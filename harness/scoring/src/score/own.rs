@@ -23,7 +23,7 @@ pub fn keep_own_relit(
     out: &Path,
     scales: &[&str],
 ) -> Result<(), ScoreError> {
-    atomic::apart(out, &[capture, maps])?;
+    atomic::refuse_overlap(out, &[capture, maps])?;
     let folder = Folder::begin(out)?;
     let io = |error| ScoreError::io(out, error);
     let mut factor = 1.0;

@@ -4,10 +4,10 @@
 mod confidence;
 mod exposure;
 mod gradients;
+mod height_solve;
 mod highlights;
 mod interrupts;
 mod recorded;
-mod relief;
 mod transported;
 
 use std::ops::ControlFlow;
@@ -18,9 +18,9 @@ use formats::maps::Maps;
 use formats::picture;
 use glam::{Vec2, Vec3};
 
-use super::deviation::Relief;
 use super::diffuse::Diffuse;
 use super::error::SolveError;
+use super::normals::Normals;
 use super::progress::Options;
 use super::solve::solve_on;
 use super::stage::{Stage, State};
@@ -80,7 +80,7 @@ fn small() -> Config {
     config.transport.texture_size = 32;
     config.transport.rows = 8;
     config.transport.iterations = 150;
-    config.transport.hold = 50;
+    config.transport.albedo_frozen_steps = 50;
     config.transport.refinement = 40;
     config.height.linearisations = 1;
     config.height.steps = 80;
@@ -256,7 +256,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "01-warm-up",
         "02-transport",
         "03-highlights",
-        "04-relief",
+        "04-heights",
         "05-normals-and-specular-1",
         "06-diffuse-1",
         "07-albedo",
@@ -266,7 +266,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
     let last = Maps::read(&target.join("stages/07-albedo")).unwrap();
     assert_eq!(last.diffuse_albedo, first.maps.diffuse_albedo);
     assert!(last.specular_normal.is_none());
-    let last = Maps::read(&target.join("stages/04-relief")).unwrap();
+    let last = Maps::read(&target.join("stages/04-heights")).unwrap();
     assert_eq!(last.specular_normal, first.maps.specular_normal);
     // Pooled at the end only.
     let last = Maps::read(&target.join("stages/05-normals-and-specular-1")).unwrap();

@@ -10,11 +10,11 @@ use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::bending_penalty::bending_penalty;
-use super::bent_highlights::BentHighlights;
+use super::deviated_highlights::DeviatedHighlights;
+use super::deviation_penalty::deviation_penalty;
 use super::error::SolveError;
+use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
-use super::lit::{LIT, Lit, bent_shading};
 use super::nearby::Nearby;
 use super::stage::State;
 use super::vectors::{add, add_scaled, dot};
@@ -39,7 +39,7 @@ fn deviations(unknowns: &Planes) -> Deviations<'_> {
 }
 
 /// The linearised problem.
-pub struct ReliefSolve<'a> {
+pub struct HeightSolve<'a> {
     config: &'a HeightConfig,
     backend: &'a dyn Backend,
     samples: &'a Samples,
@@ -53,9 +53,9 @@ pub struct ReliefSolve<'a> {
     networks: &'a Networks,
     light: Planes,
     /// S_d under explicit transport, and how it changes with the normal.
-    lit: Option<Planes>,
+    lighting: Option<Planes>,
     /// What makes the highlights; else the networks do.
-    highlights: Option<BentHighlights<'a>>,
+    highlights: Option<DeviatedHighlights<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
     /// Conjugate-gradient steps per reweighting.
@@ -63,9 +63,9 @@ pub struct ReliefSolve<'a> {
     nearby: Nearby<'a>,
 }
 
-impl<'a> ReliefSolve<'a> {
+impl<'a> HeightSolve<'a> {
     /// `samples` are those of `views`, with taps of the side of `atlas`. Diffuse shading and albedo are those
-    /// of `lit` if there are any, else those of `state`.
+    /// of `lighting` if there are any, else those of `state`.
     pub(super) fn new(
         config: &'a Config,
         backend: &'a dyn Backend,
@@ -73,9 +73,9 @@ impl<'a> ReliefSolve<'a> {
         views: &'a [GBuffer],
         atlas: &Atlas,
         state: &'a State,
-        lit: Option<&'a Lit>,
+        lighting: Option<&'a Lighting>,
     ) -> Self {
-        let state = lit.map_or(state, |lit| &lit.state);
+        let state = lighting.map_or(state, |lighting| &lighting.state);
         let size = atlas.size;
         let height = &config.height;
         let smooth = Blur::new(state.size, 3, height.albedo_smoothing * state.size as f32);
@@ -97,10 +97,11 @@ impl<'a> ReliefSolve<'a> {
             albedo,
             networks: &state.networks,
             light: backend.light(&state.networks, &samples.position),
-            lit: lit.map(|lit| lit.sampled(samples)),
+            lighting: lighting.map(|lighting| lighting.sampled(samples)),
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
-            flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(height.least_contrast),
+            flatness: height.flatness
+                / lighting.map_or(1.0, Lighting::evidence_of_normals).max(height.minimum_contrast),
             highlights: None,
             steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),
@@ -108,7 +109,7 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// With highlights by the light: what they tell of relief does not end with the light's contrast.
-    pub(super) fn with(self, highlights: BentHighlights<'a>) -> Self {
+    pub(super) fn with(self, highlights: DeviatedHighlights<'a>) -> Self {
         Self { highlights: Some(highlights), flatness: self.config.flatness, ..self }
     }
 
@@ -135,8 +136,8 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// The deviation of the normals by the unknowns `x`, 3 channels per texel.
-    pub fn bend(&self, x: &[f32]) -> Vec<f32> {
-        self.field.bend(&x[..self.field.len()])
+    pub fn deviation(&self, x: &[f32]) -> Vec<f32> {
+        self.field.deviation(&x[..self.field.len()])
     }
 
     /// Slopes at the current normals, and the colours that the linear model is to reach.
@@ -147,7 +148,7 @@ impl<'a> ReliefSolve<'a> {
         // Shading by the networks.
         let directions = self.scale.directions(samples, Some(deviations(&q)));
         let shading = self.backend.shade(self.networks, &self.light, &directions);
-        let jacobian = match (&highlights, &self.lit) {
+        let jacobian = match (&highlights, &self.lighting) {
             (Some(_), Some(_)) => None,
             _ => Some(self.jacobian(&directions, &q)),
         };
@@ -161,20 +162,20 @@ impl<'a> ReliefSolve<'a> {
         };
         // S_d of R, G, B, and how it changes with the deviation.
         let diffuse = |i: usize| -> ([f32; 3], [Vec3; 3]) {
-            let Some(lit) = &self.lit else {
+            let Some(lighting) = &self.lighting else {
                 let slope = Vec3::from_array(by_networks(i, 3));
                 return ([shading.get(0, i); 3], [slope; 3]);
             };
-            let lit: [f32; LIT] = lit.sample(i, 0);
+            let lighting: [f32; SHADING_ROWS] = lighting.sample(i, 0);
             let normal = Vec3::from_array(samples.normal.sample(i, 0));
             let bent = normal + Vec3::from_array(q.sample(i, 3));
             let length = bent.length();
             let bent = bent / length;
             let slope = |c: usize| {
-                let slope = Vec3::from_slice(&lit[3 + 3 * c..]);
+                let slope = Vec3::from_slice(&lighting[3 + 3 * c..]);
                 (slope - bent * bent.dot(slope)) / length
             };
-            (bent_shading(&lit, normal, bent), std::array::from_fn(slope))
+            (bent_shading(&lighting, normal, bent), std::array::from_fn(slope))
         };
         let slopes = Planes::from_fn(samples.len(), |i| {
             let albedo = current(i);
@@ -203,8 +204,8 @@ impl<'a> ReliefSolve<'a> {
             self.nearby.without_coarse(&residual)
         };
         let left = fine(&|i| {
-            let gloss = samples.fresnel.get(0, i) * self.albedo.get(3, i);
-            [gloss * shading.get(1, i); 3]
+            let specular = samples.fresnel.get(0, i) * self.albedo.get(3, i);
+            [specular * shading.get(1, i); 3]
         });
         // The networks know sharp lamps better than the cells of the light do, and all else worse.
         let fine = match &highlights {
@@ -235,15 +236,20 @@ impl<'a> ReliefSolve<'a> {
             ..Samples::none(samples.taps.size())
         };
         let albedo = Planes::from_fn(samples.len(), |_| [1.0, 0.0, 0.0, 1.0 / 3.0]);
-        let (_, gradient) =
-            self.backend.bend(self.networks, &probe, &self.light, directions, &albedo);
+        let (_, gradient) = self.backend.direction_gradient(
+            self.networks,
+            &probe,
+            &self.light,
+            directions,
+            &albedo,
+        );
         self.scale.adjoint(samples, deviations(q), &gradient)
     }
 
     /// The unknowns at every sample: both deviations, change of the albedo.
     fn sampled(&self, x: &[f32]) -> Planes {
         let (height, albedo) = x.split_at(self.size * self.size);
-        self.samples.taps.sample::<UNKNOWNS>(&self.texture(&self.field.bend(height), albedo))
+        self.samples.taps.sample::<UNKNOWNS>(&self.texture(&self.field.deviation(height), albedo))
     }
 
     /// The unknowns of every texel, interleaved; `sharp` is the deviation.
@@ -311,11 +317,13 @@ impl<'a> ReliefSolve<'a> {
         // One pass over the samples: 16 values and the place of each, 76 bytes.
         let normal = |x: &[f32]| {
             let (height, albedo) = x.split_at(texels);
-            let bend = self.field.bend(height);
-            let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |block, q, out, _| {
-                normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
-            });
-            let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
+            let deviation = self.field.deviation(height);
+            let (gathered, _) =
+                taps.exchange(&self.texture(&deviation, albedo), |block, q, out, _| {
+                    normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
+                });
+            let penalty =
+                deviation_penalty(&deviation, self.size, self.flatness, self.config.smoothness);
             let mut out = self.carried(&gathered, Some(&penalty));
             let (by_height, by_albedo) = out.split_at_mut(texels);
             add_scaled(by_height, height, self.config.unseen_damping);

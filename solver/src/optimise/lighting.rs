@@ -3,10 +3,10 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::context::{SolveContext, TransportSetup};
 use super::reflectance::Reflectances;
-use super::site::{Site, Standing};
+use super::specular_floor::{specular_floor, without_specular_floor};
 use super::stage::{State, layers};
-use super::veil::{unveiled, veil};
 use crate::backend::Backend;
 use crate::model::deviation::Deviation;
 use crate::model::planes::Planes;
@@ -17,18 +17,18 @@ use crate::transport::{CHANNELS, luminances};
 
 /// What explicit transport found, on its own texture.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Lit {
+pub(super) struct Lighting {
     pub state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
-    /// How it changes with the normal, 9 values per texel; see [`crate::transport::Transport::bending`].
-    bending: Vec<f32>,
+    /// How it changes with the normal, 9 values per texel; see [`crate::transport::Transport::shading_by_normal`].
+    shading_by_normal: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     pub peak: f32,
-    /// See [`veil`], R, G, B per texel; empty if it is switched off.
-    pub veil: Vec<f32>,
-    /// The specular albedo that the veil goes by; empty if it is switched off.
-    pub gloss: Vec<f32>,
+    /// See [`specular_floor`], R, G, B per texel; empty if it is switched off.
+    pub specular_floor: Vec<f32>,
+    /// The specular albedo that the specular floor goes by; empty if it is switched off.
+    pub skin_specular: Vec<f32>,
     /// The same by region.
     pub reflectances: Option<Reflectances>,
     /// By what the pictures are brighter than those of a light with this peak.
@@ -37,58 +37,66 @@ pub(super) struct Lit {
     pub explained: bool,
     /// See [`crate::config::TransportConfig::even_contrast`].
     even_contrast: f32,
-    pub standing: Standing,
+    pub setup: TransportSetup,
     /// What is left in the record.
     pub light: RecoveredLight,
 }
 
-impl Lit {
-    /// What a light makes of the textures of `state`; `reflectances` are [`Lit::reflectances`].
+impl Lighting {
+    /// What a light makes of the textures of `state`; `reflectances` are [`Lighting::reflectances`].
     pub fn new(
         backend: &dyn Backend,
-        site: &Site,
+        context: &SolveContext,
         samples: &Samples,
         state: State,
         reflectances: Option<Reflectances>,
-        standing: Standing,
+        setup: TransportSetup,
         radiance: Vec<f32>,
     ) -> Self {
-        let (config, transport) = (site.config, site.transport(standing));
-        let regions = reflectances.as_ref().and_then(|_| site.regions_on(state.size));
-        let gloss = match (&reflectances, regions) {
+        let (config, transport) = (context.config, context.transport(setup));
+        let regions = reflectances.as_ref().and_then(|_| context.regions_on(state.size));
+        let skin_specular = match (&reflectances, regions) {
             (Some(reflectances), Some(regions)) => reflectances.of(&regions),
             _ => vec![],
         };
         let share = config.reflectance.exposure_share;
         let exposure = reflectances.as_ref().map_or(1.0, |all| all.skin().powf(share));
-        let veil = match gloss.is_empty() {
+        let specular_floor = match skin_specular.is_empty() {
             true => vec![],
-            false => veil(config, transport, samples, &state, backend, &radiance, &gloss),
+            false => specular_floor(
+                config,
+                transport,
+                samples,
+                &state,
+                backend,
+                &radiance,
+                &skin_specular,
+            ),
         };
-        let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
+        let distance = (setup.nearness > 0.0).then(|| setup.nearness.recip());
         Self {
             state,
             shading: transport.shading(&radiance),
-            bending: transport.bending(&radiance).unwrap_or_default(),
+            shading_by_normal: transport.shading_by_normal(&radiance).unwrap_or_default(),
             peak: transport.peak(&radiance),
-            veil,
-            gloss,
+            specular_floor,
+            skin_specular,
             reflectances,
             exposure,
             explained: false,
             even_contrast: config.transport.even_contrast,
-            standing,
+            setup,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
     }
 
     /// How much shading and the networks' highlights say of relief: the squared contrast of the light, and
     /// next to nothing where it is even.
-    pub fn relief(&self) -> f32 {
+    pub fn evidence_of_normals(&self) -> f32 {
         self.light.contrast().powi(2) * (1.0 - self.evenness())
     }
 
-    /// Share of the veil that is taken out of the pictures: all of it by a light whose highlights are
+    /// Share of the specular floor that is taken out of the pictures: all of it by a light whose highlights are
     /// explained; by another, little of it where the light has contrast, because there the networks see the
     /// highlights themselves, and the prediction errs more.
     fn share(&self) -> f32 {
@@ -101,59 +109,67 @@ impl Lit {
     }
 
     /// The pictures less their share of what all views share of the highlights.
-    pub fn unveiled(&self, samples: &Samples) -> Planes {
-        if self.veil.is_empty() {
+    pub fn without_specular_floor(&self, samples: &Samples) -> Planes {
+        if self.specular_floor.is_empty() {
             return samples.target.clone();
         }
         let share = self.share();
-        let veil: Vec<f32> = self.veil.iter().map(|veil| share * veil).collect();
-        unveiled(samples, &veil, self.state.size)
+        let specular_floor: Vec<f32> =
+            self.specular_floor.iter().map(|specular_floor| share * specular_floor).collect();
+        without_specular_floor(samples, &specular_floor, self.state.size)
     }
 
-    /// The highlights on the textures and under the normals of `state`, if the veil is known.
+    /// The highlights on the textures and under the normals of `state`, if the specular floor is known.
     pub fn highlights(&self, state: &State) -> Option<Highlights> {
-        if self.veil.is_empty() {
+        if self.specular_floor.is_empty() {
             return None;
         }
-        let veil = resample(&luminances(&self.veil), self.state.size, 1, state.size);
+        let specular_floor =
+            resample(&luminances(&self.specular_floor), self.state.size, 1, state.size);
         let mut own = self.state.clone();
         own.resize(state.size);
         own.deviation.clone_from(&state.deviation);
-        Some(Highlights { own, veil })
+        Some(Highlights { own, specular_floor })
     }
 
-    /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
+    /// S_d at every sample, and how it changes with the normal ([`SHADING_ROWS`] rows).
     pub fn sampled(&self, samples: &Samples) -> Planes {
         let size = samples.taps.size();
         let shading = resample(&self.shading, self.state.size, CHANNELS, size);
-        let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
-        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
-        samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
+        let shading_by_normal =
+            resample(&self.shading_by_normal, self.state.size, 3 * CHANNELS, size);
+        let parts: [(&[f32], usize); 2] =
+            [(&shading, CHANNELS), (&shading_by_normal, 3 * CHANNELS)];
+        samples.taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&parts))
     }
 }
 
 /// The specular layer with what all views share of it.
 pub(super) struct Highlights {
     own: State,
-    veil: Vec<f32>,
+    specular_floor: Vec<f32>,
 }
 
 impl Highlights {
     /// One radiance per sample.
     pub fn at(&self, samples: &Samples, deviation: &Deviation, backend: &dyn Backend) -> Planes {
         let layers = layers(samples, deviation, &self.own, backend);
-        let veil = samples.taps.sample::<1>(&self.veil);
-        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
+        let specular_floor = samples.taps.sample::<1>(&self.specular_floor);
+        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + specular_floor.get(0, i)])
     }
 }
 
-/// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
-pub(super) const LIT: usize = 4 * CHANNELS;
+/// Rows of [`Lighting::sampled`]: S_d (3), its changes with the normal (9).
+pub(super) const SHADING_ROWS: usize = 4 * CHANNELS;
 
 /// S_d with the normal bent from `normal` to `bent`, both unit.
-pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; CHANNELS] {
+pub(super) fn bent_shading(
+    lighting: &[f32; SHADING_ROWS],
+    normal: Vec3,
+    bent: Vec3,
+) -> [f32; CHANNELS] {
     std::array::from_fn(|c| {
-        let slope = Vec3::from_slice(&lit[CHANNELS + 3 * c..]);
-        (lit[c] + slope.dot(bent - normal)).max(0.0)
+        let slope = Vec3::from_slice(&lighting[CHANNELS + 3 * c..]);
+        (lighting[c] + slope.dot(bent - normal)).max(0.0)
     })
 }

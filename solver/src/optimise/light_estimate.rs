@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::context::TransportSetup;
 use super::reflectance::Reflectances;
-use super::site::Standing;
 use crate::model::networks::Networks;
 use crate::transport::CHANNELS;
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Physical {
+pub(super) struct DiffuseReflectance {
     pub diffuse: Vec<f32>,
     pub scale: f32,
     /// Of every texel, 0 to 1.
@@ -18,9 +18,9 @@ pub(super) struct Physical {
 
 /// The light as the semantic colours show it.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Probed {
+pub(super) struct LightEstimate {
     pub log_light: Vec<f32>,
-    pub standing: Standing,
+    pub setup: TransportSetup,
     pub networks: Networks,
     /// By which the light makes highlights; none if the networks make them.
     pub reflectances: Option<Reflectances>,
