@@ -204,9 +204,9 @@ const USUAL: [i32; 2] = [65_536, 128 * 1024];
 /// back the same tens of megabytes; if they went to the system in between, clearing their pages anew
 /// would be half of a step with large textures.
 #[derive(Debug)]
-pub struct Hoard(());
+pub struct KeepFreedMemory(());
 
-impl Hoard {
+impl KeepFreedMemory {
     /// From now on.
     pub fn begin() -> Self {
         Self::set(KEEPING);
@@ -226,7 +226,7 @@ impl Hoard {
     fn set(_: [i32; 2]) {}
 }
 
-impl Drop for Hoard {
+impl Drop for KeepFreedMemory {
     fn drop(&mut self) {
         Self::set(USUAL);
         // SAFETY: gives free memory back to the system, under the allocator's own lock.

@@ -6,7 +6,7 @@ use capture::Mesh;
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 use solver::backend::Backend;
-use solver::memory::Hoard;
+use solver::memory::KeepFreedMemory;
 use solver::model::blur::Blur;
 use solver::model::normals::DirectionScale;
 use solver::model::prior::prior;
@@ -43,7 +43,7 @@ pub struct Size {
 
 /// All kernels of a backend.
 pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
-    let _hoard = Hoard::begin();
+    let _kept = KeepFreedMemory::begin();
     let Problem { config, samples, mut state } = Problem::new(size.pixels, size.texture);
     let mut kernels = vec![];
     let (pixels, texels) = (size.pixels as f64, (size.texture * size.texture) as f64);

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Serialize;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
-use solver::memory::Hoard;
+use solver::memory::KeepFreedMemory;
 use solver::model::deviation::Deviation;
 use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
@@ -113,7 +113,7 @@ pub fn measure(
     budget: Duration,
 ) -> Step {
     // As in a solve; dropped last, so that the next measurement begins with little memory.
-    let _hoard = Hoard::begin();
+    let _kept = KeepFreedMemory::begin();
     let forgot = forget_peak();
     let Problem { config, samples, mut state } = Problem::new(pixels, texture);
     let deviation = Deviation::new(&config, texture);

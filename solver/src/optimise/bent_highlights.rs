@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::lit::Lit;
-use super::site::Site;
+use super::context::SolveContext;
+use super::lighting::Lighting;
 use crate::backend::Backend;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -20,14 +20,20 @@ pub(super) struct BentHighlights<'a> {
 
 impl<'a> BentHighlights<'a> {
     /// `None` if it is switched off, or if the light was not solved for with its highlights.
-    pub fn new(site: &'a Site, lit: &'a Lit, samples: &Samples) -> Option<Self> {
-        if !site.config.height.highlights || !lit.explained {
+    pub fn new(
+        context: &'a SolveContext,
+        lighting: &'a Lighting,
+        samples: &Samples,
+    ) -> Option<Self> {
+        if !context.config.height.highlights || !lighting.explained {
             return None;
         }
-        let gloss = resample(&lit.gloss, lit.state.size, 1, samples.taps.size());
+        let gloss = resample(&lighting.gloss, lighting.state.size, 1, samples.taps.size());
         let albedo = samples.taps.sample::<1>(&gloss);
-        let glints = site.transport(lit.standing).glints(&site.config.skin, &lit.light.radiance)?;
-        Some(Self { backend: site.backend, glints, albedo })
+        let glints = context
+            .transport(lighting.setup)
+            .glints(&context.config.skin, &lighting.light.radiance)?;
+        Some(Self { backend: context.backend, glints, albedo })
     }
 
     /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.

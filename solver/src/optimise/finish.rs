@@ -8,16 +8,16 @@ use formats::maps::Maps;
 use formats::picture::{GrayImage, Picture};
 
 use super::clock::Work;
+use super::context::SolveContext;
 use super::error::SolveError;
 use super::found::Solve;
 use super::gloss;
-use super::lit::Highlights;
+use super::lighting::Highlights;
 use super::normalise::Scales;
 use super::progress::LayerSink;
-use super::run::Run;
-use super::site::Site;
 use super::snapshot::stage_maps;
 use super::stage::{State, layers};
+use super::stage_runner::StageRunner;
 use super::transported::albedo;
 use crate::config::map_size;
 use crate::model::bend::Bend;
@@ -27,28 +27,28 @@ use crate::model::texture::resample;
 use crate::solution::{Record, Solution, ViewLayers};
 
 /// What this takes.
-pub(super) fn finishing(site: &Site) -> Work {
-    let side = map_size(site.config.fine_tuning.texture_size, site.size);
-    Work { preparation: 1e-6 * (side * side + site.pixels) as f64, ..Work::default() }
+pub(super) fn finishing(context: &SolveContext) -> Work {
+    let side = map_size(context.config.fine_tuning.texture_size, context.size);
+    Work { preparation: 1e-6 * (side * side + context.pixels) as f64, ..Work::default() }
 }
 
 /// Makes a solution of what there is; after an interrupt that may be little, but it is valid.
 /// The layers of the training views go to `layers`, if there is one and the configuration wants it.
 pub(super) fn finish(
-    site: &Site,
-    mut run: Run,
+    context: &SolveContext,
+    mut runner: StageRunner,
     mut solve: Solve,
     layer_sink: Option<&mut LayerSink>,
 ) -> Result<Solution, SolveError> {
-    let Site { backend, capture, config, size, .. } = *site;
+    let SolveContext { backend, capture, config, size, .. } = *context;
     let mesh = &capture.mesh;
     // Does nothing unless an interrupt came before it.
-    albedo(site, &mut run, &mut solve)?;
-    let Solve { mut state, physical, lit, snapshots, .. } = solve;
+    albedo(context, &mut runner, &mut solve)?;
+    let Solve { mut state, diffuse_reflectance, lighting, snapshots, .. } = solve;
     state.resize(size);
-    let (samples, deviation) = (&site.fine().samples, &site.fine().deviation);
+    let (samples, deviation) = (&context.fine().samples, &context.fine().deviation);
 
-    let projections = Projection::of_views(&capture.train, &site.gbuffers);
+    let projections = Projection::of_views(&capture.train, &context.gbuffers);
     let seen = per_texel(&Atlas::new(mesh, size), &projections, |_| true);
     fill_unseen(&mut state, &seen);
     let shading = layers(samples, deviation, &state, backend);
@@ -57,25 +57,26 @@ pub(super) fn finish(
     let specular = covered.map(|(value, _)| *value).collect();
     let mut scales = Scales::new(&config.normalisation, shading, specular);
     if config.normalisation.specular_skin > 0.0 {
-        let regions = site.regions(&Atlas::new(mesh, size), &projections);
+        let regions = context.regions(&Atlas::new(mesh, size), &projections);
         let skin = gloss::of_largest_region(regions.as_deref(), &seen, &state.specular);
         scales.specular = config.normalisation.specular_skin / skin.max(f32::MIN_POSITIVE);
     }
-    let physical_scale = physical.as_ref().map(|physical| physical.scale);
+    let physical_scale =
+        diffuse_reflectance.as_ref().map(|diffuse_reflectance| diffuse_reflectance.scale);
     let stages = stage_maps(snapshots, scales, physical_scale, mesh, &projections);
-    let highlights = lit.as_ref().and_then(|lit| lit.highlights(&state));
+    let highlights = lighting.as_ref().and_then(|lighting| lighting.highlights(&state));
     let synthesise =
-        |camera: &Camera| synthesised(camera, site, deviation, &state, highlights.as_ref());
+        |camera: &Camera| synthesised(camera, context, deviation, &state, highlights.as_ref());
     let views = capture.withheld.iter().map(synthesise).collect();
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
     }
-    let light = lit.map(|lit| lit.light);
+    let light = lighting.map(|lighting| lighting.light);
     let mut confidence = None;
-    if let Some(physical) = physical {
-        confidence = Some(physical.confidence);
-        scales.diffuse = physical.scale;
-        state.diffuse = physical.diffuse;
+    if let Some(diffuse_reflectance) = diffuse_reflectance {
+        confidence = Some(diffuse_reflectance.confidence);
+        scales.diffuse = diffuse_reflectance.scale;
+        state.diffuse = diffuse_reflectance.diffuse;
         fill_unseen(&mut state, &seen);
     }
 
@@ -85,7 +86,7 @@ pub(super) fn finish(
     let seen = per_texel(&atlas, &projections, |_| true);
     if config.normalisation.specular_pooling > 0.0 {
         let config = &config.normalisation;
-        let regions = site.regions(&atlas, &projections);
+        let regions = context.regions(&atlas, &projections);
         let regions = regions.as_deref();
         state.specular = gloss::pooled(config, &atlas, regions, &seen, &state.specular);
     }
@@ -100,9 +101,9 @@ pub(super) fn finish(
             .map(|(trust, seen)| if *seen { *trust } else { 0.0 })
             .collect(),
     });
-    run.lap("maps and views");
-    let interrupted = run.cut().map(ToString::to_string);
-    let (stage_records, timing) = run.into_log();
+    runner.lap("maps and views");
+    let interrupted = runner.cut().map(ToString::to_string);
+    let (stage_records, timing) = runner.into_log();
     let record = Record {
         solver: "unshade".to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -166,15 +167,15 @@ fn to_maps(
 /// transport, if there are any; the sum stays the networks'.
 fn synthesised(
     camera: &Camera,
-    site: &Site,
+    context: &SolveContext,
     deviation: &Deviation,
     state: &State,
     highlights: Option<&Highlights>,
 ) -> ViewLayers {
-    let gbuffer = GBuffer::new(&site.capture.mesh, camera, None);
-    let samples = site.space.withheld(&gbuffer, state.size);
-    let shading = layers(&samples, deviation, state, site.backend);
-    let highlights = highlights.map(|all| all.at(&samples, deviation, site.backend));
+    let gbuffer = GBuffer::new(&context.capture.mesh, camera, None);
+    let samples = context.space.withheld(&gbuffer, state.size);
+    let shading = layers(&samples, deviation, state, context.backend);
+    let highlights = highlights.map(|all| all.at(&samples, deviation, context.backend));
     let albedo = state.albedo(&samples);
     let channels = ViewLayers::CHANNELS.len();
     let mut picture = Picture::new(camera.width, camera.height, channels);

@@ -4,10 +4,10 @@ use capture::CaptureError;
 use serde::{Deserialize, Serialize};
 
 use super::adam::Adam;
+use super::context::SolveContext;
 use super::error::SolveError;
-use super::lit::Lit;
-use super::probed::{Physical, Probed};
-use super::site::Site;
+use super::light_estimate::{DiffuseReflectance, LightEstimate};
+use super::lighting::Lighting;
 use super::snapshot::Snapshot;
 use super::stage::State;
 
@@ -24,30 +24,30 @@ pub(super) struct Solve {
     /// The networks' own model of the pictures.
     pub state: State,
     /// The light that the semantic colours show, until the albedo moves too.
-    pub probed: Option<Probed>,
+    pub light_estimate: Option<LightEstimate>,
     /// Light and albedo under explicit transport.
-    pub lit: Option<Lit>,
+    pub lighting: Option<Lighting>,
     /// The diffuse albedo of the maps, if it is not the networks'.
-    pub physical: Option<Physical>,
+    pub diffuse_reflectance: Option<DiffuseReflectance>,
     /// The textures after every stage.
     pub snapshots: Vec<Snapshot>,
 }
 
 impl Solve {
-    pub fn new(site: &Site) -> Result<Self, SolveError> {
-        if site.coarse().is_empty() {
-            return Err(CaptureError::NothingVisible(site.capture.folder.clone()).into());
+    pub fn new(context: &SolveContext) -> Result<Self, SolveError> {
+        if context.coarse().is_empty() {
+            return Err(CaptureError::NothingVisible(context.capture.folder.clone()).into());
         }
-        let initial = site.initial_state();
+        let initial = context.initial_state();
         let state = initial.clone();
         Ok(Self {
             finished: 0,
             initial,
             best: None,
             state,
-            probed: None,
-            lit: None,
-            physical: None,
+            light_estimate: None,
+            lighting: None,
+            diffuse_reflectance: None,
             snapshots: vec![],
         })
     }

@@ -4,10 +4,10 @@
 use capture::gbuffer::Atlas;
 
 use super::bent_highlights::BentHighlights;
+use super::context::SolveContext;
 use super::error::SolveError;
-use super::lit::Lit;
+use super::lighting::Lighting;
 use super::relief::ReliefSolve;
-use super::site::Site;
 use super::stage::State;
 use crate::config::HeightConfig;
 use crate::model::texture::resample;
@@ -15,28 +15,29 @@ use crate::model::texture::resample;
 /// Least side of a texture of heights.
 const LEAST_SIDE: usize = 16;
 
-/// The deviation of the normals, 3 channels per texel of a texture of side `site.size`. `step` hears of
+/// The deviation of the normals, 3 channels per texel of a texture of side `context.size`. `step` hears of
 /// every conjugate-gradient step; if it stops the solve with [`SolveError::Interrupted`], the deviation is
 /// as fine as it is then.
 pub(super) fn heights(
-    site: &Site,
+    context: &SolveContext,
     state: &State,
-    lit: Option<&Lit>,
+    lighting: Option<&Lighting>,
     step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
 ) -> Result<Vec<f32>, SolveError> {
-    let config = &site.config.height;
-    let sides = sides(config, site.size);
+    let config = &context.config.height;
+    let sides = sides(config, context.size);
     let (mut unknowns, mut of) = (vec![], sides[0]);
     let mut bend = vec![0.0; 3 * of * of];
     for (round, side) in sides.into_iter().enumerate() {
-        let atlas = Atlas::new(&site.capture.mesh, side);
-        let samples = site.samples(side);
-        let (config, backend, views) = (site.config, site.backend, &site.gbuffers);
-        let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lit);
-        let relief = match lit.and_then(|lit| BentHighlights::new(site, lit, &samples)) {
-            Some(highlights) => relief.with(highlights),
-            None => relief,
-        };
+        let atlas = Atlas::new(&context.capture.mesh, side);
+        let samples = context.samples(side);
+        let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
+        let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lighting);
+        let relief =
+            match lighting.and_then(|lighting| BentHighlights::new(context, lighting, &samples)) {
+                Some(highlights) => relief.with(highlights),
+                None => relief,
+            };
         unknowns = match round {
             0 => vec![0.0; relief.unknowns()],
             _ => enlarged(&unknowns, of, side),
@@ -49,7 +50,7 @@ pub(super) fn heights(
             done => done?,
         }
     }
-    Ok(resample(&bend, of, 3, site.size))
+    Ok(resample(&bend, of, 3, context.size))
 }
 
 /// Conjugate-gradient steps for textures of side `size`.

@@ -6,12 +6,12 @@
 //! what colour the lamp has, and what glows at the sides of a face is no light from behind.
 
 use super::adam::Adam;
+use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
-use super::lit::Lit;
-use super::probed::Probed;
-use super::run::Run;
-use super::site::{Site, Standing};
+use super::light_estimate::LightEstimate;
+use super::lighting::Lighting;
 use super::stage::{Memory, Stage, State};
+use super::stage_runner::StageRunner;
 use super::tint::tint;
 use super::transported::reflectance;
 use crate::backend::Backend;
@@ -26,65 +26,70 @@ use crate::transport::{CHANNELS, Reflection, Transport};
 /// alone if the capture names it, since the rest has but the mean colours of the pictures; then the colour
 /// of the light, by its highlights. The number of steps that are not taken: without regions there is no gloss.
 pub(super) fn distance(
-    run: &mut Run,
-    site: &Site,
+    runner: &mut StageRunner,
+    context: &SolveContext,
     mut state: State,
-    probed: &mut Probed,
+    light_estimate: &mut LightEstimate,
 ) -> Result<usize, SolveError> {
-    let t = &site.config.transport;
-    if probed.gloss.is_empty() {
+    let t = &context.config.transport;
+    if light_estimate.gloss.is_empty() {
         return Ok(t.distance);
     }
-    let transport = site.far_transport();
+    let transport = context.far_transport();
     state.resize(transport.size());
-    let mut samples = site.pictures().samples(&site.space, transport.size());
-    let skin = site.skin();
-    if let Some(regions) = site.regions_on(transport.size()).filter(|_| !skin.is_empty()) {
+    let mut samples = context.pictures().samples(&context.space, transport.size());
+    let skin = context.skin();
+    if let Some(regions) = context.regions_on(transport.size()).filter(|_| !skin.is_empty()) {
         let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
     let found = Found {
-        log_light: &probed.log_light,
-        nearness: probed.standing.nearness,
-        gloss: &probed.gloss,
+        log_light: &light_estimate.log_light,
+        nearness: light_estimate.setup.nearness,
+        gloss: &light_estimate.gloss,
     };
-    let stage = Highlights::new(site.config, transport, &samples, &state, found);
+    let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(stage) = stage else { return Ok(t.distance) };
     let (name, iterations) = ("distance", t.distance);
     let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
-    run.stage(&mut stage, &mut state)?;
+    runner.stage(&mut stage, &mut state)?;
     if t.tint {
-        probed.tint = stage.take_tint(&state);
-        let texels = state.diffuse.iter_mut().zip(probed.tint.iter().cycle());
+        light_estimate.tint = stage.take_tint(&state);
+        let texels = state.diffuse.iter_mut().zip(light_estimate.tint.iter().cycle());
         texels.for_each(|(albedo, tint)| *albedo /= tint);
     }
-    probed.standing = Standing {
+    light_estimate.setup = TransportSetup {
         nearness: stage.nearness[0] * transport.near(),
         bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
     };
-    probed.log_light = stage.log_light;
+    light_estimate.log_light = stage.log_light;
     Ok(0)
 }
 
 /// Light and diffuse albedo again, as [`distance`].
-pub(super) fn highlights(run: &mut Run, site: &Site, lit: &mut Lit) -> Result<usize, SolveError> {
-    let t = &site.config.transport;
-    if lit.gloss.is_empty() {
+pub(super) fn highlights(
+    runner: &mut StageRunner,
+    context: &SolveContext,
+    lighting: &mut Lighting,
+) -> Result<usize, SolveError> {
+    let t = &context.config.transport;
+    if lighting.gloss.is_empty() {
         return Ok(t.highlights);
     }
-    let transport = site.transport(lit.standing);
-    let samples = site.pictures().samples(&site.space, transport.size());
-    let mut state = lit.state.clone();
-    let log_light: Vec<f32> = lit.light.radiance.iter().map(|light| light.ln()).collect();
-    let gloss = std::mem::take(&mut lit.gloss);
-    let found = Found { log_light: &log_light, nearness: lit.standing.nearness, gloss: &gloss };
-    let stage = Highlights::new(site.config, transport, &samples, &state, found);
+    let transport = context.transport(lighting.setup);
+    let samples = context.pictures().samples(&context.space, transport.size());
+    let mut state = lighting.state.clone();
+    let log_light: Vec<f32> = lighting.light.radiance.iter().map(|light| light.ln()).collect();
+    let gloss = std::mem::take(&mut lighting.gloss);
+    let found = Found { log_light: &log_light, nearness: lighting.setup.nearness, gloss: &gloss };
+    let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
-    run.stage(&mut stage, &mut state)?;
+    runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lit = Lit::new(run.backend, site, &samples, state, gloss, lit.standing, light);
-    lit.explained = true;
+    *lighting =
+        Lighting::new(runner.backend, context, &samples, state, gloss, lighting.setup, light);
+    lighting.explained = true;
     Ok(0)
 }
 

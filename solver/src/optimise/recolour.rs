@@ -1,7 +1,7 @@
 //! The colours of hair, brows and lips under the light that skin has shown. They begin as mean colours
 //! of the pictures, shadow and all; skin of every label begins in one colour.
 
-use super::site::Site;
+use super::context::SolveContext;
 use super::stage::{State, layers};
 use crate::model::deviation::Deviation;
 use crate::model::samples::Samples;
@@ -9,21 +9,21 @@ use crate::transport::{CHANNELS, Transport};
 
 /// Gives every region that is no skin, in the diffuse albedo of `state`, the one colour that explains
 /// what the samples show of it besides highlights, in the mean, under `light` (R, G, B per cell). Without
-/// [`Site::skin`] the albedo stays.
+/// [`SolveContext::skin`] the albedo stays.
 pub(super) fn recolour(
-    site: &Site,
+    context: &SolveContext,
     transport: &Transport,
     samples: &Samples,
     light: &[f32],
     state: &mut State,
 ) {
-    let skin = site.skin();
+    let skin = context.skin();
     if skin.is_empty() {
         return;
     }
-    let Some(regions) = site.regions_on(state.size) else { return };
-    let deviation = Deviation::new(site.config, state.size);
-    let highlights = layers(samples, &deviation, state, site.backend);
+    let Some(regions) = context.regions_on(state.size) else { return };
+    let deviation = Deviation::new(context.config, state.size);
+    let highlights = layers(samples, &deviation, state, context.backend);
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));
     // Of every region and channel: what is seen, and what white would show.
     let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];

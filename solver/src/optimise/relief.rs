@@ -13,8 +13,8 @@ use rayon::prelude::*;
 use super::bending_penalty::bending_penalty;
 use super::bent_highlights::BentHighlights;
 use super::error::SolveError;
+use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
-use super::lit::{LIT, Lit, bent_shading};
 use super::nearby::Nearby;
 use super::stage::State;
 use super::vectors::{add, add_scaled, dot};
@@ -53,7 +53,7 @@ pub struct ReliefSolve<'a> {
     networks: &'a Networks,
     light: Planes,
     /// S_d under explicit transport, and how it changes with the normal.
-    lit: Option<Planes>,
+    lighting: Option<Planes>,
     /// What makes the highlights; else the networks do.
     highlights: Option<BentHighlights<'a>>,
     /// Weight of the squared deviation in this light.
@@ -65,7 +65,7 @@ pub struct ReliefSolve<'a> {
 
 impl<'a> ReliefSolve<'a> {
     /// `samples` are those of `views`, with taps of the side of `atlas`. Diffuse shading and albedo are those
-    /// of `lit` if there are any, else those of `state`.
+    /// of `lighting` if there are any, else those of `state`.
     pub(super) fn new(
         config: &'a Config,
         backend: &'a dyn Backend,
@@ -73,9 +73,9 @@ impl<'a> ReliefSolve<'a> {
         views: &'a [GBuffer],
         atlas: &Atlas,
         state: &'a State,
-        lit: Option<&'a Lit>,
+        lighting: Option<&'a Lighting>,
     ) -> Self {
-        let state = lit.map_or(state, |lit| &lit.state);
+        let state = lighting.map_or(state, |lighting| &lighting.state);
         let size = atlas.size;
         let height = &config.height;
         let smooth = Blur::new(state.size, 3, height.albedo_smoothing * state.size as f32);
@@ -97,10 +97,11 @@ impl<'a> ReliefSolve<'a> {
             albedo,
             networks: &state.networks,
             light: backend.light(&state.networks, &samples.position),
-            lit: lit.map(|lit| lit.sampled(samples)),
+            lighting: lighting.map(|lighting| lighting.sampled(samples)),
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
-            flatness: height.flatness / lit.map_or(1.0, Lit::relief).max(height.least_contrast),
+            flatness: height.flatness
+                / lighting.map_or(1.0, Lighting::relief).max(height.least_contrast),
             highlights: None,
             steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),
@@ -147,7 +148,7 @@ impl<'a> ReliefSolve<'a> {
         // Shading by the networks.
         let directions = self.scale.directions(samples, Some(deviations(&q)));
         let shading = self.backend.shade(self.networks, &self.light, &directions);
-        let jacobian = match (&highlights, &self.lit) {
+        let jacobian = match (&highlights, &self.lighting) {
             (Some(_), Some(_)) => None,
             _ => Some(self.jacobian(&directions, &q)),
         };
@@ -161,20 +162,20 @@ impl<'a> ReliefSolve<'a> {
         };
         // S_d of R, G, B, and how it changes with the deviation.
         let diffuse = |i: usize| -> ([f32; 3], [Vec3; 3]) {
-            let Some(lit) = &self.lit else {
+            let Some(lighting) = &self.lighting else {
                 let slope = Vec3::from_array(by_networks(i, 3));
                 return ([shading.get(0, i); 3], [slope; 3]);
             };
-            let lit: [f32; LIT] = lit.sample(i, 0);
+            let lighting: [f32; SHADING_ROWS] = lighting.sample(i, 0);
             let normal = Vec3::from_array(samples.normal.sample(i, 0));
             let bent = normal + Vec3::from_array(q.sample(i, 3));
             let length = bent.length();
             let bent = bent / length;
             let slope = |c: usize| {
-                let slope = Vec3::from_slice(&lit[3 + 3 * c..]);
+                let slope = Vec3::from_slice(&lighting[3 + 3 * c..]);
                 (slope - bent * bent.dot(slope)) / length
             };
-            (bent_shading(&lit, normal, bent), std::array::from_fn(slope))
+            (bent_shading(&lighting, normal, bent), std::array::from_fn(slope))
         };
         let slopes = Planes::from_fn(samples.len(), |i| {
             let albedo = current(i);

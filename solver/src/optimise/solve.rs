@@ -8,12 +8,12 @@ use formats::maps::MapsError;
 
 use super::checkpoint::Checkpoint;
 use super::clock::Work;
+use super::context::SolveContext;
 use super::error::SolveError;
 use super::finish::{finish, finishing};
 use super::found::Solve;
 use super::progress::{Callback, Options};
-use super::run::Run;
-use super::site::Site;
+use super::stage_runner::StageRunner;
 use super::steps::Step;
 use crate::backend::Backend;
 use crate::config::{Config, map_size, texture_size};
@@ -80,33 +80,33 @@ pub fn solve_on(
 ) -> Result<Solution, SolveError> {
     config.validate()?;
     Estimate::new(capture, config).fits(memory::available())?;
-    let _hoard = memory::Hoard::begin();
-    let mut site = Site::new(backend, capture, config);
+    let _kept = memory::KeepFreedMemory::begin();
+    let mut context = SolveContext::new(backend, capture, config);
     let steps = Step::all(config);
-    let mut work: Vec<Work> = steps.iter().map(|step| step.work(&site)).collect();
-    work.push(finishing(&site));
-    let mut run = Run::new(config, work, backend, progress);
+    let mut work: Vec<Work> = steps.iter().map(|step| step.work(&context)).collect();
+    work.push(finishing(&context));
+    let mut runner = StageRunner::new(config, work, backend, progress);
     let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
-    let mut solve = match checkpoint.and_then(|checkpoint| run.resume(checkpoint)) {
+    let mut solve = match checkpoint.and_then(|checkpoint| runner.resume(checkpoint)) {
         Some(solve) => solve,
         None => {
-            let solve = Solve::new(&site)?;
-            run.lap("preparation");
-            run.save(&solve);
+            let solve = Solve::new(&context)?;
+            runner.lap("preparation");
+            runner.save(&solve);
             solve
         }
     };
     for step in &steps[solve.finished.min(steps.len())..] {
-        step.take(&mut site, &mut run, &mut solve)?;
+        step.take(&mut context, &mut runner, &mut solve)?;
         if config.records.stages {
-            solve.snapshots.extend(step.snapshot(&site, &solve));
+            solve.snapshots.extend(step.snapshot(&context, &solve));
         }
-        if run.cut().is_some() {
+        if runner.cut().is_some() {
             break;
         }
         solve.finished += 1;
-        run.next_part();
-        run.save(&solve);
+        runner.next_part();
+        runner.save(&solve);
     }
-    finish(&site, run, solve, options.layers)
+    finish(&context, runner, solve, options.layers)
 }

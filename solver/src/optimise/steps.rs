@@ -1,17 +1,17 @@
 //! The steps of a solve: which there are, what they cost, and what each does.
 
 use super::clock::Work;
+use super::context::SolveContext;
 use super::deviation::Relief;
 use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::{Solve, Start};
 use super::heights;
 use super::highlights::{distance, highlights};
-use super::run::Run;
-use super::site::Site;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::stage::{Stage, State};
+use super::stage_runner::StageRunner;
 use super::transported::{albedo, light, light_and_albedo};
 use super::veil;
 use super::warm_up::WarmUp;
@@ -70,8 +70,8 @@ impl Step {
     }
 
     /// How often it reports progress.
-    fn iterations(&self, site: &Site) -> usize {
-        let config = site.config;
+    fn iterations(&self, context: &SolveContext) -> usize {
+        let config = context.config;
         match self {
             Self::Start(_) => config.initialisation.start_iterations,
             // The best start's steps are done.
@@ -85,22 +85,22 @@ impl Step {
             Self::Transport => config.transport.iterations,
             Self::Distance => config.transport.distance,
             Self::Highlights => config.transport.highlights,
-            Self::Heights => heights::steps(&config.height, site.size),
+            Self::Heights => heights::steps(&config.height, context.size),
             Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
         }
     }
 
     /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
-    pub fn work(&self, site: &Site) -> Work {
-        let config = site.config;
+    pub fn work(&self, context: &SolveContext) -> Work {
+        let config = context.config;
         let square = |side: usize| (side * side) as f64;
-        let pixels = site.pixels as f64;
+        let pixels = context.pixels as f64;
         let few = if config.warm_up.half_resolution { 0.25 * pixels } else { pixels };
         let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
             preparation: 0.0,
             step: 1e-9 * (sample * samples + texel * texels),
-            steps: self.iterations(site),
+            steps: self.iterations(context),
         };
         let t = &config.transport;
         match self {
@@ -120,91 +120,93 @@ impl Step {
             }
             Self::Heights => {
                 let share = f64::from(config.height.texture_share);
-                work(25.0, pixels, 15.0, share * share * square(site.size))
+                work(25.0, pixels, 15.0, share * share * square(context.size))
             }
             // Without a network where the normals stay.
             Self::Relief(_) if config.fine_tuning.deviation_rate == 0.0 => {
-                work(4.0, pixels, 3.0, square(site.size))
+                work(4.0, pixels, 3.0, square(context.size))
             }
-            Self::Relief(_) => work(60.0, pixels, 25.0, square(site.size)),
-            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(site.size)),
+            Self::Relief(_) => work(60.0, pixels, 25.0, square(context.size)),
+            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(context.size)),
         }
     }
 
     /// Takes the step. After an interrupt it leaves in `solve` what it has found until then.
     pub fn take(
         &self,
-        site: &mut Site,
-        run: &mut Run,
+        context: &mut SolveContext,
+        runner: &mut StageRunner,
         solve: &mut Solve,
     ) -> Result<(), SolveError> {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
-            site.drop_coarse();
+            context.drop_coarse();
         }
         if !matches!(self, Self::Light | Self::Distance) {
-            site.drop_far();
+            context.drop_far();
         }
         let coarse =
             matches!(self, Self::Light | Self::Distance | Self::Transport | Self::Highlights);
         if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
-            site.drop_pictures();
+            context.drop_pictures();
         }
-        let (config, backend) = (site.config, site.backend);
+        let (config, backend) = (context.config, context.backend);
         match self {
-            Self::Start(number) => start(*number, site, run, solve)?,
+            Self::Start(number) => start(*number, context, runner, solve)?,
             Self::WarmUp => {
                 let mut config = config.clone();
-                config.warm_up.iterations = self.iterations(site);
+                config.warm_up.iterations = self.iterations(context);
                 let best = solve.best.take();
                 if let Some(best) = &best {
                     solve.state = best.state.clone();
                 }
-                let mut stage = WarmUp::new(&config, site.coarse(), &solve.state);
+                let mut stage = WarmUp::new(&config, context.coarse(), &solve.state);
                 let mut losses = vec![];
                 if let Some(best) = best {
                     let places = stage.memory().optimisers.into_iter();
                     places.zip(best.optimisers).for_each(|(place, kept)| *place = kept);
                     losses = best.losses;
                 }
-                run.stage(&mut stage, &mut solve.state)?;
-                run.began_with(losses);
+                runner.stage(&mut stage, &mut solve.state)?;
+                runner.began_with(losses);
             }
             Self::Light => {
                 let start =
                     State { networks: solve.state.networks.clone(), ..solve.initial.clone() };
-                solve.probed = Some(light(run, site, start)?);
+                solve.light_estimate = Some(light(runner, context, start)?);
             }
             Self::Transport => {
-                let Some(probed) = solve.probed.take() else { return Ok(()) };
-                let lit = light_and_albedo(run, site, solve.initial.clone(), probed)?;
+                let Some(light_estimate) = solve.light_estimate.take() else { return Ok(()) };
+                let lighting =
+                    light_and_albedo(runner, context, solve.initial.clone(), light_estimate)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
                 let begun = config.transport.hold;
                 let moved =
-                    run.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
-                solve.lit = moved.then_some(lit);
+                    runner.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
+                solve.lighting = moved.then_some(lighting);
             }
             Self::Distance => {
-                if let Some(probed) = &mut solve.probed {
-                    let spared = distance(run, site, solve.initial.clone(), probed)?;
-                    run.spare(spared);
+                if let Some(light_estimate) = &mut solve.light_estimate {
+                    let spared = distance(runner, context, solve.initial.clone(), light_estimate)?;
+                    runner.spare(spared);
                 }
             }
             Self::Highlights => {
-                if let Some(lit) = &mut solve.lit {
-                    let spared = highlights(run, site, lit)?;
-                    run.spare(spared);
+                if let Some(lighting) = &mut solve.lighting {
+                    let spared = highlights(runner, context, lighting)?;
+                    runner.spare(spared);
                 }
             }
             Self::Heights => {
-                let (steps, lit) = (self.iterations(site), solve.lit.as_ref());
-                let bend =
-                    run.relief(steps, |step| heights::heights(site, &solve.state, lit, step))?;
-                solve.state.resize(site.size);
+                let (steps, lighting) = (self.iterations(context), solve.lighting.as_ref());
+                let bend = runner.relief(steps, |step| {
+                    heights::heights(context, &solve.state, lighting, step)
+                })?;
+                solve.state.resize(context.size);
                 solve.state.deviation = bend;
             }
             Self::Relief(round) => {
-                solve.state.resize(site.size);
-                let (fine, state) = (site.fine(), &solve.state);
+                solve.state.resize(context.size);
+                let (fine, state) = (context.fine(), &solve.state);
                 let (samples, deviation) = (&fine.samples, &fine.deviation);
                 let mut stage: Box<dyn Stage> = match config.fine_tuning.deviation_rate {
                     0.0 => {
@@ -212,15 +214,15 @@ impl Step {
                     }
                     _ => Box::new(Relief::new(config, samples, deviation, state, backend, *round)),
                 };
-                run.stage(&mut *stage, &mut solve.state)?;
+                runner.stage(&mut *stage, &mut solve.state)?;
             }
             Self::Diffuse(round) => {
-                let (fine, state) = (site.fine(), &solve.state);
+                let (fine, state) = (context.fine(), &solve.state);
                 let mut stage =
                     Diffuse::new(config, &fine.samples, &fine.deviation, state, backend, *round);
-                run.stage(&mut stage, &mut solve.state)?;
+                runner.stage(&mut stage, &mut solve.state)?;
             }
-            Self::Albedo => albedo(site, run, solve)?,
+            Self::Albedo => albedo(context, runner, solve)?,
         }
         Ok(())
     }
@@ -228,9 +230,9 @@ impl Step {
 
 impl Step {
     /// What the step has changed, for the record.
-    pub fn snapshot(&self, site: &Site, solve: &Solve) -> Option<Snapshot> {
+    pub fn snapshot(&self, context: &SolveContext, solve: &Solve) -> Option<Snapshot> {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
-        let bend = || site.fine().deviation.textures(deviation).sharp;
+        let bend = || context.fine().deviation.textures(deviation).sharp;
         match self {
             Self::Start(_) | Self::Light | Self::Distance => None,
             Self::WarmUp => {
@@ -238,15 +240,15 @@ impl Step {
                 Some(new.diffuse(diffuse, *size).specular(specular, *size))
             }
             Self::Transport | Self::Highlights => {
-                let lit = &solve.lit.as_ref()?.state;
+                let lighting = &solve.lighting.as_ref()?.state;
                 let name = if matches!(self, Self::Transport) { "transport" } else { "highlights" };
-                Some(Snapshot::new(name, Unit::Transport).diffuse(&lit.diffuse, lit.size))
+                Some(Snapshot::new(name, Unit::Transport).diffuse(&lighting.diffuse, lighting.size))
             }
             Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
             Self::Relief(round) => {
                 let stage = format!("normals and specular {round}");
                 let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
-                let still = site.config.fine_tuning.deviation_rate == 0.0;
+                let still = context.config.fine_tuning.deviation_rate == 0.0;
                 Some(if still { new } else { new.bend(&bend(), *size) })
             }
             Self::Diffuse(round) => {
@@ -254,23 +256,28 @@ impl Step {
                 Some(Snapshot::new(&stage, Unit::Networks).diffuse(diffuse, *size))
             }
             Self::Albedo => {
-                let physical = &solve.physical.as_ref()?.diffuse;
-                Some(Snapshot::new("albedo", Unit::Transport).diffuse(physical, *size))
+                let diffuse_reflectance = &solve.diffuse_reflectance.as_ref()?.diffuse;
+                Some(Snapshot::new("albedo", Unit::Transport).diffuse(diffuse_reflectance, *size))
             }
         }
     }
 }
 
 /// Warms up the networks of one seed; what has come furthest is kept.
-fn start(number: usize, site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
-    let mut config = site.config.clone();
+fn start(
+    number: usize,
+    context: &SolveContext,
+    runner: &mut StageRunner,
+    solve: &mut Solve,
+) -> Result<(), SolveError> {
+    let mut config = context.config.clone();
     config.warm_up.iterations = config.initialisation.start_iterations;
     let networks = Networks::new(&config.networks, config.seed + number as u64);
     let mut state = State { networks, ..solve.initial.clone() };
-    let mut stage = WarmUp::new(&config, site.coarse(), &state);
-    let losses = run.trial(&format!("start {}", number + 1), &mut stage, &mut state)?;
+    let mut stage = WarmUp::new(&config, context.coarse(), &state);
+    let losses = runner.trial(&format!("start {}", number + 1), &mut stage, &mut state)?;
     let optimisers = stage.memory().optimisers.into_iter().map(|adam| adam.clone()).collect();
-    if run.cut().is_some() {
+    if runner.cut().is_some() {
         solve.state = state;
         return Ok(());
     }

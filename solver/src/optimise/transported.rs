@@ -6,15 +6,15 @@ use rayon::prelude::*;
 
 use super::adam::Adam;
 use super::confidence::confidence;
+use super::context::{SolveContext, TransportSetup};
 use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::Solve;
-use super::lit::{Lit, bent_shading};
-use super::probed::{Physical, Probed};
+use super::light_estimate::{DiffuseReflectance, LightEstimate};
+use super::lighting::{Lighting, bent_shading};
 use super::recolour::recolour;
-use super::run::Run;
-use super::site::{Site, Standing};
 use super::stage::{Memory, Stage, State, layers};
+use super::stage_runner::StageRunner;
 use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
@@ -27,48 +27,53 @@ use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Transport};
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
-pub(super) fn light(run: &mut Run, site: &Site, mut start: State) -> Result<Probed, SolveError> {
-    let transport = site.far_transport();
-    run.lap("rays");
+pub(super) fn light(
+    runner: &mut StageRunner,
+    context: &SolveContext,
+    mut start: State,
+) -> Result<LightEstimate, SolveError> {
+    let transport = context.far_transport();
+    runner.lap("rays");
     start.resize(transport.size());
-    let samples = site.pictures().samples(&site.space, transport.size());
-    let mut stage = Transported::probe(site.config, transport, &samples, &start);
-    run.stage(&mut stage, &mut start)?;
+    let samples = context.pictures().samples(&context.space, transport.size());
+    let mut stage = Transported::probe(context.config, transport, &samples, &start);
+    runner.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
     let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
-    let standing = Standing { nearness, bounce_albedo };
+    let setup = TransportSetup { nearness, bounce_albedo };
     let log_light = stage.log_light;
-    let gloss = gloss(site, &start);
-    Ok(Probed { log_light, standing, networks: start.networks, gloss, tint: [1.0; CHANNELS] })
+    let gloss = gloss(context, &start);
+    Ok(LightEstimate { log_light, setup, networks: start.networks, gloss, tint: [1.0; CHANNELS] })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
 /// `start`.
 pub(super) fn light_and_albedo(
-    run: &mut Run,
-    site: &Site,
+    runner: &mut StageRunner,
+    context: &SolveContext,
     start: State,
-    probed: Probed,
-) -> Result<Lit, SolveError> {
-    let t = &site.config.transport;
-    let transport = site.transport(probed.standing);
-    run.lap("rays at the light's distance");
-    let mut state = State { networks: probed.networks, ..start };
+    light_estimate: LightEstimate,
+) -> Result<Lighting, SolveError> {
+    let t = &context.config.transport;
+    let transport = context.transport(light_estimate.setup);
+    runner.lap("rays at the light's distance");
+    let mut state = State { networks: light_estimate.networks, ..start };
     state.resize(transport.size());
     let (texels, _) = state.diffuse.as_chunks_mut();
     texels.iter_mut().for_each(|texel: &mut [f32; CHANNELS]| {
-        texel.iter_mut().zip(probed.tint).for_each(|(albedo, tint)| *albedo /= tint);
+        texel.iter_mut().zip(light_estimate.tint).for_each(|(albedo, tint)| *albedo /= tint);
     });
-    let samples = site.pictures().samples(&site.space, transport.size());
+    let samples = context.pictures().samples(&context.space, transport.size());
     if t.recolour {
-        let light: Vec<f32> = probed.log_light.iter().map(|light| light.exp()).collect();
-        recolour(site, transport, &samples, &light, &mut state);
+        let light: Vec<f32> = light_estimate.log_light.iter().map(|light| light.exp()).collect();
+        recolour(context, transport, &samples, &light, &mut state);
     }
-    let mut stage = Transported::new(site.config, transport, &samples, &state, probed.log_light);
-    run.stage(&mut stage, &mut state)?;
+    let mut stage =
+        Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
+    runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let gloss = gloss(site, &state);
-    Ok(Lit::new(run.backend, site, &samples, state, gloss, probed.standing, light))
+    let gloss = gloss(context, &state);
+    Ok(Lighting::new(runner.backend, context, &samples, state, gloss, light_estimate.setup, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
@@ -80,27 +85,27 @@ pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32])
     (*median * transport.peak(light)).min(1.0)
 }
 
-/// See [`Lit::gloss`].
-fn gloss(site: &Site, state: &State) -> Vec<f32> {
-    let wanted = veil::wanted(site.config);
-    wanted.then(|| specular_albedo(site, state)).flatten().unwrap_or_default()
+/// See [`Lighting::gloss`].
+fn gloss(context: &SolveContext, state: &State) -> Vec<f32> {
+    let wanted = veil::wanted(context.config);
+    wanted.then(|| specular_albedo(context, state)).flatten().unwrap_or_default()
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
 /// light. `state` has the normals.
 pub(super) fn refined(
-    run: &mut Run,
+    runner: &mut StageRunner,
     config: &Config,
     samples: &Samples,
     deviation: &Deviation,
     state: &State,
-    lit: &Lit,
-) -> Result<Physical, SolveError> {
-    let mut own = lit.state.clone();
+    lighting: &Lighting,
+) -> Result<DiffuseReflectance, SolveError> {
+    let mut own = lighting.state.clone();
     own.resize(state.size);
     own.deviation.clone_from(&state.deviation);
-    let shading = lit.sampled(samples);
-    let specular = layers(samples, deviation, &own, run.backend);
+    let shading = lighting.sampled(samples);
+    let specular = layers(samples, deviation, &own, runner.backend);
     let bends = deviation.textures(&state.deviation).blurred;
     let bends = samples.taps.sample::<3>(&bends);
     let planes = Planes::from_fn(samples.len(), |i| {
@@ -114,26 +119,31 @@ pub(super) fn refined(
     let (steps, prior) = (t.refinement, t.refinement_prior);
     // What the stage reads, and no more.
     let rest = Samples {
-        target: lit.unveiled(samples),
+        target: lighting.unveiled(samples),
         weight: samples.weight.clone(),
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
         ..Samples::none(state.size)
     };
     let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
-    run.stage(&mut stage, &mut own)?;
+    runner.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<3>(&own.diffuse);
     let confidence = confidence(t, samples, &planes, &albedo);
-    Ok(Physical { diffuse: own.diffuse, scale: lit.peak, confidence })
+    Ok(DiffuseReflectance { diffuse: own.diffuse, scale: lighting.peak, confidence })
 }
 
 /// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
-pub(super) fn albedo(site: &Site, run: &mut Run, solve: &mut Solve) -> Result<(), SolveError> {
-    if let (Some(lit), None) = (&solve.lit, &solve.physical) {
-        solve.state.resize(site.size);
-        let (fine, state) = (site.fine(), &solve.state);
+pub(super) fn albedo(
+    context: &SolveContext,
+    runner: &mut StageRunner,
+    solve: &mut Solve,
+) -> Result<(), SolveError> {
+    if let (Some(lighting), None) = (&solve.lighting, &solve.diffuse_reflectance) {
+        solve.state.resize(context.size);
+        let (fine, state) = (context.fine(), &solve.state);
         let (samples, deviation) = (&fine.samples, &fine.deviation);
-        solve.physical = Some(refined(run, site.config, samples, deviation, state, lit)?);
+        solve.diffuse_reflectance =
+            Some(refined(runner, context.config, samples, deviation, state, lighting)?);
     }
     Ok(())
 }

@@ -5,8 +5,8 @@ use capture::gbuffer::Atlas;
 use capture::projection::{Projection, per_texel};
 use rayon::prelude::*;
 
+use super::context::SolveContext;
 use super::gloss;
-use super::site::Site;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::config::Config;
@@ -24,12 +24,12 @@ pub(super) fn wanted(config: &Config) -> bool {
 
 /// The specular albedo of the maps on the texture of `state`: pooled over the regions, with skin at
 /// its reflectance. `None` if the face is one region: what is solved texel by texel is no measure of hair.
-pub(super) fn specular_albedo(site: &Site, state: &State) -> Option<Vec<f32>> {
+pub(super) fn specular_albedo(context: &SolveContext, state: &State) -> Option<Vec<f32>> {
     let State { size, specular, .. } = state;
-    let config = &site.config.normalisation;
-    let atlas = Atlas::new(&site.capture.mesh, *size);
-    let projections = Projection::of_views(&site.capture.train, &site.gbuffers);
-    let regions = site.regions(&atlas, &projections)?;
+    let config = &context.config.normalisation;
+    let atlas = Atlas::new(&context.capture.mesh, *size);
+    let projections = Projection::of_views(&context.capture.train, &context.gbuffers);
+    let regions = context.regions(&atlas, &projections)?;
     let seen = per_texel(&atlas, &projections, |_| true);
     let skin = gloss::of_largest_region(Some(&regions), &seen, specular);
     let scale = config.specular_skin / skin.max(f32::MIN_POSITIVE);

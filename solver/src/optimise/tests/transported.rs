@@ -1,8 +1,8 @@
 //! Light and albedo under explicit transport.
 
 use super::*;
+use crate::optimise::context::{SolveContext, TransportSetup};
 use crate::optimise::recolour::recolour;
-use crate::optimise::site::{Site, Standing};
 use crate::optimise::transported::Transported;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
@@ -71,16 +71,16 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     config.transport.bounces = 0;
     config.transport.texture_size = 128;
     let backend = Cpu::new();
-    let site = Site::new(&backend, &capture, &config);
-    let transport = site.transport(Standing { nearness: 0.0, bounce_albedo: 0.4 });
+    let context = SolveContext::new(&backend, &capture, &config);
+    let transport = context.transport(TransportSetup { nearness: 0.0, bounce_albedo: 0.4 });
     let centres = Sky::even(config.transport.rows).centres();
     let light: Vec<f32> = centres.iter().flat_map(|w| [1.0 + FALL.dot(*w); 3]).collect();
-    let mut state = site.initial_state();
+    let mut state = context.initial_state();
     state.resize(transport.size());
     state.specular.fill(0.0);
     let before = state.diffuse.clone();
-    let samples = site.pictures().samples(&site.space, transport.size());
-    recolour(&site, transport, &samples, &light, &mut state);
+    let samples = context.pictures().samples(&context.space, transport.size());
+    recolour(&context, transport, &samples, &light, &mut state);
     let of = |diffuse: &[f32], label: u8| -> Vec<Vec3> {
         let atlas = capture::gbuffer::Atlas::new(&mesh, state.size);
         let inside = (0..atlas.positions.len()).filter(|at| {

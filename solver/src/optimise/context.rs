@@ -18,8 +18,8 @@ use crate::model::samples::{SampleSpace, Samples};
 use crate::semantic::{self, colours::ColourRegions};
 use crate::transport::{Beside, Sky, Transport};
 
-/// The place where a solve happens.
-pub(super) struct Site<'a> {
+/// Capture, configuration, backend, and what steps share that follows from them.
+pub(super) struct SolveContext<'a> {
     pub backend: &'a dyn Backend,
     pub capture: &'a Capture,
     pub config: &'a Config,
@@ -38,9 +38,9 @@ pub(super) struct Site<'a> {
     colour_regions: OnceCell<Option<ColourRegions>>,
 }
 
-/// What rays are cast for.
+/// Where the light is, and what bounces: what a transport is cast for.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub(super) struct Standing {
+pub(super) struct TransportSetup {
     /// Inverse distance of the light, per metre.
     pub nearness: f32,
     /// What light bounces off: the reflectance of most of the face.
@@ -53,7 +53,7 @@ pub(super) struct Fine {
     pub deviation: Deviation,
 }
 
-impl<'a> Site<'a> {
+impl<'a> SolveContext<'a> {
     pub fn new(backend: &'a dyn Backend, capture: &'a Capture, config: &'a Config) -> Self {
         let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
         let pixels = gbuffers.iter().map(GBuffer::len).sum();
@@ -108,7 +108,7 @@ impl<'a> Site<'a> {
         self.capture.labels_named(&self.config.initialisation.skin_labels)
     }
 
-    /// Gives back the memory of [`Site::coarse`].
+    /// Gives back the memory of [`SolveContext::coarse`].
     pub fn drop_coarse(&mut self) {
         self.coarse.take();
     }
@@ -116,29 +116,29 @@ impl<'a> Site<'a> {
     /// From a light at infinity, and what changes as it comes nearer, if that is asked.
     pub fn far_transport(&self) -> &Transport {
         let t = &self.config.transport;
-        let far = Standing { nearness: 0.0, bounce_albedo: t.bounce_albedo };
+        let far = TransportSetup { nearness: 0.0, bounce_albedo: t.bounce_albedo };
         let beside = if t.nearness_rate > 0.0 { Beside::Nearness } else { Beside::Open };
         self.far_transport.get_or_init(|| self.cast(far, beside))
     }
 
     /// From a light that stands so; the same at every call.
-    pub fn transport(&self, standing: Standing) -> &Transport {
-        self.transport.get_or_init(|| self.cast(standing, Beside::Open))
+    pub fn transport(&self, setup: TransportSetup) -> &Transport {
+        self.transport.get_or_init(|| self.cast(setup, Beside::Open))
     }
 
-    fn cast(&self, standing: Standing, beside: Beside) -> Transport {
-        let Standing { nearness, bounce_albedo } = standing;
+    fn cast(&self, setup: TransportSetup, beside: Beside) -> Transport {
+        let TransportSetup { nearness, bounce_albedo } = setup;
         let t = TransportConfig { bounce_albedo, ..self.config.transport.clone() };
         let sky = Sky::even(t.rows).at(nearness);
         Transport::new(&self.capture.mesh, &sky, &t, self.config.seed, beside)
     }
 
-    /// Gives back the memory of [`Site::far_transport`].
+    /// Gives back the memory of [`SolveContext::far_transport`].
     pub fn drop_far(&mut self) {
         self.far_transport.take();
     }
 
-    /// Gives back the memory of [`Site::pictures`] and [`Site::transport`].
+    /// Gives back the memory of [`SolveContext::pictures`] and [`SolveContext::transport`].
     pub fn drop_pictures(&mut self) {
         self.pictures.take();
         self.transport.take();

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::site::{Site, Standing};
+use super::context::{SolveContext, TransportSetup};
 use super::stage::{State, layers};
 use super::veil::{unveiled, veil};
 use crate::backend::Backend;
@@ -14,9 +14,9 @@ use crate::model::texture::{interleave, resample};
 use crate::solution::RecoveredLight;
 use crate::transport::{CHANNELS, luminances};
 
-/// What explicit transport found, on its own texture.
+/// The light that explicit transport found, with shading and albedo under it, on its own texture.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Lit {
+pub(super) struct Lighting {
     pub state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
@@ -32,28 +32,28 @@ pub(super) struct Lit {
     pub explained: bool,
     /// See [`crate::config::TransportConfig::even_contrast`].
     even_contrast: f32,
-    pub standing: Standing,
+    pub setup: TransportSetup,
     /// What is left in the record.
     pub light: RecoveredLight,
 }
 
-impl Lit {
-    /// What a light makes of the textures of `state`; `gloss` is [`Lit::gloss`].
+impl Lighting {
+    /// What a light makes of the textures of `state`; `gloss` is [`Lighting::gloss`].
     pub fn new(
         backend: &dyn Backend,
-        site: &Site,
+        context: &SolveContext,
         samples: &Samples,
         state: State,
         gloss: Vec<f32>,
-        standing: Standing,
+        setup: TransportSetup,
         radiance: Vec<f32>,
     ) -> Self {
-        let (config, transport) = (site.config, site.transport(standing));
+        let (config, transport) = (context.config, context.transport(setup));
         let veil = match gloss.is_empty() {
             true => vec![],
             false => veil(config, transport, samples, &state, backend, &radiance, &gloss),
         };
-        let distance = (standing.nearness > 0.0).then(|| standing.nearness.recip());
+        let distance = (setup.nearness > 0.0).then(|| setup.nearness.recip());
         Self {
             state,
             shading: transport.shading(&radiance),
@@ -63,7 +63,7 @@ impl Lit {
             gloss,
             explained: false,
             even_contrast: config.transport.even_contrast,
-            standing,
+            setup,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
         }
     }
@@ -108,13 +108,13 @@ impl Lit {
         Some(Highlights { own, veil })
     }
 
-    /// S_d at every sample, and how it changes with the normal ([`LIT`] rows).
+    /// S_d at every sample, and how it changes with the normal ([`SHADING_ROWS`] rows).
     pub fn sampled(&self, samples: &Samples) -> Planes {
         let size = samples.taps.size();
         let shading = resample(&self.shading, self.state.size, CHANNELS, size);
         let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
         let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
-        samples.taps.sample::<LIT>(&interleave::<LIT>(&parts))
+        samples.taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&parts))
     }
 }
 
@@ -133,13 +133,17 @@ impl Highlights {
     }
 }
 
-/// Rows of [`Lit::sampled`]: S_d (3), its changes with the normal (9).
-pub(super) const LIT: usize = 4 * CHANNELS;
+/// Rows of [`Lighting::sampled`]: S_d (3), its changes with the normal (9).
+pub(super) const SHADING_ROWS: usize = 4 * CHANNELS;
 
 /// S_d with the normal bent from `normal` to `bent`, both unit.
-pub(super) fn bent_shading(lit: &[f32; LIT], normal: Vec3, bent: Vec3) -> [f32; CHANNELS] {
+pub(super) fn bent_shading(
+    lighting: &[f32; SHADING_ROWS],
+    normal: Vec3,
+    bent: Vec3,
+) -> [f32; CHANNELS] {
     std::array::from_fn(|c| {
-        let slope = Vec3::from_slice(&lit[CHANNELS + 3 * c..]);
-        (lit[c] + slope.dot(bent - normal)).max(0.0)
+        let slope = Vec3::from_slice(&lighting[CHANNELS + 3 * c..]);
+        (lighting[c] + slope.dot(bent - normal)).max(0.0)
     })
 }

@@ -1,14 +1,14 @@
-//! What the steps under explicit transport hand on.
+//! The first estimate of the light, and the albedo of the maps: handed on by the steps under explicit transport.
 
 use serde::{Deserialize, Serialize};
 
-use super::site::Standing;
+use super::context::TransportSetup;
 use crate::model::networks::Networks;
 use crate::transport::CHANNELS;
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Physical {
+pub(super) struct DiffuseReflectance {
     pub diffuse: Vec<f32>,
     pub scale: f32,
     /// Of every texel, 0 to 1.
@@ -17,9 +17,9 @@ pub(super) struct Physical {
 
 /// The light as the semantic colours show it.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Probed {
+pub(super) struct LightEstimate {
     pub log_light: Vec<f32>,
-    pub standing: Standing,
+    pub setup: TransportSetup,
     pub networks: Networks,
     /// The specular albedo by which the light makes highlights; empty if the networks make them.
     pub gloss: Vec<f32>,

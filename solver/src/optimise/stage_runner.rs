@@ -19,8 +19,8 @@ const FETCH: Duration = Duration::from_secs(20);
 /// A submission takes about this long: systems reset a device that does not answer for seconds.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// The bookkeeping of a solve.
-pub(super) struct Run<'a, 'b> {
+/// Runs stages, and keeps the books of a solve.
+pub(super) struct StageRunner<'a, 'b> {
     pub backend: &'a dyn Backend,
     progress: &'a mut Callback<'b>,
     final_share: f32,
@@ -36,7 +36,7 @@ pub(super) struct Run<'a, 'b> {
     earlier: f64,
 }
 
-impl<'a, 'b> Run<'a, 'b> {
+impl<'a, 'b> StageRunner<'a, 'b> {
     /// For the parts `work`.
     pub fn new(
         config: &Config,
