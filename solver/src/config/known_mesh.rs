@@ -98,18 +98,18 @@ pub struct TransportConfig {
     pub network_rate: f32,
     /// Predict from the found light what all views share of the highlights, and take it out of the
     /// diffuse albedo; needs regions and [`NormalisationConfig::specular_skin`].
-    pub veil: bool,
+    pub specular_floor: bool,
     /// Standard deviation of the blur of what is taken out, texels.
-    pub veil_blur: f32,
+    pub specular_floor_blur: f32,
     /// A light of this contrast is half even. The evener the light that was found without its highlights, the
     /// more of what it predicts of them is taken out, and the less its shading says of the normals.
     pub even_contrast: f32,
     /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
-    /// highlights that the light itself makes on skin; need what `veil` needs. 0 leaves both as the probe
+    /// highlights that the light itself makes on skin; need what `specular_floor` needs. 0 leaves both as the probe
     /// has found them, with the networks' highlights.
     pub distance: usize,
     /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
-    /// networks; then little of the veil is taken out where the light has contrast.
+    /// networks; then little of the specular floor is taken out where the light has contrast.
     pub highlights: usize,
     /// Of more samples than this, such highlights are followed on a part: a cell of the sky and a texel of the
     /// transport are far coarser than pixels.

@@ -78,7 +78,7 @@ impl TransportConfig {
         ])?;
         not_negative(&[
             ("transport.ray_offset", self.ray_offset),
-            ("transport.veil_blur", self.veil_blur),
+            ("transport.specular_floor_blur", self.specular_floor_blur),
             ("transport.confidence_blur", self.confidence_blur),
             ("transport.prior", self.prior),
             ("transport.grey_mean", self.grey_mean),

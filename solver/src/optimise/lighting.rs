@@ -4,8 +4,8 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::context::{SolveContext, TransportSetup};
+use super::specular_floor::{specular_floor, without_specular_floor};
 use super::stage::{State, layers};
-use super::veil::{unveiled, veil};
 use crate::backend::Backend;
 use crate::model::deviation::Deviation;
 use crate::model::planes::Planes;
@@ -24,9 +24,9 @@ pub(super) struct Lighting {
     bending: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     pub peak: f32,
-    /// See [`veil`], R, G, B per texel; empty if it is switched off.
-    pub veil: Vec<f32>,
-    /// The specular albedo that the veil goes by; empty if it is switched off.
+    /// See [`specular_floor`], R, G, B per texel; empty if it is switched off.
+    pub specular_floor: Vec<f32>,
+    /// The specular albedo that the specular floor goes by; empty if it is switched off.
     pub gloss: Vec<f32>,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
@@ -49,9 +49,9 @@ impl Lighting {
         radiance: Vec<f32>,
     ) -> Self {
         let (config, transport) = (context.config, context.transport(setup));
-        let veil = match gloss.is_empty() {
+        let specular_floor = match gloss.is_empty() {
             true => vec![],
-            false => veil(config, transport, samples, &state, backend, &radiance, &gloss),
+            false => specular_floor(config, transport, samples, &state, backend, &radiance, &gloss),
         };
         let distance = (setup.nearness > 0.0).then(|| setup.nearness.recip());
         Self {
@@ -59,7 +59,7 @@ impl Lighting {
             shading: transport.shading(&radiance),
             bending: transport.bending(&radiance).unwrap_or_default(),
             peak: transport.peak(&radiance),
-            veil,
+            specular_floor,
             gloss,
             explained: false,
             even_contrast: config.transport.even_contrast,
@@ -74,7 +74,7 @@ impl Lighting {
         self.light.contrast().powi(2) * (1.0 - self.evenness())
     }
 
-    /// Share of the veil that is taken out of the pictures: all of it by a light whose highlights are
+    /// Share of the specular floor that is taken out of the pictures: all of it by a light whose highlights are
     /// explained; by another, little of it where the light has contrast, because there the networks see the
     /// highlights themselves, and the prediction errs more.
     fn share(&self) -> f32 {
@@ -87,25 +87,27 @@ impl Lighting {
     }
 
     /// The pictures less their share of what all views share of the highlights.
-    pub fn unveiled(&self, samples: &Samples) -> Planes {
-        if self.veil.is_empty() {
+    pub fn without_specular_floor(&self, samples: &Samples) -> Planes {
+        if self.specular_floor.is_empty() {
             return samples.target.clone();
         }
         let share = self.share();
-        let veil: Vec<f32> = self.veil.iter().map(|veil| share * veil).collect();
-        unveiled(samples, &veil, self.state.size)
+        let specular_floor: Vec<f32> =
+            self.specular_floor.iter().map(|specular_floor| share * specular_floor).collect();
+        without_specular_floor(samples, &specular_floor, self.state.size)
     }
 
-    /// The highlights on the textures and under the normals of `state`, if the veil is known.
+    /// The highlights on the textures and under the normals of `state`, if the specular floor is known.
     pub fn highlights(&self, state: &State) -> Option<Highlights> {
-        if self.veil.is_empty() {
+        if self.specular_floor.is_empty() {
             return None;
         }
-        let veil = resample(&luminances(&self.veil), self.state.size, 1, state.size);
+        let specular_floor =
+            resample(&luminances(&self.specular_floor), self.state.size, 1, state.size);
         let mut own = self.state.clone();
         own.resize(state.size);
         own.deviation.clone_from(&state.deviation);
-        Some(Highlights { own, veil })
+        Some(Highlights { own, specular_floor })
     }
 
     /// S_d at every sample, and how it changes with the normal ([`SHADING_ROWS`] rows).
@@ -121,15 +123,15 @@ impl Lighting {
 /// The specular layer with what all views share of it.
 pub(super) struct Highlights {
     own: State,
-    veil: Vec<f32>,
+    specular_floor: Vec<f32>,
 }
 
 impl Highlights {
     /// One radiance per sample.
     pub fn at(&self, samples: &Samples, deviation: &Deviation, backend: &dyn Backend) -> Planes {
         let layers = layers(samples, deviation, &self.own, backend);
-        let veil = samples.taps.sample::<1>(&self.veil);
-        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + veil.get(0, i)])
+        let specular_floor = samples.taps.sample::<1>(&self.specular_floor);
+        Planes::from_fn(samples.len(), |i| [layers.get(1, i) + specular_floor.get(0, i)])
     }
 }
 

@@ -27,13 +27,13 @@ pub mod relief;
 mod snapshot;
 pub mod solve;
 pub mod specular;
+mod specular_floor;
 pub mod stage;
 mod stage_runner;
 mod steps;
 mod tint;
 pub mod transported;
 mod vectors;
-mod veil;
 pub mod warm_up;
 
 #[cfg(test)]

@@ -10,10 +10,10 @@ use super::heights;
 use super::highlights::{distance, highlights};
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
+use super::specular_floor;
 use super::stage::{Stage, State};
 use super::stage_runner::StageRunner;
 use super::transported::{albedo, light, light_and_albedo};
-use super::veil;
 use super::warm_up::WarmUp;
 use crate::config::Config;
 use crate::model::networks::Networks;
@@ -51,7 +51,7 @@ impl Step {
         let mut steps: Vec<Self> = (0..starts).map(Self::Start).collect();
         steps.push(Self::WarmUp);
         if config.transport.enabled {
-            let wanted = |steps: usize| steps > 0 && veil::wanted(config);
+            let wanted = |steps: usize| steps > 0 && specular_floor::wanted(config);
             steps.push(Self::Light);
             steps.extend(wanted(config.transport.distance).then_some(Self::Distance));
             steps.push(Self::Transport);

@@ -13,9 +13,9 @@ use super::found::Solve;
 use super::light_estimate::{DiffuseReflectance, LightEstimate};
 use super::lighting::{Lighting, bent_shading};
 use super::recolour::recolour;
+use super::specular_floor::{self, specular_albedo};
 use super::stage::{Memory, Stage, State, layers};
 use super::stage_runner::StageRunner;
-use super::veil::{self, specular_albedo};
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
@@ -87,7 +87,7 @@ pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32])
 
 /// See [`Lighting::gloss`].
 fn gloss(context: &SolveContext, state: &State) -> Vec<f32> {
-    let wanted = veil::wanted(context.config);
+    let wanted = specular_floor::wanted(context.config);
     wanted.then(|| specular_albedo(context, state)).flatten().unwrap_or_default()
 }
 
@@ -119,7 +119,7 @@ pub(super) fn refined(
     let (steps, prior) = (t.refinement, t.refinement_prior);
     // What the stage reads, and no more.
     let rest = Samples {
-        target: lighting.unveiled(samples),
+        target: lighting.without_specular_floor(samples),
         weight: samples.weight.clone(),
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),

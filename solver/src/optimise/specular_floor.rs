@@ -19,7 +19,7 @@ use crate::transport::{CHANNELS, Transport};
 
 /// Whether highlights are predicted from the light.
 pub(super) fn wanted(config: &Config) -> bool {
-    config.transport.veil && config.normalisation.specular_skin > 0.0
+    config.transport.specular_floor && config.normalisation.specular_skin > 0.0
 }
 
 /// The specular albedo of the maps on the texture of `state`: pooled over the regions, with skin at
@@ -37,10 +37,10 @@ pub(super) fn specular_albedo(context: &SolveContext, state: &State) -> Option<V
     Some(pooled.into_iter().map(|value| value * scale).collect())
 }
 
-/// The veil, R, G, B per texel: the median over the views of what skin of the albedo `specular`
+/// The specular floor, R, G, B per texel: the median over the views of what skin of the albedo `specular`
 /// shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
 /// diffuse albedo takes up. Empty if the transport does not hold what is open.
-pub(super) fn veil(
+pub(super) fn specular_floor(
     config: &Config,
     transport: &Transport,
     samples: &Samples,
@@ -69,7 +69,8 @@ pub(super) fn veil(
         [weight * r, weight * g, weight * b, weight]
     };
     let texels: Vec<[f32; 4]> = of.par_iter().zip(specular).map(texel).collect();
-    let sums = Blur::new(taps.size(), 4, config.transport.veil_blur).apply(texels.as_flattened());
+    let sums = Blur::new(taps.size(), 4, config.transport.specular_floor_blur)
+        .apply(texels.as_flattened());
     let mean = |[r, g, b, weight]: &[f32; 4]| match *weight > 1e-6 {
         true => [r, g, b].map(|sum| sum / weight),
         false => [0.0; CHANNELS],
@@ -77,13 +78,18 @@ pub(super) fn veil(
     sums.as_chunks().0.iter().flat_map(mean).collect()
 }
 
-/// The pictures without a veil on a texture of side `size`.
-pub(super) fn unveiled(samples: &Samples, veil: &[f32], size: usize) -> Planes {
-    let veil = resample(veil, size, CHANNELS, samples.taps.size());
-    let veil = samples.taps.sample::<CHANNELS>(&veil);
+/// The pictures without a specular floor on a texture of side `size`.
+pub(super) fn without_specular_floor(
+    samples: &Samples,
+    specular_floor: &[f32],
+    size: usize,
+) -> Planes {
+    let specular_floor = resample(specular_floor, size, CHANNELS, samples.taps.size());
+    let specular_floor = samples.taps.sample::<CHANNELS>(&specular_floor);
     Planes::from_fn::<CHANNELS>(samples.len(), |i| {
-        let (target, veil): ([f32; 3], [f32; 3]) = (samples.target.sample(i, 0), veil.sample(i, 0));
-        std::array::from_fn(|c| target[c] - veil[c])
+        let (target, specular_floor): ([f32; 3], [f32; 3]) =
+            (samples.target.sample(i, 0), specular_floor.sample(i, 0));
+        std::array::from_fn(|c| target[c] - specular_floor[c])
     })
 }
 
