@@ -23,7 +23,7 @@ use crate::model::normals::{DIRECTIONS, Deviations, DirectionScale};
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::strips::{Strip, blocks};
-use crate::transport::Glints;
+use crate::transport::SkinHighlights;
 use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
@@ -105,9 +105,14 @@ pub trait Backend: Send + Sync {
     /// S_d and S_s of every sample (2 rows).
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes;
 
-    /// Highlights on these normals, see [`Glints::on`].
-    fn highlights(&self, glints: &Glints, samples: &Samples, normals: &Planes) -> Planes {
-        glints.on(samples, normals)
+    /// Highlights on these normals, see [`SkinHighlights::on`].
+    fn highlights(
+        &self,
+        skin_highlights: &SkinHighlights,
+        samples: &Samples,
+        normals: &Planes,
+    ) -> Planes {
+        skin_highlights.on(samples, normals)
     }
 
     /// The program of a stage on the device; nothing if its steps are taken through the methods

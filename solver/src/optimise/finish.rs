@@ -11,9 +11,9 @@ use super::clock::Work;
 use super::context::SolveContext;
 use super::error::SolveError;
 use super::found::Solve;
-use super::gloss;
 use super::lighting::Highlights;
 use super::normalise::Scales;
+use super::pooled_specular;
 use super::progress::LayerSink;
 use super::snapshot::stage_maps;
 use super::stage::{State, layers};
@@ -58,7 +58,7 @@ pub(super) fn finish(
     let mut scales = Scales::new(&config.normalisation, shading, specular);
     if config.normalisation.specular_skin > 0.0 {
         let regions = context.regions(&Atlas::new(mesh, size), &projections);
-        let skin = gloss::of_largest_region(regions.as_deref(), &seen, &state.specular);
+        let skin = pooled_specular::of_largest_region(regions.as_deref(), &seen, &state.specular);
         scales.specular = config.normalisation.specular_skin / skin.max(f32::MIN_POSITIVE);
     }
     let physical_scale =
@@ -88,7 +88,7 @@ pub(super) fn finish(
         let config = &config.normalisation;
         let regions = context.regions(&atlas, &projections);
         let regions = regions.as_deref();
-        state.specular = gloss::pooled(config, &atlas, regions, &seen, &state.specular);
+        state.specular = pooled_specular::pooled(config, &atlas, regions, &seen, &state.specular);
     }
     let mut maps = to_maps(&state, &Deviation::new(config, map_size), &atlas, &seen, scales);
     maps.confidence = confidence.map(|confidence| Picture {

@@ -3,8 +3,8 @@
 
 use capture::gbuffer::Atlas;
 
-use super::bent_highlights::BentHighlights;
 use super::context::SolveContext;
+use super::deviated_highlights::DeviatedHighlights;
 use super::error::SolveError;
 use super::lighting::Lighting;
 use super::relief::ReliefSolve;
@@ -33,11 +33,12 @@ pub(super) fn heights(
         let samples = context.samples(side);
         let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
         let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lighting);
-        let relief =
-            match lighting.and_then(|lighting| BentHighlights::new(context, lighting, &samples)) {
-                Some(highlights) => relief.with(highlights),
-                None => relief,
-            };
+        let relief = match lighting
+            .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples))
+        {
+            Some(highlights) => relief.with(highlights),
+            None => relief,
+        };
         unknowns = match round {
             0 => vec![0.0; relief.unknowns()],
             _ => enlarged(&unknowns, of, side),

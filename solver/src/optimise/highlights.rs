@@ -24,7 +24,7 @@ use crate::transport::{CHANNELS, Reflection, Transport};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures; then the colour
-/// of the light, by its highlights. The number of steps that are not taken: without regions there is no gloss.
+/// of the light, by its highlights. The number of steps that are not taken: without regions there is no albedo.
 pub(super) fn distance(
     runner: &mut StageRunner,
     context: &SolveContext,
@@ -32,7 +32,7 @@ pub(super) fn distance(
     light_estimate: &mut LightEstimate,
 ) -> Result<usize, SolveError> {
     let t = &context.config.transport;
-    if light_estimate.gloss.is_empty() {
+    if light_estimate.skin_specular.is_empty() {
         return Ok(t.distance);
     }
     let transport = context.far_transport();
@@ -47,7 +47,7 @@ pub(super) fn distance(
     let found = Found {
         log_light: &light_estimate.log_light,
         nearness: light_estimate.setup.nearness,
-        gloss: &light_estimate.gloss,
+        skin_specular: &light_estimate.skin_specular,
     };
     let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(stage) = stage else { return Ok(t.distance) };
@@ -74,21 +74,24 @@ pub(super) fn highlights(
     lighting: &mut Lighting,
 ) -> Result<usize, SolveError> {
     let t = &context.config.transport;
-    if lighting.gloss.is_empty() {
+    if lighting.skin_specular.is_empty() {
         return Ok(t.highlights);
     }
     let transport = context.transport(lighting.setup);
     let samples = context.pictures().samples(&context.space, transport.size());
     let mut state = lighting.state.clone();
     let log_light: Vec<f32> = lighting.light.radiance.iter().map(|light| light.ln()).collect();
-    let gloss = std::mem::take(&mut lighting.gloss);
-    let found = Found { log_light: &log_light, nearness: lighting.setup.nearness, gloss: &gloss };
+    let skin_specular = std::mem::take(&mut lighting.skin_specular);
+    let found = Found {
+        log_light: &log_light,
+        nearness: lighting.setup.nearness,
+        skin_specular: &skin_specular,
+    };
     let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    *lighting =
-        Lighting::new(runner.backend, context, &samples, state, gloss, lighting.setup, light);
+    *lighting = Lighting::new(context, &samples, state, skin_specular, lighting.setup, light);
     lighting.explained = true;
     Ok(0)
 }
@@ -101,7 +104,7 @@ pub struct Found<'a> {
     /// Per metre.
     pub nearness: f32,
     /// Reflectance at normal incidence, texel by texel of the transport's texture.
-    pub gloss: &'a [f32],
+    pub skin_specular: &'a [f32],
 }
 
 /// Light and diffuse albedo on the transport's texture.
@@ -144,11 +147,11 @@ impl<'a> Highlights<'a> {
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
         let samples = samples.thinned(t.highlight_samples);
-        let gloss = samples.taps.sample::<1>(found.gloss);
+        let skin_specular = samples.taps.sample::<1>(found.skin_specular);
         let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
         let reflection =
-            transport.reflection(&config.skin, &samples, &gloss, peak, found.nearness)?;
+            transport.reflection(&config.skin, &samples, &skin_specular, peak, found.nearness)?;
         Some(Self {
             config: t,
             transport,

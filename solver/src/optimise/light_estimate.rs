@@ -22,7 +22,7 @@ pub(super) struct LightEstimate {
     pub setup: TransportSetup,
     pub networks: Networks,
     /// The specular albedo by which the light makes highlights; empty if the networks make them.
-    pub gloss: Vec<f32>,
+    pub skin_specular: Vec<f32>,
     /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
     /// with is to be divided by it.
     pub tint: [f32; CHANNELS],

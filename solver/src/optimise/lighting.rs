@@ -27,7 +27,7 @@ pub(super) struct Lighting {
     /// See [`specular_floor`], R, G, B per texel; empty if it is switched off.
     pub specular_floor: Vec<f32>,
     /// The specular albedo that the specular floor goes by; empty if it is switched off.
-    pub gloss: Vec<f32>,
+    pub skin_specular: Vec<f32>,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
     /// See [`crate::config::TransportConfig::even_contrast`].
@@ -38,20 +38,27 @@ pub(super) struct Lighting {
 }
 
 impl Lighting {
-    /// What a light makes of the textures of `state`; `gloss` is [`Lighting::gloss`].
+    /// What a light makes of the textures of `state`; `skin_specular` is [`Lighting::skin_specular`].
     pub fn new(
-        backend: &dyn Backend,
         context: &SolveContext,
         samples: &Samples,
         state: State,
-        gloss: Vec<f32>,
+        skin_specular: Vec<f32>,
         setup: TransportSetup,
         radiance: Vec<f32>,
     ) -> Self {
         let (config, transport) = (context.config, context.transport(setup));
-        let specular_floor = match gloss.is_empty() {
+        let specular_floor = match skin_specular.is_empty() {
             true => vec![],
-            false => specular_floor(config, transport, samples, &state, backend, &radiance, &gloss),
+            false => specular_floor(
+                config,
+                transport,
+                samples,
+                &state,
+                context.backend,
+                &radiance,
+                &skin_specular,
+            ),
         };
         let distance = (setup.nearness > 0.0).then(|| setup.nearness.recip());
         Self {
@@ -60,7 +67,7 @@ impl Lighting {
             bending: transport.bending(&radiance).unwrap_or_default(),
             peak: transport.peak(&radiance),
             specular_floor,
-            gloss,
+            skin_specular,
             explained: false,
             even_contrast: config.transport.even_contrast,
             setup,

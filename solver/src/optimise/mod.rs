@@ -2,17 +2,16 @@
 
 pub mod adam;
 mod bending_penalty;
-mod bent_highlights;
 pub mod checkpoint;
 mod clock;
 mod confidence;
 mod context;
+mod deviated_highlights;
 pub mod deviation;
 pub mod diffuse;
 pub(crate) mod error;
 mod finish;
 mod found;
-mod gloss;
 mod heights;
 pub mod highlights;
 mod light_estimate;
@@ -21,6 +20,7 @@ mod linear_colour;
 mod log;
 mod nearby;
 pub mod normalise;
+mod pooled_specular;
 pub(crate) mod progress;
 mod recolour;
 pub mod relief;

@@ -11,7 +11,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::bending_penalty::bending_penalty;
-use super::bent_highlights::BentHighlights;
+use super::deviated_highlights::DeviatedHighlights;
 use super::error::SolveError;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
@@ -55,7 +55,7 @@ pub struct ReliefSolve<'a> {
     /// S_d under explicit transport, and how it changes with the normal.
     lighting: Option<Planes>,
     /// What makes the highlights; else the networks do.
-    highlights: Option<BentHighlights<'a>>,
+    highlights: Option<DeviatedHighlights<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
     /// Conjugate-gradient steps per reweighting.
@@ -109,7 +109,7 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// With highlights by the light: what they tell of relief does not end with the light's contrast.
-    pub(super) fn with(self, highlights: BentHighlights<'a>) -> Self {
+    pub(super) fn with(self, highlights: DeviatedHighlights<'a>) -> Self {
         Self { highlights: Some(highlights), flatness: self.config.flatness, ..self }
     }
 
@@ -204,8 +204,8 @@ impl<'a> ReliefSolve<'a> {
             self.nearby.without_coarse(&residual)
         };
         let left = fine(&|i| {
-            let gloss = samples.fresnel.get(0, i) * self.albedo.get(3, i);
-            [gloss * shading.get(1, i); 3]
+            let specular = samples.fresnel.get(0, i) * self.albedo.get(3, i);
+            [specular * shading.get(1, i); 3]
         });
         // The networks know sharp lamps better than the cells of the light do, and all else worse.
         let fine = match &highlights {

@@ -37,11 +37,11 @@ impl<'a> Specular<'a> {
             layers(samples, deviation, &State { specular: white, ..state.clone() }, backend);
         let albedo = samples.taps.sample::<3>(&state.diffuse);
         let rest = Planes::from_fn(samples.len(), |i| {
-            let [shading, gloss]: [f32; 2] = layers.sample(i, 0);
+            let [shading, specular_shading]: [f32; 2] = layers.sample(i, 0);
             let (albedo, target): ([f32; 3], [f32; 3]) =
                 (albedo.sample(i, 0), samples.target.sample(i, 0));
             let [r, g, b]: [f32; 3] = std::array::from_fn(|c| target[c] - albedo[c] * shading);
-            [r, g, b, gloss, samples.weight.get(0, i)]
+            [r, g, b, specular_shading, samples.weight.get(0, i)]
         });
         let rate = config.fine_tuning.specular_rate;
         Self {
@@ -79,8 +79,8 @@ impl Stage for Specular<'_> {
 
     fn job(&self) -> Option<Job<'_>> {
         let known = Planes::from_fn(self.samples.len(), |i| {
-            let [r, g, b, gloss, weight]: [f32; 5] = self.rest.sample(i, 0);
-            [r, g, b, weight, gloss]
+            let [r, g, b, specular_shading, weight]: [f32; 5] = self.rest.sample(i, 0);
+            [r, g, b, weight, specular_shading]
         });
         Some(Job::Layer { taps: &self.samples.taps, known, prior: 0.0 })
     }
@@ -99,9 +99,9 @@ widened! {
         gradient: &mut [Row; 1],
         loss: &mut Row,
     ) {
-        let [r, g, b, gloss, weight] = rest;
+        let [r, g, b, specular_shading, weight] = rest;
         for lane in 0..BLOCK {
-            let highlight = albedo[0].0[lane] * gloss.0[lane];
+            let highlight = albedo[0].0[lane] * specular_shading.0[lane];
             let (mut signs, mut sum) = (0.0, 0.0);
             for rest in [r, g, b] {
                 let residual = highlight - rest.0[lane];
@@ -109,7 +109,7 @@ widened! {
                 sum += residual.abs();
             }
             loss.0[lane] = weight.0[lane] * sum;
-            gradient[0].0[lane] = weight.0[lane] * scale * signs * gloss.0[lane];
+            gradient[0].0[lane] = weight.0[lane] * scale * signs * specular_shading.0[lane];
         }
     }
 }

@@ -6,7 +6,7 @@ use capture::projection::{Projection, per_texel};
 use rayon::prelude::*;
 
 use super::context::SolveContext;
-use super::gloss;
+use super::pooled_specular;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::config::Config;
@@ -31,9 +31,9 @@ pub(super) fn specular_albedo(context: &SolveContext, state: &State) -> Option<V
     let projections = Projection::of_views(&context.capture.train, &context.gbuffers);
     let regions = context.regions(&atlas, &projections)?;
     let seen = per_texel(&atlas, &projections, |_| true);
-    let skin = gloss::of_largest_region(Some(&regions), &seen, specular);
+    let skin = pooled_specular::of_largest_region(Some(&regions), &seen, specular);
     let scale = config.specular_skin / skin.max(f32::MIN_POSITIVE);
-    let pooled = gloss::pooled(config, &atlas, Some(&regions), &seen, specular);
+    let pooled = pooled_specular::pooled(config, &atlas, Some(&regions), &seen, specular);
     Some(pooled.into_iter().map(|value| value * scale).collect())
 }
 
@@ -50,8 +50,10 @@ pub(super) fn specular_floor(
     specular: &[f32],
 ) -> Vec<f32> {
     let taps = &samples.taps;
-    let Some(glints) = transport.glints(&config.skin, light) else { return vec![] };
-    let highlights = backend.highlights(&glints, samples, &samples.normal);
+    let Some(skin_highlights) = transport.skin_highlights(&config.skin, light) else {
+        return vec![];
+    };
+    let highlights = backend.highlights(&skin_highlights, samples, &samples.normal);
     let directions = DirectionScale::from(&config.networks).directions(samples, None);
     let known = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &known, &directions);

@@ -42,8 +42,14 @@ pub(super) fn light(
     let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
     let setup = TransportSetup { nearness, bounce_albedo };
     let log_light = stage.log_light;
-    let gloss = gloss(context, &start);
-    Ok(LightEstimate { log_light, setup, networks: start.networks, gloss, tint: [1.0; CHANNELS] })
+    let skin_specular = skin_specular(context, &start);
+    Ok(LightEstimate {
+        log_light,
+        setup,
+        networks: start.networks,
+        skin_specular,
+        tint: [1.0; CHANNELS],
+    })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -72,8 +78,8 @@ pub(super) fn light_and_albedo(
         Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let gloss = gloss(context, &state);
-    Ok(Lighting::new(runner.backend, context, &samples, state, gloss, light_estimate.setup, light))
+    let skin_specular = skin_specular(context, &state);
+    Ok(Lighting::new(context, &samples, state, skin_specular, light_estimate.setup, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
@@ -85,8 +91,8 @@ pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32])
     (*median * transport.peak(light)).min(1.0)
 }
 
-/// See [`Lighting::gloss`].
-fn gloss(context: &SolveContext, state: &State) -> Vec<f32> {
+/// See [`Lighting::skin_specular`].
+fn skin_specular(context: &SolveContext, state: &State) -> Vec<f32> {
     let wanted = specular_floor::wanted(context.config);
     wanted.then(|| specular_albedo(context, state)).flatten().unwrap_or_default()
 }

@@ -12,11 +12,11 @@
 //! point x, and brings it the cosine-weighted solid angle
 //! dw (1 - k w.x) n.(w - k x) / |w - k x|^4.
 
-mod bent_highlights;
 mod channels;
-mod gloss;
+mod highlights;
 mod matrix;
 mod rays;
+mod reflection;
 pub mod skin;
 mod sky;
 
@@ -27,12 +27,12 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::config::TransportConfig;
-pub use bent_highlights::{Glints, HIGHLIGHT_ROWS};
 pub use channels::CHANNELS;
 pub(crate) use channels::LUMINANCE;
-pub use gloss::Reflection;
+pub use highlights::{HIGHLIGHT_ROWS, SkinHighlights};
 use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
+pub use reflection::Reflection;
 pub use sky::{Sky, SkyRay, contrast};
 
 /// What is asked of a transport beside the shading.

@@ -1,5 +1,5 @@
 //! The specular reflection of skin: two GGX lobes with Smith's masking (Walter et al. 2007, equations 33 and 34)
-//! under Schlick's term. Its numbers are [`SkinConfig`]; `wgsl/glints.wgsl` says the same to a GPU, and
+//! under Schlick's term. Its numbers are [`SkinConfig`]; `wgsl/skin_highlights.wgsl` says the same to a GPU, and
 //! `skin_bsdf.py` to Mitsuba. Tests hold both to this file.
 
 use glam::Vec3;

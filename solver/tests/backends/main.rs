@@ -50,7 +50,7 @@ const RESIDENT: [(&str, Body); 10] = [
     ("50 steps of normals and specular albedo are the processor's", stages::relief),
     ("50 steps under explicit transport are the processor's", stages::transported),
     ("50 steps with the light's own highlights are the processor's", stages::highlights),
-    ("highlights on bent normals are the processor's", stages::bent_highlights),
+    ("highlights on bent normals are the processor's", stages::skin_highlights),
     ("12 steps of the height solve are those written out", heights::conjugate_gradients),
     ("a solve is as near to the processor's as another seed's", solves::whole),
     ("an interrupted solve goes on to the same bytes", solves::resumed),

@@ -168,20 +168,20 @@ pub fn highlights(backend: &dyn Backend) {
     config.transport.hold = 22;
     let (samples, state) = problem(&config);
     let mesh = testing::dome(24);
-    let gloss = vec![0.04; state.specular.len()];
+    let skin_specular = vec![0.04; state.specular.len()];
     for beside in [Beside::Nearness, Beside::Open] {
         let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
         let light: Vec<f32> =
             (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
         let nearness = 0.4 * transport.near();
-        let found = Found { log_light: &light, nearness, gloss: &gloss };
+        let found = Found { log_light: &light, nearness, skin_specular: &skin_specular };
         compare(backend, &state, |_| {
             Highlights::new(&config, &transport, &samples, &state, found).unwrap()
         });
     }
 }
 
-pub fn bent_highlights(backend: &dyn Backend) {
+pub fn skin_highlights(backend: &dyn Backend) {
     let mut config = Config::default();
     config.transport.texture_size = 32;
     let (samples, _) = problem(&config);
@@ -190,14 +190,14 @@ pub fn bent_highlights(backend: &dyn Backend) {
     let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Open);
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
-    let glints = transport.glints(&config.skin, &light).unwrap();
+    let skin_highlights = transport.skin_highlights(&config.skin, &light).unwrap();
     let bent = |i: usize| {
         let bend = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bend)).normalize()
     };
     let normals = Planes::from_fn(samples.len(), |i| bent(i).to_array());
-    let [found, expected] =
-        [backend, &Cpu::new()].map(|backend| backend.highlights(&glints, &samples, &normals));
+    let [found, expected] = [backend, &Cpu::new()]
+        .map(|backend| backend.highlights(&skin_highlights, &samples, &normals));
     for row in 0..HIGHLIGHT_ROWS {
         let values = || (0..samples.len()).map(|i| (found.get(row, i), expected.get(row, i)));
         let largest = values().map(|(_, expected)| expected.abs()).fold(0.0, f32::max);

@@ -97,11 +97,11 @@ pub fn write_render(
         let (a, s) = (albedo(u, v), shading(u, v));
         [0, 1, 2].map(|c| gain * a[c] * s[c])
     });
-    let gloss = view(CAMERAS[frame], specular);
+    let highlights = view(CAMERAS[frame], specular);
     let mut layers = Picture::new(SIDE, SIDE, 12);
     for i in 0..SIDE * SIDE {
         for c in 0..3 {
-            let (d, s) = (diffuse.data[3 * i + c], gloss.data[3 * i + c]);
+            let (d, s) = (diffuse.data[3 * i + c], highlights.data[3 * i + c]);
             let total = d + s + (variance.sqrt() * noise()) as f32;
             let pixel = &mut layers.data[12 * i..12 * i + 12];
             (pixel[c], pixel[3 + c], pixel[6 + c], pixel[9 + c]) = (total, d, s, variance as f32);
@@ -170,8 +170,8 @@ pub fn write_capture(folder: &Path, variance: f64) {
 
 fn write_truth(truth: &Path) {
     write_rgb(&truth.join("diffuse_albedo.exr"), &map(SIDE, 3, albedo));
-    let gloss = map(SIDE, 1, |u, v| [0.02 + 0.02 * (5.0 * u).sin() * (4.0 * v).cos(); 3]);
-    write_exr(&truth.join("specular_albedo.exr"), &gloss, &["Y"]).unwrap();
+    let specular_albedo = map(SIDE, 1, |u, v| [0.02 + 0.02 * (5.0 * u).sin() * (4.0 * v).cos(); 3]);
+    write_exr(&truth.join("specular_albedo.exr"), &specular_albedo, &["Y"]).unwrap();
     let roughness = map(SIDE, 3, |_, _| [0.15, 0.35, 0.5]);
     write_exr(&truth.join("roughness.exr"), &roughness, &["alpha1", "alpha2", "share1"]).unwrap();
     // Tilted by 6 and 3 degrees: the plain mesh normal is off by just that.

@@ -34,7 +34,6 @@ mod blurs;
 mod ceilings;
 mod computing;
 mod device;
-mod glints;
 mod heights;
 mod highlights;
 mod joint;
@@ -46,6 +45,7 @@ mod pass;
 mod pieces;
 mod program;
 mod relief;
+mod skin_highlights;
 mod submission;
 mod timings;
 mod transported;
@@ -63,7 +63,7 @@ use super::{Backend, JointGradient};
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
-use crate::transport::Glints;
+use crate::transport::SkinHighlights;
 
 impl Backend for Gpu {
     fn name(&self) -> String {
@@ -118,10 +118,15 @@ impl Backend for Gpu {
         )
     }
 
-    fn highlights(&self, glints: &Glints, samples: &Samples, normals: &Planes) -> Planes {
+    fn highlights(
+        &self,
+        skin_highlights: &SkinHighlights,
+        samples: &Samples,
+        normals: &Planes,
+    ) -> Planes {
         self.either(
-            |device| glints::highlights(device, glints, samples, normals),
-            |cpu| cpu.highlights(glints, samples, normals),
+            |device| skin_highlights::highlights(device, skin_highlights, samples, normals),
+            |cpu| cpu.highlights(skin_highlights, samples, normals),
         )
     }
 

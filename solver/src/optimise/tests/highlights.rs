@@ -20,8 +20,12 @@ fn gradients_reach_light_distance_and_albedo() {
     let transport = Transport::new(&mesh, &Sky::even(4), &config.transport, 0, Beside::Nearness);
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
-    let gloss = vec![0.2; SIDE * SIDE];
-    let known = Found { log_light: &light, nearness: 0.4 * transport.near(), gloss: &gloss };
+    let skin_specular = vec![0.2; SIDE * SIDE];
+    let known = Found {
+        log_light: &light,
+        nearness: 0.4 * transport.near(),
+        skin_specular: &skin_specular,
+    };
     let mut stage = Highlights::new(&config, &transport, &samples, &state, known).unwrap();
     let found = stage.gradient(&state);
     let loss = |state: &State| stage.gradient(state).loss;
@@ -123,10 +127,10 @@ fn lamp() -> Lamp {
 
 impl Lamp {
     /// The light that explains the pictures with the albedo that is given.
-    fn found(&self, state: &State, gloss: f32, samples: &Samples) -> Highlights<'_> {
+    fn found(&self, state: &State, skin_specular: f32, samples: &Samples) -> Highlights<'_> {
         let log_light = vec![0.0; CHANNELS * self.sky.len()];
-        let gloss = vec![gloss; self.transport.size() * self.transport.size()];
-        let found = Found { log_light: &log_light, nearness: 0.1, gloss: &gloss };
+        let skin_specular = vec![skin_specular; self.transport.size() * self.transport.size()];
+        let found = Found { log_light: &log_light, nearness: 0.1, skin_specular: &skin_specular };
         let new = Highlights::new(&self.config, &self.transport, samples, state, found);
         let mut stage = new.unwrap();
         stage.hold = usize::MAX;
@@ -140,8 +144,8 @@ impl Lamp {
 #[test]
 fn highlights_say_where_the_lamp_is() {
     let lamp = lamp();
-    let found = |gloss: f32| {
-        let stage = lamp.found(&lamp.state, gloss, &lamp.samples);
+    let found = |skin_specular: f32| {
+        let stage = lamp.found(&lamp.state, skin_specular, &lamp.samples);
         let luminance = |cell: &usize| (1e6 * stage.log_light[CHANNELS * cell + 1]) as i64;
         let brightest = (0..lamp.sky.len()).max_by_key(luminance).unwrap();
         let angle = lamp.sky.centres()[brightest].angle_between(lamp.direction).to_degrees();

@@ -43,7 +43,7 @@ impl Reflection {
 impl Transport {
     /// The highlights of samples whose reflectances at normal incidence are `specular`, in colour, for lights of
     /// the scale that has this `peak`, at a nearness per metre that may be another than what the rays were
-    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::glints`].
+    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::skin_highlights`].
     pub fn reflection(
         &self,
         skin: &SkinConfig,

@@ -1,5 +1,5 @@
 // Highlights of a light on bent normals, and how they change with those: one sample a thread. See
-// transport/bent_highlights.rs; the lobes are those of transport/skin.rs.
+// transport/highlights.rs; the lobes are those of transport/skin.rs.
 
 struct Parameters {
     samples: u32,

@@ -8,17 +8,17 @@ use crate::backend::Backend;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::transport::{Glints, HIGHLIGHT_ROWS};
+use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights};
 
 /// What makes them: the light, and the specular albedo of the samples.
-pub(super) struct BentHighlights<'a> {
+pub(super) struct DeviatedHighlights<'a> {
     backend: &'a dyn Backend,
-    glints: Glints<'a>,
+    skin_highlights: SkinHighlights<'a>,
     /// Specular albedo of every sample.
     albedo: Planes,
 }
 
-impl<'a> BentHighlights<'a> {
+impl<'a> DeviatedHighlights<'a> {
     /// `None` if it is switched off, or if the light was not solved for with its highlights.
     pub fn new(
         context: &'a SolveContext,
@@ -28,12 +28,13 @@ impl<'a> BentHighlights<'a> {
         if !context.config.height.highlights || !lighting.explained {
             return None;
         }
-        let gloss = resample(&lighting.gloss, lighting.state.size, 1, samples.taps.size());
-        let albedo = samples.taps.sample::<1>(&gloss);
-        let glints = context
+        let skin_specular =
+            resample(&lighting.skin_specular, lighting.state.size, 1, samples.taps.size());
+        let albedo = samples.taps.sample::<1>(&skin_specular);
+        let skin_highlights = context
             .transport(lighting.setup)
-            .glints(&context.config.skin, &lighting.light.radiance)?;
-        Some(Self { backend: context.backend, glints, albedo })
+            .skin_highlights(&context.config.skin, &lighting.light.radiance)?;
+        Some(Self { backend: context.backend, skin_highlights, albedo })
     }
 
     /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.
@@ -42,7 +43,7 @@ impl<'a> BentHighlights<'a> {
             Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bends.sample(i, 0))
         };
         let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
-        let highlights = self.backend.highlights(&self.glints, samples, &normals);
+        let highlights = self.backend.highlights(&self.skin_highlights, samples, &normals);
         Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(normals.sample(i, 0));
             let [r, g, b, x, y, z]: [f32; HIGHLIGHT_ROWS] = highlights.sample(i, 0);

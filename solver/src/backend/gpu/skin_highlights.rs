@@ -7,16 +7,16 @@ use crate::backend::resident::DeviceError;
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
-use crate::transport::{Glints, HIGHLIGHT_ROWS};
+use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights};
 
-/// See [`Glints::on`].
+/// See [`SkinHighlights::on`].
 pub(super) fn highlights(
     device: &Device,
-    glints: &Glints,
+    skin_highlights: &SkinHighlights,
     samples: &Samples,
     normals: &Planes,
 ) -> Result<Planes, DeviceError> {
-    let parts = glints.parts(samples);
+    let parts = skin_highlights.parts(samples);
     let cells = parts.open.len() / parts.from.len().max(1);
     let pieces = Pieces::new(device, samples.len(), HIGHLIGHT_ROWS);
     let surface = pieces.upload(device, "surface", &[normals, &samples.view]);
@@ -25,7 +25,8 @@ pub(super) fn highlights(
     let open = device.filled("open", parts.open);
     let from: Vec<[f32; 3]> = parts.from.iter().map(|from| from.to_array()).collect();
     let from = device.filled("places", &from);
-    let kernel = device.kernel("bent highlights", include_str!("wgsl/glints.wgsl"), &[], "urrrrrw");
+    let kernel =
+        device.kernel("skin highlights", include_str!("wgsl/skin_highlights.wgsl"), &[], "urrrrrw");
     let SkinConfig { f0, lobes: [a, b] } = *parts.skin;
     let [grazing, opposite] = parts.guards;
     let lobes = [a.roughness, a.weight, b.roughness, b.weight];

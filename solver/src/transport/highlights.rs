@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::gloss::scale;
 use super::matrix::Matrix;
+use super::reflection::scale;
 use super::skin::{GRAZING, lobe_slopes, schlick};
 use super::{CHANNELS, LUMINANCE, Transport};
 use crate::config::SkinConfig;
@@ -11,7 +11,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::simd::widened;
 
-/// Rows of [`Glints::on`]: R, G, B, and how the luminance changes with the normal's x, y, z.
+/// Rows of [`SkinHighlights::on`]: R, G, B, and how the luminance changes with the normal's x, y, z.
 pub const HIGHLIGHT_ROWS: usize = CHANNELS + 3;
 /// Cells that are summed beside each other.
 const LANES: usize = 16;
@@ -19,7 +19,7 @@ const LANES: usize = 16;
 const OPPOSITE: f32 = 1e-12;
 
 /// What makes highlights on skin, whatever its normals: a light, and what of it is open.
-pub struct Glints<'a> {
+pub struct SkinHighlights<'a> {
     transport: &'a Transport,
     skin: &'a SkinConfig,
     open: &'a Matrix,
@@ -30,7 +30,11 @@ pub struct Glints<'a> {
 impl Transport {
     /// Of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the transport holds
     /// what is open ([`super::Beside::Open`]).
-    pub fn glints<'a>(&'a self, skin: &'a SkinConfig, light: &[f32]) -> Option<Glints<'a>> {
+    pub fn skin_highlights<'a>(
+        &'a self,
+        skin: &'a SkinConfig,
+        light: &[f32],
+    ) -> Option<SkinHighlights<'a>> {
         let open = self.open.as_ref()?;
         let scale = scale(skin, self.peak(light));
         let light = self.through_lobes(light);
@@ -41,11 +45,11 @@ impl Transport {
             let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
             (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
         }
-        Some(Glints { transport: self, skin, open, cells, scale })
+        Some(SkinHighlights { transport: self, skin, open, cells, scale })
     }
 }
 
-impl Glints<'_> {
+impl SkinHighlights<'_> {
     /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every sample, on these
     /// normals (unit), and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`]
     /// rows.
@@ -66,9 +70,9 @@ impl Glints<'_> {
     }
 
     /// For a device that does the same.
-    pub(crate) fn parts(&self, samples: &Samples) -> GlintParts<'_> {
+    pub(crate) fn parts(&self, samples: &Samples) -> SkinHighlightParts<'_> {
         let Self { transport, skin, open, cells, scale } = self;
-        GlintParts {
+        SkinHighlightParts {
             cells: cells.as_flattened().as_flattened(),
             open: &open.rows,
             row: (0..samples.len()).map(|i| transport.row_of(samples, i) as u32).collect(),
@@ -80,8 +84,8 @@ impl Glints<'_> {
     }
 }
 
-/// See [`Glints::parts`].
-pub(crate) struct GlintParts<'a> {
+/// See [`SkinHighlights::parts`].
+pub(crate) struct SkinHighlightParts<'a> {
     /// In blocks of 16 cells, seven rows each: direction from the sky's centre, R, G, B, luminance.
     pub cells: &'a [f32],
     /// Rows of as many weights as there are cells.
@@ -186,7 +190,7 @@ mod tests {
         let ones = Planes::from_fn(samples.len(), |_| [1.0]);
         let (skin, peak) = (Config::default().skin, transport.peak(&light));
         let rows = transport.reflection(&skin, &samples, &ones, peak, NEARNESS).unwrap();
-        let found = transport.glints(&skin, &light).unwrap().on(&samples, &samples.normal);
+        let found = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &samples.normal);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
             for (c, expected) in expected.into_iter().enumerate() {
@@ -207,10 +211,10 @@ mod tests {
                 (normal + step * (axis - normal * normal.dot(axis))).to_array()
             };
             let normals = Planes::from_fn(samples.len(), normal);
-            let bent = transport.glints(&skin, &light).unwrap().on(&samples, &normals);
+            let bent = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &normals);
             move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
         };
-        let bent = transport.glints(&skin, &light).unwrap().on(&samples, &samples.normal);
+        let bent = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &samples.normal);
         for axis in [Vec3::X, Vec3::Y] {
             let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
             let (mut error, mut energy) = (0.0, 0.0);
