@@ -63,7 +63,7 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
         backend.joint(&networks, &samples, &directions, &albedo);
     });
     time("networks: gradients by directions", 3456.0 * pixels, 30.0 * pixels, &mut || {
-        backend.bend(&networks, &samples, &light, &directions, &albedo);
+        backend.direction_gradient(&networks, &samples, &light, &directions, &albedo);
     });
     time("networks: light vector", 864.0 * pixels, 11.0 * pixels, &mut || {
         backend.light(&networks, &samples.position);

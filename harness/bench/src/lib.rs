@@ -26,8 +26,8 @@ use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
 use solver::backend::{Backend, BackendError};
 use solver::model::deviation::Deviation;
-use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
+use solver::optimise::normals::Normals;
 use solver::optimise::stage::Stage;
 use solver::optimise::warm_up::WarmUp;
 
@@ -274,7 +274,7 @@ fn losses(kind: Kind, problem: &Problem, device: &dyn Backend) -> Vec<f64> {
     let deviation = Deviation::new(config, state.size);
     let mut stage: Box<dyn Stage> = match kind {
         Kind::WarmUp => Box::new(WarmUp::new(config, samples, &state)),
-        Kind::Normals => Box::new(Relief::new(config, samples, &deviation, &state, device, 1)),
+        Kind::Normals => Box::new(Normals::new(config, samples, &deviation, &state, device, 1)),
         Kind::Diffuse => Box::new(Diffuse::new(config, samples, &deviation, &state, device, 1)),
     };
     (0..TORCH_STEPS).map(|_| stage.step(&mut state, device, 1.0)).collect()

@@ -7,8 +7,8 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::memory::KeepFreedMemory;
 use solver::model::deviation::Deviation;
-use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
+use solver::optimise::normals::Normals;
 use solver::optimise::stage::Stage;
 use solver::optimise::warm_up::WarmUp;
 
@@ -119,7 +119,7 @@ pub fn measure(
     let deviation = Deviation::new(&config, texture);
     let mut stage: Box<dyn Stage> = match kind {
         Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
-        Kind::Normals => Box::new(Relief::new(&config, &samples, &deviation, &state, backend, 1)),
+        Kind::Normals => Box::new(Normals::new(&config, &samples, &deviation, &state, backend, 1)),
         Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, backend, 1)),
     };
     let seconds = best(budget, 2, || {

@@ -170,11 +170,11 @@ fn save_solve_pictures(maps: &Path, light: usize) {
         *value = normal(i % SIDE, i / SIDE)[2].max(0.0);
     }
     picture::write_exr(&maps.join("confidence.exr"), &confidence, &["Y"]).unwrap();
-    for (stage, error) in [("01-warm-up", 0.3), ("02-relief", 0.1)] {
+    for (stage, error) in [("01-warm-up", 0.3), ("02-heights", 0.1)] {
         let folder = maps.join("stages").join(stage);
         fs::create_dir_all(&folder).unwrap();
         picture::write_exr_rgb(&folder.join("diffuse_albedo.exr"), &ball(0.0, error)).unwrap();
-        if stage == "02-relief" {
+        if stage == "02-heights" {
             picture::write_exr_rgb(&folder.join("specular_normal.exr"), &normals(error)).unwrap();
         }
     }

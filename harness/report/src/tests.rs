@@ -205,8 +205,8 @@ fn a_solve_shows_what_it_left_and_nothing_of_what_it_did_not() {
     let of = |map: &str, columns: &[&str]| -> Vec<String> {
         columns.iter().map(|column| format!("{map} {column}")).collect()
     };
-    let albedo = of("Diffuse albedo", &["warm-up", "relief", "result", "exact"]);
-    assert_eq!(shown, [albedo, of("Specular normal", &["relief", "result", "exact"])].concat());
+    let albedo = of("Diffuse albedo", &["warm-up", "heights", "result", "exact"]);
+    assert_eq!(shown, [albedo, of("Specular normal", &["heights", "result", "exact"])].concat());
     let shown: Vec<String> = pictures(&before, "Layers of the training views");
     assert_eq!(shown.len(), 6 * 4);
     assert!(shown.contains(&"specular, exact 003".to_owned()));

@@ -17,7 +17,7 @@ pub mod resident;
 pub use choice::Choice;
 pub use error::BackendError;
 
-use crate::model::bend::{BLURRED, BentTextures, ROWS, SPECULAR};
+use crate::model::deviation_textures::{BLURRED, PackedDeviations, ROWS, SPECULAR};
 use crate::model::networks::Networks;
 use crate::model::normals::{DIRECTIONS, Deviations, DirectionScale};
 use crate::model::planes::Planes;
@@ -28,8 +28,8 @@ use resident::{Descent, Job, NormalEquations, Resident};
 
 /// Rows of sampled albedos and of their gradients: diffuse R, G, B, specular.
 pub const ALBEDOS: usize = 4;
-/// Rows of the gradient of [`Backend::bend`]: directions, then specular albedo.
-pub const BENT: usize = 7;
+/// Rows of the gradient of [`Backend::direction_gradient`]: directions, then specular albedo.
+pub const DIRECTION_ROWS: usize = 7;
 
 /// A device that evaluates and differentiates the pixel model A_d S_d + F A_s S_s, with
 /// S_d = L(p).K_d(n_d) and S_s = L(p).K_s(r).
@@ -69,8 +69,8 @@ pub trait Backend: Send + Sync {
     fn light(&self, networks: &Networks, position: &Planes) -> Planes;
 
     /// Loss with frozen networks and known light; gradients of directions and specular albedo
-    /// ([`BENT`] rows).
-    fn bend(
+    /// ([`DIRECTION_ROWS`] rows).
+    fn direction_gradient(
         &self,
         networks: &Networks,
         samples: &Samples,
@@ -81,14 +81,15 @@ pub trait Backend: Send + Sync {
 
     /// The same with the directions and the specular albedo of textures, and gradients by their texels
     /// ([`ROWS`] values each). The albedo's last row is not read.
-    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
-        let TexturedRelief { networks, samples, light, albedo, scale, textures } = *relief;
+    fn deviation_gradient(&self, normals: &TexturedNormals) -> (f64, Vec<f32>) {
+        let TexturedNormals { networks, samples, light, albedo, scale, textures } = *normals;
         let bent = textures.sample(&samples.taps);
         let deviations = Deviations { planes: &bent, blurred: BLURRED };
         let directions = scale.directions(samples, Some(deviations));
         let mut albedo = albedo.clone();
         albedo.copy_row(ALBEDOS - 1, &bent, SPECULAR);
-        let (loss, by_sample) = self.bend(networks, samples, light, &directions, &albedo);
+        let (loss, by_sample) =
+            self.direction_gradient(networks, samples, light, &directions, &albedo);
         let by_deviations = scale.adjoint(samples, deviations, &by_sample);
         let mut by_bent = Planes::new(ROWS, samples.len());
         (0..3).for_each(|axis| by_bent.copy_row(axis, &by_deviations, axis));
@@ -127,9 +128,9 @@ pub trait Backend: Send + Sync {
     }
 }
 
-/// What [`Backend::bend_textures`] works on.
+/// What [`Backend::deviation_gradient`] works on.
 #[derive(Clone, Copy)]
-pub struct TexturedRelief<'a> {
+pub struct TexturedNormals<'a> {
     /// Frozen.
     pub networks: &'a Networks,
     /// The pixels.
@@ -141,7 +142,7 @@ pub struct TexturedRelief<'a> {
     /// Of the directions.
     pub scale: &'a DirectionScale,
     /// Deviations and specular albedo.
-    pub textures: &'a BentTextures,
+    pub textures: &'a PackedDeviations,
 }
 
 /// What [`Backend::joint`] finds.

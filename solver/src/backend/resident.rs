@@ -40,16 +40,16 @@ pub enum Job<'a> {
         prior: f32,
     },
     /// Moves deviation and specular albedo under frozen networks.
-    Relief(ReliefJob<'a>),
+    Normals(NormalsJob<'a>),
     /// Moves the light's logarithm, its nearness, diffuse and specular albedo, networks.
     Transported(TransportedJob<'a>),
     /// Moves the light's logarithm, its nearness, the diffuse albedo.
     Highlights(HighlightsJob<'a>),
 }
 
-/// See [`Job::Relief`].
+/// See [`Job::Normals`].
 #[derive(Clone, Copy)]
-pub struct ReliefJob<'a> {
+pub struct NormalsJob<'a> {
     /// The pixels.
     pub samples: &'a Samples,
     /// From the deviation texture to directions.
@@ -132,7 +132,7 @@ pub trait Resident {
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
 }
 
-/// The normal equations of the height solve, see [`crate::optimise::relief`]: unknown are a height per texel
+/// The normal equations of the height solve, see [`crate::optimise::height_solve`]: unknown are a height per texel
 /// and three changes of the albedo.
 pub struct NormalEquations<'a> {
     /// From texels to pixels.

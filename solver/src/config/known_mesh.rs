@@ -151,7 +151,7 @@ pub struct HeightConfig {
     pub residual_floor: f32,
     /// How much skin's relief usually bends normals, radians. What the model leaves beyond what this and
     /// `usual_albedo_detail` explain is its own error, and counts the less.
-    pub usual_bend: f32,
+    pub usual_deviation: f32,
     /// How much the detail of skin's albedo usually amounts to, relative.
     pub usual_albedo_detail: f32,
     /// Standard deviation of the neighbourhood in which residuals are compared with that, pixels.

@@ -127,7 +127,7 @@ impl Config {
                 steps: 60,
                 tolerance: 1e-5,
                 residual_floor: 0.002,
-                usual_bend: 0.05,
+                usual_deviation: 0.05,
                 usual_albedo_detail: 0.03,
                 neighbourhood: 3.0,
                 steepest: 6.0,

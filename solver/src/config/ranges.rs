@@ -115,7 +115,7 @@ impl HeightConfig {
         range("height.diffuse_doubt", self.diffuse_doubt, within, "0 to 1")?;
         range("height.rim", self.rim, |x: usize| x <= 16, "0 to 16")?;
         not_negative(&[
-            ("height.usual_bend", self.usual_bend),
+            ("height.usual_deviation", self.usual_deviation),
             ("height.usual_albedo_detail", self.usual_albedo_detail),
             ("height.neighbourhood", self.neighbourhood),
             ("height.unseen_damping", self.unseen_damping),

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::bend::{BLURRED, Bend, BentTextures, ROWS, SPECULAR};
 use super::blur::Blur;
+use super::deviation_textures::{BLURRED, DeviationTextures, PackedDeviations, ROWS, SPECULAR};
 use super::normals::DirectionScale;
 use super::pyramid::Pyramid;
 use super::texels::CHANNELS;
@@ -77,15 +77,15 @@ impl Deviation {
     }
 
     /// d and its blur, of a deviation texture.
-    pub fn textures(&self, deviation: &[f32]) -> Bend {
-        let BentTextures { sharp, blurred } =
-            self.bent(deviation, &vec![0.0; self.size * self.size]);
+    pub fn textures(&self, deviation: &[f32]) -> DeviationTextures {
+        let PackedDeviations { sharp, blurred } =
+            self.packed(deviation, &vec![0.0; self.size * self.size]);
         let [sharp, blurred] = [sharp, blurred].map(|texture| part::<CHANNELS, AXES>(&texture, 0));
-        Bend { sharp, blurred }
+        DeviationTextures { sharp, blurred }
     }
 
     /// What samples see of a deviation texture and the specular albedo.
-    pub fn bent(&self, deviation: &[f32], specular: &[f32]) -> BentTextures {
+    pub fn packed(&self, deviation: &[f32], specular: &[f32]) -> PackedDeviations {
         let (band, size, range) = (self.band(deviation), self.size, self.range);
         let task = |row: usize, sharp: &mut [f32]| {
             let band = &band[AXES * row * size..][..AXES * size];
@@ -93,12 +93,12 @@ impl Deviation {
         };
         let sharp = from_parts(CHANNELS * size * size, CHANNELS * size, task).0;
         let blurred = self.blur.apply(&sharp);
-        BentTextures { sharp, blurred }
+        PackedDeviations { sharp, blurred }
     }
 
     /// Carries gradients by what samples see of these textures ([`ROWS`] values a texel) to the textures that
     /// they are made of.
-    pub fn adjoint(&self, bent: &BentTextures, gradient: &[f32]) -> TextureGradients {
+    pub fn adjoint(&self, bent: &PackedDeviations, gradient: &[f32]) -> TextureGradients {
         let (size, range) = (self.size, self.range);
         let [row_of_gradient, row_of_texels] = [ROWS, CHANNELS].map(|values| values * size);
         let by_blurred = |row: usize, out: &mut [f32]| {
@@ -213,12 +213,12 @@ mod tests {
                 (range, blur, extent);
             let deviation = Deviation::new(&config, SIZE);
             let value = |t: &[f32], specular: &[f32]| -> f64 {
-                let BentTextures { sharp, blurred } = deviation.bent(t, specular);
+                let PackedDeviations { sharp, blurred } = deviation.packed(t, specular);
                 let texel = |at: usize| sharp[4 * at..][..4].iter().chain(&blurred[4 * at..][..3]);
                 let seen = (0..texels).flat_map(|at| texel(at).zip(&gradient[ROWS * at..]));
                 seen.map(|(value, factor)| f64::from(*value) * f64::from(*factor)).sum()
             };
-            let found = deviation.adjoint(&deviation.bent(&t, &specular), &gradient);
+            let found = deviation.adjoint(&deviation.packed(&t, &specular), &gradient);
             for (at, channel) in [(0, 0), (17, 2), (texels / 2, 1), (texels - 1, 0)] {
                 let at = AXES * at + channel;
                 let moved = |step: f32| {
@@ -243,8 +243,8 @@ mod tests {
         let deviation = Deviation::new(&Config::preset("paper").unwrap(), SIZE);
         let place = |i: usize| Vec2::new(i as f32 * 0.618, i as f32 * 0.414).fract();
         let taps = Taps::sorted(SIZE, &(0..1000).map(place).collect::<Vec<_>>()).0;
-        let seen = deviation.bent(&t, &specular).sample(&taps);
-        let Bend { sharp, blurred } = deviation.textures(&t);
+        let seen = deviation.packed(&t, &specular).sample(&taps);
+        let DeviationTextures { sharp, blurred } = deviation.textures(&t);
         let [sharp, blurred] = [&sharp, &blurred].map(|texture| taps.sample::<3>(texture));
         let specular = taps.sample::<1>(&specular);
         for i in 0..1000 {

@@ -69,7 +69,7 @@ impl HeightField {
     }
 
     /// The deviation of the normal, 3 channels.
-    pub fn bend(&self, height: &[f32]) -> Vec<f32> {
+    pub fn deviation(&self, height: &[f32]) -> Vec<f32> {
         let size = self.size;
         let texel = |at: usize| {
             let (x, y) = (at % size, at / size);
@@ -79,20 +79,20 @@ impl HeightField {
             };
             self.right[at] * across(1, x) + self.down[at] * across(size, y)
         };
-        let mut bend = vec![0.0; 3 * self.len()];
-        bend.par_chunks_mut(3 * size).enumerate().for_each(|(y, line)| {
+        let mut deviation = vec![0.0; 3 * self.len()];
+        deviation.par_chunks_mut(3 * size).enumerate().for_each(|(y, line)| {
             for (x, out) in line.as_chunks_mut::<3>().0.iter_mut().enumerate() {
                 *out = texel(y * size + x).to_array();
             }
         });
-        bend
+        deviation
     }
 
-    /// The transpose of [`Self::bend`].
-    pub fn adjoint(&self, by_bend: &[f32]) -> Vec<f32> {
+    /// The transpose of [`Self::deviation`].
+    pub fn adjoint(&self, by_deviation: &[f32]) -> Vec<f32> {
         let size = self.size;
-        let (by_bend, _) = by_bend.as_chunks::<3>();
-        let along = |basis: &[Vec3], at: usize| basis[at].dot(Vec3::from_array(by_bend[at]));
+        let (by_deviation, _) = by_deviation.as_chunks::<3>();
+        let along = |basis: &[Vec3], at: usize| basis[at].dot(Vec3::from_array(by_deviation[at]));
         let texel = |at: usize| {
             let (x, y) = (at % size, at / size);
             // A texel's height counts where it is the neighbour of one that has both neighbours.
@@ -117,11 +117,11 @@ mod tests {
         // 2 metres over 32 texels: a texel is 62.5 mm, and the height counts texels.
         let field = HeightField::new(&Atlas::new(&testing::square(), 32), 6.0);
         let ramp: Vec<f32> = (0..32 * 32).map(|at| 0.3 * (at % 32) as f32).collect();
-        let bend = field.bend(&ramp);
-        let middle = Vec3::from_slice(&bend[3 * (16 * 32 + 16)..]);
+        let deviation = field.deviation(&ramp);
+        let middle = Vec3::from_slice(&deviation[3 * (16 * 32 + 16)..]);
         assert!(middle.abs_diff_eq(Vec3::new(-0.3, 0.0, 0.0), 1e-5), "{middle}");
         let upwards: Vec<f32> = (0..32 * 32).map(|at| 0.2 * (at / 32) as f32).collect();
-        let middle = Vec3::from_slice(&field.bend(&upwards)[3 * (16 * 32 + 16)..]);
+        let middle = Vec3::from_slice(&field.deviation(&upwards)[3 * (16 * 32 + 16)..]);
         // Rows run downwards, so this height grows towards -y.
         assert!(middle.abs_diff_eq(Vec3::new(0.0, 0.2, 0.0), 1e-5), "{middle}");
     }
@@ -134,9 +134,9 @@ mod tests {
             |p: Vec3| 0.02 * (-(p - Vec3::new(0.3, 0.2, 0.93)).length_squared() / 0.02).exp();
         // Heights in metres, in the unit of the field: found from a known ramp.
         let z: Vec<f32> = atlas.positions.iter().map(|p| p.x).collect();
-        let slope = Vec3::from_slice(&field.bend(&z)[3 * (64 * 128 + 64)..]).x;
+        let slope = Vec3::from_slice(&field.deviation(&z)[3 * (64 * 128 + 64)..]).x;
         let height: Vec<f32> = atlas.positions.iter().map(|p| bump(*p) / -slope).collect();
-        let bend = field.bend(&height);
+        let deviation = field.deviation(&height);
         let mut compared = 0;
         for at in (0..128 * 128).filter(|at| atlas.inside[*at]) {
             let (p, n) = (atlas.positions[at], atlas.normals[at]);
@@ -148,7 +148,7 @@ mod tests {
             let other = n.cross(tangent);
             let by = |t: Vec3| (bump(p + 1e-3 * t) - bump(p - 1e-3 * t)) / 2e-3;
             let expected = -(tangent * by(tangent) + other * by(other));
-            let found = Vec3::from_slice(&bend[3 * at..]);
+            let found = Vec3::from_slice(&deviation[3 * at..]);
             assert!(found.distance(expected) < 0.01, "{found} {expected}");
             compared += 1;
         }
@@ -164,7 +164,7 @@ mod tests {
         let product = |a: &[f32], b: &[f32]| {
             a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>()
         };
-        let left = product(&field.bend(&height), &gradient);
+        let left = product(&field.deviation(&height), &gradient);
         let right = product(&height, &field.adjoint(&gradient));
         assert!((left - right).abs() < 1e-4 * left.abs().max(1.0), "{left} {right}");
     }

@@ -1,8 +1,8 @@
 //! The model: samples, three networks, shading, textures with their blur, and the albedo prior.
 
-pub mod bend;
 pub mod blur;
 pub mod deviation;
+pub mod deviation_textures;
 mod gather;
 pub mod height;
 pub mod layer;

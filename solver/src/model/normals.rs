@@ -33,7 +33,7 @@ impl DirectionScale {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
             let [sharp, blurred] = deviations.map_or([&STILL, &STILL], |d| d.block(block));
             let (normal, view) = (samples.normal.block(block), samples.view.block(block));
-            bend(self, normal, view, sharp, blurred, out);
+            deviate(self, normal, view, sharp, blurred, out);
         })
     }
 
@@ -69,7 +69,7 @@ impl<'a> Deviations<'a> {
 static STILL: [Row; 3] = [Row::ZERO; 3];
 
 widened! {
-    fn bend(
+    fn deviate(
         scale: &DirectionScale,
         normal: &[Row],
         view: &[Row],

@@ -1,4 +1,4 @@
-//! Highlights that the found light makes on normals that relief bends.
+//! Highlights that the found light makes on normals that heights deviate.
 
 use glam::Vec3;
 
@@ -37,10 +37,11 @@ impl<'a> DeviatedHighlights<'a> {
         Some(Self { backend: context.backend, skin_highlights, albedo })
     }
 
-    /// Highlights with normals bent by the first rows of `bends`, R, G, B, and how they change with those.
-    pub fn at(&self, samples: &Samples, bends: &Planes) -> Planes {
+    /// Highlights with normals bent by the first rows of `deviations`, R, G, B, and how they change with those.
+    pub fn at(&self, samples: &Samples, deviations: &Planes) -> Planes {
         let bent = |i: usize| {
-            Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bends.sample(i, 0))
+            Vec3::from_array(samples.normal.sample(i, 0))
+                + Vec3::from_array(deviations.sample(i, 0))
         };
         let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
         let highlights = self.backend.highlights(&self.skin_highlights, samples, &normals);

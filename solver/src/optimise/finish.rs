@@ -20,8 +20,8 @@ use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
 use super::transported::albedo;
 use crate::config::map_size;
-use crate::model::bend::Bend;
 use crate::model::deviation::Deviation;
+use crate::model::deviation_textures::DeviationTextures;
 use crate::model::planes::Planes;
 use crate::model::texture::resample;
 use crate::solution::{Record, Solution, ViewLayers};
@@ -150,7 +150,7 @@ fn to_maps(
         let normals = atlas.normals.iter().zip(texture.chunks_exact(3));
         normals.flat_map(|(n, d)| (n + glam::Vec3::from_slice(d)).normalize().to_array()).collect()
     };
-    let Bend { sharp, blurred } = deviation.textures(&state.deviation);
+    let DeviationTextures { sharp, blurred } = deviation.textures(&state.deviation);
     let coverage = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
     Maps {
         diffuse_albedo: picture(3, scaled(&state.diffuse, scales.diffuse)),

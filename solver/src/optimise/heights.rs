@@ -6,8 +6,8 @@ use capture::gbuffer::Atlas;
 use super::context::SolveContext;
 use super::deviated_highlights::DeviatedHighlights;
 use super::error::SolveError;
+use super::height_solve::HeightSolve;
 use super::lighting::Lighting;
-use super::relief::ReliefSolve;
 use super::stage::State;
 use crate::config::HeightConfig;
 use crate::model::texture::resample;
@@ -27,31 +27,31 @@ pub(super) fn heights(
     let config = &context.config.height;
     let sides = sides(config, context.size);
     let (mut unknowns, mut of) = (vec![], sides[0]);
-    let mut bend = vec![0.0; 3 * of * of];
+    let mut deviation = vec![0.0; 3 * of * of];
     for (round, side) in sides.into_iter().enumerate() {
         let atlas = Atlas::new(&context.capture.mesh, side);
         let samples = context.samples(side);
         let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
-        let relief = ReliefSolve::new(config, backend, &samples, views, &atlas, state, lighting);
-        let relief = match lighting
+        let solve = HeightSolve::new(config, backend, &samples, views, &atlas, state, lighting);
+        let solve = match lighting
             .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples))
         {
-            Some(highlights) => relief.with(highlights),
-            None => relief,
+            Some(highlights) => solve.with(highlights),
+            None => solve,
         };
         unknowns = match round {
-            0 => vec![0.0; relief.unknowns()],
+            0 => vec![0.0; solve.unknowns()],
             _ => enlarged(&unknowns, of, side),
         };
         of = side;
-        let done = relief.solve(&mut unknowns, step);
-        bend = relief.bend(&unknowns);
+        let done = solve.solve(&mut unknowns, step);
+        deviation = solve.deviation(&unknowns);
         match done {
             Err(SolveError::Interrupted) => break,
             done => done?,
         }
     }
-    Ok(resample(&bend, of, 3, context.size))
+    Ok(resample(&deviation, of, 3, context.size))
 }
 
 /// Conjugate-gradient steps for textures of side `size`.
@@ -85,10 +85,10 @@ mod tests {
     use crate::testing;
 
     #[test]
-    fn a_relief_bends_normals_alike_on_a_texture_of_another_side() {
+    fn heights_deviate_normals_alike_on_a_texture_of_another_side() {
         let mesh = testing::dome(24);
-        let bend = |side: usize, unknowns: &[f32]| {
-            HeightField::new(&Atlas::new(&mesh, side), 6.0).bend(&unknowns[..side * side])
+        let deviation = |side: usize, unknowns: &[f32]| {
+            HeightField::new(&Atlas::new(&mesh, side), 6.0).deviation(&unknowns[..side * side])
         };
         let wave = |at: usize| {
             let (x, y) = ((at % 32) as f32, (at / 32) as f32);
@@ -97,11 +97,11 @@ mod tests {
         let coarse: Vec<f32> = (0..4 * 32 * 32).map(wave).collect();
         let fine = enlarged(&coarse, 32, 64);
         assert_eq!(fine.len(), 4 * 64 * 64);
-        let (coarse, fine) = (resample(&bend(32, &coarse), 32, 3, 64), bend(64, &fine));
+        let (coarse, fine) = (resample(&deviation(32, &coarse), 32, 3, 64), deviation(64, &fine));
         let inside = Atlas::new(&mesh, 64).inside;
         let (mut error, mut energy) = (0.0, 0.0);
         for at in (0..64 * 64).filter(|at| inside[*at]) {
-            let [a, b] = [&coarse, &fine].map(|bend| Vec3::from_slice(&bend[3 * at..]));
+            let [a, b] = [&coarse, &fine].map(|deviation| Vec3::from_slice(&deviation[3 * at..]));
             error += a.distance_squared(b);
             energy += a.length_squared();
         }

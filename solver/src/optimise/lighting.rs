@@ -20,8 +20,8 @@ pub(super) struct Lighting {
     pub state: State,
     /// S_d, R, G, B per texel.
     shading: Vec<f32>,
-    /// How it changes with the normal, 9 values per texel; see [`crate::transport::Transport::bending`].
-    bending: Vec<f32>,
+    /// How it changes with the normal, 9 values per texel; see [`crate::transport::Transport::shading_by_normal`].
+    shading_by_normal: Vec<f32>,
     /// S_d of full light on a surface that faces it.
     pub peak: f32,
     /// See [`specular_floor`], R, G, B per texel; empty if it is switched off.
@@ -64,7 +64,7 @@ impl Lighting {
         Self {
             state,
             shading: transport.shading(&radiance),
-            bending: transport.bending(&radiance).unwrap_or_default(),
+            shading_by_normal: transport.shading_by_normal(&radiance).unwrap_or_default(),
             peak: transport.peak(&radiance),
             specular_floor,
             skin_specular,
@@ -77,7 +77,7 @@ impl Lighting {
 
     /// How much shading and the networks' highlights say of relief: the squared contrast of the light, and
     /// next to nothing where it is even.
-    pub fn relief(&self) -> f32 {
+    pub fn evidence_of_normals(&self) -> f32 {
         self.light.contrast().powi(2) * (1.0 - self.evenness())
     }
 
@@ -121,8 +121,10 @@ impl Lighting {
     pub fn sampled(&self, samples: &Samples) -> Planes {
         let size = samples.taps.size();
         let shading = resample(&self.shading, self.state.size, CHANNELS, size);
-        let bending = resample(&self.bending, self.state.size, 3 * CHANNELS, size);
-        let parts: [(&[f32], usize); 2] = [(&shading, CHANNELS), (&bending, 3 * CHANNELS)];
+        let shading_by_normal =
+            resample(&self.shading_by_normal, self.state.size, 3 * CHANNELS, size);
+        let parts: [(&[f32], usize); 2] =
+            [(&shading, CHANNELS), (&shading_by_normal, 3 * CHANNELS)];
         samples.taps.sample::<SHADING_ROWS>(&interleave::<SHADING_ROWS>(&parts))
     }
 }

@@ -1,17 +1,17 @@
 //! The optimisation: Adam, the stages and their order, normalisation.
 
 pub mod adam;
-mod bending_penalty;
 pub mod checkpoint;
 mod clock;
 mod confidence;
 mod context;
 mod deviated_highlights;
-pub mod deviation;
+mod deviation_penalty;
 pub mod diffuse;
 pub(crate) mod error;
 mod finish;
 mod found;
+pub mod height_solve;
 mod heights;
 pub mod highlights;
 mod light_estimate;
@@ -20,10 +20,10 @@ mod linear_colour;
 mod log;
 mod nearby;
 pub mod normalise;
+pub mod normals;
 mod pooled_specular;
 pub(crate) mod progress;
 mod recolour;
-pub mod relief;
 mod snapshot;
 pub mod solve;
 pub mod specular;

@@ -28,14 +28,14 @@ impl<'a> Nearby<'a> {
     /// at most 1: the rest is what the model gets wrong, along shadow edges and hairlines and in the ears.
     /// 0 on the rim.
     pub fn trust(&self, slopes: &Planes, left: &Planes) -> Planes {
-        let HeightConfig { residual_floor: floor, usual_bend, usual_albedo_detail, .. } =
+        let HeightConfig { residual_floor: floor, usual_deviation, usual_albedo_detail, .. } =
             *self.config;
         let squares = self.each(|i| {
             let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
             let usual = |c: usize| {
-                let bend = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
+                let slope = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
                 // Half of a bend's square lies along the slope.
-                0.5 * usual_bend * usual_bend * bend.length_squared()
+                0.5 * usual_deviation * usual_deviation * slope.length_squared()
                     + (usual_albedo_detail * s[12 + c]).powi(2)
                     + floor * floor
             };

@@ -35,7 +35,7 @@ pub(super) struct Snapshot {
     diffuse: Option<Small>,
     specular: Option<Small>,
     /// The deviation of the specular normal.
-    bend: Option<Small>,
+    deviation: Option<Small>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ impl Small {
 impl Snapshot {
     /// Of a stage that has changed nothing yet.
     pub fn new(stage: &str, unit: Unit) -> Self {
-        Self { stage: stage.to_owned(), unit, diffuse: None, specular: None, bend: None }
+        Self { stage: stage.to_owned(), unit, diffuse: None, specular: None, deviation: None }
     }
 
     /// With a diffuse albedo of side `size`.
@@ -74,8 +74,8 @@ impl Snapshot {
     }
 
     /// With a deviation of the specular normal (after tanh) of side `size`.
-    pub fn bend(self, texture: &[f32], size: usize) -> Self {
-        Self { bend: Some(Small::of(texture, 3, size)), ..self }
+    pub fn deviation(self, texture: &[f32], size: usize) -> Self {
+        Self { deviation: Some(Small::of(texture, 3, size)), ..self }
     }
 }
 
@@ -124,7 +124,7 @@ pub(super) fn stage_maps(
         let maps = Maps {
             diffuse_albedo: map(snapshot.diffuse, &by(scales.diffuse)),
             specular_albedo: map(snapshot.specular, &by(scales.specular)),
-            specular_normal: map(snapshot.bend, &normal),
+            specular_normal: map(snapshot.deviation, &normal),
             ..Maps::default()
         };
         StageMaps { stage: snapshot.stage, maps }

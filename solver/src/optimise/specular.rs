@@ -1,4 +1,4 @@
-//! The stage "normals and specular" with normals that stay: only the specular albedo moves.
+//! The specular albedo alone, where the normals stay.
 
 use super::adam::Adam;
 use super::stage::{Memory, Stage, State, layers, least_albedo};
@@ -47,7 +47,7 @@ impl<'a> Specular<'a> {
         Self {
             config,
             samples,
-            name: format!("normals and specular {round}"),
+            name: format!("specular {round}"),
             rest,
             by_specular: Adam::new(&config.adam, rate, state.specular.len()),
         }

@@ -7,8 +7,8 @@ use super::adam::Adam;
 use crate::backend::resident::{Job, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
-use crate::model::bend::{BLURRED, SPECULAR};
 use crate::model::deviation::Deviation;
+use crate::model::deviation_textures::{BLURRED, SPECULAR};
 use crate::model::networks::Networks;
 use crate::model::normals::Deviations;
 use crate::model::planes::Planes;
@@ -26,7 +26,8 @@ pub struct State {
     pub diffuse: Vec<f32>,
     /// One value per texel; its scale is that of 1 / S_s.
     pub specular: Vec<f32>,
-    /// Deviation from the mesh normal, before tanh; x, y, z per texel.
+    /// The texture t that [`Deviation`] makes the deviation from the mesh normal of; x, y, z per texel. Where heights
+    /// are solved for, that is the deviation itself, before and after; else it is what tanh is taken of.
     pub deviation: Vec<f32>,
 }
 
@@ -96,7 +97,7 @@ pub fn layers(
     state: &State,
     backend: &dyn Backend,
 ) -> Planes {
-    let bent = deviation.bent(&state.deviation, &state.specular).sample(&samples.taps);
+    let bent = deviation.packed(&state.deviation, &state.specular).sample(&samples.taps);
     let deviations = Deviations { planes: &bent, blurred: BLURRED };
     let directions = deviation.scale.directions(samples, Some(deviations));
     let light = backend.light(&state.networks, &samples.position);

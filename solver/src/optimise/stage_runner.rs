@@ -106,16 +106,16 @@ impl<'a, 'b> StageRunner<'a, 'b> {
 
     /// The height solve with its progress, `of` steps at most; it hears of an interrupt as an error
     /// of its steps.
-    pub fn relief(
+    pub fn heights(
         &mut self,
         of: usize,
         solve: impl FnOnce(
             &mut dyn FnMut(f64) -> Result<(), SolveError>,
         ) -> Result<Vec<f32>, SolveError>,
     ) -> Result<Vec<f32>, SolveError> {
-        let name = "relief";
+        let name = "heights";
         let mut losses = vec![];
-        let bend = solve(&mut |loss| {
+        let deviation = solve(&mut |loss| {
             losses.push(loss);
             if !loss.is_finite() {
                 let (stage, iteration) = (name.to_owned(), losses.len());
@@ -126,7 +126,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         })?;
         self.lap(name);
         self.log.stages.push(StageRecord { name: name.to_owned(), loss: losses });
-        Ok(bend)
+        Ok(deviation)
     }
 
     /// Does a stage's steps.

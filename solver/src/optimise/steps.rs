@@ -2,12 +2,12 @@
 
 use super::clock::Work;
 use super::context::SolveContext;
-use super::deviation::Relief;
 use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::{Solve, Start};
 use super::heights;
 use super::highlights::{distance, highlights};
+use super::normals::Normals;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
 use super::specular_floor;
@@ -35,7 +35,7 @@ pub(super) enum Step {
     /// Normals from heights.
     Heights,
     /// Specular albedo and, without heights, normals.
-    Relief(usize),
+    NormalsAndSpecular(usize),
     Diffuse(usize),
     /// The transported albedo on the full pictures.
     Albedo,
@@ -61,7 +61,7 @@ impl Step {
             steps.push(Self::Heights);
         }
         for round in 1..=config.fine_tuning.rounds {
-            steps.extend([Self::Relief(round), Self::Diffuse(round)]);
+            steps.extend([Self::NormalsAndSpecular(round), Self::Diffuse(round)]);
         }
         if config.transport.enabled {
             steps.push(Self::Albedo);
@@ -86,7 +86,7 @@ impl Step {
             Self::Distance => config.transport.distance,
             Self::Highlights => config.transport.highlights,
             Self::Heights => heights::steps(&config.height, context.size),
-            Self::Relief(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
+            Self::NormalsAndSpecular(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
         }
     }
@@ -123,10 +123,10 @@ impl Step {
                 work(25.0, pixels, 15.0, share * share * square(context.size))
             }
             // Without a network where the normals stay.
-            Self::Relief(_) if config.fine_tuning.deviation_rate == 0.0 => {
+            Self::NormalsAndSpecular(_) if config.fine_tuning.deviation_rate == 0.0 => {
                 work(4.0, pixels, 3.0, square(context.size))
             }
-            Self::Relief(_) => work(60.0, pixels, 25.0, square(context.size)),
+            Self::NormalsAndSpecular(_) => work(60.0, pixels, 25.0, square(context.size)),
             Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(context.size)),
         }
     }
@@ -198,13 +198,13 @@ impl Step {
             }
             Self::Heights => {
                 let (steps, lighting) = (self.iterations(context), solve.lighting.as_ref());
-                let bend = runner.relief(steps, |step| {
+                let found = runner.heights(steps, |step| {
                     heights::heights(context, &solve.state, lighting, step)
                 })?;
                 solve.state.resize(context.size);
-                solve.state.deviation = bend;
+                solve.state.deviation = found;
             }
-            Self::Relief(round) => {
+            Self::NormalsAndSpecular(round) => {
                 solve.state.resize(context.size);
                 let (fine, state) = (context.fine(), &solve.state);
                 let (samples, deviation) = (&fine.samples, &fine.deviation);
@@ -212,7 +212,7 @@ impl Step {
                     0.0 => {
                         Box::new(Specular::new(config, samples, deviation, state, backend, *round))
                     }
-                    _ => Box::new(Relief::new(config, samples, deviation, state, backend, *round)),
+                    _ => Box::new(Normals::new(config, samples, deviation, state, backend, *round)),
                 };
                 runner.stage(&mut *stage, &mut solve.state)?;
             }
@@ -232,7 +232,7 @@ impl Step {
     /// What the step has changed, for the record.
     pub fn snapshot(&self, context: &SolveContext, solve: &Solve) -> Option<Snapshot> {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
-        let bend = || context.fine().deviation.textures(deviation).sharp;
+        let sharp = || context.fine().deviation.textures(deviation).sharp;
         match self {
             Self::Start(_) | Self::Light | Self::Distance => None,
             Self::WarmUp => {
@@ -244,12 +244,15 @@ impl Step {
                 let name = if matches!(self, Self::Transport) { "transport" } else { "highlights" };
                 Some(Snapshot::new(name, Unit::Transport).diffuse(&lighting.diffuse, lighting.size))
             }
-            Self::Heights => Some(Snapshot::new("relief", Unit::Networks).bend(&bend(), *size)),
-            Self::Relief(round) => {
-                let stage = format!("normals and specular {round}");
-                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
+            Self::Heights => {
+                Some(Snapshot::new("heights", Unit::Networks).deviation(&sharp(), *size))
+            }
+            Self::NormalsAndSpecular(round) => {
                 let still = context.config.fine_tuning.deviation_rate == 0.0;
-                Some(if still { new } else { new.bend(&bend(), *size) })
+                let moved = if still { "specular" } else { "normals and specular" };
+                let stage = format!("{moved} {round}");
+                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
+                Some(if still { new } else { new.deviation(&sharp(), *size) })
             }
             Self::Diffuse(round) => {
                 let stage = format!("diffuse {round}");

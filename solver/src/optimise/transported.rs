@@ -112,11 +112,11 @@ pub(super) fn refined(
     own.deviation.clone_from(&state.deviation);
     let shading = lighting.sampled(samples);
     let specular = layers(samples, deviation, &own, runner.backend);
-    let bends = deviation.textures(&state.deviation).blurred;
-    let bends = samples.taps.sample::<3>(&bends);
+    let deviations = deviation.textures(&state.deviation).blurred;
+    let deviations = samples.taps.sample::<3>(&deviations);
     let planes = Planes::from_fn(samples.len(), |i| {
         let normal = Vec3::from_array(samples.normal.sample(i, 0));
-        let bent = (normal + Vec3::from_array(bends.sample(i, 0))).normalize();
+        let bent = (normal + Vec3::from_array(deviations.sample(i, 0))).normalize();
         let [r, g, b] = bent_shading(&shading.sample(i, 0), normal, bent);
         [r, g, b, specular.get(1, i)]
     });

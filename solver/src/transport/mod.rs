@@ -208,7 +208,7 @@ impl Transport {
     /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
     /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
     /// the texel's horizon nothing.
-    pub fn bending(&self, light: &[f32]) -> Option<Vec<f32>> {
+    pub fn shading_by_normal(&self, light: &[f32]) -> Option<Vec<f32>> {
         let open = self.open.as_ref()?;
         let centres = self.sky.centres();
         let (light, _) = light.as_chunks::<CHANNELS>();

@@ -156,7 +156,7 @@ fn what_nearness_gains_is_what_a_nearer_sky_gives() {
 
 /// On a convex surface the shading under a bent normal is that of the bent normal.
 #[test]
-fn bending_is_the_change_of_shading_with_the_normal() {
+fn shading_by_normal_is_the_change_of_shading_with_the_normal() {
     let mesh = testing::dome(16);
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
     let sky = Sky::even(8);
@@ -164,7 +164,7 @@ fn bending_is_the_change_of_shading_with_the_normal() {
     // A lamp overhead in front, far above the horizon of the texels that are looked at.
     let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
     let light: Vec<f32> = sky.centres().iter().flat_map(|d| [lit(*d); CHANNELS]).collect();
-    let slopes = transport.bending(&light).unwrap();
+    let slopes = transport.shading_by_normal(&light).unwrap();
     let shading = transport.shading(&light);
     let atlas = Atlas::new(&mesh, 32);
     let front = |texel: &usize| atlas.inside[*texel] && atlas.normals[*texel].z > 0.8;

@@ -27,12 +27,12 @@ fn channels(values: &[f32], first: usize) -> Vec<f32> {
 /// The product with the matrix.
 fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32> {
     let [flatness, smoothness, rest, damping] = WEIGHTS;
-    let bend = field.bend(&x[..TEXELS]);
-    let soft = equations.blur.apply(&bend);
+    let deviation = field.deviation(&x[..TEXELS]);
+    let soft = equations.blur.apply(&deviation);
     let texture: Vec<f32> = (0..TEXELS)
         .flat_map(|t| {
             let albedo = &x[TEXELS + 3 * t..][..3];
-            let parts = [&bend[3 * t..][..3], &soft[3 * t..][..3], albedo];
+            let parts = [&deviation[3 * t..][..3], &soft[3 * t..][..3], albedo];
             parts.concat()
         })
         .collect();
@@ -57,7 +57,7 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
     let gathered = equations.taps.gather::<9>(&by, 0);
     let soft = equations.blur.adjoint(&channels(&gathered, 3));
     let sharp = channels(&gathered, 0);
-    let by_bend: Vec<f32> = (0..3 * TEXELS)
+    let by_deviation: Vec<f32> = (0..3 * TEXELS)
         .map(|at| {
             let (x, y) = (at / 3 % SIDE, at / 3 / SIDE);
             let mut pull = 0.0;
@@ -65,12 +65,12 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
             let line = 3 * SIDE;
             let far = [(y > 0, at.wrapping_sub(line)), (y + 1 < SIDE, at + line)];
             for (_, other) in near.into_iter().chain(far).filter(|(inside, _)| *inside) {
-                pull += bend[at] - bend[other];
+                pull += deviation[at] - deviation[other];
             }
-            sharp[at] + soft[at] + flatness * bend[at] + smoothness * pull
+            sharp[at] + soft[at] + flatness * deviation[at] + smoothness * pull
         })
         .collect();
-    let heights = field.adjoint(&by_bend).into_iter().zip(x).map(|(g, x)| g + rest * x);
+    let heights = field.adjoint(&by_deviation).into_iter().zip(x).map(|(g, x)| g + rest * x);
     let albedo = channels(&gathered, 6).into_iter().zip(&x[TEXELS..]);
     heights.chain(albedo.map(|(g, x)| g + damping * x)).collect()
 }

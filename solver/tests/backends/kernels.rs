@@ -3,7 +3,7 @@
 
 use solver::Config;
 use solver::backend::cpu::{Cpu, Level};
-use solver::backend::{BENT, Backend};
+use solver::backend::{Backend, DIRECTION_ROWS};
 use solver::model::networks::{Network, Networks};
 use solver::model::normals::DIRECTIONS;
 
@@ -66,7 +66,7 @@ fn check_joint(backend: &dyn Backend, networks: &Networks) {
     assert_eq!(got.albedo.sample::<4>(7, 0), [0.0; 4], "weight 0");
 }
 
-pub fn bend_gradients(backend: &dyn Backend) {
+pub fn direction_gradients(backend: &dyn Backend) {
     let (samples, directions, albedo) =
         (samples(&CHECKED), planes::<DIRECTIONS>(21, -1.0, 1.0), planes::<4>(31, 0.1, 1.0));
     let networks = networks();
@@ -75,10 +75,11 @@ pub fn bend_gradients(backend: &dyn Backend) {
     let points: Vec<Point> =
         CHECKED.iter().map(|i| point(&samples, &directions, &albedo, *i)).collect();
     let light = backend.light(&networks, &samples.position);
-    let (value, gradient) = backend.bend(&networks, &samples, &light, &directions, &albedo);
+    let (value, gradient) =
+        backend.direction_gradient(&networks, &samples, &light, &directions, &albedo);
     assert!((value / loss(&networks, &p, &points) - 1.0).abs() < 1e-5, "{name}");
     for (index, i) in CHECKED.into_iter().enumerate() {
-        for row in 0..BENT {
+        for row in 0..DIRECTION_ROWS {
             let expected = central(|step| {
                 let mut moved = points.clone();
                 match moved[index].directions.get_mut(row) {

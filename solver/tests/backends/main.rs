@@ -35,11 +35,11 @@ type OnAdapter = fn(&Adapter);
 /// Of every backend.
 const SHARED: [(&str, Body); 6] = [
     ("joint gradients match central differences", kernels::joint_gradients),
-    ("bend gradients match central differences", kernels::bend_gradients),
+    ("direction gradients match central differences", kernels::direction_gradients),
     ("shading matches the reference and the other backends", kernels::shading),
     ("so many samples are what each of them is", sizes::samples),
     ("the warm-up in one pass is that through planes", textured::joint),
-    ("the relief in one pass is that through planes", textured::relief),
+    ("deviated normals in one pass is that through planes", textured::normals),
 ];
 
 /// Of backends that take in whole stages.
@@ -47,7 +47,7 @@ const RESIDENT: [(&str, Body); 10] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
     ("50 steps of the specular stage are the processor's", stages::specular),
-    ("50 steps of normals and specular albedo are the processor's", stages::relief),
+    ("50 steps of normals and specular albedo are the processor's", stages::normals),
     ("50 steps under explicit transport are the processor's", stages::transported),
     ("50 steps with the light's own highlights are the processor's", stages::highlights),
     ("highlights on bent normals are the processor's", stages::skin_highlights),
@@ -103,7 +103,7 @@ fn main() {
         Ok(())
     }));
     trials.push(Trial::test(
-        "steps of the relief are the same on all threads and after a stop",
+        "steps of the normals are the same on all threads and after a stop",
         || {
             textured::steps();
             Ok(())

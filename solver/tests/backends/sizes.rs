@@ -45,7 +45,8 @@ impl Inputs {
         let Self { samples, directions, albedo } = self;
         let joint = backend.joint(networks, samples, directions, albedo);
         let light = backend.light(networks, &samples.position);
-        let (loss, gradient) = backend.bend(networks, samples, &light, directions, albedo);
+        let (loss, gradient) =
+            backend.direction_gradient(networks, samples, &light, directions, albedo);
         let shading = backend.shade(networks, &light, directions);
         Evaluated {
             losses: [joint.loss, loss],

@@ -9,9 +9,9 @@ use solver::backend::cpu::Cpu;
 use solver::backend::gpu::{Adapter, Gpu};
 use solver::model::deviation::Deviation;
 use solver::model::planes::Planes;
-use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
 use solver::optimise::highlights::{Found, Highlights};
+use solver::optimise::normals::Normals;
 use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Stage, State};
 use solver::optimise::transported::Transported;
@@ -112,24 +112,24 @@ pub fn diffuse(backend: &dyn Backend) {
     });
 }
 
-pub fn relief(backend: &dyn Backend) {
+pub fn normals(backend: &dyn Backend) {
     let mut config = Config::preset("paper").unwrap();
     // Convolved on the texture, on a coarser one, and on the next.
     for blur in [0.03, 0.14, 0.27] {
         config.fine_tuning.deviation_blur = blur;
-        check_relief(backend, &config);
+        check_normals(backend, &config);
     }
     config.fine_tuning.deviation_smoothing = 0.03;
     config.fine_tuning.deviation_extent = 0.1;
-    check_relief(backend, &config);
+    check_normals(backend, &config);
 }
 
-fn check_relief(backend: &dyn Backend, config: &Config) {
+fn check_normals(backend: &dyn Backend, config: &Config) {
     let (samples, mut state) = problem(config);
     state.deviation.iter_mut().enumerate().for_each(|(i, t)| *t = 0.1 * (i as f32 * 0.37).sin());
     let deviation = Deviation::new(config, state.size);
     compare(backend, &state, |backend| {
-        Relief::new(config, &samples, &deviation, &state, backend, 1)
+        Normals::new(config, &samples, &deviation, &state, backend, 1)
     });
 }
 

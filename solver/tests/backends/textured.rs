@@ -2,15 +2,15 @@
 
 use solver::Config;
 use solver::backend::cpu::Cpu;
-use solver::backend::{Backend, JointGradient, TexturedRelief};
-use solver::model::bend::ROWS;
+use solver::backend::{Backend, JointGradient, TexturedNormals};
 use solver::model::deviation::Deviation;
+use solver::model::deviation_textures::ROWS;
 use solver::model::networks::Networks;
 use solver::model::normals::DirectionScale;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
 use solver::model::texture::interleave;
-use solver::optimise::deviation::Relief;
+use solver::optimise::normals::Normals;
 use solver::optimise::stage::{Stage, State};
 
 use super::scene::problem;
@@ -32,8 +32,15 @@ impl Backend for ByPlanes<'_> {
         self.0.light(n, p)
     }
 
-    fn bend(&self, n: &Networks, s: &Samples, l: &Planes, d: &Planes, a: &Planes) -> (f64, Planes) {
-        self.0.bend(n, s, l, d, a)
+    fn direction_gradient(
+        &self,
+        n: &Networks,
+        s: &Samples,
+        l: &Planes,
+        d: &Planes,
+        a: &Planes,
+    ) -> (f64, Planes) {
+        self.0.direction_gradient(n, s, l, d, a)
     }
 
     fn shade(&self, n: &Networks, l: &Planes, d: &Planes) -> Planes {
@@ -60,7 +67,7 @@ pub fn joint(backend: &dyn Backend) {
 }
 
 /// Loss and gradients of a bent dome; the texels that nothing sees have none. With a narrow blur and a wide one.
-pub fn relief(backend: &dyn Backend) {
+pub fn normals(backend: &dyn Backend) {
     for blur in [0.05, 0.14] {
         let mut config = Config::preset("paper").unwrap();
         config.fine_tuning.deviation_blur = blur;
@@ -68,16 +75,16 @@ pub fn relief(backend: &dyn Backend) {
         let deviation = Deviation::new(&config, state.size);
         let t: Vec<f32> =
             (0..state.deviation.len()).map(|i| 0.4 * (i as f32 * 0.37).sin()).collect();
-        let relief = TexturedRelief {
+        let textured = TexturedNormals {
             networks: &state.networks,
             samples: &samples,
             light: &backend.light(&state.networks, &samples.position),
             albedo: &state.albedo(&samples),
             scale: &deviation.scale,
-            textures: &deviation.bent(&t, &state.specular),
+            textures: &deviation.packed(&t, &state.specular),
         };
         let [fused, split] =
-            [backend, &ByPlanes(backend)].map(|backend| backend.bend_textures(&relief));
+            [backend, &ByPlanes(backend)].map(|backend| backend.deviation_gradient(&textured));
         assert!((fused.0 / split.0 - 1.0).abs() < 1e-6, "{} {}", fused.0, split.0);
         let size = split.1.iter().fold(0.0f32, |m, g| m.max(g.abs()));
         assert!(size > 0.0 && size < 1.0 && fused.1.len() == split.1.len());
@@ -97,7 +104,7 @@ pub fn relief(backend: &dyn Backend) {
     }
 }
 
-/// Steps of the relief on any number of threads, and after a stop, to the same bits.
+/// Steps of the normals on any number of threads, and after a stop, to the same bits.
 pub fn steps() {
     for blur in [0.05, 0.14, 0.27] {
         let mut config = Config::preset("paper").unwrap();
@@ -106,7 +113,7 @@ pub fn steps() {
         let deviation = Deviation::new(&config, start.size);
         let run = |stop: usize| {
             let (cpu, mut state) = (Cpu::new(), start.clone());
-            let stage = || Relief::new(&config, &samples, &deviation, &start, &cpu, 1);
+            let stage = || Normals::new(&config, &samples, &deviation, &start, &cpu, 1);
             let mut first = stage();
             let mut losses: Vec<_> = (0..stop).map(|_| first.step(&mut state, &cpu, 1.0)).collect();
             // What another process would read.

@@ -7,8 +7,8 @@ use solver::backend::Backend;
 use solver::backend::gpu::Gpu;
 use solver::backend::resident::{BATCH, DeviceError, Resident};
 use solver::model::deviation::Deviation;
-use solver::optimise::deviation::Relief;
 use solver::optimise::diffuse::Diffuse;
+use solver::optimise::normals::Normals;
 use solver::optimise::stage::Stage;
 use solver::optimise::warm_up::WarmUp;
 
@@ -41,7 +41,7 @@ impl<'a> Running<'a> {
         let deviation = Deviation::new(config, state.size);
         let mut stage: Box<dyn Stage> = match kind {
             Kind::WarmUp => Box::new(WarmUp::new(config, samples, &state)),
-            Kind::Normals => Box::new(Relief::new(config, samples, &deviation, &state, gpu, 1)),
+            Kind::Normals => Box::new(Normals::new(config, samples, &deviation, &state, gpu, 1)),
             Kind::Diffuse => Box::new(Diffuse::new(config, samples, &deviation, &state, gpu, 1)),
         };
         let no_program = || failed(gpu, &DeviceError("it has no program for the stage".to_owned()));

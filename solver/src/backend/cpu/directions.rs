@@ -1,7 +1,7 @@
 //! From deviations to directions and back, as [`crate::model::normals`], in the passes' own vectors.
 
 use super::lanes::Lanes;
-use crate::model::bend::BLURRED;
+use crate::model::deviation_textures::BLURRED;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{BLOCK, Row};
 
@@ -46,7 +46,7 @@ fn times_plus<S: Lanes>(a: Vector<S>, factor: S, b: Vector<S>) -> Vector<S> {
 
 /// The directions of a block's samples under the deviations d and blur(d), rows as samples see them.
 #[inline(always)]
-pub fn bend<S: Lanes>(
+pub fn deviate<S: Lanes>(
     scale: &DirectionScale,
     [normal, view]: [&[Row]; 2],
     deviation: &[Row],

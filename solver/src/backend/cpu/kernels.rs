@@ -2,13 +2,13 @@
 //! that compile them for each instruction set.
 
 use super::ahead::Ahead;
-use super::directions::{adjoint, bend as bend_directions};
+use super::directions::{adjoint, deviate};
 use super::lanes::{Lanes, Portable};
 use super::level::Level;
 use super::perceptron::{Packed, Trace, backward, forward};
 use super::shade::{self, PixelGradient, Pixels};
-use crate::backend::{ALBEDOS, BENT, TexturedRelief};
-use crate::model::bend::{ROWS, SPECULAR};
+use crate::backend::{ALBEDOS, DIRECTION_ROWS, TexturedNormals};
+use crate::model::deviation_textures::{ROWS, SPECULAR};
 use crate::model::networks::Networks;
 use crate::model::normals::DIRECTIONS;
 use crate::model::planes::{BLOCK, Planes, Row};
@@ -151,7 +151,7 @@ fn joint_block<S: Lanes, const C: usize>(
 
 /// Loss and gradients by directions and specular albedo, with frozen networks.
 #[inline(always)]
-fn bend_body<S: Lanes, const C: usize>(
+fn direction_gradient_body<S: Lanes, const C: usize>(
     inputs: &Inputs,
     light: &Planes,
     first: usize,
@@ -159,7 +159,7 @@ fn bend_body<S: Lanes, const C: usize>(
     out: &mut [Row],
 ) -> f64 {
     let mut loss = 0.0;
-    for (block, out) in out.chunks_exact_mut(BENT).enumerate() {
+    for (block, out) in out.chunks_exact_mut(DIRECTION_ROWS).enumerate() {
         let block = first + block;
         let (pixels, directions) = (inputs.pixels(block), inputs.directions.block(block));
         let Samples { fresnel, target, weight, .. } = inputs.samples;
@@ -178,20 +178,20 @@ fn bend_body<S: Lanes, const C: usize>(
 #[inline(always)]
 fn textured_body<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
-    relief: &TexturedRelief,
+    normals: &TexturedNormals,
     s: &mut Scratch,
     strip: &mut Strip<ROWS>,
 ) -> f64 {
-    let TexturedRelief { samples, light, albedo, scale, textures, .. } = *relief;
+    let TexturedNormals { samples, light, albedo, scale, textures, .. } = *normals;
     let inputs = Inputs { packed, samples, directions: light, albedo };
     let mut loss = 0.0;
     let (mut bent, mut directions) = ([Row::ZERO; ROWS], [Row::ZERO; DIRECTIONS]);
-    let (mut gradient, mut by_bent) = ([Row::ZERO; BENT], [Row::ZERO; ROWS]);
+    let (mut gradient, mut by_bent) = ([Row::ZERO; DIRECTION_ROWS], [Row::ZERO; ROWS]);
     let mut lengths = [Row::ZERO; 2];
     for (block, lanes) in blocks(strip.samples.clone()) {
         textures.sample_block(&samples.taps, block, &mut bent);
         let known = [samples.normal.block(block), samples.view.block(block)];
-        bend_directions::<S>(scale, known, &bent, &mut lengths, &mut directions);
+        deviate::<S>(scale, known, &bent, &mut lengths, &mut directions);
         let filled = samples.len() - block * BLOCK;
         if filled < BLOCK {
             // A normal of zero has no direction.
@@ -321,8 +321,8 @@ macro_rules! entry {
 
 entry!(joint, joint_body(inputs: &Inputs, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
 entry!(joint_textured, joint_textured_body(inputs: &Inputs, texture: &[f32], s: &mut Scratch, strip: &mut Strip<ALBEDOS>) -> f64);
-entry!(bend, bend_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
-entry!(textured, textured_body(packed: &[Packed; 3], relief: &TexturedRelief, s: &mut Scratch, strip: &mut Strip<ROWS>) -> f64);
+entry!(direction_gradient, direction_gradient_body(inputs: &Inputs, light: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]) -> f64);
+entry!(textured, textured_body(packed: &[Packed; 3], normals: &TexturedNormals, s: &mut Scratch, strip: &mut Strip<ROWS>) -> f64);
 entry!(light, light_body(packed: &[Packed; 3], position: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(shade_blocks, shade_body(packed: &[Packed; 3], light: &Planes, directions: &Planes, first: usize, s: &mut Scratch, out: &mut [Row]));
 entry!(peak, peak_body(rounds: usize) -> f32);

@@ -11,8 +11,8 @@
 //! |---|---|---|
 //! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
 //! | [`Backend::joint_textures`] | 68: the same without the albedos, and place | 0 |
-//! | [`Backend::bend`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
-//! | [`Backend::bend_textures`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 0 |
+//! | [`Backend::direction_gradient`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
+//! | [`Backend::deviation_gradient`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 0 |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
 //! | a diffuse step ([`Layer::gradient`](crate::model::layer::Layer::gradient)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
@@ -37,8 +37,10 @@ use self::kernels::{Inputs, Scratch};
 pub(crate) use self::lanes::exp_plain as exp;
 pub use self::level::Level;
 use self::perceptron::Packed;
-use super::{ALBEDOS, BENT, Backend, JointGradient, TexturedJointGradient, TexturedRelief};
-use crate::model::bend::ROWS;
+use super::{
+    ALBEDOS, Backend, DIRECTION_ROWS, JointGradient, TexturedJointGradient, TexturedNormals,
+};
+use crate::model::deviation_textures::ROWS;
 use crate::model::networks::{Network, Networks};
 use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
@@ -160,7 +162,7 @@ impl Backend for Cpu {
         chunks(networks, networks.outputs(), position.len(), pass).0
     }
 
-    fn bend(
+    fn direction_gradient(
         &self,
         networks: &Networks,
         samples: &Samples,
@@ -170,19 +172,20 @@ impl Backend for Cpu {
     ) -> (f64, Planes) {
         let packed = &pack(networks);
         let inputs = Inputs { packed, samples, directions, albedo };
-        let (gradient, losses) = chunks(networks, BENT, samples.len(), |first, scratch, out| {
-            kernels::bend(self.level, &inputs, light, first, scratch, out)
-        });
+        let (gradient, losses) =
+            chunks(networks, DIRECTION_ROWS, samples.len(), |first, scratch, out| {
+                kernels::direction_gradient(self.level, &inputs, light, first, scratch, out)
+            });
         (losses.iter().sum(), gradient)
     }
 
-    fn bend_textures(&self, relief: &TexturedRelief) -> (f64, Vec<f32>) {
-        let packed = &pack(relief.networks);
+    fn deviation_gradient(&self, normals: &TexturedNormals) -> (f64, Vec<f32>) {
+        let packed = &pack(normals.networks);
         let work = |scratch: &mut Scratch, strip: &mut Strip<ROWS>| {
-            kernels::textured(self.level, packed, relief, scratch, strip)
+            kernels::textured(self.level, packed, normals, scratch, strip)
         };
-        let scratch = || Scratch::new(relief.networks);
-        let (gradient, losses) = relief.samples.taps.by_blocks(scratch, work);
+        let scratch = || Scratch::new(normals.networks);
+        let (gradient, losses) = normals.samples.taps.by_blocks(scratch, work);
         (losses.iter().sum(), gradient)
     }
 

@@ -117,19 +117,21 @@ fn image(
     let slopes = pieces.upload(device, "slopes", &[problem.slopes, problem.weight]);
     let unknowns = pieces.zeros(device, "sampled unknowns", UNKNOWNS);
     let texture = |name| device.floats(name, 3 * texels);
-    let [bend, soft, by_bend, by_soft, unblurred] =
-        ["bend", "soft bend", "by bend", "by soft bend", "unblurred"].map(texture);
+    let [deviation, soft, by_deviation, by_soft, unblurred] =
+        ["deviation", "soft deviation", "by deviation", "by soft deviation", "unblurred"]
+            .map(texture);
     let [right, down] = problem.basis;
     let flat = |(right, down): (&Vec3, &Vec3)| [right.to_array(), down.to_array()].concat();
     let basis: Vec<f32> = right.iter().zip(down).flat_map(flat).collect();
     let basis = device.filled("basis", &basis);
 
-    let source = include_str!("wgsl/height_bend.wgsl");
-    let kernel = device.kernel("heights' bend", source, &[], "urrw");
+    let source = include_str!("wgsl/height_deviation.wgsl");
+    let kernel = device.kernel("heights' deviation", source, &[], "urrw");
     let parameters = device.uniform(&[size as u32]);
-    let mut passes = vec![Pass::over(device, &kernel, &[&parameters, &basis, from, &bend], texels)];
-    passes.extend(blurring(device, problem.blur, &bend, &soft, false));
-    for (row, texture, first) in [(0, &bend, 0), (3, &soft, 0), (6, from, texels)] {
+    let mut passes =
+        vec![Pass::over(device, &kernel, &[&parameters, &basis, from, &deviation], texels)];
+    passes.extend(blurring(device, problem.blur, &deviation, &soft, false));
+    for (row, texture, first) in [(0, &deviation, 0), (3, &soft, 0), (6, from, texels)] {
         passes.extend(taps.sample_from(device, (texture, first), 3, &unknowns, [row, UNKNOWNS]));
     }
     let kernel = device.kernel("normal equations", include_str!("wgsl/normal.wgsl"), &[], "urw");
@@ -138,25 +140,26 @@ fn image(
         let buffers = [&parameters, &slopes[at], &unknowns[at]];
         passes.push(Pass::over(device, &kernel, &buffers, piece.len()));
     }
-    for (row, gradient, first) in [(0, &by_bend, 0), (3, &by_soft, 0), (6, to, texels)] {
+    for (row, gradient, first) in [(0, &by_deviation, 0), (3, &by_soft, 0), (6, to, texels)] {
         let gathered = (gradient, first);
         passes.extend(taps.gather_to(device, &unknowns, [row, UNKNOWNS], gathered, 3, false));
     }
     passes.extend(blurring(device, problem.blur, &by_soft, &unblurred, true));
-    let kernel = device.kernel("bend's penalty", include_str!("wgsl/penalty.wgsl"), &[], "urrw");
+    let kernel =
+        device.kernel("deviation's penalty", include_str!("wgsl/penalty.wgsl"), &[], "urrw");
     let [flatness, smoothness] = [problem.flatness, problem.smoothness].map(f32::to_bits);
     let parameters = device.uniform(&[size as u32, flatness, smoothness]);
     passes.push(Pass::over(
         device,
         &kernel,
-        &[&parameters, &bend, &unblurred, &by_bend],
+        &[&parameters, &deviation, &unblurred, &by_deviation],
         3 * texels,
     ));
     let source = include_str!("wgsl/height_adjoint.wgsl");
     let kernel = device.kernel("heights' adjoint", source, &[], "urrrw");
     let [rest, damping] = [problem.rest, problem.damping].map(f32::to_bits);
     let parameters = device.uniform(&[size as u32, rest, damping]);
-    let buffers = [&parameters, &basis, &by_bend, from, to];
+    let buffers = [&parameters, &basis, &by_deviation, from, to];
     passes.push(Pass::over(device, &kernel, &buffers, 4 * texels));
     passes
 }

@@ -29,11 +29,11 @@
 //! A device that fails says so in one line, and the processor goes on.
 
 mod adapter;
-mod bending;
 mod blurs;
 mod ceilings;
 mod computing;
 mod device;
+mod direction_gradient;
 mod heights;
 mod highlights;
 mod joint;
@@ -41,10 +41,10 @@ mod kernel;
 mod layer;
 mod layout;
 mod matrix;
+mod normals;
 mod pass;
 mod pieces;
 mod program;
-mod relief;
 mod skin_highlights;
 mod submission;
 mod timings;
@@ -92,12 +92,12 @@ impl Backend for Gpu {
 
     fn light(&self, networks: &Networks, position: &Planes) -> Planes {
         self.either(
-            |device| bending::light(device, networks, position),
+            |device| direction_gradient::light(device, networks, position),
             |cpu| cpu.light(networks, position),
         )
     }
 
-    fn bend(
+    fn direction_gradient(
         &self,
         networks: &Networks,
         samples: &Samples,
@@ -106,14 +106,18 @@ impl Backend for Gpu {
         albedo: &Planes,
     ) -> (f64, Planes) {
         self.either(
-            |device| bending::bend(device, networks, samples, light, directions, albedo),
-            |cpu| cpu.bend(networks, samples, light, directions, albedo),
+            |device| {
+                direction_gradient::direction_gradient(
+                    device, networks, samples, light, directions, albedo,
+                )
+            },
+            |cpu| cpu.direction_gradient(networks, samples, light, directions, albedo),
         )
     }
 
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes {
         self.either(
-            |device| bending::shade(device, networks, light, directions),
+            |device| direction_gradient::shade(device, networks, light, directions),
             |cpu| cpu.shade(networks, light, directions),
         )
     }
@@ -166,7 +170,7 @@ impl Backend for Gpu {
                 Some(Box::new(transported::program(self, layout, job)))
             }
             Job::Highlights(job) => Some(Box::new(highlights::program(self, job))),
-            Job::Relief(job) => Some(Box::new(relief::program(self, job))),
+            Job::Normals(job) => Some(Box::new(normals::program(self, job))),
         }
     }
 }

@@ -34,8 +34,8 @@ fn the_instruction_sets_agree_over_fifty_steps() {
         let mut losses = vec![];
         let mut warm_up = WarmUp::new(&config, &samples, &state);
         losses.extend((0..50).map(|_| warm_up.step(&mut state, &backend, 1.0)));
-        let mut relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-        losses.extend((0..10).map(|_| relief.step(&mut state, &backend, 1.0)));
+        let mut normals = Normals::new(&config, &samples, &deviation, &state, &backend, 1);
+        losses.extend((0..10).map(|_| normals.step(&mut state, &backend, 1.0)));
         let mut diffuse = Diffuse::new(&config, &samples, &deviation, &state, &backend, 1);
         losses.extend((0..10).map(|_| diffuse.step(&mut state, &backend, 1.0)));
         losses
@@ -55,7 +55,7 @@ fn relief_gradients_pass_through_reflection_normals_tanh_and_blur() {
     let Problem { config, samples, state } = problem();
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
-    let stage = || Relief::new(&config, &samples, &deviation, &state, &backend, 1);
+    let stage = || Normals::new(&config, &samples, &deviation, &state, &backend, 1);
     let found = stage().gradient(&state, &backend).1;
     let loss = |state: &State| stage().gradient(state, &backend).0;
     assert_gradient("deviation", &state, &found.deviation, |s| &mut s.deviation, 5e-2, loss);
@@ -84,10 +84,10 @@ fn the_stages_see_the_same_loss() {
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
     let joint = WarmUp::new(&config, &samples, &state).gradient(&state, &backend).loss;
-    let relief = Relief::new(&config, &samples, &deviation, &state, &backend, 1);
-    let relief = relief.gradient(&state, &backend).0;
+    let normals = Normals::new(&config, &samples, &deviation, &state, &backend, 1);
+    let normals = normals.gradient(&state, &backend).0;
     let diffuse =
         Diffuse::new(&config, &samples, &deviation, &state, &backend, 1).gradient(&state).0;
-    assert!((relief / joint - 1.0).abs() < 1e-5, "{relief} {joint}");
+    assert!((normals / joint - 1.0).abs() < 1e-5, "{normals} {joint}");
     assert!((diffuse / joint - 1.0).abs() < 1e-5, "{diffuse} {joint}");
 }

@@ -3,10 +3,10 @@
 
 mod confidence;
 mod gradients;
+mod height_solve;
 mod highlights;
 mod interrupts;
 mod recorded;
-mod relief;
 mod transported;
 
 use std::ops::ControlFlow;
@@ -17,9 +17,9 @@ use formats::maps::Maps;
 use formats::picture;
 use glam::{Vec2, Vec3};
 
-use super::deviation::Relief;
 use super::diffuse::Diffuse;
 use super::error::SolveError;
+use super::normals::Normals;
 use super::progress::Options;
 use super::solve::solve_on;
 use super::stage::{Stage, State};
@@ -255,8 +255,8 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "01-warm-up",
         "02-transport",
         "03-highlights",
-        "04-relief",
-        "05-normals-and-specular-1",
+        "04-heights",
+        "05-specular-1",
         "06-diffuse-1",
         "07-albedo",
     ];
@@ -265,10 +265,10 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
     let last = Maps::read(&target.join("stages/07-albedo")).unwrap();
     assert_eq!(last.diffuse_albedo, first.maps.diffuse_albedo);
     assert!(last.specular_normal.is_none());
-    let last = Maps::read(&target.join("stages/04-relief")).unwrap();
+    let last = Maps::read(&target.join("stages/04-heights")).unwrap();
     assert_eq!(last.specular_normal, first.maps.specular_normal);
     // Pooled at the end only.
-    let last = Maps::read(&target.join("stages/05-normals-and-specular-1")).unwrap();
+    let last = Maps::read(&target.join("stages/05-specular-1")).unwrap();
     assert_ne!(last.specular_albedo.unwrap(), *first.maps.specular_albedo.as_ref().unwrap());
     let channels = picture::exr_channel_names(&target.join("views/005.exr")).unwrap();
     assert_eq!(channels.len(), 9);

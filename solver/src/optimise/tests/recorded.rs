@@ -152,7 +152,7 @@ fn disagreement(recorded: &Recorded, config: &Config, level: Level) -> Option<St
         let deviation = &Deviation::new(config, state.size);
         let mut run: Box<dyn Stage> = match stage.kind.as_str() {
             "warm_up" => Box::new(WarmUp::new(config, samples, &state)),
-            "relief" => Box::new(Relief::new(config, samples, deviation, &state, backend, 1)),
+            "relief" => Box::new(Normals::new(config, samples, deviation, &state, backend, 1)),
             _ => Box::new(Diffuse::new(config, samples, deviation, &state, backend, 1)),
         };
         let what = format!("{level}, stage {number} ({})", stage.kind);

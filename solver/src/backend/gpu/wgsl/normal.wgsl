@@ -1,5 +1,5 @@
 // What the unknowns explain of a sample's colour, weighted and carried back to the unknowns, in their
-// place: the product with the normal equations' matrix, of one sample. See optimise/relief.rs.
+// place: the product with the normal equations' matrix, of one sample. See optimise/height_solve.rs.
 
 struct Parameters {
     samples: u32,

@@ -1,5 +1,5 @@
 // The gradient by the deviation: of the pictures, directly and by its blur, and of the penalties on the
-// deviation and on its differences. See optimise/relief.rs.
+// deviation and on its differences. See optimise/height_solve.rs.
 
 struct Parameters {
     size: u32,
@@ -8,9 +8,9 @@ struct Parameters {
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
-@group(0) @binding(1) var<storage, read> bend: array<f32>;
+@group(0) @binding(1) var<storage, read> deviation: array<f32>;
 @group(0) @binding(2) var<storage, read> unblurred: array<f32>;
-@group(0) @binding(3) var<storage, read_write> by_bend: array<f32>;
+@group(0) @binding(3) var<storage, read_write> by_deviation: array<f32>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -24,19 +24,19 @@ fn main(
     if at >= count {
         return;
     }
-    let value = bend[at];
+    let value = deviation[at];
     var pull = 0.0;
     if at % line >= 3u {
-        pull += value - bend[at - 3u];
+        pull += value - deviation[at - 3u];
     }
     if at % line + 3u < line {
-        pull += value - bend[at + 3u];
+        pull += value - deviation[at + 3u];
     }
     if at >= line {
-        pull += value - bend[at - line];
+        pull += value - deviation[at - line];
     }
     if at + line < count {
-        pull += value - bend[at + line];
+        pull += value - deviation[at + line];
     }
-    by_bend[at] += unblurred[at] + parameters.flatness * value + parameters.smoothness * pull;
+    by_deviation[at] += unblurred[at] + parameters.flatness * value + parameters.smoothness * pull;
 }

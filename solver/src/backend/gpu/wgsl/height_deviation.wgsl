@@ -8,7 +8,7 @@ struct Parameters {
 // Deviation by the height's change to the right (3) and downwards (3), of every texel.
 @group(0) @binding(1) var<storage, read> basis: array<f32>;
 @group(0) @binding(2) var<storage, read> height: array<f32>;
-@group(0) @binding(3) var<storage, read_write> bend: array<f32>;
+@group(0) @binding(3) var<storage, read_write> deviation: array<f32>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -29,6 +29,6 @@ fn main(
         across.y = 0.5 * (height[at + size] - height[at - size]);
     }
     for (var k = 0u; k < 3u; k++) {
-        bend[3u * at + k] = basis[6u * at + k] * across.x + basis[6u * at + 3u + k] * across.y;
+        deviation[3u * at + k] = basis[6u * at + k] * across.x + basis[6u * at + 3u + k] * across.y;
     }
 }

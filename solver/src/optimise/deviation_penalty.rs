@@ -6,15 +6,15 @@ use crate::simd::widened;
 
 /// `flatness` times the deviation, plus `smoothness` times the transpose-times-itself of its forward
 /// differences.
-pub(super) fn bending_penalty(
-    bend: &[f32],
+pub(super) fn deviation_penalty(
+    deviation: &[f32],
     size: usize,
     flatness: f32,
     smoothness: f32,
 ) -> Vec<f32> {
     let line = 3 * size;
-    let row = |y: usize| &bend[y * line..][..line];
-    let mut out = vec![0.0; bend.len()];
+    let row = |y: usize| &deviation[y * line..][..line];
+    let mut out = vec![0.0; deviation.len()];
     out.par_chunks_mut(line).enumerate().for_each(|(y, out)| {
         let here = row(y);
         scaled(out, here, flatness);

@@ -2,8 +2,8 @@
 
 use super::adam::Adam;
 use super::stage::{Memory, Stage, State, least_albedo};
-use crate::backend::resident::{Job, ReliefJob, Variable};
-use crate::backend::{Backend, TexturedRelief};
+use crate::backend::resident::{Job, NormalsJob, Variable};
+use crate::backend::{Backend, TexturedNormals};
 use crate::config::Config;
 use crate::model::deviation::{Deviation, TextureGradients};
 use crate::model::networks::Networks;
@@ -11,7 +11,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
 /// Specular albedo and deviation, with frozen networks and diffuse albedo (section 4.3.2).
-pub struct Relief<'a> {
+pub struct Normals<'a> {
     config: &'a Config,
     samples: &'a Samples,
     deviation: &'a Deviation,
@@ -23,7 +23,7 @@ pub struct Relief<'a> {
     by_specular: Adam,
 }
 
-impl<'a> Relief<'a> {
+impl<'a> Normals<'a> {
     /// The stage of one round; L(p) and the diffuse albedo are evaluated once.
     pub fn new(
         config: &'a Config,
@@ -49,8 +49,8 @@ impl<'a> Relief<'a> {
 
     /// Loss, and its gradients by deviation and specular albedo.
     pub(super) fn gradient(&self, state: &State, backend: &dyn Backend) -> (f64, TextureGradients) {
-        let textures = self.deviation.bent(&state.deviation, &state.specular);
-        let relief = TexturedRelief {
+        let textures = self.deviation.packed(&state.deviation, &state.specular);
+        let textured = TexturedNormals {
             networks: &state.networks,
             samples: self.samples,
             light: &self.light,
@@ -58,12 +58,12 @@ impl<'a> Relief<'a> {
             scale: &self.deviation.scale,
             textures: &textures,
         };
-        let (loss, gradient) = backend.bend_textures(&relief);
+        let (loss, gradient) = backend.deviation_gradient(&textured);
         (loss, self.deviation.adjoint(&textures, &gradient))
     }
 }
 
-impl Stage for Relief<'_> {
+impl Stage for Normals<'_> {
     fn name(&self) -> String {
         self.name.clone()
     }
@@ -84,7 +84,7 @@ impl Stage for Relief<'_> {
     }
 
     fn job(&self) -> Option<Job<'_>> {
-        Some(Job::Relief(ReliefJob {
+        Some(Job::Normals(NormalsJob {
             samples: self.samples,
             deviation: self.deviation,
             networks: &self.networks,

@@ -1,24 +1,24 @@
 //! Specular albedo and deviation, with frozen networks.
 
-use super::bending::Bending;
 use super::blurs::{blurring, pyramid};
 use super::computing::Gpu;
 use super::device::Device;
+use super::direction_gradient::DirectionGradient;
 use super::layout::Layout;
 use super::pass::Pass;
 use super::pieces::{DeviceTaps, Pieces};
 use super::program::{Moved, Program};
-use crate::backend::BENT;
-use crate::backend::resident::ReliefJob;
+use crate::backend::DIRECTION_ROWS;
+use crate::backend::resident::NormalsJob;
 use crate::model::deviation::Deviation;
 
 /// Rows of sampled deviations, and of directions.
 const DIRECTIONS: usize = 6;
 
 /// The stage of normals and specular albedo.
-pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
+pub(super) fn program<'a>(gpu: &'a Gpu, job: &NormalsJob) -> Program<'a> {
     let device = &gpu.device;
-    let ReliefJob { samples, deviation, networks, light, albedo } = *job;
+    let NormalsJob { samples, deviation, networks, light, albedo } = *job;
     let layout = Layout::new(&networks.shape);
     let pieces = Pieces::new(device, samples.len(), networks.outputs());
     let taps = DeviceTaps::new(device, &pieces, &samples.taps);
@@ -33,7 +33,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
     let surface = pieces.upload(device, "surface", &[&samples.normal, &samples.view]);
     let directions = pieces.zeros(device, "directions", DIRECTIONS);
     let albedo = pieces.upload(device, "albedos", &[albedo]);
-    let bending = Bending::new(device, pieces, samples, light);
+    let kernels = DirectionGradient::new(device, pieces, samples, light);
     let weights = device.filled("networks", &layout.pack(&networks.parameters));
 
     let chart = Chart { device, deviation, count };
@@ -53,19 +53,26 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &ReliefJob) -> Program<'a> {
             let values = 3 * DIRECTIONS + what as usize * DIRECTIONS;
             Pass::over(device, &kernel, &buffers, piece.len()).doing(piece.len(), 60, values)
         };
-        bending.pieces.0.iter().enumerate().map(one).collect()
+        kernels.pieces.0.iter().enumerate().map(one).collect()
     };
     passes.extend(turn(0, &directions));
-    passes.extend(bending.passes(device, &layout, &weights, &directions, &albedo));
-    passes.extend(turn(1, &bending.gradient));
-    let by_sample = &bending.gradient;
+    passes.extend(kernels.passes(device, &layout, &weights, &directions, &albedo));
+    passes.extend(turn(1, &kernels.gradient));
+    let by_sample = &kernels.gradient;
     for (row, gradient, channels) in
         [(0, &by_sharp, 3), (3, &by_blurred, 3), (6, &by_specular.gradient, 1)]
     {
-        passes.extend(taps.gather(device, by_sample, [row, BENT], gradient, channels, false));
+        passes.extend(taps.gather(
+            device,
+            by_sample,
+            [row, DIRECTION_ROWS],
+            gradient,
+            channels,
+            false,
+        ));
     }
     passes.extend(chart.back(&sharp, &by_sharp, &by_blurred, &by_deviation.gradient));
-    let losses = [(bending.losses, bending.groups)];
+    let losses = [(kernels.losses, kernels.groups)];
     Program::new(gpu, passes, &losses, vec![by_deviation, by_specular])
 }
 

@@ -13,7 +13,7 @@ pub const SPECULAR: usize = 3;
 pub const BLURRED: usize = CHANNELS;
 
 /// The textures d and blur(d), 3 channels each.
-pub struct Bend {
+pub struct DeviationTextures {
     /// For the specular normal.
     pub sharp: Vec<f32>,
     /// For the diffuse normal.
@@ -22,14 +22,14 @@ pub struct Bend {
 
 /// The same in texels of four values, which samples read as whole vectors.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BentTextures {
+pub struct PackedDeviations {
     /// d, and the specular albedo.
     pub sharp: Vec<f32>,
     /// Their blur, of which the last value has no use.
     pub blurred: Vec<f32>,
 }
 
-impl BentTextures {
+impl PackedDeviations {
     /// At every sample ([`ROWS`] rows).
     pub fn sample(&self, taps: &Taps) -> Planes {
         Planes::from_blocks(ROWS, taps.cells().len(), |block, out| {

@@ -6,7 +6,7 @@ use super::*;
 use crate::config::HeightConfig;
 use crate::model::height::HeightField;
 use crate::model::planes::Planes;
-use crate::optimise::relief::ReliefSolve;
+use crate::optimise::height_solve::HeightSolve;
 use crate::optimise::stage::layers;
 
 const SIDE: usize = 64;
@@ -53,7 +53,7 @@ fn solve(change: impl Fn(&mut HeightConfig), fault: Fault) -> Found {
         let (x, y) = ((at % SIDE) as f32, (at / SIDE) as f32);
         0.3 * (0.9 * x).sin() * (0.7 * y).cos()
     };
-    let truth = field.bend(&(0..TEXELS).map(wave).collect::<Vec<f32>>());
+    let truth = field.deviation(&(0..TEXELS).map(wave).collect::<Vec<f32>>());
     let bent = State { deviation: truth.clone(), ..state.clone() };
     let backend = Cpu::new();
     let deviation = Deviation::new(&config, SIDE);
@@ -68,7 +68,7 @@ fn solve(change: impl Fn(&mut HeightConfig), fault: Fault) -> Found {
         };
         [factor * (0.5 * diffuse + specular); 3]
     });
-    let solve = ReliefSolve::new(&config, &backend, &samples, &gbuffers, &atlas, &state, None);
+    let solve = HeightSolve::new(&config, &backend, &samples, &gbuffers, &atlas, &state, None);
     let (mut unknowns, mut residuals) = (vec![0.0; solve.unknowns()], vec![]);
     for _ in 0..LINEARISATIONS {
         let mut step = |residual| {
@@ -77,13 +77,13 @@ fn solve(change: impl Fn(&mut HeightConfig), fault: Fault) -> Found {
         };
         solve.solve(&mut unknowns, &mut step).unwrap();
     }
-    let found = solve.bend(&unknowns);
+    let found = solve.deviation(&unknowns);
     let ones = Planes::from_fn(samples.len(), |_| [1.0]);
     let seen = samples.taps.gather::<1>(&ones, 0);
     let (mut missed, mut energy) = ([0.0; 2], [0.0; 2]);
     for at in (0..TEXELS).filter(|at| seen[*at] > 0.5 && atlas.inside[*at]) {
-        let [found, truth] =
-            [&found, &truth].map(|bend| glam::Vec3::from_slice(&bend[3 * at..3 * at + 3]));
+        let [found, truth] = [&found, &truth]
+            .map(|deviation| glam::Vec3::from_slice(&deviation[3 * at..3 * at + 3]));
         let part = usize::from(!striped(at));
         missed[part] += found.distance_squared(truth);
         energy[part] += truth.length_squared();

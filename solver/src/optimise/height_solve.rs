@@ -10,8 +10,8 @@ use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::bending_penalty::bending_penalty;
 use super::deviated_highlights::DeviatedHighlights;
+use super::deviation_penalty::deviation_penalty;
 use super::error::SolveError;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
@@ -39,7 +39,7 @@ fn deviations(unknowns: &Planes) -> Deviations<'_> {
 }
 
 /// The linearised problem.
-pub struct ReliefSolve<'a> {
+pub struct HeightSolve<'a> {
     config: &'a HeightConfig,
     backend: &'a dyn Backend,
     samples: &'a Samples,
@@ -63,7 +63,7 @@ pub struct ReliefSolve<'a> {
     nearby: Nearby<'a>,
 }
 
-impl<'a> ReliefSolve<'a> {
+impl<'a> HeightSolve<'a> {
     /// `samples` are those of `views`, with taps of the side of `atlas`. Diffuse shading and albedo are those
     /// of `lighting` if there are any, else those of `state`.
     pub(super) fn new(
@@ -101,7 +101,7 @@ impl<'a> ReliefSolve<'a> {
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
             flatness: height.flatness
-                / lighting.map_or(1.0, Lighting::relief).max(height.least_contrast),
+                / lighting.map_or(1.0, Lighting::evidence_of_normals).max(height.least_contrast),
             highlights: None,
             steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),
@@ -136,8 +136,8 @@ impl<'a> ReliefSolve<'a> {
     }
 
     /// The deviation of the normals by the unknowns `x`, 3 channels per texel.
-    pub fn bend(&self, x: &[f32]) -> Vec<f32> {
-        self.field.bend(&x[..self.field.len()])
+    pub fn deviation(&self, x: &[f32]) -> Vec<f32> {
+        self.field.deviation(&x[..self.field.len()])
     }
 
     /// Slopes at the current normals, and the colours that the linear model is to reach.
@@ -236,15 +236,20 @@ impl<'a> ReliefSolve<'a> {
             ..Samples::none(samples.taps.size())
         };
         let albedo = Planes::from_fn(samples.len(), |_| [1.0, 0.0, 0.0, 1.0 / 3.0]);
-        let (_, gradient) =
-            self.backend.bend(self.networks, &probe, &self.light, directions, &albedo);
+        let (_, gradient) = self.backend.direction_gradient(
+            self.networks,
+            &probe,
+            &self.light,
+            directions,
+            &albedo,
+        );
         self.scale.adjoint(samples, deviations(q), &gradient)
     }
 
     /// The unknowns at every sample: both deviations, change of the albedo.
     fn sampled(&self, x: &[f32]) -> Planes {
         let (height, albedo) = x.split_at(self.size * self.size);
-        self.samples.taps.sample::<UNKNOWNS>(&self.texture(&self.field.bend(height), albedo))
+        self.samples.taps.sample::<UNKNOWNS>(&self.texture(&self.field.deviation(height), albedo))
     }
 
     /// The unknowns of every texel, interleaved; `sharp` is the deviation.
@@ -312,11 +317,13 @@ impl<'a> ReliefSolve<'a> {
         // One pass over the samples: 16 values and the place of each, 76 bytes.
         let normal = |x: &[f32]| {
             let (height, albedo) = x.split_at(texels);
-            let bend = self.field.bend(height);
-            let (gathered, _) = taps.exchange(&self.texture(&bend, albedo), |block, q, out, _| {
-                normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
-            });
-            let penalty = bending_penalty(&bend, self.size, self.flatness, self.config.smoothness);
+            let deviation = self.field.deviation(height);
+            let (gathered, _) =
+                taps.exchange(&self.texture(&deviation, albedo), |block, q, out, _| {
+                    normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
+                });
+            let penalty =
+                deviation_penalty(&deviation, self.size, self.flatness, self.config.smoothness);
             let mut out = self.carried(&gathered, Some(&penalty));
             let (by_height, by_albedo) = out.split_at_mut(texels);
             add_scaled(by_height, height, self.config.unseen_damping);

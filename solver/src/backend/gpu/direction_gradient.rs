@@ -4,7 +4,7 @@ use super::device::Device;
 use super::layout::{Layout, TILE};
 use super::pass::Pass;
 use super::pieces::{Pieces, pixels};
-use crate::backend::BENT;
+use crate::backend::DIRECTION_ROWS;
 use crate::backend::resident::DeviceError;
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
@@ -59,11 +59,11 @@ fn evaluated(
 }
 
 /// What the kernel of bent shading reads and writes besides weights, directions and albedos.
-pub(super) struct Bending {
+pub(super) struct DirectionGradient {
     pub pieces: Pieces,
     light: Vec<wgpu::Buffer>,
     pixels: Vec<wgpu::Buffer>,
-    /// [`BENT`] rows.
+    /// [`DIRECTION_ROWS`] rows.
     pub gradient: Vec<wgpu::Buffer>,
     pub losses: wgpu::Buffer,
     /// Of the losses.
@@ -71,13 +71,13 @@ pub(super) struct Bending {
     scale: f32,
 }
 
-impl Bending {
+impl DirectionGradient {
     pub fn new(device: &Device, pieces: Pieces, samples: &Samples, light: &Planes) -> Self {
         let groups = pieces.0.iter().map(|piece| piece.len().div_ceil(TILE)).sum();
         Self {
             light: pieces.upload(device, "light", &[light]),
             pixels: pixels(device, &pieces, samples),
-            gradient: pieces.zeros(device, "gradient", BENT),
+            gradient: pieces.zeros(device, "gradient", DIRECTION_ROWS),
             losses: device.floats("partial losses", groups),
             groups,
             scale: 1.0 / (3.0 * samples.len() as f32),
@@ -94,7 +94,9 @@ impl Bending {
         directions: &[wgpu::Buffer],
         albedo: &[wgpu::Buffer],
     ) -> Vec<Pass> {
-        let source = [include_str!("wgsl/pixel.wgsl"), include_str!("wgsl/bend.wgsl")].concat();
+        let source =
+            [include_str!("wgsl/pixel.wgsl"), include_str!("wgsl/direction_gradient.wgsl")]
+                .concat();
         let kernel = layout.kernel(device, "bent shading", &source, &[], "unrrrrww");
         let mut first = 0;
         let mut passes = vec![];
@@ -113,7 +115,7 @@ impl Bending {
             let groups = piece.len().div_ceil(TILE);
             let [forward, _] = layout.flops();
             // Two directions, Fresnel factor, colour, weight, albedos, light.
-            let values = 15 + layout.outputs() + BENT;
+            let values = 15 + layout.outputs() + DIRECTION_ROWS;
             let pass = Pass::new(device, &kernel, &buffers, groups);
             passes.push(pass.doing(piece.len(), 2 * 2 * forward, values));
             first += groups;
@@ -123,7 +125,7 @@ impl Bending {
 }
 
 /// One evaluation.
-pub(super) fn bend(
+pub(super) fn direction_gradient(
     device: &Device,
     networks: &Networks,
     samples: &Samples,
@@ -135,12 +137,12 @@ pub(super) fn bend(
     let pieces = Pieces::new(device, samples.len(), networks.outputs());
     let directions = pieces.upload(device, "directions", &[directions]);
     let albedo = pieces.upload(device, "albedos", &[albedo]);
-    let bending = Bending::new(device, pieces, samples, light);
+    let kernels = DirectionGradient::new(device, pieces, samples, light);
     let weights = device.filled("networks", &layout.pack(&networks.parameters));
-    device.submit(&bending.passes(device, &layout, &weights, &directions, &albedo), None, 1);
-    let mut buffers = vec![&bending.losses];
-    buffers.extend(&bending.gradient);
+    device.submit(&kernels.passes(device, &layout, &weights, &directions, &albedo), None, 1);
+    let mut buffers = vec![&kernels.losses];
+    buffers.extend(&kernels.gradient);
     let contents = device.read::<f32>(&buffers)?;
-    let loss = contents[0][..bending.groups].iter().map(|loss| f64::from(*loss)).sum();
-    Ok((loss, bending.pieces.planes(BENT, &contents[1..])))
+    let loss = contents[0][..kernels.groups].iter().map(|loss| f64::from(*loss)).sum();
+    Ok((loss, kernels.pieces.planes(DIRECTION_ROWS, &contents[1..])))
 }
