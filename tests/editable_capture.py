@@ -19,7 +19,7 @@ base = "fast"
 initialisation.starts = 1
 warm_up = { iterations = 30, texture_size = 64 }
 fine_tuning = { iterations = 5, texture_size = 64 }
-transport = { texture_size = 32, iterations = 20, hold = 5, refinement = 5, rows = 6 }
+transport = { texture_size = 32, iterations = 20, albedo_frozen_steps = 5, refinement = 5, rows = 6 }
 height.steps = 40
 """
 """A solve of a quarter of a second."""

@@ -129,7 +129,7 @@ impl Estimate {
         };
         let height = match config.height.enabled {
             true => {
-                let side = size as f64 * f64::from(config.height.texture_share);
+                let side = size as f64 * f64::from(config.height.texture_scale);
                 covered * HEIGHT_SAMPLE + side * side * HEIGHT_TEXEL + texels * 28.0
             }
             false => 0.0,

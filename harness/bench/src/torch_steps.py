@@ -100,14 +100,14 @@ def main() -> None:
         light = network(0, position).exp()
         albedo = sampled(state["diffuse"])
         frozen = bent(light)
-        gloss = sampled(state["specular"]) * frozen[1]
+        specular_layer = sampled(state["specular"]) * frozen[1]
 
     def normals() -> torch.Tensor:
         diffuse, specular = bent(light)
         return error(albedo * diffuse, sampled(state["specular"]) * specular)
 
     def diffuse_alone() -> torch.Tensor:
-        return error(sampled(state["diffuse"]) * frozen[0], gloss)
+        return error(sampled(state["diffuse"]) * frozen[0], specular_layer)
 
     loss, moved = {
         "warm-up": (warm_up, ("networks", "diffuse", "specular")),

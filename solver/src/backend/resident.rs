@@ -101,22 +101,22 @@ pub struct Variable<'a> {
     /// Rate, step count and moments.
     pub adam: &'a mut Adam,
     /// No value falls below this.
-    pub least: f32,
+    pub minimum: f32,
     /// Nor rises above this.
-    pub most: f32,
+    pub maximum: f32,
     /// Steps of the stage before it moves; 0 for a stage's first variable.
-    pub hold: usize,
+    pub frozen_steps: usize,
 }
 
 impl<'a> Variable<'a> {
     /// Of these values.
-    pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, least: f32) -> Self {
-        Self { values, adam, least, most: f32::INFINITY, hold: 0 }
+    pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, minimum: f32) -> Self {
+        Self { values, adam, minimum, maximum: f32::INFINITY, frozen_steps: 0 }
     }
 
     /// A step on the host.
-    pub fn step(&mut self, gradient: &[f32], share: f32) {
-        self.adam.step(self.values, gradient, share, self.least);
+    pub fn step(&mut self, gradient: &[f32], decay: f32) {
+        self.adam.step(self.values, gradient, decay, self.minimum);
     }
 }
 

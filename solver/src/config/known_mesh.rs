@@ -67,7 +67,7 @@ pub struct TransportConfig {
     /// halves of the mesh's longest side: about a metre around a head.
     pub near_radius: f32,
     /// No light is nearer than this, in the same unit.
-    pub least_radius: f32,
+    pub minimum_radius: f32,
     /// Full-batch steps of light and albedo together.
     pub iterations: usize,
     /// Give regions that are no skin a colour anew under the light of the probe; needs
@@ -81,7 +81,7 @@ pub struct TransportConfig {
     /// nor if the standard error of a channel's factor, relative to it, is larger than this.
     pub tint_error: f64,
     /// Steps before the diffuse albedo moves: first the light settles on the semantic colours.
-    pub hold: usize,
+    pub albedo_frozen_steps: usize,
     /// Weight of the albedo prior.
     pub prior: f32,
     /// Weight of the squared deviation of the mean shading from grey.
@@ -134,7 +134,7 @@ pub struct HeightConfig {
     /// Solve for heights; false leaves normals to the deviation texture, as in the paper.
     pub enabled: bool,
     /// Side of the height texture over that of the fine-tuned textures.
-    pub texture_share: f32,
+    pub texture_scale: f32,
     /// How often the pictures are linearised, each time on a texture of twice the side.
     pub linearisations: usize,
     /// Take highlights, and how they change with the normals, from the light that was found with its
@@ -179,7 +179,7 @@ pub struct HeightConfig {
     /// squared contrast of the light, and more where that is even.
     pub flatness: f32,
     /// The least that this squared contrast counts.
-    pub least_contrast: f32,
+    pub minimum_contrast: f32,
     /// Weight of its squared differences from texel to texel.
     pub smoothness: f32,
     /// Weight of squared heights, which pulls those to zero that no pixel sees.

@@ -128,7 +128,7 @@ impl Config {
         range("fine_tuning.deviation_smoothing", f.deviation_smoothing, narrow, "0 to 0.1")?;
         range("fine_tuning.deviation_extent", f.deviation_extent, narrow, "0 to 0.1")?;
         range("fine_tuning.deviation_blur", f.deviation_blur, narrow, "0 to 0.1")?;
-        range("adam.final_share", self.adam.final_share, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
+        range("adam.final_decay", self.adam.final_decay, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
         range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
         range("adam.beta2", self.adam.beta2, fraction, "at least 0 and below 1")?;
         let side = |x: usize| (16..=8192).contains(&x);

@@ -73,7 +73,7 @@ impl Config {
                 specular_rate: 1e-3,
                 deviation_rate: 1e-3,
             },
-            adam: AdamConfig { beta1: 0.9, beta2: 0.999, epsilon: 1e-8, final_share: 1.0 },
+            adam: AdamConfig { beta1: 0.9, beta2: 0.999, epsilon: 1e-8, final_decay: 1.0 },
             normalisation: NormalisationConfig {
                 diffuse_percentile: 100.0,
                 specular_percentile: 100.0,
@@ -92,13 +92,13 @@ impl Config {
                 probe: 200,
                 nearness_rate: 0.02,
                 near_radius: 6.0,
-                least_radius: 2.5,
+                minimum_radius: 2.5,
                 iterations: 400,
                 recolour: true,
                 tint: true,
                 tint_range: 2.0,
                 tint_error: 0.05,
-                hold: 100,
+                albedo_frozen_steps: 100,
                 prior: 1.0,
                 grey_mean: 1.0,
                 grey_texel: 0.001,
@@ -120,7 +120,7 @@ impl Config {
             },
             height: HeightConfig {
                 enabled: false,
-                texture_share: 0.5,
+                texture_scale: 0.5,
                 linearisations: 2,
                 highlights: false,
                 reweightings: 2,
@@ -138,7 +138,7 @@ impl Config {
                 rim: 2,
                 diffuse_doubt: 0.6,
                 flatness: 100.0,
-                least_contrast: 1e-4,
+                minimum_contrast: 1e-4,
                 smoothness: 300.0,
                 unseen_damping: 1e-3,
                 albedo_damping: 300.0,
@@ -191,7 +191,7 @@ impl Config {
         config.transport.rows = 8;
         config.transport.probe = 100;
         config.transport.iterations = 200;
-        config.transport.hold = 75;
+        config.transport.albedo_frozen_steps = 75;
         config.transport.distance = 75;
         config.transport.highlights = 75;
         config.transport.refinement = 50;

@@ -71,7 +71,7 @@ impl TransportConfig {
         range("transport.tint_error", self.tint_error, error, "zero or positive")?;
         let outside = |x: f32| x >= 1.0 && x.is_finite();
         range("transport.near_radius", self.near_radius, outside, "1 or more")?;
-        range("transport.least_radius", self.least_radius, outside, "1 or more")?;
+        range("transport.minimum_radius", self.minimum_radius, outside, "1 or more")?;
         positive(&[
             ("transport.even_contrast", self.even_contrast),
             ("transport.confidence_misfit", self.confidence_misfit),
@@ -96,14 +96,14 @@ impl TransportConfig {
 impl HeightConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         let share = |x: f32| x > 0.0 && x <= 1.0;
-        range("height.texture_share", self.texture_share, share, "above 0, to 1")?;
+        range("height.texture_scale", self.texture_scale, share, "above 0, to 1")?;
         let rounds = |x: usize| (1..=8).contains(&x);
         range("height.linearisations", self.linearisations, rounds, "1 to 8")?;
         positive(&[
             ("height.residual_floor", self.residual_floor),
             ("height.steepest", self.steepest),
             ("height.darkest_albedo", self.darkest_albedo),
-            ("height.least_contrast", self.least_contrast),
+            ("height.minimum_contrast", self.minimum_contrast),
         ])?;
         let tolerance = |x: f64| (0.0..1.0).contains(&x);
         range("height.tolerance", self.tolerance, tolerance, "at least 0 and below 1")?;

@@ -184,9 +184,9 @@ pub struct AdamConfig {
     pub beta2: f32,
     /// Added to the root of the second moment; 1e-8.
     pub epsilon: f32,
-    /// Share of the learning rates at the end of a stage, reached geometrically over its last 40 %;
+    /// Factor on the learning rates at the end of a stage, reached geometrically over its last 40 %;
     /// the paper keeps them constant.
-    pub final_share: f32,
+    pub final_decay: f32,
 }
 
 /// Section 5.4. Pictures are exposed so that the largest irradiance is pi: then a Lambert

@@ -139,9 +139,9 @@ impl Samples {
         }
     }
 
-    /// As many as fit into `most`, evenly spread over the texels.
-    pub fn thinned(&self, most: usize) -> Self {
-        let step = self.len().div_ceil(most.max(1)).max(1);
+    /// As many as fit into `count`, evenly spread over the texels.
+    pub fn thinned(&self, count: usize) -> Self {
+        let step = self.len().div_ceil(count.max(1)).max(1);
         let every = |of: &[u32]| of.iter().step_by(step).copied().collect();
         Self {
             position: self.position.thinned(step),

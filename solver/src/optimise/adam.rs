@@ -67,11 +67,11 @@ impl Adam {
         (self.steps, self.first, self.second) = (steps as i32, first, second);
     }
 
-    /// At step `number`, from 1, by `share` of the learning rate: what the first moment is multiplied
+    /// At step `number`, from 1, by `decay` of the learning rate: what the first moment is multiplied
     /// with, and the root of the second one.
-    pub(crate) fn factors(&self, number: i32, share: f32) -> [f32; 2] {
+    pub(crate) fn factors(&self, number: i32, decay: f32) -> [f32; 2] {
         let correction = |beta: f32| 1.0 - f64::from(beta).powi(number);
-        let rate = (f64::from(share * self.rate) / correction(self.config.beta1)) as f32;
+        let rate = (f64::from(decay * self.rate) / correction(self.config.beta1)) as f32;
         [rate, (1.0 / correction(self.config.beta2).sqrt()) as f32]
     }
 
@@ -80,10 +80,10 @@ impl Adam {
         self.first.len()
     }
 
-    /// Moves the parameters against the gradient, by `share` of the learning rate, and not below
-    /// `least`.
-    pub fn step(&mut self, parameters: &mut [f32], gradient: &[f32], share: f32, least: f32) {
-        let factors = self.next(share, least);
+    /// Moves the parameters against the gradient, by `decay` of the learning rate, and not below
+    /// `minimum`.
+    pub fn step(&mut self, parameters: &mut [f32], gradient: &[f32], decay: f32, minimum: f32) {
+        let factors = self.next(decay, minimum);
         parameters
             .par_chunks_mut(CHUNK)
             .zip(gradient.par_chunks(CHUNK))
@@ -94,11 +94,11 @@ impl Adam {
     }
 
     /// Counts a step; its factors.
-    fn next(&mut self, share: f32, least: f32) -> Factors {
+    fn next(&mut self, decay: f32, minimum: f32) -> Factors {
         self.steps += 1;
         let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
-        let [rate, root] = self.factors(self.steps, share);
-        Factors { beta1, beta2, epsilon, rate, root, least }
+        let [rate, root] = self.factors(self.steps, decay);
+        Factors { beta1, beta2, epsilon, rate, root, minimum }
     }
 }
 
@@ -110,7 +110,7 @@ struct Factors {
     epsilon: f32,
     rate: f32,
     root: f32,
-    least: f32,
+    minimum: f32,
 }
 
 widened! {
@@ -121,7 +121,7 @@ widened! {
             *v = f.beta2 * *v + (1.0 - f.beta2) * g * g;
             let moved = *p - f.rate * *m / (v.sqrt() * f.root + f.epsilon);
             // Unlike max, this lets a NaN through, which the loss then shows.
-            *p = if moved < f.least { f.least } else { moved };
+            *p = if moved < f.minimum { f.minimum } else { moved };
         }
     }
 }

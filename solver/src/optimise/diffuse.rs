@@ -1,7 +1,7 @@
 //! The diffuse albedo alone.
 
 use super::adam::Adam;
-use super::stage::{Memory, Stage, State, layers, least_albedo};
+use super::stage::{Memory, Stage, State, layers, minimum_albedo};
 use crate::backend::Backend;
 use crate::backend::resident::{Job, Variable};
 use crate::config::Config;
@@ -80,9 +80,9 @@ impl Stage for Diffuse<'_> {
         self.iterations
     }
 
-    fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, _backend: &dyn Backend, decay: f32) -> f64 {
         let (loss, by_diffuse) = self.gradient(state);
-        self.by_diffuse.step(&mut state.diffuse, &by_diffuse, share, least_albedo(self.config));
+        self.by_diffuse.step(&mut state.diffuse, &by_diffuse, decay, minimum_albedo(self.config));
         loss
     }
 
@@ -101,7 +101,7 @@ impl Stage for Diffuse<'_> {
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
-        let least = least_albedo(self.config);
-        vec![Variable::new(&mut state.diffuse, &mut self.by_diffuse, least)]
+        let minimum = minimum_albedo(self.config);
+        vec![Variable::new(&mut state.diffuse, &mut self.by_diffuse, minimum)]
     }
 }

@@ -101,7 +101,7 @@ impl<'a> HeightSolve<'a> {
             // What shading and the networks' highlights tell of relief grows with the light's contrast;
             // what the model gets wrong does not.
             flatness: height.flatness
-                / lighting.map_or(1.0, Lighting::evidence_of_normals).max(height.least_contrast),
+                / lighting.map_or(1.0, Lighting::evidence_of_normals).max(height.minimum_contrast),
             highlights: None,
             steps: height.steps_on(size),
             nearby: Nearby::new(height, samples, views),

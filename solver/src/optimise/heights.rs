@@ -62,7 +62,7 @@ pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
 
 /// The sides of the textures of heights, one for every linearisation.
 fn sides(config: &HeightConfig, size: usize) -> Vec<usize> {
-    let finest = (size as f32 * config.texture_share) as usize;
+    let finest = (size as f32 * config.texture_scale) as usize;
     (0..config.linearisations).rev().map(|halved| (finest >> halved).max(LEAST_SIDE)).collect()
 }
 

@@ -52,7 +52,7 @@ pub(super) fn distance(
     let stage = Highlights::new(context.config, transport, &samples, &state, found);
     let Some(stage) = stage else { return Ok(t.distance) };
     let (name, iterations) = ("distance", t.distance);
-    let mut stage = Highlights { name, iterations, hold: iterations, ..stage };
+    let mut stage = Highlights { name, iterations, frozen_steps: iterations, ..stage };
     runner.stage(&mut stage, &mut state)?;
     if t.tint {
         light_estimate.tint = stage.take_tint(&state);
@@ -120,7 +120,7 @@ pub struct Highlights<'a> {
     pub(super) nearness: Vec<f32>,
     name: &'static str,
     iterations: usize,
-    pub(super) hold: usize,
+    pub(super) frozen_steps: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -161,7 +161,7 @@ impl<'a> Highlights<'a> {
             nearness: vec![found.nearness / transport.near()],
             name: "highlights",
             iterations: t.highlights,
-            hold: 0,
+            frozen_steps: 0,
             by_light: Adam::new(adam, t.light_rate, light.len()),
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
@@ -245,15 +245,15 @@ impl Stage for Highlights<'_> {
         self.iterations
     }
 
-    fn step(&mut self, state: &mut State, _: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, _: &dyn Backend, decay: f32) -> f64 {
         let gradient = self.gradient(state);
-        self.by_light.step(&mut self.log_light, &gradient.light, share, f32::NEG_INFINITY);
+        self.by_light.step(&mut self.log_light, &gradient.light, decay, f32::NEG_INFINITY);
         if let Some(by_nearness) = gradient.nearness {
-            self.by_nearness.step(&mut self.nearness, &[by_nearness], share, 0.0);
+            self.by_nearness.step(&mut self.nearness, &[by_nearness], decay, 0.0);
             self.nearness[0] = self.nearness[0].min(self.transport.nearest());
         }
-        if self.by_light.steps() > self.hold {
-            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
+        if self.by_light.steps() > self.frozen_steps {
+            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, decay, 0.0);
         }
         gradient.loss
     }
@@ -272,8 +272,8 @@ impl Stage for Highlights<'_> {
         let diffuse = Variable::new(&mut state.diffuse, &mut self.by_diffuse, 0.0);
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
-            Variable { most: self.transport.nearest(), ..nearness },
-            Variable { hold: self.hold, ..diffuse },
+            Variable { maximum: self.transport.nearest(), ..nearness },
+            Variable { frozen_steps: self.frozen_steps, ..diffuse },
         ]
     }
 

@@ -1,7 +1,7 @@
 //! The paper's normals: a deviation texture, moved with the specular albedo.
 
 use super::adam::Adam;
-use super::stage::{Memory, Stage, State, least_albedo};
+use super::stage::{Memory, Stage, State, minimum_albedo};
 use crate::backend::resident::{Job, NormalsJob, Variable};
 use crate::backend::{Backend, TexturedNormals};
 use crate::config::Config;
@@ -72,10 +72,10 @@ impl Stage for Normals<'_> {
         self.config.fine_tuning.iterations
     }
 
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64 {
         let (loss, TextureGradients { deviation, specular }) = self.gradient(state, backend);
         let gradients = [deviation, specular];
-        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, share));
+        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, decay));
         loss
     }
 
@@ -94,10 +94,10 @@ impl Stage for Normals<'_> {
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
-        let least = least_albedo(self.config);
+        let minimum = minimum_albedo(self.config);
         vec![
             Variable::new(&mut state.deviation, &mut self.by_deviation, f32::NEG_INFINITY),
-            Variable::new(&mut state.specular, &mut self.by_specular, least),
+            Variable::new(&mut state.specular, &mut self.by_specular, minimum),
         ]
     }
 }

@@ -1,7 +1,7 @@
 //! The specular albedo alone, where the normals stay.
 
 use super::adam::Adam;
-use super::stage::{Memory, Stage, State, layers, least_albedo};
+use super::stage::{Memory, Stage, State, layers, minimum_albedo};
 use crate::backend::Backend;
 use crate::backend::resident::{Job, Variable};
 use crate::config::Config;
@@ -63,13 +63,13 @@ impl Stage for Specular<'_> {
         self.config.fine_tuning.iterations
     }
 
-    fn step(&mut self, state: &mut State, _backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, _backend: &dyn Backend, decay: f32) -> f64 {
         let scale = 1.0 / (3.0 * self.samples.len() as f32);
         let value = |block: usize, albedo: &[Row; 1], gradient: &mut [Row; 1], loss: &mut Row| {
             specular_block(self.rest.rows_of(block), scale, albedo, gradient, loss);
         };
         let (gradient, sum) = self.samples.taps.exchange(&state.specular, value);
-        self.by_specular.step(&mut state.specular, &gradient, share, least_albedo(self.config));
+        self.by_specular.step(&mut state.specular, &gradient, decay, minimum_albedo(self.config));
         sum * f64::from(scale)
     }
 
@@ -86,8 +86,8 @@ impl Stage for Specular<'_> {
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
-        let least = least_albedo(self.config);
-        vec![Variable::new(&mut state.specular, &mut self.by_specular, least)]
+        let minimum = minimum_albedo(self.config);
+        vec![Variable::new(&mut state.specular, &mut self.by_specular, minimum)]
     }
 }
 

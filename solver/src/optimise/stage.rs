@@ -60,8 +60,8 @@ pub trait Stage {
     fn name(&self) -> String;
     /// How many steps.
     fn iterations(&self) -> usize;
-    /// One step, by `share` of the learning rates; the loss before it.
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64;
+    /// One step, by `decay` of the learning rates; the loss before it.
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64;
     /// For checkpoints: with the state, all that is needed to go on with the same bits.
     fn memory(&mut self) -> Memory<'_>;
     /// For a device that may take the stage in; nothing if there is no program for it.
@@ -109,6 +109,6 @@ pub fn layers(
 }
 
 /// The least that an optimiser leaves of an albedo.
-pub(super) fn least_albedo(config: &Config) -> f32 {
+pub(super) fn minimum_albedo(config: &Config) -> f32 {
     if config.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
 }

@@ -23,7 +23,7 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 pub(super) struct StageRunner<'a, 'b> {
     pub backend: &'a dyn Backend,
     progress: &'a mut Callback<'b>,
-    final_share: f32,
+    final_decay: f32,
     total: usize,
     clock: Clock,
     log: Log,
@@ -47,7 +47,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         Self {
             backend,
             progress,
-            final_share: config.adam.final_share,
+            final_decay: config.adam.final_decay,
             total: work.iter().map(|part| part.steps).sum(),
             clock: Clock::new(work),
             log: Log::default(),
@@ -179,12 +179,12 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         let mut pace = Pace::default();
         while losses.len() < of && self.cut.is_none() {
             let first = losses.len() + 1;
-            let share = |step: usize| share(self.final_share, step, of);
+            let decay = |step: usize| decay(self.final_decay, step, of);
             let batch = match &mut device {
-                None => Ok(vec![stage.step(state, self.backend, share(first))]),
+                None => Ok(vec![stage.step(state, self.backend, decay(first))]),
                 Some(program) => {
                     let last = of.min(losses.len() + pace.steps());
-                    let shares: Vec<f32> = (first..=last).map(share).collect();
+                    let shares: Vec<f32> = (first..=last).map(decay).collect();
                     pace.time(shares.len(), || program.steps(&shares))
                 }
             };
@@ -314,7 +314,7 @@ impl Pace {
 
 /// The share of the learning rate: whole at first, then falling geometrically to `last` over the
 /// final 40 % of a stage.
-fn share(last: f32, iteration: usize, iterations: usize) -> f32 {
+fn decay(last: f32, iteration: usize, iterations: usize) -> f32 {
     let progress = iteration as f32 / iterations as f32;
     last.powf(((progress - 0.6) / 0.4).max(0.0))
 }

@@ -119,7 +119,7 @@ impl Step {
                 Work { preparation: 25e-9 * entries, ..work(0.4, entries, 0.1, texels) }
             }
             Self::Heights => {
-                let share = f64::from(config.height.texture_share);
+                let share = f64::from(config.height.texture_scale);
                 work(25.0, pixels, 15.0, share * share * square(context.size))
             }
             // Without a network where the normals stay.
@@ -179,7 +179,7 @@ impl Step {
                 let lighting =
                     light_and_albedo(runner, context, solve.initial.clone(), light_estimate)?;
                 // Before the albedo moves there is nothing of use: the networks' is better.
-                let begun = config.transport.hold;
+                let begun = config.transport.albedo_frozen_steps;
                 let moved =
                     runner.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lighting = moved.then_some(lighting);

@@ -170,7 +170,7 @@ pub struct Transported<'a> {
     nearness: Vec<f32>,
     name: &'static str,
     iterations: usize,
-    hold: usize,
+    frozen_steps: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -189,7 +189,7 @@ impl<'a> Transported<'a> {
         let log_light = vec![0.0; CHANNELS * transport.cells()];
         let iterations = config.transport.probe;
         let stage = Self::new(config, transport, samples, state, log_light);
-        Self { name: "light", iterations, hold: iterations, ..stage }
+        Self { name: "light", iterations, frozen_steps: iterations, ..stage }
     }
 
     /// All together, from a logarithm of the light. The samples' taps and the state's textures are of
@@ -212,7 +212,7 @@ impl<'a> Transported<'a> {
             nearness: vec![0.0],
             name: "transport",
             iterations: t.iterations,
-            hold: t.hold,
+            frozen_steps: t.albedo_frozen_steps,
             by_light: Adam::new(adam, t.light_rate, log_light.len()),
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
@@ -341,17 +341,17 @@ impl Stage for Transported<'_> {
         self.iterations
     }
 
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64 {
         let gradient = self.gradient(state, backend);
         let free = f32::NEG_INFINITY;
-        self.by_light.step(&mut self.log_light, &gradient.light, share, free);
-        self.by_nearness.step(&mut self.nearness, &[gradient.nearness], share, 0.0);
+        self.by_light.step(&mut self.log_light, &gradient.light, decay, free);
+        self.by_nearness.step(&mut self.nearness, &[gradient.nearness], decay, 0.0);
         self.nearness[0] = self.nearness[0].min(self.transport.nearest());
-        if self.by_light.steps() > self.hold {
-            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, share, 0.0);
+        if self.by_light.steps() > self.frozen_steps {
+            self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, decay, 0.0);
         }
-        self.by_specular.step(&mut state.specular, &gradient.specular, share, 0.0);
-        self.by_networks.step(&mut state.networks.parameters, &gradient.networks, share, free);
+        self.by_specular.step(&mut state.specular, &gradient.specular, decay, 0.0);
+        self.by_networks.step(&mut state.networks.parameters, &gradient.networks, decay, free);
         gradient.loss
     }
 
@@ -374,8 +374,8 @@ impl Stage for Transported<'_> {
         let networks = &mut state.networks.parameters;
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, free),
-            Variable { most: self.transport.nearest(), ..nearness },
-            Variable { hold: self.hold, ..diffuse },
+            Variable { maximum: self.transport.nearest(), ..nearness },
+            Variable { frozen_steps: self.frozen_steps, ..diffuse },
             Variable::new(&mut state.specular, &mut self.by_specular, 0.0),
             Variable::new(networks, &mut self.by_networks, free),
         ]

@@ -1,7 +1,7 @@
 //! The warm-up: networks and albedos together.
 
 use super::adam::Adam;
-use super::stage::{Memory, Stage, State, least_albedo};
+use super::stage::{Memory, Stage, State, minimum_albedo};
 use crate::backend::resident::{Job, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::Config;
@@ -67,10 +67,10 @@ impl Stage for WarmUp<'_> {
         self.config.warm_up.iterations
     }
 
-    fn step(&mut self, state: &mut State, backend: &dyn Backend, share: f32) -> f64 {
+    fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64 {
         let WarmUpGradient { loss, networks, diffuse, specular } = self.gradient(state, backend);
         let gradients = [networks, diffuse, specular];
-        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, share));
+        self.variables(state).iter_mut().zip(&gradients).for_each(|(v, g)| v.step(g, decay));
         loss
     }
 
@@ -88,11 +88,11 @@ impl Stage for WarmUp<'_> {
     }
 
     fn variables<'a>(&'a mut self, state: &'a mut State) -> Vec<Variable<'a>> {
-        let (free, least) = (f32::NEG_INFINITY, least_albedo(self.config));
+        let (free, minimum) = (f32::NEG_INFINITY, minimum_albedo(self.config));
         vec![
             Variable::new(&mut state.networks.parameters, &mut self.networks, free),
-            Variable::new(&mut state.diffuse, &mut self.diffuse, least),
-            Variable::new(&mut state.specular, &mut self.specular, least),
+            Variable::new(&mut state.diffuse, &mut self.diffuse, minimum),
+            Variable::new(&mut state.specular, &mut self.specular, minimum),
         ]
     }
 }

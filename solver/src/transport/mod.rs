@@ -125,7 +125,7 @@ impl Transport {
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
         let (nearest, light_exponent) =
-            (config.near_radius / config.least_radius, config.light_exponent);
+            (config.near_radius / config.minimum_radius, config.light_exponent);
         let sky = sky.clone();
         Self { size, matrix, gain, open, near, nearest, light_exponent, places, normals, sky, row }
     }

@@ -69,7 +69,7 @@ pub fn short() -> Config {
     config.transport.rows = 8;
     config.transport.probe = 60;
     config.transport.iterations = 100;
-    config.transport.hold = 30;
+    config.transport.albedo_frozen_steps = 30;
     config.transport.refinement = 40;
     config.height.linearisations = 1;
     config.height.steps = 80;

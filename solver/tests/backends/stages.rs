@@ -147,7 +147,7 @@ pub fn transported(backend: &dyn Backend) {
     let mut config = Config::default();
     config.transport.texture_size = 32;
     config.transport.rows = 6;
-    config.transport.hold = 22;
+    config.transport.albedo_frozen_steps = 22;
     config.transport.grey_texel = 0.1;
     let (samples, state) = problem(&config);
     let mesh = testing::dome(24);
@@ -165,7 +165,7 @@ pub fn highlights(backend: &dyn Backend) {
     let mut config = Config::default();
     config.transport.texture_size = 32;
     config.transport.rows = 6;
-    config.transport.hold = 22;
+    config.transport.albedo_frozen_steps = 22;
     let (samples, state) = problem(&config);
     let mesh = testing::dome(24);
     let skin_specular = vec![0.04; state.specular.len()];

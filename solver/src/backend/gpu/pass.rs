@@ -144,12 +144,12 @@ impl Factors {
     const WORDS: usize = 12;
 
     /// Of a variable's step number `number`, from 1.
-    pub fn adam(variable: &AdamFactors, number: usize, share: f32, step: usize) -> Self {
-        let [rate, root] = variable.optimiser.factors(number as i32, share);
+    pub fn adam(variable: &AdamFactors, number: usize, decay: f32, step: usize) -> Self {
+        let [rate, root] = variable.optimiser.factors(number as i32, decay);
         let c = variable.optimiser.config();
-        let floats = [rate, root, c.beta1, c.beta2, c.epsilon, variable.least].map(f32::to_bits);
+        let floats = [rate, root, c.beta1, c.beta2, c.epsilon, variable.minimum].map(f32::to_bits);
         let [a, b, c, d, e, f] = floats;
-        Self([a, b, c, d, e, f, 1, step as u32, variable.most.to_bits(), 0, 0, 0])
+        Self([a, b, c, d, e, f, 1, step as u32, variable.maximum.to_bits(), 0, 0, 0])
     }
 
     /// Of a variable that stays where it is.
@@ -161,14 +161,14 @@ impl Factors {
 /// What a device needs to know of a variable's optimiser.
 pub(super) struct AdamFactors {
     optimiser: Adam,
-    least: f32,
-    most: f32,
+    minimum: f32,
+    maximum: f32,
 }
 
 impl AdamFactors {
     pub fn of(variable: &Variable) -> Self {
         // Large numbers instead of infinity, which shaders may take for impossible.
-        let (least, most) = (variable.least.max(f32::MIN), variable.most.min(f32::MAX));
-        Self { optimiser: variable.adam.without_moments(), least, most }
+        let (minimum, maximum) = (variable.minimum.max(f32::MIN), variable.maximum.min(f32::MAX));
+        Self { optimiser: variable.adam.without_moments(), minimum, maximum }
     }
 }

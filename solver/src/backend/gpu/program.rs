@@ -16,7 +16,7 @@ pub(super) struct Moved {
     layout: Option<Layout>,
     factors: Option<AdamFactors>,
     /// Of the stage, before this moves.
-    hold: usize,
+    frozen_steps: usize,
 }
 
 impl Moved {
@@ -28,7 +28,7 @@ impl Moved {
             count,
             layout: None,
             factors: None,
-            hold: 0,
+            frozen_steps: 0,
         }
     }
 
@@ -158,7 +158,7 @@ impl Resident for Program<'_> {
             for (place, content) in places.into_iter().zip([variable.values, first, second]) {
                 queue.write_buffer(place, 0, &moved.to_device(content));
             }
-            moved.hold = variable.hold;
+            moved.frozen_steps = variable.frozen_steps;
             moved.factors = Some(AdamFactors::of(variable));
         }
         self.check(self.gpu.device.check())
@@ -169,11 +169,11 @@ impl Resident for Program<'_> {
         let factors: Vec<Factors> = shares
             .iter()
             .enumerate()
-            .flat_map(|(step, share)| {
+            .flat_map(|(step, decay)| {
                 let number = self.done + step + 1;
                 self.moved.iter().map(move |moved| match &moved.factors {
-                    Some(factors) if number > moved.hold => {
-                        Factors::adam(factors, number - moved.hold, *share, step)
+                    Some(factors) if number > moved.frozen_steps => {
+                        Factors::adam(factors, number - moved.frozen_steps, *decay, step)
                     }
                     _ => Factors::still(step),
                 })
@@ -197,7 +197,7 @@ impl Resident for Program<'_> {
             let mut next = || moved.to_host(contents.next().unwrap_or_default());
             *variable.values = next();
             let (first, second) = (next(), next());
-            variable.adam.restore(self.done.saturating_sub(moved.hold), first, second);
+            variable.adam.restore(self.done.saturating_sub(moved.frozen_steps), first, second);
         }
         Ok(())
     }

@@ -133,7 +133,7 @@ impl Lamp {
         let found = Found { log_light: &log_light, nearness: 0.1, skin_specular: &skin_specular };
         let new = Highlights::new(&self.config, &self.transport, samples, state, found);
         let mut stage = new.unwrap();
-        stage.hold = usize::MAX;
+        stage.frozen_steps = usize::MAX;
         for _ in 0..400 {
             stage.step(&mut state.clone(), &Cpu::new(), 1.0);
         }

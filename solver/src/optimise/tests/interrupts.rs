@@ -18,7 +18,7 @@ fn short() -> Config {
     config.fine_tuning.iterations = 6;
     config.transport.probe = 10;
     config.transport.iterations = 16;
-    config.transport.hold = 6;
+    config.transport.albedo_frozen_steps = 6;
     config.transport.distance = 5;
     config.transport.highlights = 5;
     config.transport.refinement = 6;

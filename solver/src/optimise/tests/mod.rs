@@ -79,7 +79,7 @@ fn small() -> Config {
     config.transport.texture_size = 32;
     config.transport.rows = 8;
     config.transport.iterations = 150;
-    config.transport.hold = 50;
+    config.transport.albedo_frozen_steps = 50;
     config.transport.refinement = 40;
     config.height.linearisations = 1;
     config.height.steps = 80;
