@@ -53,8 +53,8 @@ pub(super) fn outward_turns<'py>(
     }
     let faces = corners(&triangles, positions.len())?;
     let found = py.detach(|| outward::outward(&positions, normals.as_deref(), &faces));
-    let turned = found.triangles.into_pyarray(py);
-    Ok((turned, found.normals.into_pyarray(py), found.one_sided))
+    let flipped = found.triangles.into_pyarray(py);
+    Ok((flipped, found.normals.into_pyarray(py), found.one_sided))
 }
 
 /// What a pinhole sees: the depth along its axis at every pixel's centre (height, width), infinite

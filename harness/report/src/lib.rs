@@ -100,5 +100,5 @@ fn check_place(run: &Path, out: &Path) -> Result<(), FolderError> {
     if own.is_some() && own == std::path::absolute(out).ok() {
         return Ok(());
     }
-    atomic::apart(out, &[run])
+    atomic::refuse_overlap(out, &[run])
 }

@@ -36,7 +36,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
-            atomic::apart(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
+            atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
             let scores = score::score(&capture, &maps, relit.as_deref())?;
             scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
             scores.write(&out)?;

@@ -33,7 +33,7 @@ macro_rules! baselines {
 
             /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
             pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
-                atomic::apart(maps, &[capture]).map_err(MapsError::from)?;
+                atomic::refuse_overlap(maps, &[capture]).map_err(MapsError::from)?;
                 let capture = Capture::open(capture)?;
                 let made = match self { $(Self::$variant => $make(&capture, size)?,)* };
                 Ok(made.write(maps)?)

@@ -63,7 +63,7 @@ pub fn run(
     check_redo(suite, options)?;
     preflight::files(suite)?;
     let ready = preflight::methods(suite, tools)?;
-    atomic::apart(out, &[&suite.path])?;
+    atomic::refuse_overlap(out, &[&suite.path])?;
     atomic::claim(out)?;
     let lock = File::create(out.join(".lock"))?;
     match lock.try_lock() {

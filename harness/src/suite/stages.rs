@@ -24,7 +24,7 @@ pub fn synth(
     let file = resolved(scene)?;
     let inputs = Scene::open(scene)?.files();
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).chain([scene]).collect();
-    atomic::apart(out, &inputs)?;
+    atomic::refuse_overlap(out, &inputs)?;
     let arguments = words(&[("--scene", file.path().as_os_str()), ("--out", out.as_os_str())]);
     run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)
         .map_err(|error| place::blamed(error, file.path(), scene))?;
@@ -75,7 +75,7 @@ pub fn relight(
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    atomic::apart(out, &[capture, maps])?;
+    atomic::refuse_overlap(out, &[capture, maps])?;
     // Without a truth nothing says what the albedo is to be multiplied by.
     let photographed = score::is_photographed(capture);
     let scales: &[&str] = if photographed { &["none"] } else { scales };
@@ -118,7 +118,7 @@ pub fn export(
 ) -> Result<serde_json::Value, RunError> {
     let inputs: Vec<&Path> =
         [Some(export.maps), export.capture, export.mesh].into_iter().flatten().collect();
-    atomic::apart(export.out, &inputs)?;
+    atomic::refuse_overlap(export.out, &inputs)?;
     let mut arguments =
         words(&[("--maps", export.maps.as_os_str()), ("--out", export.out.as_os_str())]);
     for (flag, path) in [("--capture", export.capture), ("--mesh", export.mesh)] {

@@ -10,7 +10,7 @@ use crate::camera::Camera;
 use crate::error::CaptureError;
 use crate::first_look;
 use crate::mesh::Mesh;
-use crate::orientation::{self, Turned};
+use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
 use crate::view::View;
 
@@ -69,9 +69,9 @@ impl Capture {
             first_look::check(folder, &mesh, &train, transforms.applied)?;
         }
         let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
-        let turned = orientation::orient(&mut mesh, &eyes);
-        if turned != Default::default() {
-            let (shown, Turned { normals, triangles }) = (transforms.mesh_path.display(), turned);
+        let flipped = orientation::orient(&mut mesh, &eyes);
+        if flipped != Default::default() {
+            let (shown, Flipped { normals, triangles }) = (transforms.mesh_path.display(), flipped);
             tracing::warn!(
                 "{shown}: {normals} normals and {triangles} triangles point inwards; they are read \
                  as pointing to the cameras"

@@ -101,8 +101,10 @@ fn single(value: f64) -> f32 {
 /// The triangles, each wound as most of its surface is.
 fn wound_alike(mesh: &Mesh) -> Vec<[u32; 3]> {
     let winding = Winding::of(&mesh.positions, &places(&mesh.positions), &mesh.triangles);
-    let triangles = mesh.triangles.iter().zip(winding.turned);
-    triangles.map(|([a, b, c], turned)| if turned { [*a, *c, *b] } else { [*a, *b, *c] }).collect()
+    let triangles = mesh.triangles.iter().zip(winding.flipped);
+    triangles
+        .map(|([a, b, c], flipped)| if flipped { [*a, *c, *b] } else { [*a, *b, *c] })
+        .collect()
 }
 
 /// Sums of the adjacent triangles' normals, weighted by their areas; vertices at one place, as

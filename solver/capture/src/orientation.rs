@@ -15,7 +15,7 @@ const INSIDE_OUT: f64 = 0.1;
 
 /// What was turned round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Turned {
+pub struct Flipped {
     /// Normals, all or some.
     pub normals: usize,
     /// Triangles whose order of corners was reversed.
@@ -24,8 +24,8 @@ pub struct Turned {
 
 /// Turns normals of one connected surface to the same side, the whole towards the cameras, single
 /// ones to those around them, and triangles to their normals. `eyes` are the cameras' positions.
-pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Turned {
-    let mut turned = Turned::default();
+pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Flipped {
+    let mut flipped = Flipped::default();
     let given = mesh.normals.clone();
     let place = places(&mesh.positions);
     let winding = Winding::of(&mesh.positions, &place, &mesh.triangles);
@@ -45,16 +45,16 @@ pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Turned {
             *normal = -*normal;
         }
     }
-    turned.normals = normals.iter().zip(&given).filter(|(now, given)| now != given).count();
+    flipped.normals = normals.iter().zip(&given).filter(|(now, given)| now != given).count();
     for corners in triangles.iter_mut() {
         let [a, b, c] = corners.map(|corner| positions[corner as usize]);
         let normal: Vec3 = corners.iter().map(|corner| normals[*corner as usize]).sum();
         if opposite((b - a).cross(c - a), normal) {
             corners.swap(1, 2);
-            turned.triangles += 1;
+            flipped.triangles += 1;
         }
     }
-    turned
+    flipped
 }
 
 /// Which normals point to the other side of their surface than most of its normals do.
@@ -123,11 +123,11 @@ mod tests {
 
     const EYES: [Vec3; 2] = [Vec3::new(0.5, 0.0, 3.0), Vec3::new(-1.5, 0.5, 2.5)];
 
-    fn oriented(change: impl FnOnce(&mut Mesh)) -> (Mesh, Turned) {
+    fn oriented(change: impl FnOnce(&mut Mesh)) -> (Mesh, Flipped) {
         let mut mesh = testing::dome(12);
         change(&mut mesh);
-        let turned = orient(&mut mesh, &EYES);
-        (mesh, turned)
+        let flipped = orient(&mut mesh, &EYES);
+        (mesh, flipped)
     }
 
     fn reverse<'a>(triangles: impl IntoIterator<Item = &'a mut [u32; 3]>) {
@@ -142,23 +142,23 @@ mod tests {
     fn a_sound_mesh_stays_and_every_inversion_is_undone() {
         let sound = testing::dome(12);
         let (vertices, triangles) = (sound.normals.len(), sound.triangles.len());
-        assert_eq!(oriented(|_| ()), (sound.clone(), Turned::default()));
-        let (mesh, turned) = oriented(|mesh| negate(&mut mesh.normals));
-        assert_eq!((&mesh, turned.normals, turned.triangles), (&sound, vertices, 0));
-        let (mesh, turned) = oriented(|mesh| reverse(&mut mesh.triangles));
-        assert_eq!((&mesh, turned.normals, turned.triangles), (&sound, 0, triangles));
+        assert_eq!(oriented(|_| ()), (sound.clone(), Flipped::default()));
+        let (mesh, flipped) = oriented(|mesh| negate(&mut mesh.normals));
+        assert_eq!((&mesh, flipped.normals, flipped.triangles), (&sound, vertices, 0));
+        let (mesh, flipped) = oriented(|mesh| reverse(&mut mesh.triangles));
+        assert_eq!((&mesh, flipped.normals, flipped.triangles), (&sound, 0, triangles));
         let (mesh, _) = oriented(|mesh| {
             negate(&mut mesh.normals);
             reverse(&mut mesh.triangles);
         });
         assert_eq!(mesh, sound);
         // Some of each, at some distance from each other.
-        let (mesh, turned) = oriented(|mesh| {
+        let (mesh, flipped) = oriented(|mesh| {
             reverse(mesh.triangles.iter_mut().step_by(3));
             negate(mesh.normals.iter_mut().step_by(11));
         });
         assert_eq!(
-            (turned.normals, turned.triangles),
+            (flipped.normals, flipped.triangles),
             (vertices.div_ceil(11), triangles.div_ceil(3))
         );
         assert_eq!(mesh, sound);
@@ -168,24 +168,24 @@ mod tests {
     fn halves_that_are_turned_over_are_turned_back() {
         let sound = testing::dome(12);
         let left = |position: &Vec3| position.x < 0.1;
-        let (mesh, turned) = oriented(|mesh| {
+        let (mesh, flipped) = oriented(|mesh| {
             let normals = mesh.normals.iter_mut().zip(&mesh.positions);
             negate(normals.filter(|(_, p)| left(p)).map(|(normal, _)| normal));
         });
         assert_eq!(mesh, sound);
-        assert_eq!(turned.normals, sound.positions.iter().filter(|p| left(p)).count());
-        let (mesh, turned) = oriented(|mesh| {
+        assert_eq!(flipped.normals, sound.positions.iter().filter(|p| left(p)).count());
+        let (mesh, flipped) = oriented(|mesh| {
             let positions = &mesh.positions;
             let of_left = |t: &&mut [u32; 3]| t.iter().all(|c| left(&positions[*c as usize]));
             reverse(mesh.triangles.iter_mut().filter(of_left));
             negate(&mut mesh.normals);
         });
-        assert_eq!((mesh, turned.normals), (sound.clone(), sound.normals.len()));
+        assert_eq!((mesh, flipped.normals), (sound.clone(), sound.normals.len()));
     }
 
     #[test]
     fn a_shell_that_shows_as_much_of_either_side_is_left_alone() {
-        let (mesh, turned) = oriented(|mesh| {
+        let (mesh, flipped) = oriented(|mesh| {
             let inner = testing::dome(12);
             let base = mesh.positions.len() as u32;
             mesh.positions.extend(inner.positions.iter().map(|position| position * 0.98));
@@ -194,7 +194,7 @@ mod tests {
             let reversed = inner.triangles.iter().map(|[a, b, c]| [*a, *c, *b]);
             mesh.triangles.extend(reversed.map(|corners| corners.map(|corner| base + corner)));
         });
-        assert_eq!(turned, Turned::default());
+        assert_eq!(flipped, Flipped::default());
         assert!(!inside_out(&mesh, &EYES));
     }
 }

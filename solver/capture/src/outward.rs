@@ -32,7 +32,7 @@ pub fn outward(positions: &[Vec3], normals: Option<&[Vec3]>, triangles: &[[u32; 
     for (index, corners) in triangles.iter().enumerate() {
         let [a, b, c] = corners.map(|corner| positions[corner as usize].as_dvec3());
         let normal = (b - a).cross(c - a);
-        let away = normal.dot(a + b + c) * if winding.turned[index] { -1.0 } else { 1.0 };
+        let away = normal.dot(a + b + c) * if winding.flipped[index] { -1.0 } else { 1.0 };
         let (sum, either) = &mut facing[winding.surface[index]];
         *sum += away;
         *either += away.abs();
@@ -43,8 +43,8 @@ pub fn outward(positions: &[Vec3], normals: Option<&[Vec3]>, triangles: &[[u32; 
         sum < -either * if winding.open[surface] { INSIDE_OUT } else { 1e-9 }
     };
     let inward: Vec<bool> = winding.surface.iter().map(|surface| inside_out(*surface)).collect();
-    for (turned, inward) in winding.turned.iter_mut().zip(inward) {
-        *turned ^= inward;
+    for (flipped, inward) in winding.flipped.iter_mut().zip(inward) {
+        *flipped ^= inward;
     }
     let sides = winding.sides(positions, &place, triangles);
     let against = |(normal, side): (&Vec3, &Vec3)| normal.normalize_or_zero().dot(*side) < OPPOSITE;
@@ -52,7 +52,7 @@ pub fn outward(positions: &[Vec3], normals: Option<&[Vec3]>, triangles: &[[u32; 
     Outward {
         normals: normals.into_iter().flatten().zip(&sides).map(against).collect(),
         one_sided: winding.surface.iter().filter(one_sided).count(),
-        triangles: winding.turned,
+        triangles: winding.flipped,
     }
 }
 

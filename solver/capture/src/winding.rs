@@ -8,7 +8,7 @@ use glam::Vec3;
 pub(super) struct Winding {
     /// Triangles to be turned so that those of one connected surface are wound alike, as most of
     /// its area is already.
-    pub turned: Vec<bool>,
+    pub flipped: Vec<bool>,
     /// Of every triangle, the number of its surface: its first triangle's index.
     pub surface: Vec<usize>,
     /// Surfaces, by their numbers, that are wound alike in no way (a Möbius strip), so that
@@ -34,32 +34,32 @@ impl Winding {
                 _ => {}
             }
         }
-        let (surface, mut turned): (Vec<usize>, Vec<bool>) =
+        let (surface, mut flipped): (Vec<usize>, Vec<bool>) =
             (0..triangles.len()).map(|triangle| forest.root(triangle)).unzip();
         let mut balance = vec![0.0; triangles.len()];
         for (index, corners) in triangles.iter().enumerate() {
             let [a, b, c] = corners.map(|corner| positions[corner as usize].as_dvec3());
             let area = (b - a).cross(c - a).length();
-            balance[surface[index]] += if turned[index] { area } else { -area };
+            balance[surface[index]] += if flipped[index] { area } else { -area };
         }
         let mut open = vec![false; triangles.len()];
         borders.into_iter().for_each(|triangle| open[surface[triangle]] = true);
         let mut one_sided: Vec<usize> = one_sided.iter().map(|index| surface[*index]).collect();
         one_sided.sort_unstable();
         one_sided.dedup();
-        for (index, turned) in turned.iter_mut().enumerate() {
-            *turned ^= balance[surface[index]] > 0.0;
-            *turned &= one_sided.binary_search(&surface[index]).is_err();
+        for (index, flipped) in flipped.iter_mut().enumerate() {
+            *flipped ^= balance[surface[index]] > 0.0;
+            *flipped &= one_sided.binary_search(&surface[index]).is_err();
         }
-        Self { turned, surface, one_sided, open }
+        Self { flipped, surface, one_sided, open }
     }
 
     /// Unit normals of vertices, from triangles wound alike; zero where there is no area.
     pub fn sides(&self, positions: &[Vec3], place: &[usize], triangles: &[[u32; 3]]) -> Vec<Vec3> {
         let mut sums = vec![Vec3::ZERO; positions.len()];
-        for (corners, turned) in triangles.iter().zip(&self.turned) {
+        for (corners, flipped) in triangles.iter().zip(&self.flipped) {
             let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-            let normal = if *turned { (c - a).cross(b - a) } else { (b - a).cross(c - a) };
+            let normal = if *flipped { (c - a).cross(b - a) } else { (b - a).cross(c - a) };
             corners.iter().for_each(|corner| sums[place[*corner as usize]] += normal);
         }
         place.iter().map(|place| sums[*place].normalize_or_zero()).collect()
@@ -142,7 +142,7 @@ mod tests {
     fn what_is_turned_over_is_found_and_nothing_else() {
         let mut mesh = testing::dome(8);
         let sound = winding(&mesh.positions, &mesh.triangles);
-        assert!(!sound.turned.contains(&true) && sound.one_sided.is_empty());
+        assert!(!sound.flipped.contains(&true) && sound.one_sided.is_empty());
         assert!(sound.surface.iter().all(|surface| *surface == 0) && sound.open[0]);
         let reversed: Vec<bool> = (0..mesh.triangles.len()).map(|i| i % 5 < 2 && i > 40).collect();
         for (corners, reversed) in mesh.triangles.iter_mut().zip(&reversed) {
@@ -150,7 +150,7 @@ mod tests {
                 corners.swap(0, 1);
             }
         }
-        assert_eq!(winding(&mesh.positions, &mesh.triangles).turned, reversed);
+        assert_eq!(winding(&mesh.positions, &mesh.triangles).flipped, reversed);
     }
 
     #[test]
@@ -172,6 +172,6 @@ mod tests {
         }
         let winding = winding(&positions, &triangles);
         assert_eq!(winding.one_sided, [0]);
-        assert!(!winding.turned.contains(&true));
+        assert!(!winding.flipped.contains(&true));
     }
 }

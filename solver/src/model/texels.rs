@@ -32,7 +32,7 @@ impl Taps {
         let samples = first..(first + BLOCK).min(self.cells().len());
         let mut values = [Vec4::ZERO; BLOCK];
         interpolate(texture.as_chunks().0, self, samples, &mut values);
-        apart(&values, rows);
+        deinterleave(&values, rows);
     }
 
     /// The adjoint of [`Taps::sample_vectors`].
@@ -102,9 +102,9 @@ fn pair(texels: &[Texel]) -> [Vec4; 2] {
 
 widened! {
     /// The samples' values, row by row.
-    fn apart(values: &[Vec4; BLOCK], rows: &mut [Row]) {
+    fn deinterleave(values: &[Vec4; BLOCK], rows: &mut [Row]) {
         for (at, values) in values.as_chunks::<CHANNELS>().0.iter().enumerate() {
-            for (row, values) in rows.iter_mut().zip(turned(*values)) {
+            for (row, values) in rows.iter_mut().zip(transposed(*values)) {
                 row.0[CHANNELS * at..][..CHANNELS].copy_from_slice(&values.to_array());
             }
         }
@@ -119,14 +119,14 @@ widened! {
             for (four, row) in four.iter_mut().zip(rows) {
                 *four = Vec4::from_slice(&row.0[CHANNELS * at..][..CHANNELS]);
             }
-            *values = turned(four);
+            *values = transposed(four);
         }
     }
 }
 
 /// Four values of four samples.
 #[inline(always)]
-fn turned([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
+fn transposed([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
     let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
     [x_axis, y_axis, z_axis, w_axis]
 }

@@ -32,7 +32,7 @@ pub fn solve_into(
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
     // Now, so that what cannot be written is known before the work.
-    atomic::apart(maps, &[&capture.folder]).map_err(MapsError::from)?;
+    atomic::refuse_overlap(maps, &[&capture.folder]).map_err(MapsError::from)?;
     atomic::require_space(maps, bytes_on_disk(capture, config)).map_err(MapsError::from)?;
     let folder = Folder::begin(maps).map_err(MapsError::from)?;
     let checkpoint = Checkpoint::beside(maps, program);

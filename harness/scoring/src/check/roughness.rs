@@ -42,8 +42,8 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
         return;
     }
     let medians = format!("the medians of alpha1 and alpha2 are {sharp:.2} and {wide:.2}");
-    let turned = sharp > wide + 0.02;
-    if sharp > SMOOTH || (turned && sharp > GLOSS) {
+    let inverted = sharp > wide + 0.02;
+    if sharp > SMOOTH || (inverted && sharp > GLOSS) {
         let message =
             format!("holds gloss (1 - roughness), not alpha: {medians}, skin's .2 and .4");
         let mend = "write alpha = (1 - gloss)^2, or 1 - gloss if that was 1 - alpha";

@@ -22,7 +22,7 @@ const FILES: [&str; 6] = [
 pub fn oracle_maps(capture: &Path, out: &Path) -> Result<(), ScoreError> {
     let truth = truth::folder(capture)?;
     let io = |error| ScoreError::io(out, error);
-    atomic::apart(out, &[capture])?;
+    atomic::refuse_overlap(out, &[capture])?;
     let folder = Folder::begin(out)?;
     for name in FILES {
         let from = present(truth.join(name), truth::AGAIN)?;

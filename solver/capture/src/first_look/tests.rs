@@ -115,13 +115,13 @@ fn common_mistakes_are_named() {
 fn a_stated_transform_a_mesh_in_mm_and_inverted_masks_are_named() {
     let sound = mesh();
     let applied = Mat4::from_rotation_x(1.2) * Mat4::from_translation(Vec3::new(0.5, 0.6, 0.0));
-    let mut turned = views(&sound);
-    for view in &mut turned {
+    let mut flipped = views(&sound);
+    for view in &mut flipped {
         view.camera.camera_to_world = applied * view.camera.camera_to_world;
     }
-    let message = look(&sound, &turned, Some(applied)).unwrap_err();
+    let message = look(&sound, &flipped, Some(applied)).unwrap_err();
     assert!(message.contains("applied_transform turned the cameras but not"), "{message}");
-    let message = look(&sound, &turned, None).unwrap_err();
+    let message = look(&sound, &flipped, None).unwrap_err();
     assert!(message.contains("no single change mends it"), "{message}");
 
     let views = views(&sound);

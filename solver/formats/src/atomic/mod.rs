@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub use error::FolderError;
 pub use folder::{Folder, remove_folder};
 pub use mark::{MARK, claim};
-pub use place::{apart, require_space};
+pub use place::{refuse_overlap, require_space};
 
 /// The place where `target` is written before it is complete.
 pub fn partial_path(target: &Path) -> PathBuf {

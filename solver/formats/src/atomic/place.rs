@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::FolderError;
 
 /// Refuses an output that is, holds or lies in one of the `inputs`.
-pub fn apart(out: &Path, inputs: &[&Path]) -> Result<(), FolderError> {
+pub fn refuse_overlap(out: &Path, inputs: &[&Path]) -> Result<(), FolderError> {
     let resolved = resolve(out);
     for input in inputs {
         let place = resolve(input);

@@ -148,10 +148,11 @@ fn an_output_over_an_input_is_refused() {
         (capture.join("maps/new"), "inside"),
         (root.path().join("link/truth/../x"), "inside"),
     ] {
-        let error = apart(&out, &[Path::new("elsewhere"), &capture]).unwrap_err().to_string();
+        let error =
+            refuse_overlap(&out, &[Path::new("elsewhere"), &capture]).unwrap_err().to_string();
         assert!(error.contains(&format!("is {relation} the input")), "{error}");
     }
-    apart(&root.path().join("capture2"), &[&capture]).unwrap();
+    refuse_overlap(&root.path().join("capture2"), &[&capture]).unwrap();
 }
 
 #[test]

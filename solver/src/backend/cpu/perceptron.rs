@@ -92,9 +92,9 @@ pub fn forward<S: Lanes, const C: usize>(
         let input = before.last().map_or(input, Vec::as_slice);
         let (weights, bias, output) = (&layer.forward, &layer.bias, &mut rest[0]);
         if index < last {
-            S::apart(Product::<C, RELU> { weights, bias, input, gate: &[], output, ahead });
+            S::out_of_line(Product::<C, RELU> { weights, bias, input, gate: &[], output, ahead });
         } else {
-            S::apart(Product::<C, PLAIN> { weights, bias, input, gate: &[], output, ahead });
+            S::out_of_line(Product::<C, PLAIN> { weights, bias, input, gate: &[], output, ahead });
         }
     }
 }
@@ -119,16 +119,16 @@ pub fn backward<S: Lanes, const C: usize>(
         if let Some(sums) = sums.as_deref_mut() {
             let before = packed.layers[..index].iter().map(PackedLayer::parameters).sum::<usize>();
             let sums = &mut sums[before..before + layer.parameters()];
-            S::apart(WeightGradient::<C> { delta: by_output, input, sums, ahead });
+            S::out_of_line(WeightGradient::<C> { delta: by_output, input, sums, ahead });
         }
         if index > 0 {
             let (weights, bias, gate) = (&layer.backward, &[], input);
             let (input, output) = (by_output, &mut next[..gate.len()]);
-            S::apart(Product::<C, GATED> { weights, bias, input, gate, output, ahead });
+            S::out_of_line(Product::<C, GATED> { weights, bias, input, gate, output, ahead });
         } else if let Some(output) = by_input.as_deref_mut() {
             let (weights, input) = (&packed.to_inputs, by_output);
             let bias = &[];
-            S::apart(Product::<C, PLAIN, INPUTS> {
+            S::out_of_line(Product::<C, PLAIN, INPUTS> {
                 weights,
                 bias,
                 input,

@@ -13,7 +13,7 @@ macro_rules! memory {
     ($width:literal, $features:literal, $splat:ident, $load:ident, $store:ident) => {
         const WIDTH: usize = $width;
         #[inline(always)]
-        fn apart(task: impl Task) {
+        fn out_of_line(task: impl Task) {
             #[target_feature(enable = $features)]
             #[inline(never)]
             fn run<S: Lanes>(task: impl Task) {

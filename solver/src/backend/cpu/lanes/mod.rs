@@ -29,7 +29,7 @@ pub trait Lanes: Copy {
     const WIDTH: usize;
     /// Does a task in a function of its own: there the compiler keeps a loop's sums in registers, whatever the
     /// caller does besides.
-    fn apart(task: impl Task);
+    fn out_of_line(task: impl Task);
     /// All lanes `x`.
     fn splat(x: f32) -> Self;
     /// Lanes `at..at + WIDTH` of a row.
@@ -186,7 +186,7 @@ fn zip(mut a: Portable, b: Portable, f: impl Fn(f32, f32) -> f32) -> Portable {
 #[rustfmt::skip]
 impl Lanes for Portable {
     const WIDTH: usize = 8;
-    #[inline(never)] fn apart(task: impl Task) { task.run::<Self>(); }
+    #[inline(never)] fn out_of_line(task: impl Task) { task.run::<Self>(); }
     #[inline(always)] fn splat(x: f32) -> Self { Self([x; 8]) }
     #[inline(always)] fn load(row: &Row, at: usize) -> Self {
         let mut out = [0.0; 8];
