@@ -4,6 +4,6 @@
 //! measures them, `report` shows them; [`cli`] is the command line.
 
 pub mod cli;
-mod live;
+mod rerun_viewer;
 pub mod suite;
 pub mod synth;

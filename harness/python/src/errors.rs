@@ -86,7 +86,7 @@ impl Named for RunError {
             Self::Program { .. } | Self::Methods { .. } => "SolveError",
             Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
             Self::Interrupted | Self::Stopped { .. } => "Stopped",
-            Self::Bench(_) | Self::Live(_) | Self::Redo { .. } => "UnshadeError",
+            Self::Bench(_) | Self::Viewer(_) | Self::Redo { .. } => "UnshadeError",
         }
     }
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use scoring::score::RegionSize;
 use serde::Serialize;
 
+use super::comparison_figures::{self, ComparisonFigure, Input, Method, Studio};
 use super::error::ReportError;
 use super::methods::{self as made, MethodRow};
-use super::plates::{self, Input, Method, Plate, Studio};
 use super::run::{Case, Frames, Timing};
 use super::solve::Solve;
 use super::table::{self, Column, Table};
@@ -28,9 +28,9 @@ pub(super) struct CaseView {
     table: Table,
     complete: Table,
     regions: Vec<Region>,
-    maps: Vec<Plate>,
-    pub views: Vec<Plate>,
-    layers: Vec<Plate>,
+    maps: Vec<ComparisonFigure>,
+    pub views: Vec<ComparisonFigure>,
+    layers: Vec<ComparisonFigure>,
     solves: Vec<Solve>,
     hashes: Vec<Hashes>,
     scene_toml: Option<String>,
@@ -96,7 +96,7 @@ impl CaseView {
                 relit: below(&column.entrant.relit),
             })
             .collect();
-        let anchor = plates::file_name(&case.id);
+        let anchor = comparison_figures::file_name(&case.id);
         let studio = Studio {
             frames: &frames,
             light: &case.light,
@@ -113,7 +113,7 @@ impl CaseView {
             }
             let mut data = None;
             if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
-                let name = plates::file_name(&column.entrant.id);
+                let name = comparison_figures::file_name(&column.entrant.id);
                 let target = format!("data/{anchor}/{name}.json");
                 copy(&path, &root.join(&target))?;
                 data = Some(target);
@@ -132,9 +132,9 @@ impl CaseView {
             table: table::chosen(columns, &case.light),
             complete: table::complete(columns, &case.light),
             regions: regions(columns),
-            maps: studio.map_plates()?,
-            views: studio.view_plates()?,
-            layers: studio.layer_plates()?,
+            maps: studio.map_figures()?,
+            views: studio.view_figures()?,
+            layers: studio.layer_figures()?,
             solves,
             hashes,
             scene_toml: fs::read_to_string(capture.join("truth/scene.toml")).ok(),
@@ -143,7 +143,7 @@ impl CaseView {
     }
 
     /// The training view nearest to the first withheld one.
-    pub fn main_input(&self) -> Option<&plates::Tile> {
+    pub fn main_input(&self) -> Option<&comparison_figures::Tile> {
         let index = self.views.first()?.strips.first()?.input?;
         Some(&self.inputs.get(index)?.tile)
     }

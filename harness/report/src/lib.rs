@@ -6,6 +6,8 @@
 //! bytes, except in the section with the wall times.
 
 mod case;
+mod comparison_figures;
+mod contact_sheets;
 mod curve;
 mod difference;
 mod error;
@@ -15,10 +17,8 @@ mod matrix;
 mod methods;
 mod metric;
 mod page;
-mod plates;
 mod results;
 mod run;
-mod sheets;
 mod solve;
 mod summary;
 mod table;
@@ -26,7 +26,7 @@ pub mod tone;
 mod views;
 
 #[cfg(test)]
-mod fake;
+mod sample_run;
 #[cfg(test)]
 mod tests;
 
@@ -36,8 +36,8 @@ use std::path::{Path, PathBuf};
 use formats::atomic::{self, Folder, FolderError};
 
 pub use error::ReportError;
-pub use page::Hearer;
 use page::Page;
+pub use page::ProgressCallback;
 pub use results::write_results;
 use run::RunFile;
 
@@ -58,12 +58,16 @@ pub struct ReportSummary {
 const BASELINE: &str = "baseline.json";
 
 /// Writes the report of the run folder `run` to the folder `out`, replacing an earlier report. If
-/// `hearer` ends it, the earlier report stays.
-pub fn write(run: &Path, out: &Path, hearer: &mut Hearer) -> Result<ReportSummary, ReportError> {
+/// `progress` ends it, the earlier report stays.
+pub fn write(
+    run: &Path,
+    out: &Path,
+    progress: &mut ProgressCallback,
+) -> Result<ReportSummary, ReportError> {
     let manifest = RunFile::open(run)?;
     check_place(run, out)?;
     let folder = Folder::begin(out)?;
-    let page = match fill(run, &manifest, folder.path(), hearer) {
+    let page = match fill(run, &manifest, folder.path(), progress) {
         Ok(page) => page,
         Err(error) => {
             folder.abandon();
@@ -83,9 +87,9 @@ fn fill(
     run: &Path,
     manifest: &RunFile,
     root: &Path,
-    hearer: &mut Hearer,
+    progress: &mut ProgressCallback,
 ) -> Result<Page, ReportError> {
-    let page = Page::make(run, manifest, root, hearer)?;
+    let page = Page::make(run, manifest, root, progress)?;
     if page.has_every_score() {
         Baseline::of_run(run)?.write(&root.join(BASELINE))?;
     }

@@ -1,11 +1,11 @@
-//! The plates of the maps.
+//! The comparison figures of the maps.
 
 use formats::picture::Content;
 use rayon::prelude::*;
 
+use super::comparison_figures::{self, ComparisonFigure, Show, Studio, Subject};
 use super::difference::{self, Measure};
 use super::error::ReportError;
-use super::plates::{self, Plate, Show, Studio, Subject};
 
 /// A map as it is shown and compared.
 pub(super) struct MapKind {
@@ -65,16 +65,19 @@ impl MapKind {
 }
 
 impl Studio<'_> {
-    /// One plate per map that the capture knows the truth of.
-    pub fn map_plates(&self) -> Result<Vec<Plate>, ReportError> {
-        MAPS.par_iter().filter_map(|kind| self.map_plate(kind).transpose()).collect()
+    /// One figure per map that the capture knows the truth of.
+    pub fn map_figures(&self) -> Result<Vec<ComparisonFigure>, ReportError> {
+        MAPS.par_iter().filter_map(|kind| self.map_figure(kind).transpose()).collect()
     }
 
-    fn map_plate(&self, kind: &MapKind) -> Result<Option<Plate>, ReportError> {
+    fn map_figure(&self, kind: &MapKind) -> Result<Option<ComparisonFigure>, ReportError> {
         let file = format!("{}.exr", kind.subject);
         let folder = self.frames.root.join("truth");
-        let Some(truth) =
-            plates::read_if_present(&folder.join(&file), kind.channels, kind.content())?
+        let Some(truth) = comparison_figures::read_if_present(
+            &folder.join(&file),
+            kind.channels,
+            kind.content(),
+        )?
         else {
             return Ok(None);
         };
@@ -84,21 +87,31 @@ impl Studio<'_> {
             // The face looks along +Z.
             input: self.frames.nearest_train([0.0, 0.0, 1.0]),
             truth,
-            mask: plates::read_mask_if_present(&folder.join("coverage.png"))?,
+            mask: comparison_figures::read_mask_if_present(&folder.join("coverage.png"))?,
             show: kind.show,
             measure: kind.measure,
             scaled: kind.subject == "diffuse_albedo",
         };
         let strip = self.strip(&subject, |method| {
             let Some(maps) = &method.maps else { return Ok(None) };
-            let map = plates::read_if_present(&maps.join(&file), kind.channels, kind.content())?;
+            let map = comparison_figures::read_if_present(
+                &maps.join(&file),
+                kind.channels,
+                kind.content(),
+            )?;
             let score = method.column.find(kind.subject, None, kind.metric, "none");
             Ok(map.map(|map| {
                 let map = difference::resample(&map, subject.truth.width, subject.truth.height);
-                (map, plates::caption(score, None))
+                (map, comparison_figures::caption(score, None))
             }))
         })?;
         let title = kind.title.to_owned();
-        Ok(Some(Plate::new((kind.subject, None), title, kind.show, kind.measure, vec![strip])))
+        Ok(Some(ComparisonFigure::new(
+            (kind.subject, None),
+            title,
+            kind.show,
+            kind.measure,
+            vec![strip],
+        )))
     }
 }

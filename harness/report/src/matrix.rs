@@ -5,7 +5,7 @@
 use scoring::metrics::METRICS;
 use serde::Serialize;
 
-use super::plates::{Plate, Tile};
+use super::comparison_figures::{ComparisonFigure, Tile};
 use super::run::Kind;
 use super::table::{self, Column};
 
@@ -18,7 +18,7 @@ pub(super) struct Source<'a> {
     pub variant: Option<&'a str>,
     pub light: &'a str,
     pub columns: &'a [Column<'a>],
-    pub plates: &'a [Plate],
+    pub figures: &'a [ComparisonFigure],
     pub input: Option<&'a Tile>,
 }
 
@@ -93,7 +93,7 @@ fn matrix(cases: &[&Source]) -> Option<Matrix> {
         return None;
     }
     let source = cases.first()?;
-    let first = source.plates.iter().find(|plate| plate.id.starts_with("relit-"))?;
+    let first = source.figures.iter().find(|figure| figure.id.starts_with("relit-"))?;
     Some(Matrix {
         face: source.face.to_owned(),
         variant: source.variant.map(str::to_owned),
@@ -105,7 +105,7 @@ fn matrix(cases: &[&Source]) -> Option<Matrix> {
 }
 
 fn block(case: &Source, lights: &[&str]) -> Block {
-    // What the panel shows, and the subject and light of its plate and numbers.
+    // What the panel shows, and the subject and light of its figure and numbers.
     let mut kinds = vec![
         ("View synthesis, same light".to_owned(), "view", None),
         ("Maps relit, same light".to_owned(), "relit", Some(case.light)),
@@ -124,11 +124,11 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         })
         .collect();
     for (title, subject, light) in kinds {
-        let plate = case
-            .plates
+        let figure = case
+            .figures
             .iter()
-            .find(|plate| plate.subject.0 == subject && plate.subject.1.as_deref() == light);
-        let Some(strip) = plate.and_then(|plate| plate.strips.first()) else { continue };
+            .find(|figure| figure.subject.0 == subject && figure.subject.1.as_deref() == light);
+        let Some(strip) = figure.and_then(|figure| figure.strips.first()) else { continue };
         panels.push(Panel { title, truth: strip.truth.clone() });
         for ((row, column), entry) in rows.iter_mut().zip(case.columns).zip(&strip.entries) {
             let pictured = column.entrant.kind == Kind::Solver;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::comparison_figures;
 use super::error::ReportError;
-use super::plates;
 use super::run::{Case, Timing};
 use super::table::{Column, EMPTY};
 
@@ -71,7 +71,11 @@ fn keep_log(
     root: &Path,
 ) -> Result<Option<String>, ReportError> {
     let Ok(text) = fs::read(log) else { return Ok(None) };
-    let name = format!("data/{}/{}.log.txt", plates::file_name(case), plates::file_name(method));
+    let name = format!(
+        "data/{}/{}.log.txt",
+        comparison_figures::file_name(case),
+        comparison_figures::file_name(method)
+    );
     let target = root.join(&name);
     if let Some(folder) = target.parent() {
         fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;

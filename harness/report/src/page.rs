@@ -23,13 +23,13 @@ const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
 /// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
 /// go on.
-pub type Hearer<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
+pub type ProgressCallback<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 
 /// Every template by the name that others include it by.
 pub(super) const TEMPLATES: [(&str, &str); 8] = [
     ("index.html", include_str!("templates/index.html")),
     ("table.html", include_str!("templates/table.html")),
-    ("plate.html", include_str!("templates/plate.html")),
+    ("comparison_figure.html", include_str!("templates/comparison_figure.html")),
     ("matrix.html", include_str!("templates/matrix.html")),
     ("solve.html", include_str!("templates/solve.html")),
     ("reading.html", include_str!("templates/reading.html")),
@@ -89,7 +89,7 @@ impl Page {
         run: &Path,
         manifest: &RunFile,
         root: &Path,
-        hearer: &mut Hearer,
+        progress: &mut ProgressCallback,
     ) -> Result<Self, ReportError> {
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
         let scores: Vec<Vec<Option<Scores>>> = scores.collect::<Result<_, _>>()?;
@@ -99,7 +99,7 @@ impl Page {
             run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
         let (mut summaries, mut cases) = (Vec::new(), Vec::new());
         for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
-            if !hearer(done as u64, manifest.cases.len() as u64, &case.id) {
+            if !progress(done as u64, manifest.cases.len() as u64, &case.id) {
                 return Err(ReportError::Interrupted);
             }
             summaries.push(summary(case, columns));
@@ -111,7 +111,7 @@ impl Page {
             variant: case.variant.as_deref(),
             light: &case.light,
             columns,
-            plates: &view.views,
+            figures: &view.views,
             input: view.main_input(),
         });
         let matrices = matrix::matrices(&sources.collect::<Vec<_>>());

@@ -5,11 +5,11 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::comparison_figures::{Method, Studio};
+use super::contact_sheets::ContactSheet;
 use super::curve;
 use super::error::ReportError;
-use super::plates::{Method, Studio};
 use super::run;
-use super::sheets::Sheet;
 
 /// The stage in which a solve was cut; null or absent in one that came to its end.
 const INTERRUPTED: &str = "interrupted";
@@ -21,7 +21,7 @@ pub(super) struct Solve {
     /// The stage that was cut.
     interrupted: Option<String>,
     curve: Option<String>,
-    sheets: Vec<Sheet>,
+    sheets: Vec<ContactSheet>,
     facts: Vec<(String, String)>,
 }
 

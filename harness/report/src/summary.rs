@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::run::Case;
 use super::table::{self, Column};
-use super::{metric, plates};
+use super::{comparison_figures, metric};
 
 /// The figures that decide, of one case.
 #[derive(Serialize)]
@@ -68,7 +68,11 @@ pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
             None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
         },
     });
-    SummaryCase { id: case.id.clone(), anchor: plates::file_name(&case.id), rows: rows.collect() }
+    SummaryCase {
+        id: case.id.clone(),
+        anchor: comparison_figures::file_name(&case.id),
+        rows: rows.collect(),
+    }
 }
 
 /// One value (for normals beside that of the plain mesh), or the range over the other lights.

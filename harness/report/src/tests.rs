@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::page::{Page, TEMPLATES};
 use super::run::RunFile;
-use super::{ReportError, ReportSummary, fake, write};
+use super::{ReportError, ReportSummary, sample_run, write};
 
 struct Made {
     folder: tempfile::TempDir,
@@ -18,7 +18,7 @@ struct Made {
 
 fn report() -> Made {
     let folder = tempfile::tempdir().unwrap();
-    fake::write(&folder.path().join("run"));
+    sample_run::write(&folder.path().join("run"));
     let html = again(folder.path());
     Made { folder, html }
 }
@@ -102,7 +102,7 @@ fn a_plain_mesh_that_beats_the_recovered_normal_is_the_bold_one() {
 fn every_part_of_the_page_and_of_a_case_is_shown_by_a_template() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
-    fake::write(&run);
+    sample_run::write(&run);
     let manifest = RunFile::open(&run).unwrap();
     let page = Page::make(&run, &manifest, folder.path(), &mut |_, _, _| true).unwrap();
     let page = serde_json::to_value(page).unwrap();
@@ -172,12 +172,12 @@ fn the_matrix_has_a_block_per_input_light_with_three_comparisons() {
 #[test]
 fn each_plate_with_pictures_has_a_slider_that_a_keyboard_can_move() {
     let html = &shared().html;
-    let plates = between(html, "<figure class=\"plate\"", "</figure>");
+    let figures = between(html, "<figure class=\"plate\"", "</figure>");
     // Per case: four maps, own view, two lights, and two layers of view and relit picture.
-    assert_eq!(plates.len(), 2 * (4 + 1 + 2 + 4));
-    for plate in plates {
-        assert_eq!(plate.matches("<input type=\"range\"").count(), 1);
-        assert!(plate.contains("class=\"heat\""), "a colour bar");
+    assert_eq!(figures.len(), 2 * (4 + 1 + 2 + 4));
+    for figure in figures {
+        assert_eq!(figure.matches("<input type=\"range\"").count(), 1);
+        assert!(figure.contains("class=\"heat\""), "a colour bar");
     }
 }
 

@@ -1,4 +1,4 @@
-//! The plates of the withheld views: by the methods themselves, and relit by the path tracer.
+//! The comparison figures of the withheld views: by the methods themselves, and relit by the path tracer.
 
 use std::fs;
 use std::path::PathBuf;
@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use formats::picture::Content;
 use rayon::prelude::*;
 
+use super::comparison_figures::{self, ComparisonFigure, Method, Show, Strip, Studio, Subject};
 use super::difference::Measure;
 use super::error::ReportError;
 use super::metric;
-use super::plates::{self, Method, Plate, Show, Strip, Studio, Subject};
 use super::run::Frame;
 
 /// A picture as a whole, or one part of its exact split.
@@ -88,22 +88,22 @@ impl Source {
 
 impl Studio<'_> {
     /// The withheld views: by the methods themselves, then relit in every light.
-    pub fn view_plates(&self) -> Result<Vec<Plate>, ReportError> {
+    pub fn view_figures(&self) -> Result<Vec<ComparisonFigure>, ReportError> {
         let mut sources = vec![(Source::View, Layer::ALL)];
         sources.extend(self.lights()?.into_iter().map(|light| (self.relit(light), Layer::ALL)));
-        self.plates(&sources)
+        self.figures(&sources)
     }
 
     /// The exact split of the withheld views in the capture's light.
-    pub fn layer_plates(&self) -> Result<Vec<Plate>, ReportError> {
+    pub fn layer_figures(&self) -> Result<Vec<ComparisonFigure>, ReportError> {
         let sources = [Layer::DIFFUSE, Layer::SPECULAR]
             .map(|layer| [(Source::View, layer), (self.relit(self.light.to_owned()), layer)]);
-        self.plates(sources.as_flattened())
+        self.figures(sources.as_flattened())
     }
 
-    fn plates(&self, sources: &[(Source, Layer)]) -> Result<Vec<Plate>, ReportError> {
-        let plates = sources.par_iter();
-        plates.filter_map(|(source, layer)| self.view_plate(source, layer).transpose()).collect()
+    fn figures(&self, sources: &[(Source, Layer)]) -> Result<Vec<ComparisonFigure>, ReportError> {
+        let figures = sources.par_iter();
+        figures.filter_map(|(source, layer)| self.view_figure(source, layer).transpose()).collect()
     }
 
     /// Relit pictures with the albedo after its one factor, if anything was rendered so.
@@ -113,7 +113,11 @@ impl Studio<'_> {
         Source::Relit { light, scale: if scaled { "global" } else { "none" } }
     }
 
-    fn view_plate(&self, source: &Source, layer: &Layer) -> Result<Option<Plate>, ReportError> {
+    fn view_figure(
+        &self,
+        source: &Source,
+        layer: &Layer,
+    ) -> Result<Option<ComparisonFigure>, ReportError> {
         let mut strips = Vec::new();
         for frame in &self.frames.test {
             strips.extend(self.view_strip(source, frame, layer)?);
@@ -133,7 +137,7 @@ impl Studio<'_> {
         let subject = layer.subject(source);
         let show = Show::Colour { exposure: layer.exposure };
         let subject = (subject.as_str(), source.light());
-        Ok(Some(Plate::new(subject, title, show, Measure::Display, strips)))
+        Ok(Some(ComparisonFigure::new(subject, title, show, Measure::Display, strips)))
     }
 
     /// The lights with a true relit picture, the capture's own first.
@@ -167,11 +171,13 @@ impl Studio<'_> {
             Source::Relit { .. } if layer.name.is_none() && !folder.is_dir() => frame.image.clone(),
             Source::Relit { light, .. } => folder.join("relit").join(light).join(&file),
         };
-        let Some(truth) = plates::read_if_present(&truth, layer.channels, Content::Colour)? else {
+        let Some(truth) =
+            comparison_figures::read_if_present(&truth, layer.channels, Content::Colour)?
+        else {
             return Ok(None);
         };
         let mask = match &frame.mask {
-            Some(mask) => plates::read_mask_if_present(mask)?,
+            Some(mask) => comparison_figures::read_mask_if_present(mask)?,
             None => None,
         };
         let (id, light) = (layer.subject(source), source.light());
@@ -189,9 +195,9 @@ impl Studio<'_> {
         };
         let strip = self.strip(&subject, |method| {
             let Some(path) = source.path(method, &file) else { return Ok(None) };
-            let made = plates::read_if_present(&path, layer.channels, Content::Colour)?;
+            let made = comparison_figures::read_if_present(&path, layer.channels, Content::Colour)?;
             let score = method.column.find(&id, light, "psnr_srgb", source.scale());
-            Ok(made.map(|made| (made, plates::caption(score, Some(&frame.name)))))
+            Ok(made.map(|made| (made, comparison_figures::caption(score, Some(&frame.name)))))
         })?;
         Ok(Some(strip))
     }

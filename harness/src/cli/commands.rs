@@ -16,7 +16,7 @@ use super::arguments::{
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
 use super::{bench, check, doctor, export};
-use crate::live::{Live, LiveError};
+use crate::rerun_viewer::{RerunViewer, ViewerError};
 use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
@@ -89,7 +89,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     }
     if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
         let reason = "a baseline has no steps to show; leave it out".to_owned();
-        return Err(LiveError(reason).into());
+        return Err(ViewerError(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);
     match arguments.solver {
@@ -103,15 +103,15 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
             };
             let backend = backend.open()?;
             eprintln!("solve: {}", backend.name());
-            let live = arguments.rerun.as_deref().map(|place| Live::open(place, &capture));
-            let mut live = live.transpose()?;
+            let viewer = arguments.rerun.as_deref().map(|place| RerunViewer::open(place, &capture));
+            let mut viewer = viewer.transpose()?;
             alone("solve", |tools, bar| {
                 let solution =
                     suite::solve(&*backend, &capture, &config, out, tools, &mut |step| {
                         bar(step.iteration as u64, step.total as u64, &suite::in_words(step));
-                        live.iter_mut().for_each(|live| live.step(step));
+                        viewer.iter_mut().for_each(|viewer| viewer.step(step));
                     })?;
-                Ok(live.map_or(Ok(()), |live| live.solution(&solution))?)
+                Ok(viewer.map_or(Ok(()), |viewer| viewer.solution(&solution))?)
             })
         }
         SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),

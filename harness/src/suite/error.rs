@@ -9,7 +9,7 @@ use scoring::compare::CompareError;
 use scoring::score::ScoreError;
 
 use super::scene::SceneError;
-use crate::live::LiveError;
+use crate::rerun_viewer::ViewerError;
 use crate::synth::{InterpreterError, StageError};
 
 /// How a run can end badly; each message is one line.
@@ -41,7 +41,7 @@ pub enum RunError {
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
-    Live(#[from] LiveError),
+    Viewer(#[from] ViewerError),
     #[error(transparent)]
     Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::write_results;
-use crate::fake;
+use crate::sample_run;
 
-/// The fake run once more, with a second face whose scores all differ by `offset`.
+/// The sample run once more, with a second face whose scores all differ by `offset`.
 fn two_faces(run: &Path, offset: f64) {
-    fake::write(run);
+    sample_run::write(run);
     let mut manifest = read(&run.join("run.json"));
     let mut cases = manifest["cases"].as_array().unwrap().clone();
     for case in cases.clone() {
@@ -63,7 +63,7 @@ fn means_and_ranges_are_over_the_faces() {
     let root = tempfile::tempdir().unwrap();
     two_faces(&root.path().join("run"), 1.0);
     let text = results(root.path(), &["run"]).unwrap();
-    // The scores of the fake run: 32.04 dB after one factor, one less without, a dB more for eve.
+    // The scores of the sample run: 32.04 dB after one factor, one less without, a dB more for eve.
     let albedo = cells(&text, "flash light", "Diffuse albedo", UNSHADE);
     assert_eq!(albedo, [UNSHADE, "**32.5** (32.0 … 33.0)", "**31.5** (31.0 … 32.0)"]);
     let pictures = cells(&text, "flash light", "Withheld views, PSNR in dB", UNSHADE);
@@ -81,7 +81,7 @@ fn means_and_ranges_are_over_the_faces() {
     let baseline = cells(&text, "uniform light", "Normals and specular parts", BASELINE);
     assert_eq!(baseline[1], "–");
     assert!(text.contains("maps relit, other lights (uniform)"));
-    // The floors of the fake oracle are 1.3 times its values, alike for both faces.
+    // The floors of the sample oracle are 1.3 times its values, alike for both faces.
     let floor = cells(&text, "flash light", "Withheld views, PSNR in dB", "noise floor");
     assert_eq!(floor[2], "70.2 (70.2 … 70.2)");
     assert_eq!(text.matches("\n### demo\n").count() + text.matches("\n### eve\n").count(), 2);
@@ -108,8 +108,8 @@ fn equal_runs_give_equal_bytes_and_times_do_not_matter() {
 #[test]
 fn variants_have_tables_of_their_own_and_several_runs_follow_each_other() {
     let root = tempfile::tempdir().unwrap();
-    fake::write(&root.path().join("clean"));
-    fake::write(&root.path().join("faulty"));
+    sample_run::write(&root.path().join("clean"));
+    sample_run::write(&root.path().join("faulty"));
     let path = root.path().join("faulty/run.json");
     let mut manifest = read(&path);
     for case in manifest["cases"].as_array_mut().unwrap() {
@@ -139,9 +139,9 @@ fn a_face_without_a_score_is_counted_and_a_run_without_any_is_refused() {
     assert!(!message.contains('\n'));
 }
 
-/// The fake run with a scene at its captures and with its methods called otherwise.
+/// The sample run with a scene at its captures and with its methods called otherwise.
 fn one_suite(run: &Path, called: impl Fn(&str) -> String, scene: &str) {
-    fake::write(run);
+    sample_run::write(run);
     let path = run.join("run.json");
     let mut manifest = read(&path);
     for case in manifest["cases"].as_array_mut().unwrap() {

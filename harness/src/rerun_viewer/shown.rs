@@ -17,7 +17,7 @@ use rerun::{
 };
 use solver::{Progress, Solution};
 
-use super::error::LiveError;
+use super::error::ViewerError;
 
 /// How long a viewer may take to answer.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -27,17 +27,17 @@ const TIMELINE: &str = "iteration";
 const SPECULAR_WHITE: f32 = 0.05;
 
 /// Where a solve is shown.
-pub struct Live {
+pub struct RerunViewer {
     stream: RecordingStream,
     mesh: Mesh3D,
     /// The last step of every stage.
     ends: HashMap<String, i64>,
 }
 
-impl Live {
+impl RerunViewer {
     /// `place` is a file that ends in `.rrd`, or the address of a viewer
     /// (`rerun+http://127.0.0.1:9876/proxy`). Shows what the capture holds.
-    pub fn open(place: &str, capture: &Capture) -> Result<Self, LiveError> {
+    pub fn open(place: &str, capture: &Capture) -> Result<Self, ViewerError> {
         let builder = RecordingStreamBuilder::new("unshade");
         let stream = match place.ends_with(".rrd") {
             true => builder.save(place),
@@ -45,11 +45,11 @@ impl Live {
         };
         let stream =
             stream.map_err(failed(&format!("neither a file .rrd nor an address: {place}")))?;
-        let live = Self { stream, mesh: mesh(capture), ends: HashMap::new() };
-        live.capture(capture).map_err(failed(place))?;
-        let silent = |_| LiveError(format!("{place}: no viewer answers; start one with `rerun`"));
-        live.stream.flush_with_timeout(PATIENCE).map_err(silent)?;
-        Ok(live)
+        let viewer = Self { stream, mesh: mesh(capture), ends: HashMap::new() };
+        viewer.capture(capture).map_err(failed(place))?;
+        let silent = |_| ViewerError(format!("{place}: no viewer answers; start one with `rerun`"));
+        viewer.stream.flush_with_timeout(PATIENCE).map_err(silent)?;
+        Ok(viewer)
     }
 
     /// The loss before the last step.
@@ -64,7 +64,7 @@ impl Live {
     }
 
     /// What the solve left behind: maps at the steps after which they were so.
-    pub fn solution(&self, solution: &Solution) -> Result<(), LiveError> {
+    pub fn solution(&self, solution: &Solution) -> Result<(), ViewerError> {
         self.log_solution(solution).map_err(failed("the maps are not shown"))?;
         self.stream.flush_blocking().map_err(failed("the maps are not shown"))
     }
@@ -114,8 +114,8 @@ impl Live {
     }
 }
 
-fn failed<E: Display>(what: &str) -> impl FnOnce(E) -> LiveError + use<'_, E> {
-    move |error| LiveError(format!("{what}: {error}"))
+fn failed<E: Display>(what: &str) -> impl FnOnce(E) -> ViewerError + use<'_, E> {
+    move |error| ViewerError(format!("{what}: {error}"))
 }
 
 fn mesh(capture: &Capture) -> Mesh3D {

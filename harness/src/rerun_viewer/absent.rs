@@ -3,17 +3,17 @@
 use capture::Capture;
 use solver::{Progress, Solution};
 
-use super::error::LiveError;
+use super::error::ViewerError;
 
 /// Where a solve is shown; there is none.
-pub enum Live {}
+pub enum RerunViewer {}
 
-impl Live {
+impl RerunViewer {
     /// Says how to get it.
-    pub fn open(_: &str, _: &Capture) -> Result<Self, LiveError> {
+    pub fn open(_: &str, _: &Capture) -> Result<Self, ViewerError> {
         let mend = "this program was built without the viewer; build it with \
                     `cargo build --release --features rerun`";
-        Err(LiveError(mend.to_owned()))
+        Err(ViewerError(mend.to_owned()))
     }
 
     /// Not reached.
@@ -22,7 +22,7 @@ impl Live {
     }
 
     /// Not reached.
-    pub fn solution(&self, _: &Solution) -> Result<(), LiveError> {
+    pub fn solution(&self, _: &Solution) -> Result<(), ViewerError> {
         match *self {}
     }
 }

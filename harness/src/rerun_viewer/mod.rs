@@ -7,7 +7,7 @@ mod error;
 mod shown;
 
 #[cfg(not(feature = "rerun"))]
-pub use absent::Live;
-pub use error::LiveError;
+pub use absent::RerunViewer;
+pub use error::ViewerError;
 #[cfg(feature = "rerun")]
-pub use shown::Live;
+pub use shown::RerunViewer;

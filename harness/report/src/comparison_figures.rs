@@ -54,7 +54,7 @@ pub(super) struct Strip {
 
 /// A figure: strips with one tone and one scale of errors.
 #[derive(Debug, Serialize)]
-pub(super) struct Plate {
+pub(super) struct ComparisonFigure {
     /// The subject and light of the scores that belong to it.
     #[serde(skip)]
     pub subject: (String, Option<String>),
@@ -68,7 +68,7 @@ pub(super) struct Plate {
     pub strips: Vec<Strip>,
 }
 
-impl Plate {
+impl ComparisonFigure {
     /// A figure of `strips`; all have one tone and one measure.
     pub fn new(
         (subject, light): (&str, Option<&str>),
@@ -142,7 +142,7 @@ pub(super) struct Subject {
     pub scaled: bool,
 }
 
-/// Makes the plates of one case and writes their pictures.
+/// Makes the comparison figures of one case and writes their pictures.
 pub(super) struct Studio<'a> {
     pub frames: &'a Frames,
     pub light: &'a str,

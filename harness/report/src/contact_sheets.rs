@@ -8,10 +8,10 @@ use formats::picture::{Content, Picture};
 use scoring::metrics::Metric;
 use serde::Serialize;
 
+use super::comparison_figures::{self, Method, Studio, Tile};
 use super::difference::{self, Measure};
 use super::error::ReportError;
 use super::maps::{MAPS, MapKind};
-use super::plates::{self, Method, Studio, Tile};
 use super::tone::{self, Raster};
 use super::views::Layer;
 use super::{light, table};
@@ -22,7 +22,7 @@ const VIEW_SIDE: usize = 160;
 
 /// Small pictures in rows and columns.
 #[derive(Debug, Serialize)]
-pub(super) struct Sheet {
+pub(super) struct ContactSheet {
     pub title: &'static str,
     pub caption: String,
     pub columns: Vec<String>,
@@ -42,8 +42,8 @@ pub(super) struct SheetRow {
 
 impl Studio<'_> {
     /// Every sheet that the files of a method allow.
-    pub fn sheets(&self, method: &Method, maps: &Path) -> Result<Vec<Sheet>, ReportError> {
-        let group = format!("solve-{}", plates::file_name(&method.column.entrant.id));
+    pub fn sheets(&self, method: &Method, maps: &Path) -> Result<Vec<ContactSheet>, ReportError> {
+        let group = format!("solve-{}", comparison_figures::file_name(&method.column.entrant.id));
         let sheets = [
             self.light_sheet(&group, maps)?,
             self.relit_sheet(&group, method)?,
@@ -54,7 +54,7 @@ impl Studio<'_> {
         Ok(sheets.into_iter().flatten().collect())
     }
 
-    fn light_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+    fn light_sheet(&self, group: &str, maps: &Path) -> Result<Option<ContactSheet>, ReportError> {
         let Some(found) = read_colour(&maps.join("light.exr"), Layer::ALL.channels)? else {
             return Ok(None);
         };
@@ -72,7 +72,7 @@ impl Studio<'_> {
                 tiles.push(Some(self.save(group, name, &light::raster(picture))?));
             }
         }
-        Ok(Some(Sheet {
+        Ok(Some(ContactSheet {
             title: "Light",
             caption: format!(
                 "The environment that the method recovered, {} x {} cells, latitude over longitude; \
@@ -87,7 +87,11 @@ impl Studio<'_> {
     }
 
     /// Of photographs: the withheld views in every light, for most of which there is no truth.
-    fn relit_sheet(&self, group: &str, method: &Method) -> Result<Option<Sheet>, ReportError> {
+    fn relit_sheet(
+        &self,
+        group: &str,
+        method: &Method,
+    ) -> Result<Option<ContactSheet>, ReportError> {
         let relit = method.relit.as_ref().filter(|_| !self.frames.root.join("truth").is_dir());
         let lights = relit.map_or(Ok(Vec::new()), |relit| folders(&relit.join("none")))?;
         let mut rows = Vec::new();
@@ -110,7 +114,7 @@ impl Studio<'_> {
         let columns = names.map(|name| name.to_string_lossy().into_owned()).collect();
         let caption = "The withheld views with the recovered maps, path-traced in the light that was \
                        found and in others; linear colour, sRGB curve.";
-        Ok((!rows.is_empty()).then(|| Sheet {
+        Ok((!rows.is_empty()).then(|| ContactSheet {
             title: "Relit",
             caption: caption.to_owned(),
             columns,
@@ -125,9 +129,12 @@ impl Studio<'_> {
         group: &str,
         method: &Method,
         maps: &Path,
-    ) -> Result<Option<Sheet>, ReportError> {
-        let Some(found) =
-            plates::read_if_present(&maps.join("confidence.exr"), &["Y"], Content::Data)?
+    ) -> Result<Option<ContactSheet>, ReportError> {
+        let Some(found) = comparison_figures::read_if_present(
+            &maps.join("confidence.exr"),
+            &["Y"],
+            Content::Data,
+        )?
         else {
             return Ok(None);
         };
@@ -144,7 +151,7 @@ impl Studio<'_> {
         let scores: Vec<String> = scores.collect();
         let scored =
             if scores.is_empty() { String::new() } else { format!(" {}.", scores.join("; ")) };
-        Ok(Some(Sheet {
+        Ok(Some(ContactSheet {
             title: "Confidence",
             caption: format!(
                 "The method's own trust in its texels, black 0, white 1. Error: {} after one factor, \
@@ -166,13 +173,13 @@ impl Studio<'_> {
             |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);
         let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else { return Ok(None) };
         let albedo = difference::resample(&albedo, truth.width, truth.height);
-        let mask = plates::read_mask_if_present(&folder.join("coverage.png"))?;
+        let mask = comparison_figures::read_mask_if_present(&folder.join("coverage.png"))?;
         let (measure, factor) = (Measure::ColourDifference, method.column.factor().unwrap_or(1.0));
         let field = difference::field(&albedo, &truth, mask.as_ref(), measure, factor);
         Ok(field.map(|field| tone::false_colour(&field, measure.top())))
     }
 
-    fn stage_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+    fn stage_sheet(&self, group: &str, maps: &Path) -> Result<Option<ContactSheet>, ReportError> {
         let stages = folders(&maps.join("stages"))?;
         let mut rows = Vec::new();
         for kind in &MAPS {
@@ -192,7 +199,7 @@ impl Studio<'_> {
         }
         let mut columns: Vec<String> = stages.iter().map(|stage| stage_title(stage)).collect();
         columns.extend(["result".to_owned(), "exact".to_owned()]);
-        Ok(Some(Sheet {
+        Ok(Some(ContactSheet {
             title: "Maps after each stage",
             caption: "What each stage changed, with the factors of the result; shown as above."
                 .to_owned(),
@@ -210,14 +217,15 @@ impl Studio<'_> {
         column: usize,
         path: &Path,
     ) -> Result<Option<Tile>, ReportError> {
-        let Some(map) = plates::read_if_present(path, kind.channels, kind.content())? else {
+        let Some(map) = comparison_figures::read_if_present(path, kind.channels, kind.content())?
+        else {
             return Ok(None);
         };
         let raster = kind.show.raster(&tone::shrink(&map, STAGE_SIDE));
         Ok(Some(self.save(group, &format!("stage-{column:02}-{}", kind.subject), &raster)?))
     }
 
-    fn layer_sheet(&self, group: &str, maps: &Path) -> Result<Option<Sheet>, ReportError> {
+    fn layer_sheet(&self, group: &str, maps: &Path) -> Result<Option<ContactSheet>, ReportError> {
         let folder = maps.join("layers");
         let of = |name: &str| folder.join(format!("{name}.exr"));
         let frames: Vec<_> =
@@ -252,7 +260,7 @@ impl Studio<'_> {
                 rows.push(SheetRow { title: title.to_owned(), tiles });
             }
         }
-        Ok(Some(Sheet {
+        Ok(Some(ContactSheet {
             title: "Layers of the training views",
             caption: format!(
                 "The method's own split of the photographs beside the exact one; linear colour, sRGB \
@@ -269,7 +277,7 @@ impl Studio<'_> {
 
 /// A picture or layer that may be absent.
 fn read_colour(path: &Path, channels: &[&str]) -> Result<Option<Picture>, ReportError> {
-    plates::read_if_present(path, channels, Content::Colour)
+    comparison_figures::read_if_present(path, channels, Content::Colour)
 }
 
 /// The folders below one that may be absent, by name.

@@ -3,4 +3,4 @@
 /// A solve cannot be shown as it goes.
 #[derive(Debug, thiserror::Error)]
 #[error("--rerun: {0}")]
-pub struct LiveError(pub String);
+pub struct ViewerError(pub String);
