@@ -35,7 +35,7 @@ def main(kills: int, seed: int) -> int:
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         suite = TINY.read_text().replace('scene = "', f'scene = "{TINY.parent}/')
-        (folder / "suite.toml").write_text(suite + '\n[[solver]]\nname = "mine"\npython = "mine:solve"\n')
+        (folder / "suite.toml").write_text(suite + '\n[[method]]\nname = "mine"\npython = "mine:solve"\n')
         (folder / "mine.py").write_text(PROGRAM)
         start = time.monotonic()
         run(folder, "whole").wait()

@@ -19,9 +19,9 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A suite with a program that waits, and its capture."""
     folder = tmp_path_factory.mktemp("waiting")
     text = f'format = 1\nname = "waiting"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\nscales = ["global"]\n'
-    (folder / "suite.toml").write_text(text + '[[solver]]\nname = "oracle"\n')
+    (folder / "suite.toml").write_text(text + '[[method]]\nname = "oracle"\n')
     unshade("run", folder / "suite.toml", "-o", folder / "run")
-    waiting = '[[solver]]\nname = "waiting"\ncommand = ["sh", "wait.sh", "{capture}", "{maps}"]\n'
+    waiting = '[[method]]\nname = "waiting"\ncommand = ["sh", "wait.sh", "{capture}", "{maps}"]\n'
     (folder / "suite.toml").write_text(text + waiting)
     # One in the group, one that has left it.
     (folder / "wait.sh").write_text("setsid sleep 120 & echo child $!\nsleep 120 & echo child $!\nwait\n")

@@ -14,7 +14,7 @@ from conftest import TINY
 from conftest import unshade as command
 from unshade.errors import CaptureError, SceneError, ScoreError
 
-SOLVERS = TINY.read_text().split("\n\n", 1)[1].split('[[solver]]\nname = "oracle"')[0]
+SOLVERS = TINY.read_text().split("\n\n", 1)[1].split('[[method]]\nname = "oracle"')[0]
 """Our method, small, and a baseline; there is no oracle of photographs."""
 
 
@@ -92,8 +92,8 @@ def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_pa
             unshade.run(suite, tmp_path / "run")
         assert "\n" not in str(refusal.value)
 
-    solver = '[[solver]]\nname = "mean_texture"\n'
-    refused('captures = ["head"]\n[[solver]]\nname = "oracle"\n', "photographs have no true maps")
+    solver = '[[method]]\nname = "mean_texture"\n'
+    refused('captures = ["head"]\n[[method]]\nname = "oracle"\n', "photographs have no true maps")
     refused(f'captures = ["nothing"]\n{solver}', "nothing is no capture without a truth")
     refused(f'captures = ["{tiny_run}/captures/tiny-studio"]\n{solver}', "is no capture without a truth")
     refused(f"captures = []\n{solver}", "must be a list of captures' folders")

@@ -23,34 +23,34 @@ name = "programs"
 scene = "{HERE / "scenes" / "tiny-scene.toml"}"
 scales = ["global"]
 
-[[solver]]
+[[method]]
 name = "mine"
 python = "mine:solve"
 
-[[solver]]
+[[method]]
 name = "spy"
 command = ["python", "spy.py", "{{capture}}", "{{maps}}"]
 
-[[solver]]
+[[method]]
 name = "broken"
 command = ["sh", "broken.sh", "{{capture}}", "{{maps}}"]
 
-[[solver]]
+[[method]]
 name = "slow"
 command = "sh slow.sh {{capture}} {{maps}}"
 timeout_s = 1.0
 
-[[solver]]
+[[method]]
 name = "greedy"
 command = ["python", "greedy.py", "{{capture}}", "{{maps}}"]
 memory_gib = 0.25
 threads = 1
 
-[[solver]]
+[[method]]
 name = "nan"
 python = "nothing:solve"
 
-[[solver]]
+[[method]]
 name = "oracle"
 """
 
@@ -218,9 +218,9 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     shutil.copytree(programs, folder, symlinks=True)
     suite = (folder / "suite.toml").read_text()
     # The run alone moved, so what names it by path is left out.
-    head, *tables = suite.split("[[solver]]")
+    head, *tables = suite.split("[[method]]")
     keep = [table for table in tables if '"mine"' in table or '"oracle"' in table]
-    (folder / "suite.toml").write_text("[[solver]]".join([head, *keep]))
+    (folder / "suite.toml").write_text("[[method]]".join([head, *keep]))
     shutil.rmtree(folder / "run" / "maps" / CASE / "mine")
     assert go(folder).returncode == 0
     before = value(folder, "mine")
@@ -256,12 +256,12 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
         ('name = "a"\npython = "gone:solve"', "suite.toml:6: python: there is no module gone"),
         ('name = "a"\npython = "ok:resolve"', "has no function resolve"),
         ('name = "a"\npython = "ok:solve"\ninputs = ["weights.bin"]', "suite.toml:7: inputs: there is no"),
-        ('name = "fast"\n[solver.set.warm_up]\niteration = 3', "suite.toml:5: name: configuration: "),
+        ('name = "fast"\n[method.set.warm_up]\niteration = 3', "suite.toml:5: name: configuration: "),
     ],
 )
 def test_what_can_be_checked_is_checked_before_anything_is_rendered(tmp_path: Path, table: str, expected: str) -> None:
-    head = SUITE.strip().split("[[solver]]")[0].replace('scales = ["global"]\n\n', "")
-    (tmp_path / "suite.toml").write_text(head + "[[solver]]\n" + table + "\n")
+    head = SUITE.strip().split("[[method]]")[0].replace('scales = ["global"]\n\n', "")
+    (tmp_path / "suite.toml").write_text(head + "[[method]]\n" + table + "\n")
     (tmp_path / "bad.py").write_text("x = 1\ndef (:\n")
     (tmp_path / "ok.py").write_text("def solve(capture):\n    return None\n")
     done = go(tmp_path)
@@ -274,7 +274,7 @@ def test_a_scene_s_fault_is_told_with_the_user_s_file_before_anything_is_rendere
     scenes = HERE.parent / "scenes"
     scene = (HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes", str(scenes))
     (tmp_path / "scene.toml").write_text(scene.replace("samples = 32", "sample = 32"))
-    (tmp_path / "suite.toml").write_text('format = 1\nname = "m"\nscene = "scene.toml"\n[[solver]]\nname = "oracle"\n')
+    (tmp_path / "suite.toml").write_text('format = 1\nname = "m"\nscene = "scene.toml"\n[[method]]\nname = "oracle"\n')
     line = 1 + (tmp_path / "scene.toml").read_text().splitlines().index("sample = 32")
     for done in (go(tmp_path), unshade("synth", tmp_path / "scene.toml", "-o", tmp_path / "c", check=False)):
         assert done.returncode == 2
@@ -282,7 +282,7 @@ def test_a_scene_s_fault_is_told_with_the_user_s_file_before_anything_is_rendere
     assert not (tmp_path / "run" / "captures" / CASE).exists()
     (tmp_path / "light.toml").write_text('name = "hall"\nkind = "envmap"\npath = "hall.exr"\n')
     (tmp_path / "suite.toml").write_text(
-        'format = 1\nname = "m"\nscene = "scene.toml"\nlights = ["light.toml"]\n[[solver]]\nname = "oracle"\n'
+        'format = 1\nname = "m"\nscene = "scene.toml"\nlights = ["light.toml"]\n[[method]]\nname = "oracle"\n'
     )
     done = go(tmp_path)
     assert done.returncode == 2 and "light.toml:3" in done.stderr, done.stderr

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use scoring::score::RegionSize;
 use serde::Serialize;
 
-use super::comparison_figures::{self, ComparisonFigure, Input, Method, Studio};
+use super::comparison_figures::{self, ComparisonFigure, Input, MethodFolders, Studio};
 use super::error::ReportError;
 use super::methods::{self as made, MethodRow};
 use super::run::{Case, Frames, Timing};
@@ -88,12 +88,12 @@ impl CaseView {
         let capture = run.join(&case.capture);
         let frames = Frames::read(&capture)?;
         let below = |path: &Option<PathBuf>| path.as_ref().map(|path| run.join(path));
-        let methods: Vec<Method> = columns
+        let methods: Vec<MethodFolders> = columns
             .iter()
-            .map(|column| Method {
+            .map(|column| MethodFolders {
                 column,
-                maps: below(&column.entrant.maps),
-                relit: below(&column.entrant.relit),
+                maps: below(&column.method.maps),
+                relit: below(&column.method.relit),
             })
             .collect();
         let anchor = comparison_figures::file_name(&case.id);
@@ -107,13 +107,13 @@ impl CaseView {
         let mut solves = Vec::new();
         let mut hashes = Vec::new();
         for method in &methods {
-            let Method { column, maps, .. } = method;
+            let MethodFolders { column, maps, .. } = method;
             if let Some(maps) = maps {
                 solves.extend(studio.solve(method, maps)?);
             }
             let mut data = None;
-            if let Some(path) = below(&column.entrant.scores).filter(|path| path.exists()) {
-                let name = comparison_figures::file_name(&column.entrant.id);
+            if let Some(path) = below(&column.method.scores).filter(|path| path.exists()) {
+                let name = comparison_figures::file_name(&column.method.id);
                 let target = format!("data/{anchor}/{name}.json");
                 copy(&path, &root.join(&target))?;
                 data = Some(target);
@@ -158,7 +158,7 @@ impl Hashes {
             inputs.extend(scores.inputs.relit.clone().map(|relit| ("relit", relit)));
         }
         Self {
-            title: column.entrant.title().to_owned(),
+            title: column.method.title().to_owned(),
             data,
             inputs,
             factor: column.factor().map(|factor| format!("{factor:.4}")),

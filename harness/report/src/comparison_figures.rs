@@ -121,7 +121,7 @@ impl Show {
 }
 
 /// One method's column and its folders below the run, which may be absent.
-pub(super) struct Method<'a> {
+pub(super) struct MethodFolders<'a> {
     pub column: &'a Column<'a>,
     pub maps: Option<PathBuf>,
     pub relit: Option<PathBuf>,
@@ -146,7 +146,7 @@ pub(super) struct Subject {
 pub(super) struct Studio<'a> {
     pub frames: &'a Frames,
     pub light: &'a str,
-    pub methods: &'a [Method<'a>],
+    pub methods: &'a [MethodFolders<'a>],
     /// The report's folder, and where below it this case's pictures go.
     pub root: &'a Path,
     pub folder: &'a str,
@@ -169,7 +169,7 @@ impl Studio<'_> {
     pub fn strip(
         &self,
         subject: &Subject,
-        made: impl Fn(&Method) -> Result<Option<(Picture, String)>, ReportError>,
+        made: impl Fn(&MethodFolders) -> Result<Option<(Picture, String)>, ReportError>,
     ) -> Result<Strip, ReportError> {
         let mut errors = vec!["error".to_owned()];
         if subject.scaled {
@@ -195,12 +195,12 @@ impl Studio<'_> {
     fn entry(
         &self,
         subject: &Subject,
-        method: &Method,
+        method: &MethodFolders,
         made: &Picture,
         caption: String,
     ) -> Result<Entry, ReportError> {
         // A method may be called "truth" or "input" too.
-        let group = format!("by-{}", file_name(&method.column.entrant.id));
+        let group = format!("by-{}", file_name(&method.column.method.id));
         let mut factors = vec![Some(1.0)];
         if subject.scaled {
             factors.push(method.column.factor());

@@ -8,7 +8,7 @@ use formats::picture::{Content, Picture};
 use scoring::metrics::Metric;
 use serde::Serialize;
 
-use super::comparison_figures::{self, Method, Studio, Tile};
+use super::comparison_figures::{self, MethodFolders, Studio, Tile};
 use super::difference::{self, Measure};
 use super::error::ReportError;
 use super::maps::{MAPS, MapKind};
@@ -42,8 +42,12 @@ pub(super) struct SheetRow {
 
 impl Studio<'_> {
     /// Every sheet that the files of a method allow.
-    pub fn sheets(&self, method: &Method, maps: &Path) -> Result<Vec<ContactSheet>, ReportError> {
-        let group = format!("solve-{}", comparison_figures::file_name(&method.column.entrant.id));
+    pub fn sheets(
+        &self,
+        method: &MethodFolders,
+        maps: &Path,
+    ) -> Result<Vec<ContactSheet>, ReportError> {
+        let group = format!("solve-{}", comparison_figures::file_name(&method.column.method.id));
         let sheets = [
             self.light_sheet(&group, maps)?,
             self.relit_sheet(&group, method)?,
@@ -90,7 +94,7 @@ impl Studio<'_> {
     fn relit_sheet(
         &self,
         group: &str,
-        method: &Method,
+        method: &MethodFolders,
     ) -> Result<Option<ContactSheet>, ReportError> {
         let relit = method.relit.as_ref().filter(|_| !self.frames.root.join("truth").is_dir());
         let lights = relit.map_or(Ok(Vec::new()), |relit| folders(&relit.join("none")))?;
@@ -127,7 +131,7 @@ impl Studio<'_> {
     fn confidence_sheet(
         &self,
         group: &str,
-        method: &Method,
+        method: &MethodFolders,
         maps: &Path,
     ) -> Result<Option<ContactSheet>, ReportError> {
         let Some(found) = comparison_figures::read_if_present(
@@ -167,7 +171,11 @@ impl Studio<'_> {
     }
 
     /// The diffuse albedo after its one factor against the truth, in false colour.
-    fn albedo_error(&self, method: &Method, maps: &Path) -> Result<Option<Raster>, ReportError> {
+    fn albedo_error(
+        &self,
+        method: &MethodFolders,
+        maps: &Path,
+    ) -> Result<Option<Raster>, ReportError> {
         let folder = self.frames.root.join("truth");
         let read =
             |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);

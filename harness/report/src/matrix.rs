@@ -118,8 +118,8 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         .columns
         .iter()
         .map(|column| MatrixRow {
-            title: column.entrant.title().to_owned(),
-            kind: column.entrant.kind.name(),
+            title: column.method.title().to_owned(),
+            kind: column.method.kind.name(),
             cells: Vec::new(),
         })
         .collect();
@@ -131,7 +131,7 @@ fn block(case: &Source, lights: &[&str]) -> Block {
         let Some(strip) = figure.and_then(|figure| figure.strips.first()) else { continue };
         panels.push(Panel { title, truth: strip.truth.clone() });
         for ((row, column), entry) in rows.iter_mut().zip(case.columns).zip(&strip.entries) {
-            let pictured = column.entrant.kind == Kind::Solver;
+            let pictured = column.method.kind == Kind::Solver;
             row.cells.push(MatrixCell {
                 picture: entry.picture.clone().filter(|_| pictured),
                 error: entry.errors.first().cloned().flatten().filter(|_| pictured),

@@ -36,8 +36,8 @@ pub(super) fn rows(
     root: &Path,
 ) -> Result<Vec<MethodRow>, ReportError> {
     let row = |column: &Column| -> Result<MethodRow, ReportError> {
-        let name = format!("{}/{}", case.id, column.entrant.id);
-        let failed = column.entrant.failed.clone();
+        let name = format!("{}/{}", case.id, column.method.id);
+        let failed = column.method.failed.clone();
         let id = format!("maps/{name}");
         let stage = timing.stages.iter().find(|stage| stage.id == id && failed.is_none());
         let made = stage.map(|stage| &stage.made);
@@ -50,7 +50,7 @@ pub(super) fn rows(
         }
         let log = run.join("logs").join(format!("{name}.txt"));
         Ok(MethodRow {
-            title: column.entrant.title().to_owned(),
+            title: column.method.title().to_owned(),
             failed,
             made: if words.is_empty() { EMPTY.to_owned() } else { words.join("; ") },
             seconds: stage.map_or(EMPTY.to_owned(), |stage| format!("{:.1} s", stage.seconds)),
@@ -58,7 +58,7 @@ pub(super) fn rows(
                 .and_then(|made| made.peak_bytes)
                 .map_or(EMPTY.to_owned(), |bytes| format!("{:.2} GiB", bytes as f64 / GIB)),
             confined: made.and_then(|made| made.confined),
-            log: keep_log(&log, &case.id, &column.entrant.id, root)?,
+            log: keep_log(&log, &case.id, &column.method.id, root)?,
         })
     };
     columns.iter().map(row).collect()

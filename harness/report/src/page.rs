@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::case::CaseView;
 use super::error::ReportError;
 use super::matrix::{self, Matrix};
-use super::run::{self, Case, Entrant, RunFile, SolverTiming, Timing};
+use super::run::{self, Case, Method, RunFile, SolverTiming, Timing};
 use super::solve::plain;
 use super::summary::{SummaryCase, summary};
 use super::table::Column;
@@ -153,11 +153,11 @@ impl Page {
 }
 
 pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>, ReportError> {
-    let read = |entrant: &Entrant| match &entrant.scores {
+    let read = |method: &Method| match &method.scores {
         Some(path) if run.join(path).exists() => Ok(Some(Scores::read(&run.join(path))?)),
         _ => Ok(None),
     };
-    case.solvers.iter().map(read).collect()
+    case.methods.iter().map(read).collect()
 }
 
 /// Each protocol once, in the order in which the scores name them.
@@ -173,10 +173,10 @@ fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.
 pub(super) fn columns<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
-    let pairs = case.solvers.iter().zip(scores);
+    let pairs = case.methods.iter().zip(scores);
     let mut columns: Vec<Column> =
-        pairs.map(|(entrant, scores)| Column { entrant, scores: scores.as_ref() }).collect();
-    columns.sort_by_key(|column| column.entrant.kind);
+        pairs.map(|(method, scores)| Column { method, scores: scores.as_ref() }).collect();
+    columns.sort_by_key(|column| column.method.kind);
     columns
 }
 
@@ -208,7 +208,7 @@ impl Times {
         };
         let mut stages = Vec::new();
         for stage in timing.stages {
-            let solvers = manifest.cases.iter().flat_map(|case| &case.solvers);
+            let solvers = manifest.cases.iter().flat_map(|case| &case.methods);
             let maps: Vec<_> = solvers.filter_map(|solver| solver.maps.as_ref()).collect();
             let solve = maps.into_iter().find(|maps| **maps == Path::new(&stage.id));
             stages.push(row(stage.id, stage.seconds, stage.cached, false));

@@ -44,12 +44,13 @@ pub(super) struct Case {
     /// What was changed of the scene; none in a suite without variants.
     pub variant: Option<String>,
     pub capture: PathBuf,
-    pub solvers: Vec<Entrant>,
+    #[serde(rename = "solvers")]
+    pub methods: Vec<Method>,
 }
 
 /// A column of the table.
 #[derive(Debug, Deserialize)]
-pub(super) struct Entrant {
+pub(super) struct Method {
     pub id: String,
     pub kind: Kind,
     pub title: Option<String>,
@@ -60,7 +61,7 @@ pub(super) struct Entrant {
     pub failed: Option<String>,
 }
 
-impl Entrant {
+impl Method {
     pub fn title(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.id)
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::comparison_figures::{Method, Studio};
+use super::comparison_figures::{MethodFolders, Studio};
 use super::contact_sheets::ContactSheet;
 use super::curve;
 use super::error::ReportError;
@@ -27,7 +27,7 @@ pub(super) struct Solve {
 
 impl Studio<'_> {
     /// What the maps folder of a method tells; none of a method that leaves maps alone.
-    pub fn solve(&self, method: &Method, maps: &Path) -> Result<Option<Solve>, ReportError> {
+    pub fn solve(&self, method: &MethodFolders, maps: &Path) -> Result<Option<Solve>, ReportError> {
         let record = run::read_json_if_present::<Value>(&maps.join("solve.json"))?;
         let sheets = self.sheets(method, maps)?;
         if record.is_none() && sheets.is_empty() {
@@ -43,7 +43,7 @@ impl Studio<'_> {
             }
         }
         Ok(Some(Solve {
-            title: method.column.entrant.title().to_owned(),
+            title: method.column.method.title().to_owned(),
             interrupted: interrupted(&record),
             curve: curve::svg(&curve::stages(&record)),
             sheets,

@@ -60,10 +60,10 @@ const KEY_FIGURES: [KeyFigure; 5] = [
 /// The key figures of one case.
 pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
-        title: column.entrant.title().to_owned(),
-        kind: column.entrant.kind.name(),
+        title: column.method.title().to_owned(),
+        kind: column.method.kind.name(),
         findings: column.findings(),
-        cells: match column.entrant.failed {
+        cells: match column.method.failed {
             Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
             None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
         },

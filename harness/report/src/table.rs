@@ -8,7 +8,7 @@ use scoring::score::{Row, Scores};
 use serde::Serialize;
 
 use super::metric;
-use super::run::{Entrant, Kind};
+use super::run::{Kind, Method};
 
 /// What stands in a cell without a value.
 pub(super) const EMPTY: &str = "–";
@@ -18,7 +18,7 @@ pub(super) const FAILED: &str = "failed";
 
 /// One method in one case.
 pub(super) struct Column<'a> {
-    pub entrant: &'a Entrant,
+    pub method: &'a Method,
     pub scores: Option<&'a Scores>,
 }
 
@@ -146,8 +146,8 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
     let columns = columns
         .iter()
         .map(|column| Heading {
-            title: column.entrant.title().to_owned(),
-            kind: column.entrant.kind.name(),
+            title: column.method.title().to_owned(),
+            kind: column.method.kind.name(),
             findings: column.findings(),
         })
         .collect();
@@ -166,7 +166,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
     let contenders: Vec<f64> = columns
         .iter()
         .zip(&rows)
-        .filter(|(column, _)| column.entrant.kind != Kind::Oracle)
+        .filter(|(column, _)| column.method.kind != Kind::Oracle)
         .filter_map(|(_, row)| value(row))
         .chain(trivial)
         .collect();
@@ -175,18 +175,17 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
         .iter()
         .zip(&rows)
         .map(|(column, row)| Cell {
-            value: match column.entrant.failed {
+            value: match column.method.failed {
                 Some(_) => FAILED.to_owned(),
                 None => shown(value(row), decimals),
             },
             interval: interval(row.and_then(|row| row.ci95), decimals),
-            best: column.entrant.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
-            kind: column.entrant.kind.name(),
+            best: column.method.kind != Kind::Oracle && value(row).is_some() && value(row) == best,
+            kind: column.method.kind.name(),
         })
         .collect();
     // The true maps' pictures, where there are some: their floor depends on no method.
-    let oracle =
-        columns.iter().zip(&rows).filter(|(column, _)| column.entrant.kind == Kind::Oracle);
+    let oracle = columns.iter().zip(&rows).filter(|(column, _)| column.method.kind == Kind::Oracle);
     let floor = oracle.chain(columns.iter().zip(&rows)).find_map(|(_, row)| (*row)?.floor);
     Line {
         id,

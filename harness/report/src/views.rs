@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use formats::picture::Content;
 use rayon::prelude::*;
 
-use super::comparison_figures::{self, ComparisonFigure, Method, Show, Strip, Studio, Subject};
+use super::comparison_figures::{
+    self, ComparisonFigure, MethodFolders, Show, Strip, Studio, Subject,
+};
 use super::difference::Measure;
 use super::error::ReportError;
 use super::metric;
@@ -76,7 +78,7 @@ impl Source {
         }
     }
 
-    fn path(&self, method: &Method, file: &str) -> Option<PathBuf> {
+    fn path(&self, method: &MethodFolders, file: &str) -> Option<PathBuf> {
         match self {
             Source::View => Some(method.maps.as_ref()?.join("views").join(file)),
             Source::Relit { light, scale } => {

@@ -46,7 +46,7 @@ pub enum RunError {
     Bench(#[from] bench::BenchError),
     #[error("{name} failed: {reason}; the others are in {}", report.display())]
     Methods { name: String, reason: String, report: PathBuf },
-    #[error("solver {name}: {reason}")]
+    #[error("method {name}: {reason}")]
     Program { name: String, reason: String },
     #[error("{0}: another run is using this folder; wait for it or choose another")]
     Busy(PathBuf),
@@ -56,7 +56,7 @@ pub enum RunError {
     File { path: PathBuf, reason: io::Error },
     #[error("the run folder cannot be used: {0}; make room or choose another")]
     Folder(#[from] io::Error),
-    #[error("--redo: the suite has no solver {name:?}; there are {known}")]
+    #[error("--redo: the suite has no method {name:?}; there are {known}")]
     Redo { name: String, known: String },
     #[error("interrupted; the same command goes on from here")]
     Interrupted,

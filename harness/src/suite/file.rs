@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
-use super::method::{self, Entrant, Method};
+use super::method::{self, Method, MethodKind};
 use super::place;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
     "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
-    "scales", "relight", "solver",
+    "scales", "relight", "method",
 ];
 
 /// Keys that say something of a scene.
@@ -36,7 +36,7 @@ pub struct Suite {
     /// Every face in every input light, in every variant.
     pub cases: Vec<Case>,
     /// Solvers and baselines in the order of the table.
-    pub entrants: Vec<Entrant>,
+    pub methods: Vec<Method>,
     /// Those of [`SCALES`] under which maps are relit.
     pub scales: Vec<&'static str>,
     /// What relights maps: one of [`RENDERERS`].
@@ -50,6 +50,10 @@ impl Suite {
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
+        if table.contains_key("solver") {
+            let reason = "has been renamed; write [[method]] tables";
+            return Err(SceneError::value(path, "solver", reason));
+        }
         scene::check_keys(path, &table, &KEYS)?;
         let name = text_of(path, &table, "name")?;
         let photographed = cases::photographed(path, &table)?;
@@ -67,8 +71,8 @@ impl Suite {
                 format!("{} is the name of a rendered case too; rename the folder", case.id);
             return Err(SceneError::value(path, "captures", reason));
         }
-        let entrants = method::entrants_of(path, &table)?;
-        let oracle = entrants.iter().find(|entrant| matches!(entrant.method, Method::Oracle));
+        let methods = method::methods_of(path, &table)?;
+        let oracle = methods.iter().find(|method| matches!(method.kind, MethodKind::Oracle));
         if let (Some(oracle), false) = (oracle, photographed.is_empty()) {
             let reason = "photographs have no true maps; leave the oracle out";
             return Err(SceneError::in_table(path, &oracle.id, "name", reason));
@@ -81,7 +85,7 @@ impl Suite {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Ok(Self { path: path.to_path_buf(), name, title, cases, entrants, scales, relight, text })
+        Ok(Self { path: path.to_path_buf(), name, title, cases, methods, scales, relight, text })
     }
 }
 
@@ -163,7 +167,7 @@ mod tests {
         let open = |line: &str| {
             let text = format!(
                 "format = 1\nname = \"s\"\nscene = \"scene.toml\"\n{line}\n\
-                 [[solver]]\nname = \"oracle\"\n"
+                 [[method]]\nname = \"oracle\"\n"
             );
             Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.relight)
         };
@@ -182,8 +186,8 @@ mod tests {
             "suite.toml",
             "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n\
              lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n[render]\nwidth = 16\n\
-             [[solver]]\nname = \"paper\"\nset = { seed = 4 }\n\
-             [[solver]]\nname = \"mine\"\ncommand = \"run {capture} {maps}\"\n",
+             [[method]]\nname = \"paper\"\nset = { seed = 4 }\n\
+             [[method]]\nname = \"mine\"\ncommand = \"run {capture} {maps}\"\n",
         );
         let suite = Suite::open(&path).unwrap();
         let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
@@ -195,9 +199,9 @@ mod tests {
         let hall = suite.cases[1].scene.table["light"]["path"].as_str().unwrap();
         assert_eq!(Path::new(hall), root.path().join("lights/hall.exr"));
         assert_eq!(suite.cases[0].scene.table["render"]["width"].as_integer(), Some(16));
-        let Method::Fields { config, .. } = &suite.entrants[0].method else { panic!() };
+        let MethodKind::Fields { config, .. } = &suite.methods[0].kind else { panic!() };
         assert_eq!(config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
-        let Method::Program(program) = &suite.entrants[1].method else { panic!() };
+        let MethodKind::Program(program) = &suite.methods[1].kind else { panic!() };
         let words = ["run", "{capture}", "{maps}"].map(str::to_owned).to_vec();
         assert_eq!(program.start, Start::Command(words));
         assert_eq!(program.folder, root.path());
@@ -212,7 +216,7 @@ mod tests {
         scenes(root.path());
         let open = |line: &str| {
             let text = format!(
-                "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n{line}\n[[solver]]\nname = \"oracle\"\n"
+                "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n{line}\n[[method]]\nname = \"oracle\"\n"
             );
             Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.scales)
         };
@@ -236,7 +240,7 @@ mod tests {
              [[variant]]\nname = \"as captured\"\n\
              [[variant]]\nname = \"no labels\"\n[variant.labels]\nomit = true\n\
              [variant.render]\nwidth = 32\n[face]\ntexture_size = 1024\n\
-             [[solver]]\nname = \"semantic_initialisation\"\n",
+             [[method]]\nname = \"semantic_initialisation\"\n",
         );
         let suite = Suite::open(&path).unwrap();
         let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
@@ -261,9 +265,9 @@ mod tests {
         // The text of a varied scene is one that can be read again.
         let text = suite.cases[3].scene.to_toml().unwrap();
         assert_eq!(&text.parse::<Table>().unwrap(), table(3));
-        let method = BaselineMethod::SemanticInitialisation;
-        assert_eq!(suite.entrants[0].method, Method::Baseline { method, texture_size: 512 });
-        assert_eq!(suite.entrants[0].kind(), "baseline");
+        let baseline = BaselineMethod::SemanticInitialisation;
+        assert_eq!(suite.methods[0].kind, MethodKind::Baseline { baseline, texture_size: 512 });
+        assert_eq!(suite.methods[0].role(), "baseline");
     }
 
     #[test]
@@ -274,8 +278,8 @@ mod tests {
             let path = entry.unwrap().path();
             let suite = Suite::open(&path).unwrap();
             assert_eq!(path.file_stem().unwrap().to_str(), Some(suite.name.as_str()));
-            for entrant in &suite.entrants {
-                if let Method::Fields { config, .. } = &entrant.method {
+            for method in &suite.methods {
+                if let MethodKind::Fields { config, .. } = &method.kind {
                     solver::Config::from_toml(config).unwrap();
                 }
             }
@@ -292,28 +296,32 @@ mod tests {
         for (text, expected) in [
             ("name = \"m\"\n", "format: is missing; write format = 1"),
             (&*format!("{head}solvers = 1\n"), "solvers: is unknown; there are"),
-            (head, "solver: is missing; write [[solver]] tables"),
-            (&*format!("{head}[[solver]]\nname = \"a b\"\n"), "cannot name a folder"),
+            (head, "method: is missing; write [[method]] tables"),
             (
-                &*format!("{head}[[solver]]\nname = \"a\"\nthread = 2\n"),
-                "suite.toml:5: solver: unknown field `thread`",
+                &*format!("{head}solver = []\n"),
+                "suite.toml:4: solver: has been renamed; write [[method]] tables",
             ),
-            (&*format!("{head}[[solver]]\nname = \"a\"\n"), "no configuration is named \"a\""),
+            (&*format!("{head}[[method]]\nname = \"a b\"\n"), "cannot name a folder"),
             (
-                &*format!("{head}[[solver]]\nname = \"fast\"\n[solver.set]\nseed = \"x\"\n"),
+                &*format!("{head}[[method]]\nname = \"a\"\nthread = 2\n"),
+                "suite.toml:5: method: unknown field `thread`",
+            ),
+            (&*format!("{head}[[method]]\nname = \"a\"\n"), "no configuration is named \"a\""),
+            (
+                &*format!("{head}[[method]]\nname = \"fast\"\n[method.set]\nseed = \"x\"\n"),
                 "suite.toml:5: name: configuration: ",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"a\"\ncommand = \"x\"\ntimeout_s = -1\n"),
+                &*format!("{head}[[method]]\nname = \"a\"\ncommand = \"x\"\ntimeout_s = -1\n"),
                 "suite.toml:7: timeout_s: must be seconds above 0",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"oracle\"\nversion = \"2\"\n"),
+                &*format!("{head}[[method]]\nname = \"oracle\"\nversion = \"2\"\n"),
                 "has no use for version; leave it out",
             ),
             ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
             (
-                &*format!("{head}faces = [\"no.toml\"]\n[[solver]]\nname = \"a\"\n"),
+                &*format!("{head}faces = [\"no.toml\"]\n[[method]]\nname = \"a\"\n"),
                 "no.toml: cannot be read",
             ),
             (
@@ -321,19 +329,19 @@ mod tests {
                 "no such.toml: cannot be read",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
+                &*format!("{head}[[method]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
                 "\"mean_texture\" has no use for config; leave it out",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"paper\"\ntexture_size = 512\n"),
-                "has no use for texture_size; write [solver.set.fine_tuning] texture_size",
+                &*format!("{head}[[method]]\nname = \"paper\"\ntexture_size = 512\n"),
+                "has no use for texture_size; write [method.set.fine_tuning] texture_size",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"mean_texture\"\ntexture_size = 4\n"),
+                &*format!("{head}[[method]]\nname = \"mean_texture\"\ntexture_size = 4\n"),
                 "texture_size: 4 of \"mean_texture\" is not from 16 to 8192",
             ),
             (
-                &*format!("{head}[[solver]]\nname = \"paper\"\nbackend = \"tpu\"\n"),
+                &*format!("{head}[[method]]\nname = \"paper\"\nbackend = \"tpu\"\n"),
                 "backend: no backend is named \"tpu\"; there are auto, cpu and gpu",
             ),
             (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),

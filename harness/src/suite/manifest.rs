@@ -15,13 +15,13 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
         .iter()
         .map(|case| {
             let solvers: Vec<Value> = suite
-                .entrants
+                .methods
                 .iter()
-                .map(|entrant| {
-                    let name = format!("{}/{}", case.id, entrant.id);
+                .map(|method| {
+                    let name = format!("{}/{}", case.id, method.id);
                     let below = |folder| format!("{folder}/{name}");
                     let mut solver = json!({
-                        "id": entrant.id, "kind": entrant.kind(), "title": entrant.title,
+                        "id": method.id, "kind": method.role(), "title": method.title,
                     });
                     if let Some(reason) = failed.get(&name) {
                         solver["failed"] = json!(reason);

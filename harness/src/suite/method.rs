@@ -1,4 +1,4 @@
-//! The `[[solver]]` tables of a suite: who is run, and how each is started.
+//! The `[[method]]` tables of a suite: who is run, and how each is started.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,7 @@ use super::scene::{self, SceneError};
 
 /// How a solver is started.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Method {
+pub enum MethodKind {
     /// Our own solver with these settings (TOML text that names its `base`).
     Fields {
         /// A preset's name or the text of a configuration.
@@ -29,7 +29,7 @@ pub enum Method {
     /// An answer that needs no optimisation.
     Baseline {
         /// Which one.
-        method: BaselineMethod,
+        baseline: BaselineMethod,
         /// Side of its textures, texels.
         texture_size: usize,
     },
@@ -37,29 +37,29 @@ pub enum Method {
 
 /// A column of the table.
 #[derive(Clone, Debug)]
-pub struct Entrant {
+pub struct Method {
     /// Names its folders; letters, digits, `-` and `_`.
     pub id: String,
     /// Shown in the report.
     pub title: String,
     /// How it is started.
-    pub method: Method,
+    pub kind: MethodKind,
 }
 
-impl Entrant {
+impl Method {
     /// `solver`, `baseline` or `oracle`.
-    pub fn kind(&self) -> &'static str {
-        match self.method {
-            Method::Oracle => "oracle",
-            Method::Baseline { .. } => "baseline",
-            Method::Fields { .. } | Method::Program(_) => "solver",
+    pub fn role(&self) -> &'static str {
+        match self.kind {
+            MethodKind::Oracle => "oracle",
+            MethodKind::Baseline { .. } => "baseline",
+            MethodKind::Fields { .. } | MethodKind::Program(_) => "solver",
         }
     }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SolverTable {
+struct MethodTable {
     name: String,
     title: Option<String>,
     /// Preset or configuration file; without it the name is the preset.
@@ -88,48 +88,48 @@ enum CommandLine {
     Line(String),
 }
 
-/// The entrants in the order of the file.
-pub(super) fn entrants_of(path: &Path, table: &Table) -> Result<Vec<Entrant>, SceneError> {
-    let list = match table.get("solver") {
+/// The methods in the order of the file.
+pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, SceneError> {
+    let list = match table.get("method") {
         Some(Value::Array(list)) if !list.is_empty() => list,
-        _ => return Err(SceneError::value(path, "solver", "is missing; write [[solver]] tables")),
+        _ => return Err(SceneError::value(path, "method", "is missing; write [[method]] tables")),
     };
-    let mut entrants: Vec<Entrant> = Vec::new();
+    let mut methods: Vec<Method> = Vec::new();
     for value in list {
-        let solver: SolverTable = value.clone().try_into().map_err(|error: toml::de::Error| {
+        let table: MethodTable = value.clone().try_into().map_err(|error: toml::de::Error| {
             let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
-            SceneError::in_table(path, name, "solver", error.message())
+            SceneError::in_table(path, name, "method", error.message())
         })?;
-        let entrant = entrant_of(path, solver)?;
-        if entrants.iter().any(|other| other.id == entrant.id) {
-            let reason = format!("{:?} occurs twice; rename one", entrant.id);
-            return Err(SceneError::value(path, "solver", reason));
+        let method = method_of(path, table)?;
+        if methods.iter().any(|other| other.id == method.id) {
+            let reason = format!("{:?} occurs twice; rename one", method.id);
+            return Err(SceneError::value(path, "method", reason));
         }
-        entrants.push(entrant);
+        methods.push(method);
     }
-    Ok(entrants)
+    Ok(methods)
 }
 
-fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
-    scene::check_id(path, &solver.name)?;
-    solver.check_keys(path)?;
-    let program = solver.program(path)?;
-    let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == solver.name);
-    let method = match (program, solver.name.as_str()) {
-        (Some(program), _) => Method::Program(program),
-        (None, "oracle") => Method::Oracle,
+fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
+    scene::check_id(path, &table.name)?;
+    table.check_keys(path)?;
+    let program = table.program(path)?;
+    let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == table.name);
+    let kind = match (program, table.name.as_str()) {
+        (Some(program), _) => MethodKind::Program(program),
+        (None, "oracle") => MethodKind::Oracle,
         (None, name) => match baseline {
-            Some(method) => {
-                let texture_size = solver.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
+            Some(baseline) => {
+                let texture_size = table.texture_size.unwrap_or(BaselineMethod::TEXTURE_SIZE);
                 if !(16..=8192).contains(&texture_size) {
                     let reason = format!("{texture_size} of {name:?} is not from 16 to 8192");
                     return Err(SceneError::in_table(path, name, "texture_size", reason));
                 }
-                Method::Baseline { method, texture_size }
+                MethodKind::Baseline { baseline, texture_size }
             }
-            None => Method::Fields {
-                config: config_text(path, name, solver.config.as_deref(), &solver.set)?,
-                backend: solver.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
+            None => MethodKind::Fields {
+                config: config_text(path, name, table.config.as_deref(), &table.set)?,
+                backend: table.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
                     |error: BackendError| {
                         SceneError::in_table(path, name, "backend", error.to_string())
                     },
@@ -137,15 +137,15 @@ fn entrant_of(path: &Path, solver: SolverTable) -> Result<Entrant, SceneError> {
             },
         },
     };
-    let title = solver.title.unwrap_or_else(|| match method {
-        Method::Oracle => "oracle (true maps)".to_owned(),
-        Method::Baseline { method, .. } => method.title().to_owned(),
-        Method::Fields { .. } | Method::Program(_) => solver.name.clone(),
+    let title = table.title.unwrap_or_else(|| match kind {
+        MethodKind::Oracle => "oracle (true maps)".to_owned(),
+        MethodKind::Baseline { baseline, .. } => baseline.title().to_owned(),
+        MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
     });
-    Ok(Entrant { id: solver.name, title, method })
+    Ok(Method { id: table.name, title, kind })
 }
 
-impl SolverTable {
+impl MethodTable {
     /// The program of the table, if it names one.
     fn program(&self, path: &Path) -> Result<Option<Program>, SceneError> {
         let start = match (&self.command, &self.python) {
@@ -202,7 +202,7 @@ impl SolverTable {
         } = self;
         let refused = |reason: String| {
             let reason = format!("{name:?} {reason}");
-            Err(SceneError::in_table(path, name, "solver", reason))
+            Err(SceneError::in_table(path, name, "method", reason))
         };
         let foreign = command.is_some() || python.is_some();
         if command.is_some() && python.is_some() {
@@ -224,7 +224,7 @@ impl SolverTable {
         ] {
             if given && !means {
                 let mend = match key {
-                    "texture_size" if fields => "; write [solver.set.fine_tuning] texture_size",
+                    "texture_size" if fields => "; write [method.set.fine_tuning] texture_size",
                     _ => "; leave it out",
                 };
                 return refused(format!("has no use for {key}{mend}"));

@@ -2,9 +2,9 @@
 
 mod baseline;
 mod cases;
-mod entrant;
 mod error;
 mod file;
+mod make_maps;
 mod manifest;
 mod method;
 mod place;
@@ -19,10 +19,10 @@ mod tools;
 
 pub use baseline::BaselineMethod;
 pub use cases::Case;
-pub use entrant::{TIME_LEFT, in_words, solve};
 pub use error::RunError;
 pub use file::{RENDERERS, SCALES, Suite};
-pub use method::{Entrant, Method};
+pub use make_maps::{TIME_LEFT, in_words, solve};
+pub use method::{Method, MethodKind};
 pub use program::{Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};

@@ -104,8 +104,8 @@ mod tests {
     fn keys_are_found_in_their_table() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("suite.toml");
-        let text = "name = \"m\"\n[[solver]]\nname = \"a\"\nthreads = 1\n[[solver]]\nname = \"b\"\n\
-                    threads= 0\n[solver.set.height]\nsteps = 3\n";
+        let text = "name = \"m\"\n[[method]]\nname = \"a\"\nthreads = 1\n[[method]]\nname = \"b\"\n\
+                    threads= 0\n[method.set.height]\nsteps = 3\n";
         fs::write(&path, text).unwrap();
         assert_eq!(line_of(&path, None, "name"), Some(1));
         assert_eq!(line_of(&path, Some("b"), "threads"), Some(7));

@@ -7,7 +7,7 @@ use formats::atomic;
 use super::cases::Case;
 use super::error::RunError;
 use super::file::Suite;
-use super::method::{Entrant, Method};
+use super::method::{Method, MethodKind};
 use super::place;
 use super::program::ProgramFiles;
 use super::scene::SceneError;
@@ -20,18 +20,18 @@ const CAMERAS: i64 = 16;
 
 /// A method with what was found of its program.
 pub(super) struct Ready<'a> {
-    pub entrant: &'a Entrant,
+    pub method: &'a Method,
     /// Of a program that is not ours.
     pub files: Option<ProgramFiles>,
 }
 
 /// Finds every program and opens every backend; a fault names the table of the suite.
 pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'a>>, RunError> {
-    let ready = |entrant: &'a Entrant| {
+    let ready = |method: &'a Method| {
         let wrong =
-            |key: &str, reason: String| SceneError::in_table(&suite.path, &entrant.id, key, reason);
-        let files = match &entrant.method {
-            Method::Program(program) => {
+            |key: &str, reason: String| SceneError::in_table(&suite.path, &method.id, key, reason);
+        let files = match &method.kind {
+            MethodKind::Program(program) => {
                 if let Some(missing) = program.inputs.iter().find(|input| !input.exists()) {
                     let reason =
                         format!("there is no {}; name a file or folder", missing.display());
@@ -40,15 +40,15 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
                 let key = program.key();
                 Some(program.find(&tools.interpreter).map_err(|reason| wrong(key, reason))?)
             }
-            Method::Fields { backend, .. } => {
+            MethodKind::Fields { backend, .. } => {
                 backend.open().map_err(|error| wrong("backend", error.to_string()))?;
                 None
             }
-            Method::Oracle | Method::Baseline { .. } => None,
+            MethodKind::Oracle | MethodKind::Baseline { .. } => None,
         };
-        Ok(Ready { entrant, files })
+        Ok(Ready { method, files })
     };
-    suite.entrants.iter().map(ready).collect()
+    suite.methods.iter().map(ready).collect()
 }
 
 /// Every file that the scenes name is there.
@@ -86,12 +86,12 @@ pub(super) fn scenes(
 
 /// There is room for what the cases leave: about half of it uncompressed.
 pub(super) fn space(suite: &Suite, cases: &[&Case], out: &Path) -> Result<(), RunError> {
-    let bytes: u64 = cases.iter().map(|case| case_bytes(case, suite.entrants.len() as u64)).sum();
+    let bytes: u64 = cases.iter().map(|case| case_bytes(case, suite.methods.len() as u64)).sum();
     Ok(atomic::require_space(out, bytes / 2)?)
 }
 
 /// Uncompressed: 25 floats for a view with its layers, nine for every relit one, and 13 for a texel.
-fn case_bytes(case: &Case, entrants: u64) -> u64 {
+fn case_bytes(case: &Case, methods: u64) -> u64 {
     let number = |section: &str, key: &str, default: i64| -> u64 {
         let value = case.scene.table.get(section).and_then(|table| table.get(key)?.as_integer());
         value.unwrap_or(default).max(1).unsigned_abs()
@@ -102,5 +102,5 @@ fn case_bytes(case: &Case, entrants: u64) -> u64 {
     let lights = case.scene.relight().len() as u64 + 1;
     let capture = pixels * ((train + test) * 25 + test * lights * 9) + texels * 13;
     let method = texels * 13 + pixels * test * lights * 2 * 9;
-    4 * (capture + entrants * method)
+    4 * (capture + methods * method)
 }

@@ -15,11 +15,11 @@ use formats::content_hash::{hash_parts, hash_path};
 use scoring::score;
 
 use super::cases::Case;
-use super::entrant;
 use super::error::RunError;
 use super::file::{RENDERERS, Suite};
+use super::make_maps;
 use super::manifest::manifest;
-use super::method::Method;
+use super::method::MethodKind;
 use super::preflight::{self, Ready};
 use super::program::{self, Place};
 use super::record::{Made, Records};
@@ -74,7 +74,7 @@ pub fn run(
     program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprint()?;
     let rendered = suite.cases.iter().filter(|case| case.photographed.is_none()).count();
-    let total = rendered + suite.cases.len() * 3 * suite.entrants.len() + 1;
+    let total = rendered + suite.cases.len() * 3 * suite.methods.len() + 1;
     let records = Records::open(out)?;
     let failed = BTreeMap::new();
     let mut stages =
@@ -84,7 +84,7 @@ pub fn run(
     for case in &suite.cases {
         let capture = stages.capture(case, &renderer)?;
         for ready in &ready {
-            stages.entrant(case, ready, &capture, &renderer)?;
+            stages.run_method(case, ready, &capture, &renderer)?;
         }
     }
     stages.write_manifest(&renderer)?;
@@ -98,11 +98,11 @@ pub fn run(
 }
 
 fn check_redo(suite: &Suite, options: &RunOptions) -> Result<(), RunError> {
-    let known = |name: &String| suite.entrants.iter().any(|entrant| entrant.id == *name);
+    let known = |name: &String| suite.methods.iter().any(|method| method.id == *name);
     match options.redo.iter().find(|name| !known(name)) {
         None => Ok(()),
         Some(name) => {
-            let ids: Vec<_> = suite.entrants.iter().map(|entrant| entrant.id.as_str()).collect();
+            let ids: Vec<_> = suite.methods.iter().map(|method| method.id.as_str()).collect();
             Err(RunError::Redo { name: name.clone(), known: ids.join(", ") })
         }
     }
@@ -235,14 +235,14 @@ impl Stages<'_> {
     }
 
     /// One method on one case; what it does wrong is kept as its failure.
-    fn entrant(
+    fn run_method(
         &mut self,
         case: &Case,
         ready: &Ready,
         capture: &Output,
         renderer: &str,
     ) -> Result<(), RunError> {
-        let name = format!("{}/{}", case.id, ready.entrant.id);
+        let name = format!("{}/{}", case.id, ready.method.id);
         match self.make_and_score(case, ready, capture, renderer, &name) {
             Err(error) if error.is_of_method() => {
                 tracing::warn!("{name}: failed: {error}");
@@ -268,15 +268,15 @@ impl Stages<'_> {
         renderer: &str,
         name: &str,
     ) -> Result<(), RunError> {
-        let entrant = ready.entrant;
-        let (method, made_from) = self.method_key(ready)?;
+        let method = ready.method;
+        let (key, made_from) = self.method_key(ready)?;
         let files = case.scene.files().into_iter().chain(case.photographed.clone());
         let secret = files.chain([self.out.to_path_buf()]).collect();
         let log = self.out.join("logs").join(format!("{name}.txt"));
         let scratch = program::scratch_prefix(self.out);
         let scales = &self.suite.scales;
-        let redo = self.options.redo.contains(&entrant.id);
-        let inputs = ["maps", &capture.content, &method];
+        let redo = self.options.redo.contains(&method.id);
+        let inputs = ["maps", &capture.content, &key];
         let maps = self.stage(
             &format!("maps/{name}"),
             Key { inputs: &inputs, redo, made_from },
@@ -289,7 +289,7 @@ impl Stages<'_> {
                     secret,
                     scratch: &scratch,
                 };
-                let usage = entrant::make_maps(ready, place, tools, step)?;
+                let usage = make_maps::make_maps(ready, place, tools, step)?;
                 Ok(Made { usage, ..Made::default() })
             },
         )?;
@@ -317,7 +317,7 @@ impl Stages<'_> {
             self.out.join("scores").join(format!("{name}.json")),
             |path, _, _| {
                 let mut scores = score::score(&capture.path, &maps.path, Some(&relit.path))?;
-                scores.solver.clone_from(&entrant.id);
+                scores.solver.clone_from(&method.id);
                 scores.write(path)?;
                 Ok(Made::default())
             },
@@ -327,8 +327,8 @@ impl Stages<'_> {
 
     /// What decides a method's maps beside the capture, as a key and in words.
     fn method_key(&self, ready: &Ready) -> Result<(String, String), RunError> {
-        Ok(match (&ready.entrant.method, &ready.files) {
-            (Method::Fields { config, backend }, _) => {
+        Ok(match (&ready.method.kind, &ready.files) {
+            (MethodKind::Fields { config, backend }, _) => {
                 // The resolved values, so that a preset that changed is solved again; and what
                 // computes here, since no two devices give the same bytes.
                 let config = solver::Config::from_toml(config)?.to_toml();
@@ -336,14 +336,14 @@ impl Stages<'_> {
                 let from = format!("this program's sources of the solver, on {backend}");
                 (hash_parts(&["fields", &config, &backend, SOLVER_SOURCES]), from)
             }
-            (Method::Program(program), Some(files)) => {
+            (MethodKind::Program(program), Some(files)) => {
                 (hash_parts(&["program", &files.key(program)?]), files.in_words(program))
             }
-            (Method::Baseline { method, texture_size }, _) => {
+            (MethodKind::Baseline { baseline, texture_size }, _) => {
                 let size = texture_size.to_string();
-                (hash_parts(&["baseline", method.name(), &size, SOLVER_SOURCES]), String::new())
+                (hash_parts(&["baseline", baseline.name(), &size, SOLVER_SOURCES]), String::new())
             }
-            (Method::Oracle | Method::Program(_), _) => {
+            (MethodKind::Oracle | MethodKind::Program(_), _) => {
                 (hash_parts(&["oracle", SCORE_SOURCES]), String::new())
             }
         })

@@ -59,7 +59,7 @@ pub const TOML: &[&str] = &[
     "1979-05-27T07:32:00Z",
     "0x7f",
     "1_0",
-    "solver",
+    "method",
     "variant",
     "name",
     "format",
@@ -153,12 +153,12 @@ pub fn suites(folder: &Path) -> Vec<Vec<u8>> {
     let plain = "format = 1\nname = \"m\"\ntitle = \"A suite\"\nscene = \"scene.toml\"\n\
         lights = [\"key.toml\", \"hall.toml\"]\nfaces = [\"face.toml\"]\nscales = [\"none\"]\n\
         [render]\nwidth = 16\n[face]\ntexture_size = 64\n[[variant]]\nname = \"no labels\"\n\
-        [variant.labels]\nomit = true\n[[solver]]\nname = \"fast\"\nbackend = \"cpu\"\n\
-        set = { seed = 4 }\n[[solver]]\nname = \"mine\"\ncommand = \"run {capture} {maps}\"\n\
+        [variant.labels]\nomit = true\n[[method]]\nname = \"fast\"\nbackend = \"cpu\"\n\
+        set = { seed = 4 }\n[[method]]\nname = \"mine\"\ncommand = \"run {capture} {maps}\"\n\
         timeout_s = 4.5\nmemory_gib = 2\nthreads = 2\nversion = \"1\"\ninputs = [\"a\"]\n\
-        environment = { A = \"b\" }\n[[solver]]\nname = \"mean_texture\"\ntexture_size = 16\n";
-    let short = "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n[[solver]]\nname = \"oracle\"\n\
-        [[solver]]\nname = \"own\"\npython = \"method:solve\"\n";
+        environment = { A = \"b\" }\n[[method]]\nname = \"mean_texture\"\ntexture_size = 16\n";
+    let short = "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n[[method]]\nname = \"oracle\"\n\
+        [[method]]\nname = \"own\"\npython = \"method:solve\"\n";
     [plain, short, SCENE].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 

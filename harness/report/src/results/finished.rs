@@ -12,7 +12,7 @@ use crate::run::RunFile;
 pub(super) struct Finished {
     pub folder: PathBuf,
     pub manifest: RunFile,
-    /// By case and entrant, as in the manifest.
+    /// By case and method, as in the manifest.
     pub scores: Vec<Vec<Option<Scores>>>,
 }
 

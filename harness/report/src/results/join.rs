@@ -22,7 +22,7 @@ pub(super) fn joined(runs: Vec<Finished>) -> Vec<Finished> {
 fn same_captures(a: &Finished, b: &Finished) -> bool {
     let scene = |run: &Finished, case: &Case| scene(&run.folder.join(&case.capture));
     let methods = |case: &Case| -> Vec<String> {
-        case.solvers.iter().map(|entrant| entrant.id.clone()).collect()
+        case.methods.iter().map(|method| method.id.clone()).collect()
     };
     a.manifest.suite == b.manifest.suite
         && a.manifest.cases.len() == b.manifest.cases.len()
@@ -37,15 +37,15 @@ fn same_captures(a: &Finished, b: &Finished) -> bool {
 fn join(run: &mut Finished, other: Finished) {
     let mut added: Vec<String> = Vec::new();
     for (at, mut case) in other.manifest.cases.into_iter().enumerate() {
-        for entrant in &mut case.solvers {
+        for method in &mut case.methods {
             // Absolute, since the joined run is in another folder.
-            entrant.maps = entrant.maps.take().map(|maps| other.folder.join(maps));
-            let title = entrant.title().to_owned();
+            method.maps = method.maps.take().map(|maps| other.folder.join(maps));
+            let title = method.title().to_owned();
             if !added.contains(&title) {
                 added.push(title);
             }
         }
-        run.manifest.cases[at].solvers.extend(case.solvers);
+        run.manifest.cases[at].methods.extend(case.methods);
     }
     for (scores, more) in run.scores.iter_mut().zip(other.scores) {
         scores.extend(more);

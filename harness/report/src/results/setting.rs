@@ -25,7 +25,7 @@ pub(super) fn describe(run: &Finished) -> Result<String, ReportError> {
         add(&mut faces, face(case, &scene));
         add(&mut pictures, picture(&run.folder.join(&case.capture), &scene)?);
     }
-    for solver in run.manifest.cases.first().map_or(&[][..], |case| &case.solvers) {
+    for solver in run.manifest.cases.first().map_or(&[][..], |case| &case.methods) {
         makers.extend(maker(run, &solver.id)?);
     }
     let versions: Vec<String> = (run.manifest.versions.iter())
@@ -93,9 +93,9 @@ fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
     let mut title = None;
     let mut cut = 0;
     for case in &run.manifest.cases {
-        for entrant in case.solvers.iter().filter(|entrant| entrant.id == id) {
-            title = Some(entrant.title().to_owned());
-            let Some(maps) = &entrant.maps else { continue };
+        for method in case.methods.iter().filter(|method| method.id == id) {
+            title = Some(method.title().to_owned());
+            let Some(maps) = &method.maps else { continue };
             let path = run.folder.join(maps).join("solve.json");
             let solve = run::read_json_if_present::<Value>(&path)?.unwrap_or_default();
             cut += usize::from(interrupted(&solve).is_some());

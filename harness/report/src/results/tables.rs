@@ -58,13 +58,13 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
     for index in &group.cases {
         let case = &run.manifest.cases[*index];
         for column in page::columns(case, &run.scores[*index]) {
-            let entrant = column.entrant;
-            match lines.iter_mut().find(|(id, _)| *id == entrant.id) {
+            let method = column.method;
+            match lines.iter_mut().find(|(id, _)| *id == method.id) {
                 Some((_, line)) => line.columns.push(column),
                 None => {
-                    let title = escape(entrant.title());
-                    let line = Line { title, kind: entrant.kind, columns: vec![column] };
-                    lines.push((&entrant.id, line));
+                    let title = escape(method.title());
+                    let line = Line { title, kind: method.kind, columns: vec![column] };
+                    lines.push((&method.id, line));
                 }
             }
         }
@@ -239,7 +239,7 @@ pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
                 let cells = figures
                     .iter()
                     .map(|figure| cell_of_face(figure, figure.find(&column, &case.light)));
-                let names = [escape(&light), escape(column.entrant.title())];
+                let names = [escape(&light), escape(column.method.title())];
                 text.push_str(&row(names.into_iter().chain(cells)));
             }
         }

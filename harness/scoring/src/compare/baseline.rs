@@ -49,11 +49,12 @@ struct Run {
 #[derive(Deserialize)]
 struct Case {
     id: String,
-    solvers: Vec<Entrant>,
+    #[serde(rename = "solvers")]
+    methods: Vec<Method>,
 }
 
 #[derive(Deserialize)]
-struct Entrant {
+struct Method {
     id: String,
     /// None of a method that failed.
     scores: Option<String>,
@@ -76,10 +77,10 @@ impl Baseline {
         let Run { suite, versions, cases } = parse(&path)?;
         let mut baseline = Self { versions, ..Self::new(&suite) };
         for case in &cases {
-            for entrant in &case.solvers {
-                let Some(scores) = &entrant.scores else { continue };
+            for method in &case.methods {
+                let Some(scores) = &method.scores else { continue };
                 let scores = Scores::read(&run.join(scores))?;
-                baseline.add(&format!("{}/{}", case.id, entrant.id), &scores);
+                baseline.add(&format!("{}/{}", case.id, method.id), &scores);
             }
         }
         baseline.checked(&path)

@@ -190,7 +190,7 @@ impl Comparison {
         rows.sort_by(|a, b| a.id.cmp(&b.id));
         for row in rows {
             let cut = row.id.match_indices('/').nth(1).map_or(0, |(at, _)| at);
-            let (entrant, name) = (&row.id[..cut], row.id[cut..].trim_start_matches('/'));
+            let (method, name) = (&row.id[..cut], row.id[cut..].trim_start_matches('/'));
             let status = if row.verdict.is_regression() {
                 let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
                 status.set_type(row.verdict.word());
@@ -200,12 +200,12 @@ impl Comparison {
                 TestCaseStatus::success()
             };
             let mut case = TestCase::new(name, status);
-            case.set_classname(entrant);
+            case.set_classname(method);
             if !row.verdict.is_regression() {
                 case.set_system_out(format!("{}: {}", row.verdict.word(), row.change()));
             }
-            if suites.last().is_none_or(|suite| suite.name.as_str() != entrant) {
-                suites.push(TestSuite::new(entrant));
+            if suites.last().is_none_or(|suite| suite.name.as_str() != method) {
+                suites.push(TestSuite::new(method));
             }
             suites.iter_mut().last().map(|suite| suite.add_test_case(case));
         }

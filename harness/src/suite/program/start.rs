@@ -14,7 +14,7 @@ pub enum Start {
     Python(String),
 }
 
-/// A `[[solver]]` that names a program.
+/// A `[[method]]` that names a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// What is started.

@@ -1,4 +1,4 @@
-//! Turns a capture into maps, whichever way an entrant of the suite does it.
+//! Turns a capture into maps, whichever way a method of the suite does it.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -9,7 +9,7 @@ use indicatif::HumanDuration;
 use scoring::score;
 
 use super::error::RunError;
-use super::method::Method;
+use super::method::MethodKind;
 use super::preflight::Ready;
 use super::program::{Place, Usage};
 use super::sources::SOLVER_SOURCES;
@@ -26,12 +26,12 @@ pub(super) fn make_maps(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Option<Usage>, RunError> {
     let Place { capture, maps, .. } = place;
-    let Ready { entrant, files } = ready;
-    match (&entrant.method, files) {
-        (Method::Baseline { method, texture_size }, _) => {
-            method.make(capture, maps, *texture_size)?;
+    let Ready { method, files } = ready;
+    match (&method.kind, files) {
+        (MethodKind::Baseline { baseline, texture_size }, _) => {
+            baseline.make(capture, maps, *texture_size)?;
         }
-        (Method::Fields { config, backend }, _) => {
+        (MethodKind::Fields { config, backend }, _) => {
             let config = solver::Config::from_toml(config)?;
             let backend = backend.open()?;
             let capture = capture::Capture::open(capture)?;
@@ -39,10 +39,10 @@ pub(super) fn make_maps(
                 progress(step.iteration as u64, step.total as u64, &in_words(step));
             })?;
         }
-        (Method::Program(program), Some(files)) => {
-            return program.run(&entrant.id, files, &place, &tools.interrupt).map(Some);
+        (MethodKind::Program(program), Some(files)) => {
+            return program.run(&method.id, files, &place, &tools.interrupt).map(Some);
         }
-        (Method::Oracle | Method::Program(_), _) => score::oracle_maps(capture, maps)?,
+        (MethodKind::Oracle | MethodKind::Program(_), _) => score::oracle_maps(capture, maps)?,
     }
     Ok(None)
 }
