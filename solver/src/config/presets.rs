@@ -19,10 +19,7 @@ impl Config {
                 reflection_scale: 1.0,
             },
             rendering: RenderingConfig { fresnel: true, positive_albedo: false },
-            skin: SkinConfig {
-                f0: 0.04,
-                lobes: [0.15, 0.35].map(|roughness| Lobe { roughness, weight: 0.5 }),
-            },
+            skin: SkinConfig { f0: 0.04, roughness: [0.15, 0.35], weights: [0.5; 2] },
             view_weights: ViewWeightConfig {
                 depth: true,
                 depth_blur: 2.0,
