@@ -209,7 +209,7 @@ pub struct NormalisationConfig {
     pub specular_pooling: f32,
 }
 
-/// What a maps folder holds besides the maps, for whoever wants to see how they came about.
+/// Records in a maps folder besides the maps, for whoever wants to see how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordConfig {

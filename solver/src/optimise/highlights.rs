@@ -96,7 +96,7 @@ pub(super) fn highlights(
     Ok(0)
 }
 
-/// What is known of a light, and of skin's reflectance.
+/// A light that is known, and skin's reflectance.
 #[derive(Clone, Copy)]
 pub struct Found<'a> {
     /// Logarithm of the light, R, G, B per cell.

@@ -11,7 +11,7 @@ use crate::transport::CHANNELS;
 pub(super) struct DiffuseReflectance {
     pub diffuse: Vec<f32>,
     pub scale: f32,
-    /// Of every texel, 0 to 1.
+    /// Confidence in every texel, 0 to 1.
     pub confidence: Vec<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! What explicit transport found: light, shading, albedo, and what all views share of the highlights.
+//! Results of explicit transport: light, shading, albedo, and the specular floor.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub(super) struct Lighting {
     /// See [`crate::config::TransportConfig::even_contrast`].
     even_contrast: f32,
     pub setup: TransportSetup,
-    /// What is left in the record.
+    /// The light for the record.
     pub light: RecoveredLight,
 }
 

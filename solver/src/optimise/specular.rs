@@ -16,7 +16,7 @@ pub struct Specular<'a> {
     config: &'a Config,
     samples: &'a Samples,
     name: String,
-    /// What the diffuse layer leaves of the target (3 rows), F S_s, and the weight.
+    /// The target less the diffuse layer (3 rows), F S_s, and the weight.
     rest: Planes,
     by_specular: Adam,
 }

@@ -68,13 +68,13 @@ pub trait Stage {
     fn job(&self) -> Option<Job<'_>> {
         None
     }
-    /// What moves, in the order that the job says.
+    /// The variables, in the order that the job says.
     fn variables<'a>(&'a mut self, _state: &'a mut State) -> Vec<Variable<'a>> {
         vec![]
     }
 }
 
-/// What a stage keeps from step to step besides the state, in a fixed order.
+/// The memory of a stage from step to step besides the state, in a fixed order.
 #[derive(Serialize)]
 pub struct Memory<'a> {
     /// Its optimisers.
@@ -84,7 +84,7 @@ pub struct Memory<'a> {
 }
 
 impl<'a> Memory<'a> {
-    /// Of a stage without parameters of its own.
+    /// The memory of a stage without parameters of its own.
     pub fn new(optimisers: Vec<&'a mut Adam>) -> Self {
         Self { optimisers, own: vec![] }
     }

@@ -64,7 +64,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         self.cut.as_ref()
     }
 
-    /// What has been noted, and the wall times.
+    /// The log, and the wall times.
     pub fn into_log(self) -> (Vec<StageRecord>, Timing) {
         let seconds = self.log.seconds.into_iter().map(|(what, seconds)| (what, seconds.into()));
         (self.log.stages, Timing { seconds: seconds.collect() })

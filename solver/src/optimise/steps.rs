@@ -91,7 +91,7 @@ impl Step {
         }
     }
 
-    /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
+    /// Its cost, measured on two cores with AVX-512; see [`super::clock`].
     pub fn work(&self, context: &SolveContext) -> Work {
         let config = context.config;
         let square = |side: usize| (side * side) as f64;
@@ -229,7 +229,7 @@ impl Step {
 }
 
 impl Step {
-    /// What the step has changed, for the record.
+    /// The textures that the step has changed, for the record.
     pub fn snapshot(&self, context: &SolveContext, solve: &Solve) -> Option<Snapshot> {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let sharp = || context.fine().deviation.textures(deviation).sharp;

@@ -13,7 +13,7 @@ use crate::transport::CHANNELS;
 struct Sums {
     count: f64,
     weight: f64,
-    /// Of every channel: what is predicted, what is shown, and their products.
+    /// Moments of predicted and shown highlights, channel by channel.
     moments: [Moments; CHANNELS],
     view: u32,
     /// Whether more than one view sees it.
@@ -82,7 +82,7 @@ pub(super) fn tint(
     if sound { slopes.map(|slope| slope as f32) } else { [1.0; CHANNELS] }
 }
 
-/// What a full sensor has left in the pictures: their largest value, if it occurs more than once.
+/// The value of a full sensor in the pictures: their largest one, if it occurs more than once.
 fn full(samples: &Samples) -> f32 {
     let values = || (0..samples.len()).flat_map(|i| samples.target.sample::<CHANNELS>(i, 0));
     let largest = values().fold(f32::MIN, f32::max);

@@ -6,7 +6,7 @@ use crate::table::Column;
 
 /// Which light a figure is of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Lit {
+pub(super) enum RelitIn {
     /// None: of a map, or of a view that the method made itself.
     No,
     /// The light of the capture.
@@ -26,7 +26,7 @@ pub(super) struct Figure {
     pub metric: &'static str,
     pub scale: &'static str,
     pub region: &'static str,
-    pub lit: Lit,
+    pub relit_in: RelitIn,
     /// The subject of the trivial answer that stands beside it.
     pub against: Option<&'static str>,
     pub better: Direction,
@@ -47,7 +47,7 @@ const PLAIN: Figure = Figure {
     metric: "psnr_srgb",
     scale: "none",
     region: "coverage-e5",
-    lit: Lit::No,
+    relit_in: RelitIn::No,
     against: None,
     better: Direction::Higher,
     decimals: 1,
@@ -96,7 +96,7 @@ const PICTURES: [Figure; 3] = [
         subject: "relit",
         scale: "global",
         region: "mask-e5",
-        lit: Lit::Own,
+        relit_in: RelitIn::Own,
         ..PLAIN
     },
     Figure {
@@ -105,7 +105,7 @@ const PICTURES: [Figure; 3] = [
         subject: "relit",
         scale: "global",
         region: "mask-e5",
-        lit: Lit::Others,
+        relit_in: RelitIn::Others,
         ..PLAIN
     },
 ];
@@ -194,10 +194,10 @@ pub(super) struct Found {
 impl Figure {
     /// The row of the scores, as `unshade compare` names it.
     pub fn row_id(&self) -> String {
-        let light = match self.lit {
-            Lit::No => "",
-            Lit::Own => "/<own light>",
-            Lit::Others => "/<other lights, mean>",
+        let light = match self.relit_in {
+            RelitIn::No => "",
+            RelitIn::Own => "/<own light>",
+            RelitIn::Others => "/<other lights, mean>",
         };
         format!("{}{light}/{}@{}:{}", self.subject, self.metric, self.region, self.scale)
     }
@@ -205,14 +205,14 @@ impl Figure {
     /// Looks the figure up; none if the method has no such score.
     pub fn find(&self, column: &Column, own: &str) -> Option<Found> {
         let of = |subject: &str, light| column.find(subject, light, self.metric, self.scale);
-        match self.lit {
-            Lit::No | Lit::Own => {
-                let light = (self.lit == Lit::Own).then_some(own);
+        match self.relit_in {
+            RelitIn::No | RelitIn::Own => {
+                let light = (self.relit_in == RelitIn::Own).then_some(own);
                 let row = of(self.subject, light)?;
                 let against = self.against.and_then(|subject| of(subject, light)?.value);
                 Some(Found { value: row.value?, against, floor: row.floor })
             }
-            Lit::Others => {
+            RelitIn::Others => {
                 let others = others(column, own);
                 let rows = others.iter().filter_map(|light| of(self.subject, Some(light)));
                 let rows: Vec<_> = rows.collect();

@@ -2,7 +2,7 @@
 
 use scoring::metrics::Metric;
 
-use super::figures::{Figure, Found, Lit, TABLES, mean, others};
+use super::figures::{Figure, Found, RelitIn, TABLES, mean, others};
 use super::finished::Finished;
 use super::markdown::{escape, head, row};
 use super::setting;
@@ -110,7 +110,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
 
 /// The name of a column; that of the other lights says which they are.
 fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
-    if figure.lit != Lit::Others {
+    if figure.relit_in != RelitIn::Others {
         return figure.name.to_owned();
     }
     let mut lights: Vec<&str> = lines
