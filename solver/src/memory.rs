@@ -61,7 +61,7 @@ const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
 const CHART: f64 = 0.8;
 
-/// What a solve works on, and the memory that it takes.
+/// The size of a solve, and the memory that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Training views.
@@ -72,7 +72,7 @@ pub struct Estimate {
     pub texture_size: usize,
     /// Bytes at the peak.
     pub peak: u64,
-    /// Of these, what the open capture takes already.
+    /// Bytes of these that the open capture takes already.
     pub taken: u64,
 }
 
@@ -84,7 +84,7 @@ pub struct Estimate {
     bytes(*needed), bytes(*available)
 )]
 pub struct NotEnoughMemory {
-    /// What was to be solved.
+    /// The size of the solve.
     pub estimate: Estimate,
     /// Bytes on top of what is taken already.
     pub needed: u64,
@@ -93,7 +93,7 @@ pub struct NotEnoughMemory {
 }
 
 impl Estimate {
-    /// Of a solve on the processor.
+    /// The estimate of a solve on the processor.
     pub fn new(capture: &Capture, config: &Config) -> Self {
         let views = &capture.train;
         let frame: usize = views.iter().map(|view| view.mask.data.len()).sum();

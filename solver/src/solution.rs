@@ -1,4 +1,4 @@
-//! What a solve leaves behind: maps, withheld views, the record, and how long it took.
+//! Results of a solve: maps, withheld views, the record, and times.
 
 use std::path::{Path, PathBuf};
 
@@ -73,9 +73,9 @@ impl ViewLayers {
 pub struct Record {
     /// "unshade".
     pub solver: String,
-    /// Of this crate.
+    /// Version of this crate.
     pub version: String,
-    /// Of the networks' initial weights.
+    /// Seed of the networks' initial weights.
     pub seed: u64,
     /// Every value of the configuration.
     pub config: Config,
@@ -93,9 +93,9 @@ pub struct Record {
     pub texture_size: usize,
     /// Pixels of the fine-tuning.
     pub samples: usize,
-    /// What the solved diffuse albedo was multiplied with.
+    /// Factor on the solved diffuse albedo.
     pub diffuse_scale: f32,
-    /// What the solved specular albedo was multiplied with.
+    /// Factor on the solved specular albedo.
     pub specular_scale: f32,
     /// The stages in their order.
     pub stages: Vec<StageRecord>,

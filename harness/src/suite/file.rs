@@ -52,6 +52,10 @@ impl Suite {
         let path = &scene::typed(path, Kind::Suite)?;
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
+        if table.contains_key("solver") {
+            let reason = "has been renamed; write [[method]] tables";
+            return Err(SceneError::value(path, "solver", reason));
+        }
         scene::check_keys(path, &table, &KEYS)?;
         let name = text_of(path, &table, "name")?;
         let photographed = cases::photographed(path, &table)?;
@@ -324,6 +328,10 @@ mod tests {
             ("name = \"m\"\n", "format: is missing; write format = 1"),
             (&*format!("{head}solvers = 1\n"), "solvers: is unknown; there are"),
             (head, "method: is missing; write [[method]] tables"),
+            (
+                &*format!("{head}solver = []\n"),
+                "suite.toml:4: solver: has been renamed; write [[method]] tables",
+            ),
             (&*format!("{head}[[method]]\nname = \"a b\"\n"), "cannot name a folder"),
             (
                 &*format!("{head}[[method]]\nname = \"a\"\nthread = 2\n"),

@@ -8,7 +8,7 @@ use super::cpu::Cpu;
 use super::error::BackendError;
 use super::gpu::{Adapter, Gpu};
 
-/// What the user asks for.
+/// The backend that the user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// A real GPU if there is one, else the processor; never a software adapter.

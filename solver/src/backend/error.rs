@@ -21,7 +21,7 @@ pub enum BackendError {
         listed(there)
     )]
     NotThere {
-        /// What was asked for.
+        /// The name that was asked for.
         named: String,
         /// Adapters that there are.
         there: Vec<String>,
@@ -31,7 +31,7 @@ pub enum BackendError {
     Refused {
         /// The adapter.
         name: String,
-        /// What the driver said.
+        /// The driver's message.
         reason: String,
     },
     /// No such backend.

@@ -49,7 +49,7 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> JointGradient;
 
-    /// The same with the albedos of a texture, and gradients by its texels.
+    /// [`Self::joint`] with the albedos of a texture, and gradients by its texels.
     fn joint_textures(
         &self,
         networks: &Networks,
@@ -79,8 +79,8 @@ pub trait Backend: Send + Sync {
         albedo: &Planes,
     ) -> (f64, Planes);
 
-    /// The same with the directions and the specular albedo of textures, and gradients by their texels
-    /// ([`ROWS`] values each). The albedo's last row is not read.
+    /// [`Self::direction_gradient`] with the directions and the specular albedo of textures, and gradients by their
+    /// texels ([`ROWS`] values each). The albedo's last row is not read.
     fn deviation_gradient(&self, normals: &TexturedNormals) -> (f64, Vec<f32>) {
         let TexturedNormals { networks, samples, light, albedo, scale, textures } = *normals;
         let bent = textures.sample(&samples.taps);
@@ -128,7 +128,7 @@ pub trait Backend: Send + Sync {
     }
 }
 
-/// What [`Backend::deviation_gradient`] works on.
+/// Inputs of [`Backend::deviation_gradient`].
 #[derive(Clone, Copy)]
 pub struct TexturedNormals<'a> {
     /// Frozen.
@@ -145,7 +145,7 @@ pub struct TexturedNormals<'a> {
     pub textures: &'a PackedDeviations,
 }
 
-/// What [`Backend::joint`] finds.
+/// Loss and gradients by [`Backend::joint`].
 #[derive(Clone, Debug)]
 pub struct JointGradient {
     /// The data term.
@@ -156,7 +156,7 @@ pub struct JointGradient {
     pub albedo: Planes,
 }
 
-/// What [`Backend::joint_textures`] finds.
+/// Loss and gradients by [`Backend::joint_textures`].
 #[derive(Clone, Debug)]
 pub struct TexturedJointGradient {
     /// The data term.

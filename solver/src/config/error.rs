@@ -1,4 +1,4 @@
-//! What is wrong with a configuration.
+//! Errors of configurations.
 
 /// A configuration that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -24,9 +24,9 @@ pub enum ConfigError {
     Range {
         /// Dotted key.
         key: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What is allowed.
+        /// The range, in words.
         range: &'static str,
     },
 }

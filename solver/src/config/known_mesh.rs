@@ -149,14 +149,14 @@ pub struct HeightConfig {
     pub tolerance: f64,
     /// Residuals below this radiance count squared.
     pub residual_floor: f32,
-    /// How much skin's relief usually bends normals, radians. What the model leaves beyond what this and
-    /// `usual_albedo_detail` explain is its own error, and counts the less.
+    /// How much skin's relief usually turns normals away from the mesh's, radians. Residuals beyond what this
+    /// and `usual_albedo_detail` explain are the model's own error, and count the less.
     pub usual_deviation: f32,
     /// How much the detail of skin's albedo usually amounts to, relative.
     pub usual_albedo_detail: f32,
     /// Standard deviation of the neighbourhood in which residuals are compared with that, pixels.
     pub neighbourhood: f32,
-    /// Texels in which a unit step of the height would bend the normal more than this have no height: the chart
+    /// Texels in which a unit step of the height would turn the normal by more than this have no height: the chart
     /// is squeezed there.
     pub steepest: f32,
     /// Darkest albedo that a logarithm is taken of.

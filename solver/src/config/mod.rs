@@ -30,7 +30,7 @@ pub struct Config {
     pub skin: SkinConfig,
     /// How much each pixel counts.
     pub view_weights: ViewWeightConfig,
-    /// What the textures start from.
+    /// The initial textures.
     pub initialisation: InitialisationConfig,
     /// Regions of the face without labels.
     pub colour_regions: ColourRegionConfig,
@@ -46,9 +46,13 @@ pub struct Config {
     pub transport: TransportConfig,
     /// Normals from one height texture.
     pub height: HeightConfig,
+<<<<<<< HEAD
     /// How much regions mirror.
     pub reflectance: ReflectanceConfig,
     /// What is kept for the report.
+=======
+    /// Records that are kept for the report.
+>>>>>>> b/main
     pub records: RecordConfig,
 }
 

@@ -21,10 +21,9 @@ impl SkinConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         let open = |x: f32| x > 0.0 && x < 1.0;
         range("skin.f0", self.f0, open, "above 0, below 1")?;
-        self.lobes.iter().try_for_each(|lobe| {
-            let rough = |x: f32| x > 0.0 && x <= 1.0;
-            range("skin.lobes.roughness", lobe.roughness, rough, "above 0, to 1")?;
-            range("skin.lobes.weight", lobe.weight, |x| (0.0..=1.0).contains(&x), "0 to 1")
+        self.lobes().into_iter().try_for_each(|(roughness, weight)| {
+            range("skin.roughness", roughness, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
+            range("skin.weights", weight, |x| (0.0..=1.0).contains(&x), "0 to 1")
         })
     }
 }

@@ -5,15 +5,21 @@ use toml::{Table, Value};
 use super::error::ConfigError;
 
 /// Old and new dotted key.
-pub(super) const RENAMED: &[(&str, &str)] =
-    &[("rendering.f0", "skin.f0"), ("initialisation.colour_regions", "colour_regions.count")];
+pub(super) const RENAMED: &[(&str, &str)] = &[
+    ("rendering.f0", "skin.f0"),
+    ("initialisation.colour_regions", "colour_regions.count"),
+    ("transport.veil", "transport.specular_floor"),
+    ("transport.hold", "transport.albedo_frozen_steps"),
+    ("height.texture_share", "height.texture_scale"),
+    ("adam.final_share", "adam.final_decay"),
+];
 
 /// Refuses what was renamed, with its new name.
 pub(super) fn refuse_renamed(given: &Table) -> Result<(), ConfigError> {
     let written = |(old, _): &&(&str, &str)| {
-        let (table, key) = old.split_once('.').unwrap_or((old, ""));
-        let found = given.get(table).and_then(Value::as_table);
-        if key.is_empty() { found.is_some() } else { found.is_some_and(|t| t.contains_key(key)) }
+        old.split_once('.').is_some_and(|(table, key)| {
+            given.get(table).and_then(Value::as_table).is_some_and(|t| t.contains_key(key))
+        })
     };
     RENAMED
         .iter()

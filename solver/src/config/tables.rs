@@ -40,18 +40,18 @@ pub struct RenderingConfig {
 pub struct SkinConfig {
     /// Reflectance at normal incidence in Schlick's factor, equation (1); 0.04.
     pub f0: f32,
-    /// Two lobes of microfacets: fits of skin need a narrow and a wide one (Ghosh et al. 2008). Not in the paper.
-    pub lobes: [Lobe; 2],
+    /// GGX alphas of two lobes: fits of skin need a narrow and a wide one (Ghosh et al. 2008); 0.15 and 0.35, after
+    /// the shaders of Digital Emily 2. Not in the paper.
+    pub roughness: [f32; 2],
+    /// Their parts of the reflection; equal there.
+    pub weights: [f32; 2],
 }
 
-/// A GGX lobe.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Lobe {
-    /// GGX alpha; 0.15 and 0.35, after the shaders of Digital Emily 2.
-    pub roughness: f32,
-    /// Part of the reflection; equal there.
-    pub weight: f32,
+impl SkinConfig {
+    /// Roughness and weight of each lobe.
+    pub(crate) fn lobes(&self) -> [(f32, f32); 2] {
+        std::array::from_fn(|lobe| (self.roughness[lobe], self.weights[lobe]))
+    }
 }
 
 /// Section 5.3: cosine x inverse blurred depth derivative, scaled to mean 1 over all pixels.
@@ -188,7 +188,7 @@ pub struct AdamConfig {
     pub beta2: f32,
     /// Added to the root of the second moment; 1e-8.
     pub epsilon: f32,
-    /// Share of the learning rates at the end of a stage, reached geometrically over its last 40 %;
+    /// Factor on the learning rates at the end of a stage, reached geometrically over its last 40 %;
     /// the paper keeps them constant.
     pub final_decay: f32,
 }
@@ -213,6 +213,7 @@ pub struct NormalisationConfig {
     pub specular_pooling: f32,
 }
 
+<<<<<<< HEAD
 /// How much regions mirror, by their highlights; not in the paper. Needs regions and
 /// [`TransportConfig::distance`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,6 +236,9 @@ pub struct ReflectanceConfig {
 }
 
 /// What a maps folder holds besides the maps, for whoever wants to see how they came about.
+=======
+/// Records in a maps folder besides the maps, for whoever wants to see how they came about.
+>>>>>>> b/main
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordConfig {

@@ -13,7 +13,7 @@ pub struct Blur {
     kernel: Vec<f32>,
     /// One over the sum of the weights inside the texture, by column (and by row).
     norms: Vec<f32>,
-    /// The same for every value of a row.
+    /// `norms`, repeated for every value of a row.
     scales: Vec<f32>,
 }
 
@@ -36,7 +36,7 @@ impl Blur {
         &self.kernel
     }
 
-    /// Of every column (and row), one over the sum of the weights inside the texture.
+    /// One over the sum of the weights inside the texture, for every column (and row).
     pub(crate) fn norms(&self) -> &[f32] {
         &self.norms
     }

@@ -28,13 +28,13 @@ pub struct Deviation {
     size: usize,
     narrow: Blur,
     wide: Option<Blur>,
-    /// Of d, with the specular albedo beside it.
+    /// The blur of d, with the specular albedo beside it.
     blur: Pyramid,
     /// How directions are scaled.
     pub scale: DirectionScale,
 }
 
-/// What [`Deviation`] is made of.
+/// The parts of a [`Deviation`].
 pub(crate) struct Parts<'a> {
     pub range: Option<f32>,
     pub narrow: &'a Blur,
@@ -84,7 +84,7 @@ impl Deviation {
         DeviationTextures { sharp, blurred }
     }
 
-    /// What samples see of a deviation texture and the specular albedo.
+    /// d and its blur beside the specular albedo, packed as samples read them.
     pub fn packed(&self, deviation: &[f32], specular: &[f32]) -> PackedDeviations {
         let (band, size, range) = (self.band(deviation), self.size, self.range);
         let task = |row: usize, sharp: &mut [f32]| {

@@ -1,4 +1,5 @@
-//! The textures that bend the normals, and the specular albedo, as samples see them; and gradients by them.
+//! The textures by which normals deviate from the mesh's, and the specular albedo, as samples see them; and
+//! gradients by them.
 
 use super::planes::{Planes, Row};
 use super::taps::Taps;
@@ -20,7 +21,7 @@ pub struct DeviationTextures {
     pub blurred: Vec<f32>,
 }
 
-/// The same in texels of four values, which samples read as whole vectors.
+/// [`DeviationTextures`] in texels of four values, which samples read as whole vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedDeviations {
     /// d, and the specular albedo.

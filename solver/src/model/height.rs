@@ -1,4 +1,4 @@
-//! Relief as a height over the mesh: integrable by construction.
+//! Heights over the mesh: integrable by construction.
 //!
 //! A surface p + h n has, to first order in h, the normal n - grad h, with the gradient taken in
 //! the tangent plane. On the chart grad h = E0 dh/dx + E1 dh/dy, with E the dual basis of the
@@ -12,7 +12,7 @@ use capture::gbuffer::Atlas;
 /// Smallest squared area of a texel, over that of a typical one.
 const LEAST_AREA: f32 = 1e-4;
 
-/// What turns a height per texel, in lengths of a typical texel, into deviations of the normal.
+/// The linear map from a height per texel, in lengths of a typical texel, to deviations of the normal.
 pub struct HeightField {
     size: usize,
     /// Deviation by the height's change to the right and downwards.
@@ -21,7 +21,7 @@ pub struct HeightField {
 }
 
 impl HeightField {
-    /// The relief of a chart. Texels in which a unit step of the height would bend the normal by more than
+    /// The heights of a chart. Texels in which a unit step of the height would turn the normal by more than
     /// `steepest` hold none.
     pub fn new(atlas: &Atlas, steepest: f32) -> Self {
         let size = atlas.size;

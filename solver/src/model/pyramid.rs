@@ -17,7 +17,7 @@ use crate::simd::widened;
 
 /// Texels of the blur's standard deviation, at least, where it is convolved on a coarser texture.
 const LEAST_SIGMA: f32 = 2.0;
-/// What halving and interpolating once blur by: squared texels of the finer texture.
+/// Variance of the blur by halving and interpolating once, squared texels of the finer texture.
 const VARIANCE: f32 = 1.5;
 /// Weights of the nearer and the further texel, where a texture is interpolated to twice its side.
 const NEAR: f32 = 0.75;
@@ -32,11 +32,11 @@ pub struct Pyramid {
     size: usize,
     /// How often a texture is halved before it is convolved.
     levels: usize,
-    /// Of the coarsest level, from the centre outwards.
+    /// Weights of the coarsest level's blur, from the centre outwards.
     kernel: Vec<f32>,
     /// One over the sum of K's weights, by column (and by row).
     norms: Vec<f32>,
-    /// The same for every value of a row.
+    /// `norms`, repeated for every value of a row.
     scales: Vec<f32>,
 }
 
@@ -97,7 +97,7 @@ impl Pyramid {
         &self.kernel
     }
 
-    /// Of every column (and row), one over the sum of the weights inside the texture.
+    /// One over the sum of the weights inside the texture, for every column (and row).
     pub(crate) fn norms(&self) -> &[f32] {
         &self.norms
     }
@@ -138,7 +138,7 @@ impl Pyramid {
     }
 }
 
-/// What is done to the values of a row.
+/// The blur of one row's values.
 type After<'a> = dyn Fn(usize, &mut [f32]) + Sync + 'a;
 
 /// The coarse row that a row lies in, and the nearest other one, of `count`; beyond the border, the last one.

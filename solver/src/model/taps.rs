@@ -70,7 +70,7 @@ impl Taps {
         &self.cell
     }
 
-    /// Of every sample, its place between that texel's centre and the next ones', right and down.
+    /// The place of every sample between that texel's centre and the next ones', right and down; 0 to 1.
     pub fn fractions(&self) -> &[[f32; 2]] {
         &self.fraction
     }

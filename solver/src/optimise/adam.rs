@@ -102,7 +102,7 @@ impl Adam {
     }
 }
 
-/// What a step does to every element.
+/// The factors of a step, alike for all elements.
 #[derive(Clone, Copy)]
 struct Factors {
     beta1: f32,

@@ -108,7 +108,7 @@ pub(super) struct Open {
 /// A file that is not of this solve.
 struct Stale;
 
-/// What a stage keeps from step to step.
+/// The memory of a stage from step to step.
 #[derive(Deserialize)]
 pub(super) struct StageMemory {
     /// Steps of the solve that were finished when the stage began.
@@ -156,7 +156,7 @@ impl StageMemory {
 }
 
 impl Open {
-    /// What an earlier run left, if it is of this solve.
+    /// The checkpoint of an earlier run, if it is of this solve.
     pub fn read(&mut self) -> Option<(Log, Solve, Option<StageMemory>)> {
         let kept = self.read_file::<(Log, Solve)>(SOLVE);
         let stage = self.read_file::<StageMemory>(STAGE);

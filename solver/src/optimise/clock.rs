@@ -11,7 +11,7 @@ const PRIOR: f64 = 0.2;
 /// Steps after which a stage goes by its own pace.
 const SETTLED: usize = 5;
 
-/// What a part of the solve costs on the machine where it was measured.
+/// The cost of a part of the solve on the machine where it was measured.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     /// Seconds before its first step.
@@ -35,7 +35,7 @@ pub(super) struct Clock {
     /// Its steps that are done, and how many of these this process did.
     done: usize,
     own: usize,
-    /// Of all before it, as far as this process did them.
+    /// The cost of all before it, as far as this process did them.
     expected: f64,
     start: Instant,
     /// When the first step of the part at work was done.

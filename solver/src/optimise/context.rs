@@ -1,4 +1,4 @@
-//! What the steps of a solve work on. All of it follows from the capture and the configuration, so
+//! The inputs of a solve's steps. All of it follows from the capture and the configuration, so
 //! that none of it is in a checkpoint; it is made when a step first asks for it.
 
 use std::cell::OnceCell;
@@ -18,15 +18,19 @@ use crate::model::samples::{SampleSpace, Samples};
 use crate::semantic::{self, colours::ColourRegions};
 use crate::transport::{Beside, CHANNELS, LUMINANCE, Sky, Transport};
 
-/// The place where a solve happens.
+/// Capture, configuration, backend, and what steps share that follows from them.
 pub(super) struct SolveContext<'a> {
     pub backend: &'a dyn Backend,
     pub capture: &'a Capture,
     pub config: &'a Config,
     pub space: SampleSpace,
+<<<<<<< HEAD
     /// What the pictures are multiplied with, so that no rate or weight depends on their exposure.
     pub gain: f32,
     /// Of the training views, in full resolution.
+=======
+    /// G-buffers of the training views, in full resolution.
+>>>>>>> b/main
     pub gbuffers: Vec<GBuffer>,
     /// Their samples.
     pub pixels: usize,
@@ -40,12 +44,12 @@ pub(super) struct SolveContext<'a> {
     colour_regions: OnceCell<Option<ColourRegions>>,
 }
 
-/// What rays are cast for.
+/// Where the light is, and what bounces: what a transport is cast for.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct TransportSetup {
     /// Inverse distance of the light, per metre.
     pub nearness: f32,
-    /// What light bounces off: the reflectance of most of the face.
+    /// Reflectance, 0 to 1, that light bounces off: that of most of the face.
     pub bounce_albedo: f32,
 }
 
@@ -89,7 +93,7 @@ impl<'a> SolveContext<'a> {
         self.coarse.get_or_init(|| self.pictures().samples(&self.space, size))
     }
 
-    /// What the fine-tuning works on.
+    /// Samples and deviation of the fine-tuning.
     pub fn fine(&self) -> &Fine {
         self.fine.get_or_init(|| Fine {
             samples: self.samples(self.size),
@@ -148,7 +152,7 @@ impl<'a> SolveContext<'a> {
         self.transport.take();
     }
 
-    /// What takes the place of labels in a capture that has none, if the configuration says so.
+    /// Regions by colour in a capture without labels, if the configuration says so.
     fn colour_regions(&self) -> Option<&ColourRegions> {
         let views = &self.capture.train;
         let find = || {
@@ -178,13 +182,13 @@ impl<'a> SolveContext<'a> {
         labels.iter().any(|region| *region != 0).then_some(labels)
     }
 
-    /// The same of a texture of side `size`.
+    /// [`Self::regions`] of a texture of side `size`.
     pub fn regions_on(&self, size: usize) -> Option<Vec<u8>> {
         let projections = Projection::of_views(&self.capture.train, &self.gbuffers);
         self.regions(&Atlas::new(&self.capture.mesh, size), &projections)
     }
 
-    /// What the textures start from.
+    /// The initial textures.
     pub fn initial_state(&self) -> State {
         let config = self.config;
         let size = config.warm_up.texture_size;

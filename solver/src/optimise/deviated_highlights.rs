@@ -10,7 +10,7 @@ use crate::model::samples::Samples;
 use crate::model::texture::resample;
 use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights};
 
-/// What makes them: the light, and the specular albedo of the samples.
+/// The light that makes them, and the specular albedo of the samples.
 pub(super) struct DeviatedHighlights<'a> {
     backend: &'a dyn Backend,
     skin_highlights: SkinHighlights<'a>,

@@ -26,7 +26,7 @@ use crate::model::planes::Planes;
 use crate::model::texture::resample;
 use crate::solution::{Record, Solution, ViewLayers};
 
-/// What this takes.
+/// The work that this takes.
 pub(super) fn finishing(context: &SolveContext) -> Work {
     let side = map_size(context.config.fine_tuning.texture_size, context.size);
     Work { preparation: 1e-6 * (side * side + context.pixels) as f64, ..Work::default() }

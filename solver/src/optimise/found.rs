@@ -1,4 +1,4 @@
-//! What a solve has found so far.
+//! The results of a solve so far.
 
 use capture::CaptureError;
 use serde::{Deserialize, Serialize};
@@ -11,13 +11,13 @@ use super::lighting::Lighting;
 use super::snapshot::Snapshot;
 use super::stage::State;
 
-/// What a solve has found so far: with the capture and the configuration, all that is needed to go
+/// The results of a solve so far: with the capture and the configuration, all that is needed to go
 /// on from the end of a step.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Solve {
     /// Steps that are finished.
     pub finished: usize,
-    /// What the textures start from.
+    /// The initial textures.
     pub initial: State,
     /// The best of the starts so far, with which the warm-up goes on.
     pub best: Option<Start>,

@@ -1,4 +1,4 @@
-//! Relief by Gauss-Newton: one height per texel, so that what bends the normals is integrable.
+//! Heights by Gauss-Newton: one per texel, so that the deviation of the normals is integrable.
 //!
 //! With light, specular albedo and the coarse diffuse albedo held fixed, the pictures are linear in
 //! small changes of the normals and of the albedo. How shading and highlights change with the normal is
@@ -6,19 +6,18 @@
 //! n_d the same blurred) and damped relative changes of the diffuse albedo; L1 by reweighting, conjugate
 //! gradients on the normal equations; linearised anew on every texture, coarse to fine.
 
+mod conjugate_gradients;
+
 use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::deviated_highlights::DeviatedHighlights;
-use super::deviation_penalty::deviation_penalty;
 use super::error::SolveError;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
-use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained, normal_block, transposed};
+use super::linear_colour::{SLOPES, UNKNOWNS, believed, explained};
 use super::nearby::Nearby;
 use super::stage::State;
-use super::vectors::{add, add_scaled, dot};
-use crate::backend::resident::NormalEquations;
+use super::vectors::add;
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, HeightConfig};
 use crate::model::blur::Blur;
@@ -29,9 +28,6 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, part, resample};
 use crate::transport::CHANNELS;
-
-/// Steps that a device takes between two words with the caller.
-const SUBMITTED: usize = 5;
 
 /// The deviations among the sampled unknowns.
 fn deviations(unknowns: &Planes) -> Deviations<'_> {
@@ -54,7 +50,7 @@ pub struct HeightSolve<'a> {
     light: Planes,
     /// S_d under explicit transport, and how it changes with the normal.
     lighting: Option<Planes>,
-    /// What makes the highlights; else the networks do.
+    /// Highlights by the light; without them the networks'.
     highlights: Option<DeviatedHighlights<'a>>,
     /// Weight of the squared deviation in this light.
     flatness: f32,
@@ -300,107 +296,5 @@ impl<'a> HeightSolve<'a> {
             .map(|i| f64::from(self.samples.weight.get(0, i) * size(i)))
             .sum();
         (weight, sum / self.samples.len().max(1) as f64)
-    }
-
-    fn conjugate_gradients(
-        &self,
-        slopes: &Planes,
-        weight: &Planes,
-        target: &Planes,
-        x: &mut [f32],
-        residual: f64,
-        step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
-    ) -> Result<(), SolveError> {
-        let taps = &self.samples.taps;
-        let texels = self.size * self.size;
-        let doubt = self.config.diffuse_doubt;
-        // One pass over the samples: 16 values and the place of each, 76 bytes.
-        let normal = |x: &[f32]| {
-            let (height, albedo) = x.split_at(texels);
-            let deviation = self.field.deviation(height);
-            let (gathered, _) =
-                taps.exchange(&self.texture(&deviation, albedo), |block, q, out, _| {
-                    normal_block(slopes.rows_of(block), weight.rows_of(block), doubt, q, out);
-                });
-            let penalty =
-                deviation_penalty(&deviation, self.size, self.flatness, self.config.smoothness);
-            let mut out = self.carried(&gathered, Some(&penalty));
-            let (by_height, by_albedo) = out.split_at_mut(texels);
-            add_scaled(by_height, height, self.config.unseen_damping);
-            add_scaled(by_albedo, albedo, self.config.albedo_damping);
-            out
-        };
-        let rows = Planes::from_fn(self.samples.len(), |i| {
-            let (slopes, target): ([f32; SLOPES], [f32; 3]) =
-                (slopes.sample(i, 0), target.sample(i, 0));
-            transposed(&slopes, believed(target, &slopes, doubt).map(|z| weight.get(0, i) * z))
-        });
-        let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
-        drop(rows);
-        // Steps that were lost with a device are heard of once.
-        let heard = match self.on_device(slopes, weight, &goal, x, residual, step) {
-            Ok(done) => return done,
-            Err(heard) => heard,
-        };
-        let start = normal(x);
-        let mut rest: Vec<f32> = goal.iter().zip(&start).map(|(b, ax)| b - ax).collect();
-        let mut direction = rest.clone();
-        let enough = self.config.tolerance * dot(&goal, &goal);
-        let mut energy = dot(&rest, &rest);
-        for number in 0..self.steps {
-            if number >= heard {
-                step(residual)?;
-            }
-            if energy <= enough {
-                continue;
-            }
-            let image = normal(&direction);
-            let length = (energy / dot(&direction, &image)) as f32;
-            add_scaled(x, &direction, length);
-            add_scaled(&mut rest, &image, -length);
-            let next = dot(&rest, &rest);
-            let turn = (next / energy) as f32;
-            direction.par_iter_mut().zip(&rest).for_each(|(d, r)| *d = r + turn * *d);
-            energy = next;
-        }
-        Ok(())
-    }
-
-    /// The same steps on a device. If there is none or it fails, the unknowns are as they were, and the error
-    /// is the number of steps that `step` has heard of.
-    fn on_device(
-        &self,
-        slopes: &Planes,
-        weight: &Planes,
-        goal: &[f32],
-        x: &mut [f32],
-        residual: f64,
-        step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
-    ) -> Result<Result<(), SolveError>, usize> {
-        let problem = NormalEquations {
-            taps: &self.samples.taps,
-            slopes,
-            weight,
-            goal,
-            x,
-            basis: self.field.basis(),
-            blur: &self.blur,
-            flatness: self.flatness,
-            smoothness: self.config.smoothness,
-            rest: self.config.unseen_damping,
-            damping: self.config.albedo_damping,
-            doubt: self.config.diffuse_doubt,
-            enough: self.config.tolerance,
-        };
-        let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
-        let (mut heard, mut told) = (0, Ok(()));
-        while heard < self.steps && told.is_ok() {
-            let batch = SUBMITTED.min(self.steps - heard);
-            told = (0..batch).try_for_each(|_| step(residual));
-            heard += batch;
-            descent.steps(batch).map_err(|_| heard)?;
-        }
-        x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
-        Ok(told)
     }
 }

@@ -104,6 +104,7 @@ pub(super) fn highlights(
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
+<<<<<<< HEAD
     let reflectances = lighting.reflectances.take();
     *lighting = Lighting::new(
         runner.backend,
@@ -114,11 +115,14 @@ pub(super) fn highlights(
         lighting.setup,
         light,
     );
+=======
+    *lighting = Lighting::new(context, &samples, state, skin_specular, lighting.setup, light);
+>>>>>>> b/main
     lighting.explained = true;
     Ok(0)
 }
 
-/// What is known of a light, and of skin's reflectance.
+/// A light that is known, and skin's reflectance.
 #[derive(Clone, Copy)]
 pub struct Found<'a> {
     /// Logarithm of the light, R, G, B per cell.

@@ -1,4 +1,4 @@
-//! What the steps under explicit transport hand on.
+//! The first estimate of the light, and the albedo of the maps: handed on by the steps under explicit transport.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use crate::transport::CHANNELS;
 pub(super) struct DiffuseReflectance {
     pub diffuse: Vec<f32>,
     pub scale: f32,
-    /// Of every texel, 0 to 1.
+    /// Confidence in every texel, 0 to 1.
     pub confidence: Vec<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! What explicit transport found: light, shading, albedo, and what all views share of the highlights.
+//! Results of explicit transport: light, shading, albedo, and the specular floor.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use crate::model::texture::{interleave, resample};
 use crate::solution::RecoveredLight;
 use crate::transport::{CHANNELS, luminances};
 
-/// What explicit transport found, on its own texture.
+/// The light that explicit transport found, with shading and albedo under it, on its own texture.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Lighting {
     pub state: State,
@@ -38,14 +38,13 @@ pub(super) struct Lighting {
     /// See [`crate::config::TransportConfig::even_contrast`].
     even_contrast: f32,
     pub setup: TransportSetup,
-    /// What is left in the record.
+    /// The light for the record.
     pub light: RecoveredLight,
 }
 
 impl Lighting {
     /// What a light makes of the textures of `state`; `reflectances` are [`Lighting::reflectances`].
     pub fn new(
-        backend: &dyn Backend,
         context: &SolveContext,
         samples: &Samples,
         state: State,
@@ -68,7 +67,7 @@ impl Lighting {
                 transport,
                 samples,
                 &state,
-                backend,
+                context.backend,
                 &radiance,
                 &skin_specular,
             ),

@@ -1,4 +1,4 @@
-//! What a solve notes on its way.
+//! The log of a solve.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::solution::StageRecord;
 
-/// What has been noted so far.
+/// Losses and times so far.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Log {
     /// Steps done.

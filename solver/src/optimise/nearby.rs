@@ -1,4 +1,4 @@
-//! What the pictures leave around every sample: what of it is too coarse for relief, and what is too much.
+//! Residuals in the neighbourhood of every sample: those that are too coarse for relief, and those that are too large.
 
 use capture::gbuffer::GBuffer;
 use glam::Vec3;
@@ -34,7 +34,7 @@ impl<'a> Nearby<'a> {
             let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
             let usual = |c: usize| {
                 let slope = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
-                // Half of a bend's square lies along the slope.
+                // Half of a deviation's square lies along the slope.
                 0.5 * usual_deviation * usual_deviation * slope.length_squared()
                     + (usual_albedo_detail * s[12 + c]).powi(2)
                     + floor * floor

@@ -2,12 +2,12 @@
 
 use crate::config::NormalisationConfig;
 
-/// What the solved albedos are multiplied with.
+/// Factors from solved to physical albedos.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
-    /// Of the diffuse albedo.
+    /// Factor of the diffuse albedo.
     pub diffuse: f32,
-    /// Of the specular albedo.
+    /// Factor of the specular albedo.
     pub specular: f32,
 }
 

@@ -1,4 +1,4 @@
-//! What a caller hears of a solve, and what it may ask of it.
+//! Progress of a solve as its caller sees it, and the caller's options.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,4 @@
-//! What the textures were like after a stage, small: for the record, nothing goes on from it.
+//! The textures after a stage, small: for the record, nothing goes on from it.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ use crate::solution::StageMaps;
 /// Largest side, texels.
 const SIDE: usize = 256;
 
-/// What an albedo is multiplied with at the end.
+/// The factor that an albedo is multiplied with at the end.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) enum Unit {
     /// The factors of the networks' model.
@@ -58,7 +58,7 @@ impl Small {
 }
 
 impl Snapshot {
-    /// Of a stage that has changed nothing yet.
+    /// The snapshot of a stage that has changed nothing yet.
     pub fn new(stage: &str, unit: Unit) -> Self {
         Self { stage: stage.to_owned(), unit, diffuse: None, specular: None, deviation: None }
     }

@@ -1,4 +1,4 @@
-//! The stage "normals and specular" with normals that stay: only the specular albedo moves.
+//! The specular albedo alone, where the normals stay.
 
 use super::adam::Adam;
 use super::stage::{Memory, Stage, State, layers, minimum_albedo};
@@ -16,7 +16,7 @@ pub struct Specular<'a> {
     config: &'a Config,
     samples: &'a Samples,
     name: String,
-    /// What the diffuse layer leaves of the target (3 rows), F S_s, and the weight.
+    /// The target less the diffuse layer (3 rows), F S_s, and the weight.
     rest: Planes,
     by_specular: Adam,
 }
@@ -47,7 +47,7 @@ impl<'a> Specular<'a> {
         Self {
             config,
             samples,
-            name: format!("normals and specular {round}"),
+            name: format!("specular {round}"),
             rest,
             by_specular: Adam::new(&config.adam, rate, state.specular.len()),
         }

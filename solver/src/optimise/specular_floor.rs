@@ -1,4 +1,4 @@
-//! What all views share of the highlights. No picture tells it from diffuse colour, so that the
+//! The part of the highlights that all views share. No picture tells it from diffuse colour, so that the
 //! networks leave it there, but the found light does, with the reflectance that skin is known to have.
 
 use rayon::prelude::*;
@@ -76,7 +76,7 @@ pub(super) fn without_specular_floor(
     })
 }
 
-/// Of values with weights; the sum of the weights with it. 0 of nothing.
+/// The median of values with weights, and the sum of the weights; 0 of nothing.
 fn weighted_median(mut values: Vec<(f32, f32)>) -> (f32, f32) {
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     let total: f32 = values.iter().map(|(_, weight)| weight).sum();

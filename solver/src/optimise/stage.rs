@@ -26,7 +26,8 @@ pub struct State {
     pub diffuse: Vec<f32>,
     /// One value per texel; its scale is that of 1 / S_s.
     pub specular: Vec<f32>,
-    /// Deviation from the mesh normal, before tanh; x, y, z per texel.
+    /// The texture t that [`Deviation`] makes the deviation from the mesh normal of; x, y, z per texel. Where heights
+    /// are solved for, that is the deviation itself, before and after; else it is what tanh is taken of.
     pub deviation: Vec<f32>,
 }
 
@@ -67,13 +68,13 @@ pub trait Stage {
     fn job(&self) -> Option<Job<'_>> {
         None
     }
-    /// What moves, in the order that the job says.
+    /// The variables, in the order that the job says.
     fn variables<'a>(&'a mut self, _state: &'a mut State) -> Vec<Variable<'a>> {
         vec![]
     }
 }
 
-/// What a stage keeps from step to step besides the state, in a fixed order.
+/// The memory of a stage from step to step besides the state, in a fixed order.
 #[derive(Serialize)]
 pub struct Memory<'a> {
     /// Its optimisers.
@@ -83,7 +84,7 @@ pub struct Memory<'a> {
 }
 
 impl<'a> Memory<'a> {
-    /// Of a stage without parameters of its own.
+    /// The memory of a stage without parameters of its own.
     pub fn new(optimisers: Vec<&'a mut Adam>) -> Self {
         Self { optimisers, own: vec![] }
     }

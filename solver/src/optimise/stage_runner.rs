@@ -19,7 +19,7 @@ const FETCH: Duration = Duration::from_secs(20);
 /// A submission takes about this long: systems reset a device that does not answer for seconds.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
-/// The bookkeeping of a solve.
+/// Runs stages, and keeps the books of a solve.
 pub(super) struct StageRunner<'a, 'b> {
     pub backend: &'a dyn Backend,
     progress: &'a mut Callback<'b>,
@@ -64,7 +64,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         self.cut.as_ref()
     }
 
-    /// What has been noted, and the wall times.
+    /// The log, and the wall times.
     pub fn into_log(self) -> (Vec<StageRecord>, Timing) {
         let seconds = self.log.seconds.into_iter().map(|(what, seconds)| (what, seconds.into()));
         (self.log.stages, Timing { seconds: seconds.collect() })

@@ -91,7 +91,7 @@ impl Step {
         }
     }
 
-    /// What it costs, measured on two cores with AVX-512; see [`super::clock`].
+    /// Its cost, measured on two cores with AVX-512; see [`super::clock`].
     pub fn work(&self, context: &SolveContext) -> Work {
         let config = context.config;
         let square = |side: usize| (side * side) as f64;
@@ -229,7 +229,7 @@ impl Step {
 }
 
 impl Step {
-    /// What the step has changed, for the record.
+    /// The textures that the step has changed, for the record.
     pub fn snapshot(&self, context: &SolveContext, solve: &Solve) -> Option<Snapshot> {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let sharp = || context.fine().deviation.textures(deviation).sharp;
@@ -248,9 +248,10 @@ impl Step {
                 Some(Snapshot::new("heights", Unit::Networks).deviation(&sharp(), *size))
             }
             Self::NormalsAndSpecular(round) => {
-                let stage = format!("normals and specular {round}");
-                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
                 let still = context.config.fine_tuning.deviation_rate == 0.0;
+                let moved = if still { "specular" } else { "normals and specular" };
+                let stage = format!("{moved} {round}");
+                let new = Snapshot::new(&stage, Unit::Networks).specular(specular, *size);
                 Some(if still { new } else { new.deviation(&sharp(), *size) })
             }
             Self::Diffuse(round) => {

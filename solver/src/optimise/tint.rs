@@ -14,7 +14,7 @@ use crate::transport::CHANNELS;
 struct Sums {
     count: f64,
     weight: f64,
-    /// Of every channel: what is predicted, what is shown, and their products.
+    /// Moments of predicted and shown highlights, channel by channel.
     moments: [Moments; CHANNELS],
     view: u32,
     /// Whether more than one view sees it.
@@ -109,7 +109,7 @@ impl Regression {
     }
 }
 
-/// What a full sensor has left in the pictures: their largest value, if it occurs more than once.
+/// The value of a full sensor in the pictures: their largest one, if it occurs more than once.
 fn full(samples: &Samples) -> f32 {
     let values = || (0..samples.len()).flat_map(|i| samples.target.sample::<CHANNELS>(i, 0));
     let largest = values().fold(f32::MIN, f32::max);

@@ -22,7 +22,7 @@ use crate::transport::{self, Beside, CHANNELS, Sky, Transport};
 pub struct ColourRegions {
     /// Side of the chart, texels.
     side: usize,
-    /// Of every texel.
+    /// The region of every texel.
     regions: Vec<u8>,
     /// Linear RGB of every region, in the unit of the pictures.
     colours: Vec<Vec3>,

@@ -18,7 +18,7 @@ const LANES: usize = 16;
 /// Least squared length of the sum of two directions.
 const OPPOSITE: f32 = 1e-12;
 
-/// What makes highlights on skin, whatever its normals: a light, and what of it is open.
+/// A light and its visibility, which make highlights on skin of any normals.
 pub struct SkinHighlights<'a> {
     transport: &'a Transport,
     skin: &'a SkinConfig,
@@ -28,8 +28,8 @@ pub struct SkinHighlights<'a> {
 }
 
 impl Transport {
-    /// Of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the transport holds
-    /// what is open ([`super::Beside::Open`]).
+    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the
+    /// transport holds what is open ([`super::Beside::Open`]).
     pub fn skin_highlights<'a>(
         &'a self,
         skin: &'a SkinConfig,
@@ -90,11 +90,11 @@ pub(crate) struct SkinHighlightParts<'a> {
     pub cells: &'a [f32],
     /// Rows of as many weights as there are cells.
     pub open: &'a [f32],
-    /// Of every sample.
+    /// The row of every sample.
     pub row: Vec<u32>,
-    /// Of every row, its place in units of the sky's radius.
+    /// The place of every row, in units of the sky's radius.
     pub from: Vec<Vec3>,
-    /// Of the result.
+    /// Factor on the result.
     pub scale: f32,
     /// Least cosine of the view, least squared length of a sum of directions.
     pub guards: [f32; 2],

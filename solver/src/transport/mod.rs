@@ -35,12 +35,12 @@ pub use rays::{Impact, Occluder};
 pub use reflection::Reflection;
 pub use sky::{Sky, SkyRay, contrast};
 
-/// What is asked of a transport beside the shading.
+/// Parts of a transport beside the shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Beside {
     /// Nothing.
     Nothing,
-    /// What is open, for highlights and for how the shading changes as the normals bend.
+    /// Visibility, for highlights and for how the shading changes with the normals.
     Open,
     /// That, and what the shading gains as the sky comes nearer.
     Nearness,
@@ -52,7 +52,7 @@ pub struct Transport {
     size: usize,
     /// One row per texel inside the chart, one column per cell.
     matrix: Matrix,
-    /// What `matrix` gains when the sky comes nearer by [`Self::near`].
+    /// The gain of `matrix` when the sky comes nearer by [`Self::near`].
     gain: Option<Matrix>,
     /// Visible solid angle over pi.
     open: Option<Matrix>,
@@ -66,7 +66,7 @@ pub struct Transport {
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
     sky: Sky,
-    /// Of every texel of the square, its row or that of the nearest texel inside.
+    /// The row of every texel of the square, or that of the nearest texel inside.
     row: Vec<u32>,
 }
 
@@ -195,7 +195,7 @@ impl Transport {
         by_light
     }
 
-    /// What the shading gains as the sky comes nearer by [`Self::near`]; to first order.
+    /// The gain of the shading as the sky comes nearer by [`Self::near`]; to first order.
     pub fn gain(&self, light: &[f32]) -> Option<Vec<f32>> {
         self.gain.as_ref().map(|gain| self.spread(&gain.product(light)))
     }
@@ -255,7 +255,7 @@ impl Transport {
     }
 }
 
-/// Of R, G, B per cell.
+/// Rec.709 luminances of R, G, B per cell.
 pub(crate) fn luminances(light: &[f32]) -> Vec<f32> {
     let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
     light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
@@ -267,15 +267,15 @@ pub(crate) struct Parts<'a> {
     pub matrix: &'a [f32],
     pub gain: Option<&'a [f32]>,
     pub cells: usize,
-    /// Of every texel of the square.
+    /// The row of every texel of the square.
     pub row: &'a [u32],
 }
 
-/// What a texel sees of every cell.
+/// The visibility of every cell from a texel.
 struct Seen<'a> {
     /// Its row of T0.
     direct: &'a mut [f32],
-    /// What is open, and what the row gains as the sky comes nearer; empty if not asked for.
+    /// Its visibility, and its gain as the sky comes nearer; empty if not asked for.
     open: &'a mut [f32],
     gain: &'a mut [f32],
 }
@@ -284,7 +284,7 @@ struct Caster<'a> {
     occluder: Occluder,
     mesh: &'a Mesh,
     rays: &'a [SkyRay],
-    /// Of the sky's sphere.
+    /// Centre of the sky's sphere.
     centre: Vec3,
     nearness: f32,
     /// The nearness to compare with.

@@ -16,7 +16,7 @@ pub struct Occluder {
     bvh: CwBvh,
     /// In the order of the hierarchy's leaves.
     triangles: Vec<Triangle>,
-    /// Of each of them, its index in the mesh.
+    /// The index of each of them in the mesh.
     index: Vec<u32>,
 }
 

@@ -19,7 +19,7 @@ const FAINT: f32 = 1e-16;
 pub struct Reflection(Matrix);
 
 impl Reflection {
-    /// Of every sample, a weight for every cell: for a device that multiplies with them.
+    /// For every sample a weight for every cell, for a device that multiplies with them.
     pub(crate) fn rows(&self) -> &[f32] {
         &self.0.rows
     }
@@ -97,7 +97,7 @@ impl Transport {
         Matrix { rows: self.lobes(), cells: self.cells() }.product(light)
     }
 
-    /// Of every cell, what a lobe around it sees of all cells: rows of sum 1. Finer than that, the cells do
+    /// For every cell the weights of all cells in a lobe around it: rows of sum 1. Finer than that, the cells do
     /// not tell of the light.
     fn lobes(&self) -> Vec<f32> {
         let (rays, centres) = (self.sky.rays(1, 0), self.sky.centres());

@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 
-use crate::config::{Lobe, SkinConfig};
+use crate::config::SkinConfig;
 
 /// Smallest cosine between normal and view that is divided by.
 pub(super) const GRAZING: f32 = 1e-3;
@@ -23,14 +23,14 @@ pub fn reflected(skin: &SkinConfig, normal: Vec3, view: Vec3, light: Vec3) -> f3
     }
     let half = (view + light).normalize();
     let cosine = normal.dot(half);
-    let lobe = |Lobe { roughness, weight }: Lobe| {
+    let lobe = |(roughness, weight): (f32, f32)| {
         let squared = roughness * roughness;
         let smith = |c: f32| 2.0 * c / (c + (squared + (1.0 - squared) * c * c).sqrt());
         let spread = cosine * cosine * (squared - 1.0) + 1.0;
         let density = squared * std::f32::consts::FRAC_1_PI / (spread * spread);
         weight * density * smith(towards_view) * smith(towards_light)
     };
-    let lobes = skin.lobes.into_iter().map(lobe).sum::<f32>();
+    let lobes = skin.lobes().into_iter().map(lobe).sum::<f32>();
     lobes / (4.0 * towards_view) * schlick(skin.f0, view.dot(half))
 }
 
@@ -40,7 +40,7 @@ pub fn reflected(skin: &SkinConfig, normal: Vec3, view: Vec3, light: Vec3) -> f3
 #[inline(always)]
 pub(super) fn lobe_slopes(skin: &SkinConfig, nh: f32, nv: f32, nl: f32) -> [f32; 4] {
     let [mut value, mut by_nh, mut by_nv, mut by_nl] = [0.0f32; 4];
-    for Lobe { roughness, weight } in skin.lobes {
+    for (roughness, weight) in skin.lobes() {
         let a = roughness * roughness;
         let spread = 1.0 / (nh * nh * (a - 1.0) + 1.0);
         let d = weight * a * std::f32::consts::FRAC_1_PI * spread * spread;

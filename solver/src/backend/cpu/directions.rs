@@ -102,7 +102,7 @@ pub fn adjoint<S: Lanes>(
     }
 }
 
-/// What a gradient has across a unit vector, over the length that the vector had.
+/// The part of a gradient across a unit vector, over the length that the vector had.
 #[inline(always)]
 fn across<S: Lanes>(unit: Vector<S>, gradient: Vector<S>, over_length: S) -> Vector<S> {
     let along = S::splat(0.0).sub(dot(unit, gradient));

@@ -11,7 +11,7 @@ use crate::model::planes::{BLOCK, Row};
 
 /// Outputs per tile.
 const TILE: usize = 4;
-/// Of the first layer; of the others the number is a multiple of [`TILE`].
+/// Inputs of the first layer; those of the others are a multiple of [`TILE`].
 const INPUTS: usize = 3;
 
 /// A network's weights in the order of the tiles.
@@ -149,7 +149,7 @@ impl PackedLayer {
     }
 }
 
-/// What becomes of a product: nothing, ReLU, or zero where another ReLU was closed.
+/// The activation after a product: none, ReLU, or zero where another ReLU was closed.
 const PLAIN: u8 = 0;
 const RELU: u8 = 1;
 const GATED: u8 = 2;

@@ -130,7 +130,7 @@ pub fn vector_gradients<S: Lanes>(
     }
 }
 
-/// What a block's pixels look like and how they count.
+/// Colours and weights of a block's pixels.
 pub struct Pixels<'a> {
     /// Diffuse R, G, B.
     pub albedo: &'a [Row],

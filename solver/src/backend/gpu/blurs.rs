@@ -17,7 +17,7 @@ pub(super) fn blurring(
     convolution(device, (blur.kernel(), blur.norms()), blur.norms().len(), scaled, from, to)
 }
 
-/// The same by a pyramid.
+/// A blur by a pyramid.
 pub(super) fn pyramid(
     device: &Device,
     pyramid: &Pyramid,

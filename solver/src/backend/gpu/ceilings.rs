@@ -1,4 +1,4 @@
-//! What the device reaches: the multiply-adds and the bandwidth that its kernels are measured against.
+//! The device's ceilings: multiply-adds and bandwidth that its kernels are measured against.
 
 use std::time::{Duration, Instant};
 

@@ -58,7 +58,7 @@ fn evaluated(
     Ok(pieces.planes(rows, &device.read(&out.iter().collect::<Vec<_>>())?))
 }
 
-/// What the kernel of bent shading reads and writes besides weights, directions and albedos.
+/// Buffers of the kernel besides weights, directions and albedos.
 pub(super) struct DirectionGradient {
     pub pieces: Pieces,
     light: Vec<wgpu::Buffer>,
@@ -66,7 +66,7 @@ pub(super) struct DirectionGradient {
     /// [`DIRECTION_ROWS`] rows.
     pub gradient: Vec<wgpu::Buffer>,
     pub losses: wgpu::Buffer,
-    /// Of the losses.
+    /// Workgroups, each with a partial loss.
     pub groups: usize,
     scale: f32,
 }

@@ -20,10 +20,10 @@ const LEAST_GROUPS: usize = 256;
 /// Fewest tiles of a workgroup: its sums are as large as four tiles' inputs.
 const TILES: usize = 4;
 
-/// Of a sample: position, two directions, Fresnel factor, colour, weight, albedos.
+/// Floats of a sample: position, two directions, Fresnel factor, colour, weight, albedos.
 const INPUTS: usize = 18;
 
-/// What the joint kernel reads and writes besides weights.
+/// Buffers of the joint kernel besides weights.
 pub(super) struct Joint {
     pieces: Pieces,
     /// Sampled albedos and their gradients.

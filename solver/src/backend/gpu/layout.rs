@@ -18,7 +18,7 @@ pub(super) struct Layout {
     width: usize,
     hidden: usize,
     outputs: usize,
-    /// Of every parameter, its place among the packed floats.
+    /// The place of every parameter among the packed floats.
     place: Vec<u32>,
 }
 

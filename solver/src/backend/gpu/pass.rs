@@ -12,7 +12,7 @@ pub(super) const THREADS: usize = 256;
 /// Distance of uniforms with dynamic offsets; the default limit of WebGPU.
 const SLOT: usize = 256;
 
-/// What a dispatch has to do at least.
+/// The operations and bytes that a dispatch cannot do without.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Work {
     /// Floating-point operations, a multiply-add being two.
@@ -95,7 +95,7 @@ impl Pass {
     }
 }
 
-/// What differs from step to step: factors of the optimisers, and where the loss belongs.
+/// The values that differ from step to step: factors of the optimisers, and where the loss belongs.
 pub(super) struct Slots {
     buffer: wgpu::Buffer,
     bindings: wgpu::BindGroup,
@@ -143,7 +143,7 @@ pub(super) struct Factors([u32; Self::WORDS]);
 impl Factors {
     const WORDS: usize = 12;
 
-    /// Of a variable's step number `number`, from 1.
+    /// The factors of a variable's step number `number`, from 1.
     pub fn adam(variable: &AdamFactors, number: usize, decay: f32, step: usize) -> Self {
         let [rate, root] = variable.optimiser.factors(number as i32, decay);
         let c = variable.optimiser.config();
@@ -152,13 +152,13 @@ impl Factors {
         Self([a, b, c, d, e, f, 1, step as u32, variable.maximum.to_bits(), 0, 0, 0])
     }
 
-    /// Of a variable that stays where it is.
+    /// The factors of a variable that stays where it is.
     pub fn still(step: usize) -> Self {
         Self([0, 0, 0, 0, 0, 0, 0, step as u32, 0, 0, 0, 0])
     }
 }
 
-/// What a device needs to know of a variable's optimiser.
+/// A variable's optimiser and bounds, for a device.
 pub(super) struct AdamFactors {
     optimiser: Adam,
     minimum: f32,

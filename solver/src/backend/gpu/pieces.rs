@@ -15,7 +15,7 @@ use crate::model::taps::Taps;
 pub(super) struct Pieces(pub Vec<Range<usize>>);
 
 impl Pieces {
-    /// Of `len` samples whose widest planes have `rows` rows.
+    /// Pieces of `len` samples whose widest planes have `rows` rows.
     pub fn new(device: &Device, len: usize, rows: usize) -> Self {
         let piece = (device.piece * PIECE_ROWS / rows.max(PIECE_ROWS) / BLOCK * BLOCK).max(BLOCK);
         let cut = |first: usize| first..len.min(first + piece);
@@ -61,7 +61,7 @@ pub(super) fn padded(piece: &Range<usize>) -> usize {
     piece.len().next_multiple_of(BLOCK)
 }
 
-/// What fills up the last block is zero on the host.
+/// The padding of the last block is zero on the host.
 fn clear_padding(planes: &mut Planes) {
     let (rows, used) = (planes.rows(), planes.len() % BLOCK);
     if used > 0 {
@@ -70,7 +70,7 @@ fn clear_padding(planes: &mut Planes) {
     }
 }
 
-/// What a sample's colour is compared with: Fresnel factor, target R, G, B, weight.
+/// Rows of a sample's pixel: Fresnel factor, target R, G, B, weight.
 pub(super) fn pixels(device: &Device, pieces: &Pieces, samples: &Samples) -> Vec<wgpu::Buffer> {
     pieces.upload(device, "pixels", &[&samples.fresnel, &samples.target, &samples.weight])
 }

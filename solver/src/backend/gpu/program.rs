@@ -12,10 +12,10 @@ pub(super) struct Moved {
     pub gradient: wgpu::Buffer,
     moments: [wgpu::Buffer; 2],
     count: usize,
-    /// Of networks, whose order on the device is another one.
+    /// The packed order of networks' parameters on the device.
     layout: Option<Layout>,
     factors: Option<AdamFactors>,
-    /// Of the stage, before this moves.
+    /// Steps of the stage before this moves.
     frozen_steps: usize,
 }
 
@@ -111,7 +111,7 @@ pub(super) fn total(
     vec![sums(device, parts, [first, count], to, [by_step, add])]
 }
 
-/// Of every share.
+/// The pass that adds up partial sums, share by share.
 fn sums(
     device: &Device,
     parts: &wgpu::Buffer,

@@ -4,7 +4,6 @@ use super::device::Device;
 use super::pass::Pass;
 use super::pieces::Pieces;
 use crate::backend::resident::DeviceError;
-use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights};
@@ -27,10 +26,10 @@ pub(super) fn highlights(
     let from = device.filled("places", &from);
     let kernel =
         device.kernel("skin highlights", include_str!("wgsl/skin_highlights.wgsl"), &[], "urrrrrw");
-    let SkinConfig { f0, lobes: [a, b] } = *parts.skin;
+    let [(a, a_weight), (b, b_weight)] = parts.skin.lobes();
     let [grazing, opposite] = parts.guards;
-    let lobes = [a.roughness, a.weight, b.roughness, b.weight];
-    let floats = [[parts.scale, f0, grazing, opposite], lobes].concat();
+    let lobes = [a, a_weight, b, b_weight];
+    let floats = [[parts.scale, parts.skin.f0, grazing, opposite], lobes].concat();
     let floats: Vec<u32> = floats.into_iter().map(f32::to_bits).collect();
     let pass = |(at, piece): (usize, &std::ops::Range<usize>)| {
         let row = device.filled("rows", &parts.row[piece.clone()]);

@@ -1,8 +1,8 @@
-//! What passes take on the device, by its own clock.
+//! Times of passes on the device, by its own clock.
 
 use std::collections::BTreeMap;
 
-/// What the dispatches of one name took, and what they had to do at least.
+/// Times of the dispatches of one name, and the work that they cannot do without.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
     /// On the device.

@@ -54,7 +54,7 @@ fn stop_at(step: usize) -> impl FnMut(&crate::Progress) -> ControlFlow<()> {
 }
 
 /// The steps: two starts of 8, warm-up of 20 with the best one's, light of 10, its distance
-/// of 5, transport of 16, highlights of 5, heights of 8, normals and specular of 6, diffuse of 6, albedo of 6.
+/// of 5, transport of 16, highlights of 5, heights of 8, specular of 6, diffuse of 6, albedo of 6.
 const CUTS: [(usize, &str); 14] = [
     (1, "start 1 at step 1 of 8"),
     (11, "start 2 at step 3 of 8"),
@@ -67,7 +67,7 @@ const CUTS: [(usize, &str); 14] = [
     (54, "transport at step 11 of 16"),
     (62, "highlights at step 3 of 5"),
     (67, "heights at step 3 of 8"),
-    (75, "normals and specular 1 at step 3 of 6"),
+    (75, "specular 1 at step 3 of 6"),
     (82, "diffuse 1 at step 4 of 6"),
     (89, "albedo at step 5 of 6"),
 ];

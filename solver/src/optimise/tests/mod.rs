@@ -257,7 +257,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "02-transport",
         "03-highlights",
         "04-heights",
-        "05-normals-and-specular-1",
+        "05-specular-1",
         "06-diffuse-1",
         "07-albedo",
     ];
@@ -269,7 +269,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
     let last = Maps::read(&target.join("stages/04-heights")).unwrap();
     assert_eq!(last.specular_normal, first.maps.specular_normal);
     // Pooled at the end only.
-    let last = Maps::read(&target.join("stages/05-normals-and-specular-1")).unwrap();
+    let last = Maps::read(&target.join("stages/05-specular-1")).unwrap();
     assert_ne!(last.specular_albedo.unwrap(), *first.maps.specular_albedo.as_ref().unwrap());
     let channels = picture::exr_channel_names(&target.join("views/005.exr")).unwrap();
     assert_eq!(channels.len(), 9);

@@ -1,4 +1,4 @@
-//! What every vector of intrinsics has alike.
+//! The operations that vectors of all instruction sets implement alike.
 
 use super::BLOCK;
 

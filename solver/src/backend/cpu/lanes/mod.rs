@@ -17,7 +17,7 @@ pub use x86::{Avx2, Avx512};
 
 use crate::model::planes::{BLOCK, Row};
 
-/// What can be done with any vectors.
+/// Work that is written once for vectors of any width.
 pub trait Task {
     /// Does it.
     fn run<S: Lanes>(self);
