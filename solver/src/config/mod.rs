@@ -46,13 +46,9 @@ pub struct Config {
     pub transport: TransportConfig,
     /// Normals from one height texture.
     pub height: HeightConfig,
-<<<<<<< HEAD
     /// How much regions mirror.
     pub reflectance: ReflectanceConfig,
-    /// What is kept for the report.
-=======
     /// Records that are kept for the report.
->>>>>>> b/main
     pub records: RecordConfig,
 }
 

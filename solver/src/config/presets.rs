@@ -18,16 +18,8 @@ impl Config {
                 normal_scale: 1.0,
                 reflection_scale: 1.0,
             },
-<<<<<<< HEAD
             rendering: RenderingConfig { fresnel: true, positive_albedo: false, exposure: 0.0 },
-            skin: SkinConfig {
-                f0: 0.04,
-                lobes: [0.15, 0.35].map(|roughness| Lobe { roughness, weight: 0.5 }),
-            },
-=======
-            rendering: RenderingConfig { fresnel: true, positive_albedo: false },
             skin: SkinConfig { f0: 0.04, roughness: [0.15, 0.35], weights: [0.5; 2] },
->>>>>>> b/main
             view_weights: ViewWeightConfig {
                 depth: true,
                 depth_blur: 2.0,

@@ -213,7 +213,6 @@ pub struct NormalisationConfig {
     pub specular_pooling: f32,
 }
 
-<<<<<<< HEAD
 /// How much regions mirror, by their highlights; not in the paper. Needs regions and
 /// [`TransportConfig::distance`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,10 +234,7 @@ pub struct ReflectanceConfig {
     pub exposure_share: f32,
 }
 
-/// What a maps folder holds besides the maps, for whoever wants to see how they came about.
-=======
 /// Records in a maps folder besides the maps, for whoever wants to see how they came about.
->>>>>>> b/main
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordConfig {

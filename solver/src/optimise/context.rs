@@ -24,13 +24,9 @@ pub(super) struct SolveContext<'a> {
     pub capture: &'a Capture,
     pub config: &'a Config,
     pub space: SampleSpace,
-<<<<<<< HEAD
     /// What the pictures are multiplied with, so that no rate or weight depends on their exposure.
     pub gain: f32,
-    /// Of the training views, in full resolution.
-=======
     /// G-buffers of the training views, in full resolution.
->>>>>>> b/main
     pub gbuffers: Vec<GBuffer>,
     /// Their samples.
     pub pixels: usize,

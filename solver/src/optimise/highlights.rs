@@ -104,20 +104,8 @@ pub(super) fn highlights(
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-<<<<<<< HEAD
     let reflectances = lighting.reflectances.take();
-    *lighting = Lighting::new(
-        runner.backend,
-        context,
-        &samples,
-        state,
-        reflectances,
-        lighting.setup,
-        light,
-    );
-=======
-    *lighting = Lighting::new(context, &samples, state, skin_specular, lighting.setup, light);
->>>>>>> b/main
+    *lighting = Lighting::new(context, &samples, state, reflectances, lighting.setup, light);
     lighting.explained = true;
     Ok(0)
 }

@@ -84,13 +84,8 @@ pub(super) fn light_and_albedo(
         Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-<<<<<<< HEAD
     let LightEstimate { reflectances, setup, .. } = light_estimate;
-    Ok(Lighting::new(runner.backend, context, &samples, state, reflectances, setup, light))
-=======
-    let skin_specular = skin_specular(context, &state);
-    Ok(Lighting::new(context, &samples, state, skin_specular, light_estimate.setup, light))
->>>>>>> b/main
+    Ok(Lighting::new(context, &samples, state, reflectances, setup, light))
 }
 
 /// The median over texels of the mean reflectance of R, G and B, under a light.
