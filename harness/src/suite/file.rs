@@ -7,7 +7,6 @@ use toml::{Table, Value};
 use super::cases::{self, Case};
 use super::method::{self, Method};
 use super::packaged::Kind;
-use super::place;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 13] = [
@@ -292,7 +291,7 @@ mod tests {
         let suite = suite.unwrap();
         let classes: Vec<_> = suite.methods.iter().map(|e| e.class().name()).collect();
         assert_eq!(classes, ["passive", "controlled", "privileged", "passive"]);
-        let Method::Competitor { settings, .. } = &suite.methods[0].kind else { panic!() };
+        let MethodKind::Competitor { settings, .. } = &suite.methods[0].kind else { panic!() };
         assert_eq!(settings, "{\"order\":3}");
         let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
         assert!(wrong.contains("set = { texture_size"), "{wrong}");

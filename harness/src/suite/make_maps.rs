@@ -31,8 +31,8 @@ pub(super) fn make_maps(
         (MethodKind::Baseline { baseline, texture_size }, _) => {
             baseline.make(capture, maps, *texture_size)?;
         }
-        (Method::Competitor { method, settings }, _) => {
-            baseline.make(settings, capture, maps, tools, progress)?;
+        (MethodKind::Competitor { competitor, settings }, _) => {
+            competitor.make(settings, capture, maps, tools, progress)?;
         }
         (MethodKind::Fields { config, backend }, _) => {
             let config = solver::Config::from_toml(config)?;
@@ -45,7 +45,7 @@ pub(super) fn make_maps(
         (MethodKind::Program(program), Some(files)) => {
             return program.run(&method.id, files, &place, &tools.interrupt).map(Some);
         }
-        (Method::LabelMeans, _) => score::label_mean_maps(capture, maps)?,
+        (MethodKind::LabelMeans, _) => score::label_mean_maps(capture, maps)?,
         (MethodKind::Oracle | MethodKind::Program(_), _) => score::oracle_maps(capture, maps)?,
     }
     Ok(None)

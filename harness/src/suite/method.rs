@@ -34,7 +34,7 @@ pub enum MethodKind {
     /// One that comes with unshade and is no configuration of its solver.
     Competitor {
         /// Which one.
-        method: Competitor,
+        competitor: Competitor,
         /// Its settings as JSON.
         settings: String,
     },
@@ -63,16 +63,16 @@ pub struct Method {
 impl Method {
     /// Whether its maps are made from the truth, which photographs do not have.
     pub fn reads_truth(&self) -> bool {
-        matches!(self.method, MethodKind::Oracle | Method::LabelMeans)
+        matches!(self.kind, MethodKind::Oracle | MethodKind::LabelMeans)
     }
 
     /// `solver`, `baseline`, `privileged` or `oracle`.
     pub fn role(&self) -> &'static str {
         match self.kind {
             MethodKind::Oracle => ORACLE,
-            Method::LabelMeans => "privileged",
+            MethodKind::LabelMeans => "privileged",
             MethodKind::Baseline { .. } => "baseline",
-            MethodKind::Fields { .. } | MethodKind::Program(_) | Method::Competitor { .. } => {
+            MethodKind::Fields { .. } | MethodKind::Program(_) | MethodKind::Competitor { .. } => {
                 "solver"
             }
         }
@@ -81,8 +81,8 @@ impl Method {
     /// What it is given.
     pub fn class(&self) -> Class {
         match self.kind {
-            MethodKind::Oracle | Method::LabelMeans => Class::Privileged,
-            Method::Competitor { method, .. } => method.class,
+            MethodKind::Oracle | MethodKind::LabelMeans => Class::Privileged,
+            MethodKind::Competitor { competitor, .. } => competitor.class,
             MethodKind::Baseline { .. } | MethodKind::Fields { .. } | MethodKind::Program(_) => {
                 Class::Passive
             }
@@ -154,14 +154,14 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     let kind = match (program, table.name.as_str()) {
         (Some(program), _) => MethodKind::Program(program),
         (None, ORACLE) => MethodKind::Oracle,
-        (None, LABEL_MEANS) => Method::LabelMeans,
+        (None, LABEL_MEANS) => MethodKind::LabelMeans,
         (None, name) => match baseline {
-            None if let Some(method) = competitor => {
+            None if let Some(competitor) = competitor => {
                 let settings = serde_json::to_string(&table.set)
                     .map_err(|error| SceneError::in_table(path, name, "set", error.to_string()))?;
-                Method::Competitor { method, settings }
+                MethodKind::Competitor { competitor, settings }
             }
-            Some(method) => {
+            Some(baseline) => {
                 MethodKind::Baseline { baseline, texture_size: table.texture_size(path)? }
             }
             None => MethodKind::Fields {
@@ -176,9 +176,9 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     };
     let title = table.title.unwrap_or_else(|| match kind {
         MethodKind::Oracle => "oracle (true maps)".to_owned(),
-        Method::LabelMeans => "true mean of each label (privileged)".to_owned(),
+        MethodKind::LabelMeans => "true mean of each label (privileged)".to_owned(),
         MethodKind::Baseline { baseline, .. } => baseline.title().to_owned(),
-        Method::Competitor { method, .. } => method.title.to_owned(),
+        MethodKind::Competitor { competitor, .. } => competitor.title.to_owned(),
         MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
     });
     Ok(Method { id: table.name, title, kind })

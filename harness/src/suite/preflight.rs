@@ -45,9 +45,9 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
                 None
             }
             MethodKind::Oracle
-            | Method::LabelMeans
+            | MethodKind::LabelMeans
             | MethodKind::Baseline { .. }
-            | Method::Competitor { .. } => None,
+            | MethodKind::Competitor { .. } => None,
         };
         Ok(Ready { method, files })
     };

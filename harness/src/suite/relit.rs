@@ -16,7 +16,7 @@ use crate::synth::run_stage;
 impl Method {
     /// Whether it is handed the lights and gives pictures.
     pub(super) fn gives_pictures(&self) -> bool {
-        matches!(&self.method, MethodKind::Program(program) if program.gives == Gives::Pictures)
+        matches!(&self.kind, MethodKind::Program(program) if program.gives == Gives::Pictures)
     }
 }
 

@@ -378,10 +378,10 @@ impl Stages<'_> {
                 let size = texture_size.to_string();
                 (hash_parts(&["baseline", baseline.name(), &size, SOLVER_SOURCES]), String::new())
             }
-            (Method::Competitor { method, settings }, _) => {
-                (hash_parts(&["competitor", method.name, settings, renderer]), String::new())
+            (MethodKind::Competitor { competitor, settings }, _) => {
+                (hash_parts(&["competitor", competitor.name, settings, renderer]), String::new())
             }
-            (Method::LabelMeans, _) => {
+            (MethodKind::LabelMeans, _) => {
                 (hash_parts(&["label-means", SOLVER_SOURCES, SCORE_SOURCES]), String::new())
             }
             (MethodKind::Oracle | MethodKind::Program(_), _) => {
