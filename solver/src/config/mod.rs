@@ -114,6 +114,7 @@ impl Config {
             ("view_weights.edge_slope", self.view_weights.edge_slope),
         ])?;
         not_negative(&[
+            ("rendering.exposure", self.rendering.exposure),
             ("view_weights.depth_blur", self.view_weights.depth_blur),
             ("view_weights.slope_falloff", self.view_weights.slope_falloff),
             ("warm_up.prior", w.prior),
@@ -143,6 +144,7 @@ impl Config {
         self.skin.validate()?;
         self.colour_regions.validate()?;
         self.transport.validate()?;
+        self.reflectance.validate()?;
         self.height.validate()?;
         let percent = |x: f64| x > 0.0 && x <= 100.0;
         let normalisation = &self.normalisation;

@@ -121,7 +121,7 @@ impl Config {
                 skin_deviation: 0.5,
                 region_deviation: 0.5,
                 model_error: 0.1,
-                exposure_share: 0.25,
+                exposure_deviation: 0.25,
             },
             height: HeightConfig {
                 enabled: false,

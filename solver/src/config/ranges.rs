@@ -1,7 +1,7 @@
 //! Ranges of the values.
 
 use super::error::ConfigError;
-use super::{ColourRegionConfig, HeightConfig, SkinConfig, TransportConfig};
+use super::{ColourRegionConfig, HeightConfig, ReflectanceConfig, SkinConfig, TransportConfig};
 
 /// Refuses a value outside its range, which `range` states in words.
 pub(super) fn range<T: ToString + Copy>(
@@ -25,6 +25,20 @@ impl SkinConfig {
             range("skin.roughness", roughness, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
             range("skin.weights", weight, |x| (0.0..=1.0).contains(&x), "0 to 1")
         })
+    }
+}
+
+impl ReflectanceConfig {
+    pub(super) fn validate(&self) -> Result<(), ConfigError> {
+        range("reflectance.rounds", self.rounds, |x| x <= 20, "0 to 20")?;
+        range("reflectance.relaxation", self.relaxation, |x| (0.1..=3.0).contains(&x), "0.1 to 3")?;
+        let deviation = |x: f32| (1e-3..=10.0).contains(&x);
+        let wide = "0.001 to 10";
+        range("reflectance.skin_deviation", self.skin_deviation, deviation, wide)?;
+        range("reflectance.region_deviation", self.region_deviation, deviation, wide)?;
+        let error = |x: f32| (0.0..=1.0).contains(&x);
+        range("reflectance.model_error", self.model_error, error, "0 to 1")?;
+        range("reflectance.exposure_deviation", self.exposure_deviation, error, "0 to 1")
     }
 }
 

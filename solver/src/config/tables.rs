@@ -230,8 +230,16 @@ pub struct ReflectanceConfig {
     pub region_deviation: f32,
     /// Standard error of every measurement, relative: of the light and the normals that it goes by.
     pub model_error: f32,
-    /// Which power of skin's factor over the expected is the exposure's, and not skin's.
-    pub exposure_share: f32,
+    /// Standard deviation of the logarithm of a picture's exposure around what the light's peak says; 0 takes the
+    /// peak's word.
+    pub exposure_deviation: f32,
+}
+
+impl ReflectanceConfig {
+    /// Rounds of [`TransportConfig::distance`], measured or not.
+    pub(crate) fn rounds(&self) -> usize {
+        self.rounds.max(1)
+    }
 }
 
 /// Records in a maps folder besides the maps, for whoever wants to see how they came about.

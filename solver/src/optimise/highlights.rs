@@ -23,22 +23,24 @@ use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Reflection, Transport};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
-/// alone if the capture names it, since the rest has but the mean colours of the pictures. In rounds: after
-/// each, the regions' reflectance by their highlights; in the end the colour of the light by them. The
-/// number of steps that are not taken: without regions there is nothing to predict highlights with.
+/// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
+/// several, from 1: after each, the regions' reflectance by their highlights; after the last, the colour of the
+/// light by them. The number of steps that are not taken: without regions nothing predicts highlights.
 pub(super) fn distance(
     runner: &mut StageRunner,
     context: &SolveContext,
     mut state: State,
     light_estimate: &mut LightEstimate,
+    round: usize,
 ) -> Result<usize, SolveError> {
     let t = &context.config.transport;
+    let iterations = distance_steps(context.config, round);
     let transport = context.far_transport();
     let size = transport.size();
     let (Some(reflectances), Some(regions)) =
         (&mut light_estimate.reflectances, context.regions_on(size))
     else {
-        return Ok(t.distance);
+        return Ok(iterations);
     };
     state.resize(size);
     let mut samples = context.pictures().samples(&context.space, size);
@@ -49,35 +51,38 @@ pub(super) fn distance(
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let update = context.config.reflectance.rounds > 0;
-    let rounds = context.config.reflectance.rounds.max(1);
-    for round in 1..=rounds {
-        let skin_specular = reflectances.of(&regions);
-        let nearness = light_estimate.setup.nearness;
-        let found =
-            Found { log_light: &light_estimate.log_light, nearness, skin_specular: &skin_specular };
-        let stage = Highlights::new(context.config, transport, &samples, &state, found);
-        let Some(stage) = stage else { return Ok(t.distance) };
-        let done = |rounds_done: usize| t.distance * rounds_done / rounds;
-        let (name, iterations) = (format!("distance {round}"), done(round) - done(round - 1));
-        let mut stage = Highlights { name, iterations, frozen_steps: iterations, ..stage };
-        runner.stage(&mut stage, &mut state)?;
-        let regression = stage.regression(&state, &weight);
-        if update {
-            reflectances.update(&context.config.reflectance, &regression, &regions);
-        }
-        if t.tint && round == rounds {
-            light_estimate.tint = stage.take_tint(&state);
-            let texels = state.diffuse.iter_mut().zip(light_estimate.tint.iter().cycle());
-            texels.for_each(|(albedo, tint)| *albedo /= tint);
-        }
-        light_estimate.setup = TransportSetup {
-            nearness: stage.nearness[0] * transport.near(),
-            bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
-        };
-        light_estimate.log_light = stage.log_light;
+    let skin_specular = reflectances.of(&regions);
+    let found = Found {
+        log_light: &light_estimate.log_light,
+        nearness: light_estimate.setup.nearness,
+        skin_specular: &skin_specular,
+    };
+    let stage = Highlights::new(context.config, transport, &samples, &state, found);
+    let Some(stage) = stage else { return Ok(iterations) };
+    let name = format!("distance {round}");
+    let mut stage = Highlights { name, iterations, frozen_steps: iterations, ..stage };
+    runner.stage(&mut stage, &mut state)?;
+    let config = &context.config.reflectance;
+    if config.rounds > 0 {
+        reflectances.update(config, &stage.regression(&state, &weight), &regions);
     }
+    if t.tint && round == config.rounds() {
+        light_estimate.tint = stage.take_tint(&state);
+        let texels = state.diffuse.iter_mut().zip(light_estimate.tint.iter().cycle());
+        texels.for_each(|(albedo, tint)| *albedo /= tint);
+    }
+    light_estimate.setup = TransportSetup {
+        nearness: stage.nearness[0] * transport.near(),
+        bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
+    };
+    light_estimate.log_light = stage.log_light;
     Ok(0)
+}
+
+/// The steps of a round of [`distance`], from 1.
+pub(super) fn distance_steps(config: &Config, round: usize) -> usize {
+    let (steps, rounds) = (config.transport.distance, config.reflectance.rounds());
+    steps * round / rounds - steps * (round - 1) / rounds
 }
 
 /// Light and diffuse albedo again, as [`distance`].

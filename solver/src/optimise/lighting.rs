@@ -58,8 +58,7 @@ impl Lighting {
             (Some(reflectances), Some(regions)) => reflectances.of(&regions),
             _ => vec![],
         };
-        let share = config.reflectance.exposure_share;
-        let exposure = reflectances.as_ref().map_or(1.0, |all| all.skin().powf(share));
+        let exposure = reflectances.as_ref().map_or(1.0, |all| all.exposure(&config.reflectance));
         let specular_floor = match skin_specular.is_empty() {
             true => vec![],
             false => specular_floor(

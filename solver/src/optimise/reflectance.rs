@@ -37,9 +37,21 @@ impl Reflectances {
         regions.iter().map(|region| self.regions[usize::from(*region)]).collect()
     }
 
-    /// By what skin is brighter than expected.
-    pub fn skin(&self) -> f32 {
-        self.regions[usize::from(self.skin[0])] / self.expected
+    /// By what pictures are brighter than their peak says, as far as skin's highlights tell it: they differ from
+    /// the expected ones by the product of that and of skin's reflectance over the expected, and both have a
+    /// prior. The most probable.
+    pub fn exposure(&self, config: &ReflectanceConfig) -> f32 {
+        if config.exposure_deviation == 0.0 {
+            return 1.0;
+        }
+        let shown = self.regions[usize::from(self.skin[0])] / self.expected;
+        let misfit = |log: &f32| {
+            let of_skin = (shown / log.exp() - 1.0) / config.skin_deviation;
+            (log / config.exposure_deviation).powi(2) + of_skin.powi(2)
+        };
+        let logs = (-100..=100).map(|hundredths: i32| 0.01 * hundredths as f32);
+        let least = logs.min_by(|a, b| misfit(a).total_cmp(&misfit(b)));
+        least.map_or(1.0, f32::exp)
     }
 
     /// Multiplies all.
@@ -101,6 +113,27 @@ mod tests {
         let config = ReflectanceConfig { relaxation: 1.0, ..Config::default().reflectance };
         all.update(&config, &regression, &regions);
         all.of(&[1, 2]).try_into().unwrap()
+    }
+
+    #[test]
+    fn skin_that_mirrors_little_more_is_partly_another_exposure_and_skin_that_mirrors_nothing_is_not()
+     {
+        let config = Config::default().reflectance;
+        let exposure = |factor: f32| {
+            let regions = vec![factor * SKIN; 256];
+            Reflectances { regions, expected: SKIN, skin: vec![1] }.exposure(&config)
+        };
+        assert_eq!(exposure(1.0), 1.0);
+        // The share of the exposure's variance in both.
+        let [own, skin] = [config.exposure_deviation, config.skin_deviation].map(|d| d * d);
+        let expected = 1.1_f32.powf(own / (own + skin));
+        assert!((exposure(1.1) - expected).abs() < 0.011, "{}", exposure(1.1));
+        assert_eq!(exposure(0.0), 1.0);
+        assert_eq!(
+            Reflectances { regions: vec![0.5 * SKIN; 256], expected: SKIN, skin: vec![1] }
+                .exposure(&ReflectanceConfig { exposure_deviation: 0.0, ..config.clone() }),
+            1.0
+        );
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::{Solve, Start};
 use super::heights;
-use super::highlights::{distance, highlights};
+use super::highlights::{distance, distance_steps, highlights};
 use super::normals::Normals;
 use super::snapshot::{Snapshot, Unit};
 use super::specular::Specular;
@@ -27,7 +27,7 @@ pub(super) enum Step {
     /// The light under the semantic colours.
     Light,
     /// The same with the highlights that the light itself makes.
-    Distance,
+    Distance(usize),
     /// Light and albedo under explicit transport.
     Transport,
     /// The same with the highlights that the light itself makes.
@@ -53,7 +53,9 @@ impl Step {
         if config.transport.enabled {
             let wanted = |steps: usize| steps > 0 && specular_floor::wanted(config);
             steps.push(Self::Light);
-            steps.extend(wanted(config.transport.distance).then_some(Self::Distance));
+            let rounds = 1..=config.reflectance.rounds();
+            let rounds = rounds.filter(|_| wanted(config.transport.distance));
+            steps.extend(rounds.map(Self::Distance));
             steps.push(Self::Transport);
             steps.extend(wanted(config.transport.highlights).then_some(Self::Highlights));
         }
@@ -83,7 +85,7 @@ impl Step {
             },
             Self::Light => config.transport.probe,
             Self::Transport => config.transport.iterations,
-            Self::Distance => config.transport.distance,
+            Self::Distance(round) => distance_steps(config, *round),
             Self::Highlights => config.transport.highlights,
             Self::Heights => heights::steps(&config.height, context.size),
             Self::NormalsAndSpecular(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
@@ -112,7 +114,7 @@ impl Step {
                 let rays = entries * square(t.rays_per_cell_side);
                 Work { preparation: 45e-9 * rays, ..work(100.0, few, 0.4, entries) }
             }
-            Self::Distance | Self::Highlights => {
+            Self::Distance(_) | Self::Highlights => {
                 let cells = (2 * t.rows * t.rows) as f64;
                 let entries = cells * few.min(t.highlight_samples as f64);
                 let texels = cells * square(t.texture_size);
@@ -141,11 +143,11 @@ impl Step {
         if !matches!(self, Self::Start(_) | Self::WarmUp) {
             context.drop_coarse();
         }
-        if !matches!(self, Self::Light | Self::Distance) {
+        if !matches!(self, Self::Light | Self::Distance(_)) {
             context.drop_far();
         }
         let coarse =
-            matches!(self, Self::Light | Self::Distance | Self::Transport | Self::Highlights);
+            matches!(self, Self::Light | Self::Distance(_) | Self::Transport | Self::Highlights);
         if !coarse && !matches!(self, Self::Start(_) | Self::WarmUp) {
             context.drop_pictures();
         }
@@ -184,9 +186,10 @@ impl Step {
                     runner.cut().is_none_or(|cut| cut.stage == "transport" && cut.step > begun);
                 solve.lighting = moved.then_some(lighting);
             }
-            Self::Distance => {
+            Self::Distance(round) => {
                 if let Some(light_estimate) = &mut solve.light_estimate {
-                    let spared = distance(runner, context, solve.initial.clone(), light_estimate)?;
+                    let spared =
+                        distance(runner, context, solve.initial.clone(), light_estimate, *round)?;
                     runner.spare(spared);
                 }
             }
@@ -234,7 +237,7 @@ impl Step {
         let State { size, diffuse, specular, deviation, .. } = &solve.state;
         let sharp = || context.fine().deviation.textures(deviation).sharp;
         match self {
-            Self::Start(_) | Self::Light | Self::Distance => None,
+            Self::Start(_) | Self::Light | Self::Distance(_) => None,
             Self::WarmUp => {
                 let new = Snapshot::new("warm-up", Unit::Networks);
                 Some(new.diffuse(diffuse, *size).specular(specular, *size))

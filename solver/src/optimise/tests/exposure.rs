@@ -8,7 +8,7 @@ fn maps(factor: f32) -> Maps {
     let views: Vec<View> = views(5, 32)
         .into_iter()
         .map(|mut view| {
-            view.labels = None;
+            view.labels.iter_mut().for_each(|labels| labels.data.fill(0));
             view.image.data.iter_mut().for_each(|value| *value *= factor);
             view
         })
