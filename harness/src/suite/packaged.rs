@@ -32,6 +32,9 @@ pub(super) enum Kind {
     Rig,
 }
 
+/// The files beside the scenes that are none.
+const NO_SCENES: [&str; 2] = ["face-sets", "tolerances"];
+
 impl Kind {
     /// What a key of a scene or suite file names.
     pub fn of_key(key: &str) -> Self {
@@ -59,8 +62,7 @@ impl Kind {
         let listed = fs::read_dir(folder.join(self.words().0)).into_iter().flatten().flatten();
         let mut names: Vec<String> = listed
             .filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".toml")?.to_owned()))
-            // The one file beside the scenes that is none.
-            .filter(|name| self != Self::Scene || name != "tolerances")
+            .filter(|name| self != Self::Scene || !NO_SCENES.contains(&name.as_str()))
             .collect();
         names.sort();
         names

@@ -24,7 +24,6 @@ use super::preflight::{self, Ready};
 use super::program::{self, Place};
 use super::record::{Made, Records};
 use super::relit::{lights, relit};
-use super::scene::{Scene, SceneError};
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::stages::words;
 use super::tools::{Observer, Tools};
@@ -185,7 +184,7 @@ impl Stages<'_> {
             let scene = case.scene.to_toml().map_err(io::Error::other)?;
             atomic::write_file(&captures.join(format!("{}.toml", case.id)), scene.as_bytes())?;
             let (id, path) = (format!("capture/{}", case.id), captures.join(&case.id));
-            let key = hash_parts(&["capture", renderer, &scene, &file_contents(&case.scene)?]);
+            let key = hash_parts(&["capture", renderer, &scene, &case.scene.content()?]);
             if self.records.finished(&id, &key, &path).is_none() {
                 pending.push(case);
             }
@@ -233,7 +232,7 @@ impl Stages<'_> {
             return Ok(Output { path, content });
         }
         let scene = case.scene.to_toml().map_err(io::Error::other)?;
-        let files = file_contents(&case.scene)?;
+        let files = case.scene.content()?;
         let scene_file = self.out.join("captures").join(format!("{}.toml", case.id));
         let path = self.out.join("captures").join(&case.id);
         let id = format!("capture/{}", case.id);
@@ -389,16 +388,4 @@ impl Stages<'_> {
             }
         })
     }
-}
-
-/// The content of every file that the scene names.
-fn file_contents(scene: &Scene) -> Result<String, SceneError> {
-    let hashes: Result<Vec<_>, _> = scene
-        .files()
-        .into_iter()
-        .map(|path| {
-            hash_path(&path).map_err(|error| SceneError::Read { path, reason: error.to_string() })
-        })
-        .collect();
-    Ok(hashes?.join(" "))
 }

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use formats::content_hash::hash_path;
 use toml::{Table, Value};
 
 use super::packaged;
@@ -154,6 +155,15 @@ impl Scene {
             .flat_map(|table| FILES.iter().filter_map(|key| table.get(*key)?.as_str()))
             .map(PathBuf::from)
             .collect()
+    }
+
+    /// A hash of the content of each of [`Self::files`].
+    pub fn content(&self) -> Result<String, SceneError> {
+        let hash = |path: PathBuf| {
+            hash_path(&path).map_err(|error| SceneError::Read { path, reason: error.to_string() })
+        };
+        let hashes: Result<Vec<_>, _> = self.files().into_iter().map(hash).collect();
+        Ok(hashes?.join(" "))
     }
 
     /// This scene with another face.

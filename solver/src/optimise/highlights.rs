@@ -8,12 +8,11 @@
 use super::adam::Adam;
 use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
-use super::light_estimate::LightEstimate;
+use super::light_estimate::{LightEstimate, bounce_albedo};
 use super::lighting::Lighting;
 use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
 use super::tint::Regression;
-use super::transported::reflectance;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
 use crate::config::{Config, TransportConfig};
@@ -73,7 +72,7 @@ pub(super) fn distance(
     }
     light_estimate.setup = TransportSetup {
         nearness: stage.nearness[0] * transport.near(),
-        bounce_albedo: reflectance(transport, &stage.light(), &state.diffuse),
+        bounce_albedo: bounce_albedo(transport, &stage.light(), &state.diffuse),
     };
     light_estimate.log_light = stage.log_light;
     Ok(0)

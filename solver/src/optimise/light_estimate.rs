@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::context::TransportSetup;
 use super::reflectance::Reflectances;
 use crate::model::networks::Networks;
-use crate::transport::CHANNELS;
+use crate::transport::{CHANNELS, Transport};
 
 /// The diffuse albedo of the maps, and the factor that makes it a reflectance.
 #[derive(Serialize, Deserialize)]
@@ -27,4 +27,13 @@ pub(super) struct LightEstimate {
     /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
     /// with is to be divided by it.
     pub tint: [f32; CHANNELS],
+}
+
+/// The median over texels of the mean reflectance of R, G and B, under a light: what light bounces off.
+pub(super) fn bounce_albedo(transport: &Transport, light: &[f32], diffuse: &[f32]) -> f32 {
+    let mut means: Vec<f32> =
+        diffuse.chunks_exact(CHANNELS).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
+    let middle = means.len() / 2;
+    let (_, median, _) = means.select_nth_unstable_by(middle, f32::total_cmp);
+    (*median * transport.peak(light)).min(1.0)
 }

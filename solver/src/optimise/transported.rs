@@ -10,7 +10,7 @@ use super::context::{SolveContext, TransportSetup};
 use super::diffuse::Diffuse;
 use super::error::SolveError;
 use super::found::Solve;
-use super::light_estimate::{DiffuseReflectance, LightEstimate};
+use super::light_estimate::{DiffuseReflectance, LightEstimate, bounce_albedo};
 use super::lighting::{Lighting, bent_shading};
 use super::recolour::recolour;
 use super::reflectance::Reflectances;
@@ -40,7 +40,7 @@ pub(super) fn light(
     let mut stage = Transported::probe(context.config, transport, &samples, &start);
     runner.stage(&mut stage, &mut start)?;
     let nearness = stage.nearness[0] * transport.near();
-    let bounce_albedo = reflectance(transport, &stage.light(), &start.diffuse);
+    let bounce_albedo = bounce_albedo(transport, &stage.light(), &start.diffuse);
     let setup = TransportSetup { nearness, bounce_albedo };
     let log_light = stage.log_light;
     let regions = specular_floor::wanted(context.config)
@@ -86,15 +86,6 @@ pub(super) fn light_and_albedo(
     let light = stage.light();
     let LightEstimate { reflectances, setup, .. } = light_estimate;
     Ok(Lighting::new(context, &samples, state, reflectances, setup, light))
-}
-
-/// The median over texels of the mean reflectance of R, G and B, under a light.
-pub(super) fn reflectance(transport: &Transport, light: &[f32], diffuse: &[f32]) -> f32 {
-    let mut means: Vec<f32> =
-        diffuse.chunks_exact(CHANNELS).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
-    let middle = means.len() / 2;
-    let (_, median, _) = means.select_nth_unstable_by(middle, f32::total_cmp);
-    (*median * transport.peak(light)).min(1.0)
 }
 
 /// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same

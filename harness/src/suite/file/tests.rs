@@ -1,0 +1,260 @@
+use super::super::baseline::BaselineMethod;
+use super::super::method::MethodKind;
+use super::super::program::Start;
+use super::*;
+
+fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+fn scenes(folder: &Path) {
+    write(folder, "face.toml", "name = \"ada\"\nseed = 3\n");
+    write(folder, "lights/key.toml", "name = \"key\"\nkind = \"studio\"\n");
+    write(folder, "lights/hall.toml", "name = \"hall\"\nkind = \"envmap\"\npath = \"hall.exr\"\n");
+    write(
+        folder,
+        "scene.toml",
+        "format = 1\nname = \"s\"\nface = \"face.toml\"\nlight = \"lights/key.toml\"\n\
+         relight = [\"lights/hall.toml\"]\nrig = { name = \"r\", kind = \"phone\" }\n\
+         [render]\nwidth = 8\nheight = 8\n",
+    );
+}
+
+#[test]
+fn what_relights_is_one_of_the_renderers() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let open = |line: &str| {
+        let text = format!(
+            "format = 1\nname = \"s\"\nscene = \"scene.toml\"\n{line}\n\
+             [[method]]\nname = \"oracle\"\n"
+        );
+        Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.relight)
+    };
+    assert_eq!(open("").unwrap(), "mitsuba");
+    assert_eq!(open("relight = \"cycles\"").unwrap(), "cycles");
+    let error = open("relight = \"arnold\"").unwrap_err().to_string();
+    assert!(error.contains("must be one of mitsuba, cycles"), "{error}");
+}
+
+#[test]
+fn every_light_is_relit_in_all_the_others() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let path = write(
+        root.path(),
+        "suite.toml",
+        "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n\
+         lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n[render]\nwidth = 16\n\
+         [[method]]\nname = \"paper\"\nset = { seed = 4 }\n\
+         [[method]]\nname = \"mine\"\ncommand = \"run {capture} {maps}\"\n",
+    );
+    let suite = Suite::open(&path).unwrap();
+    let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
+    assert_eq!(ids, ["ada-key", "ada-hall"]);
+    let relit = suite.cases[1].scene.relight();
+    assert_eq!(relit.len(), 1);
+    assert_eq!(relit[0]["name"].as_str(), Some("key"));
+    // The picture of a light is found beside the light's own file.
+    let hall = suite.cases[1].scene.table["light"]["path"].as_str().unwrap();
+    assert_eq!(Path::new(hall), root.path().join("lights/hall.exr"));
+    assert_eq!(suite.cases[0].scene.table["render"]["width"].as_integer(), Some(16));
+    let MethodKind::Fields { config, .. } = &suite.methods[0].kind else { panic!() };
+    assert_eq!(config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
+    let MethodKind::Program(program) = &suite.methods[1].kind else { panic!() };
+    let words = ["run", "{capture}", "{maps}"].map(str::to_owned).to_vec();
+    assert_eq!(program.start, Start::Command(words));
+    assert_eq!(program.folder, root.path());
+    // The resolved text stands alone: it parses back to the same scene.
+    let text = suite.cases[0].scene.to_toml().unwrap();
+    assert_eq!(text.parse::<Table>().unwrap(), suite.cases[0].scene.table);
+}
+
+#[test]
+fn maps_are_relit_under_every_scale_unless_the_suite_names_some() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let open = |line: &str| {
+        let text = format!(
+            "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n{line}\n[[method]]\nname = \"oracle\"\n"
+        );
+        Suite::open(&write(root.path(), "suite.toml", &text)).map(|suite| suite.scales)
+    };
+    assert_eq!(open("").unwrap(), SCALES);
+    assert_eq!(open("scales = [\"global\"]").unwrap(), ["global"]);
+    for wrong in ["[]", "[\"channel\"]", "[\"none\", \"none\"]", "\"none\"", "[1]"] {
+        let message = open(&format!("scales = {wrong}")).unwrap_err().to_string();
+        assert!(message.contains("scales") && message.contains("none, global"), "{message}");
+    }
+}
+
+#[test]
+fn every_case_is_there_in_every_variant_and_a_variant_changes_only_what_it_names() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let path = write(
+        root.path(),
+        "suite.toml",
+        "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n\
+         lights = [\"lights/key.toml\", \"lights/hall.toml\"]\n\
+         [[variant]]\nname = \"as captured\"\n\
+         [[variant]]\nname = \"no labels\"\n[variant.labels]\nomit = true\n\
+         [variant.render]\nwidth = 32\n[variant.light]\nexposure = 0.5\n[face]\ntexture_size = 1024\n\
+         [[method]]\nname = \"semantic_initialisation\"\n",
+    );
+    let suite = Suite::open(&path).unwrap();
+    let ids: Vec<_> = suite.cases.iter().map(|case| case.id.as_str()).collect();
+    assert_eq!(
+        ids,
+        ["ada-key-as-captured", "ada-key-no-labels", "ada-hall-as-captured", "ada-hall-no-labels"]
+    );
+    let table = |case: usize| &suite.cases[case].scene.table;
+    assert_eq!(suite.cases[1].variant.as_deref(), Some("no labels"));
+    assert_eq!(table(3)["face"]["texture_size"].as_integer(), Some(1024));
+    assert!(!table(0).contains_key("labels"));
+    assert_eq!(table(1)["labels"]["omit"].as_bool(), Some(true));
+    let size = |case: usize| {
+        ["width", "height"].map(|key| table(case)["render"][key].as_integer().unwrap())
+    };
+    assert_eq!((size(0), size(1)), ([8, 8], [32, 8]));
+    let exposed = |case: usize| table(case)["light"].get("exposure").and_then(Value::as_float);
+    assert_eq!((exposed(0), exposed(1)), (None, Some(0.5)));
+    // The text of a varied scene is one that can be read again.
+    let text = suite.cases[3].scene.to_toml().unwrap();
+    assert_eq!(&text.parse::<Table>().unwrap(), table(3));
+    let baseline = BaselineMethod::SemanticInitialisation;
+    assert_eq!(suite.methods[0].kind, MethodKind::Baseline { baseline, texture_size: 512 });
+    assert_eq!(suite.methods[0].role(), "baseline");
+}
+
+#[test]
+fn a_competitor_is_named_with_its_settings_and_has_a_class() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let open = |lines: &str| {
+        let text = format!("format = 1\nname = \"m\"\nscene = \"scene.toml\"\n[[method]]\n{lines}");
+        Suite::open(&write(root.path(), "suite.toml", &text))
+    };
+    let suite = open(
+        "name = \"sh-lambert\"\nset = { order = 3 }\n[[method]]\nname = \"light-stage\"\n\
+         [[method]]\nname = \"oracle\"\n[[method]]\nname = \"paper-tuned\"\n",
+    );
+    let suite = suite.unwrap();
+    let classes: Vec<_> = suite.methods.iter().map(|e| e.class().name()).collect();
+    assert_eq!(classes, ["passive", "controlled", "privileged", "passive"]);
+    let MethodKind::Competitor { settings, .. } = &suite.methods[0].kind else { panic!() };
+    assert_eq!(settings, "{\"order\":3}");
+    let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
+    assert!(wrong.contains("set = { texture_size"), "{wrong}");
+    // Under a configuration, it is our solver's name for once.
+    let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
+    assert!(matches!(ours.methods[0].kind, MethodKind::Fields { .. }));
+}
+
+#[test]
+fn every_suite_of_the_project_can_be_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/suites");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let suite = Suite::open(&path).unwrap();
+        assert_eq!(path.file_stem().unwrap().to_str(), Some(suite.name.as_str()));
+        for method in &suite.methods {
+            if let MethodKind::Fields { config, .. } = &method.kind {
+                solver::Config::from_toml(config).unwrap();
+            }
+        }
+        count += suite.cases.len();
+    }
+    assert!(count > 16 + 16 + 16, "{count}");
+}
+
+#[test]
+fn errors_name_the_file_the_key_and_the_mend() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let head = "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n";
+    for (text, expected) in [
+        ("name = \"m\"\n", "format: is missing; write format = 1"),
+        (&*format!("{head}solvers = 1\n"), "solvers: is unknown; there are"),
+        (head, "method: is missing; write [[method]] tables"),
+        (
+            &*format!("{head}solver = []\n"),
+            "suite.toml:4: solver: has been renamed; write [[method]] tables",
+        ),
+        (&*format!("{head}[[method]]\nname = \"a b\"\n"), "cannot name a folder"),
+        (
+            &*format!("{head}[[method]]\nname = \"a\"\nthread = 2\n"),
+            "suite.toml:5: method: unknown field `thread`",
+        ),
+        (&*format!("{head}[[method]]\nname = \"a\"\n"), "no configuration is named \"a\""),
+        (
+            &*format!("{head}[[method]]\nname = \"fast\"\n[method.set]\nseed = \"x\"\n"),
+            "suite.toml:5: name: configuration: ",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"a\"\ncommand = \"x\"\ntimeout_s = -1\n"),
+            "suite.toml:7: timeout_s: must be seconds above 0",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"oracle\"\nversion = \"2\"\n"),
+            "has no use for version; leave it out",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"label-means\"\ntexture_size = 512\n"),
+            "\"label-means\" has no use for texture_size; leave it out",
+        ),
+        ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
+        (
+            &*format!("{head}faces = [\"no.toml\"]\n[[method]]\nname = \"a\"\n"),
+            "no.toml: cannot be read",
+        ),
+        ("format = 1\nname = \"m\"\nscene = \"no\\nsuch.toml\"\n", "no such.toml: cannot be read"),
+        (
+            &*format!("{head}[[method]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
+            "\"mean_texture\" has no use for config; leave it out",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"paper\"\ntexture_size = 512\n"),
+            "has no use for texture_size; write [method.set.fine_tuning] texture_size",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"mean_texture\"\ntexture_size = 4\n"),
+            "texture_size: 4 of \"mean_texture\" is not from 16 to 8192",
+        ),
+        (
+            &*format!("{head}[[method]]\nname = \"paper\"\nbackend = \"tpu\"\n"),
+            "backend: no backend is named \"tpu\"; there are auto, cpu and gpu",
+        ),
+        (&*format!("{head}[face]\nname = \"a\"\n"), "face: is laid over every face"),
+        (&*format!("{head}[variant]\nname = \"a\"\n"), "variant: must be tables"),
+        (
+            &*format!(
+                "{head}[[variant]]\nname = \"a\"\n[variant.rig]\nname = \"b\"\n[[method]]\nname = \"fast\"\n"
+            ),
+            "[variant.rig] changes one and cannot name another",
+        ),
+        (&*format!("{head}[[variant]]\nlabels = {{}}\n"), "variant: has no name; write"),
+        (
+            &*format!("{head}[[variant]]\nname = \"a\"\nmesh = {{}}\n"),
+            "variant \"a\": mesh is unknown; there are name, captured_mesh",
+        ),
+        (
+            &*format!("{head}[[variant]]\nname = \"a\"\nlabels = 1\n"),
+            "labels must be a table; write [variant.labels]",
+        ),
+        (&*format!("{head}[[variant]]\nname = \"a/b\"\n"), "cannot name a folder"),
+        (
+            &*format!("{head}[[variant]]\nname = \"a b\"\n[[variant]]\nname = \"a-b\"\n"),
+            "ada-key-a-b occurs twice",
+        ),
+    ] {
+        let path = write(root.path(), "suite.toml", text);
+        let error = Suite::open(&path).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+}
