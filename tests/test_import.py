@@ -95,7 +95,7 @@ def test_the_silhouette_is_the_mask_where_there_is_none(capture: Path, imported:
 def test_the_same_solve(capture: Path, imported: Callable[[str], Path]) -> None:
     config = (
         'base = "fast"\n[initialisation]\nstarts = 1\n[warm_up]\niterations = 20\n[fine_tuning]\niterations = 4\n'
-        "[transport]\ntexture_size = 32\niterations = 20\nhold = 5\nrefinement = 4\n[height]\nsteps = 4\n"
+        "[transport]\ntexture_size = 32\niterations = 20\nalbedo_frozen_steps = 5\nrefinement = 4\n[height]\nsteps = 4\n"
     )
     writer = "metashape"  # whose matrices go the longest way
     document = json.loads((imported(writer) / "transforms.json").read_text())

@@ -77,7 +77,10 @@ pub(super) fn finish(
         all.scale(1.0 / (context.gain * lighting.exposure));
         Some(all)
     });
-    let light = lighting.map(|lighting| lighting.light);
+    let light = lighting.map(|mut lighting| {
+        lighting.light.radiance.iter_mut().for_each(|radiance| *radiance /= context.gain);
+        lighting.light
+    });
     let mut confidence = None;
     if let Some(diffuse_reflectance) = diffuse_reflectance {
         confidence = Some(diffuse_reflectance.confidence);
