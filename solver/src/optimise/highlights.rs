@@ -9,7 +9,7 @@ use super::adam::Adam;
 use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
 use super::light_estimate::{LightEstimate, bounce_albedo};
-use super::lighting::Lighting;
+use super::lighting::{Lighting, evenness};
 use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
 use super::tint::Regression;
@@ -19,7 +19,7 @@ use crate::config::{Config, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Reflection, Transport};
+use crate::transport::{CHANNELS, Reflection, Transport, contrast};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
@@ -63,7 +63,8 @@ pub(super) fn distance(
     runner.stage(&mut stage, &mut state)?;
     let config = &context.config.reflectance;
     if config.rounds > 0 {
-        reflectances.update(config, &stage.regression(&state, &weight), &regions);
+        let evenness = evenness(contrast(t.rows, &stage.light()), t.even_contrast);
+        reflectances.update(config, evenness, &stage.regression(&state, &weight), &regions);
     }
     if t.tint && round == config.rounds() {
         light_estimate.tint = stage.take_tint(&state);

@@ -42,6 +42,11 @@ pub(super) struct Lighting {
     pub light: RecoveredLight,
 }
 
+/// 1 of a light without contrast, a half of one that has `half_even`, 0 of lamps in the dark.
+pub(super) fn evenness(contrast: f32, half_even: f32) -> f32 {
+    1.0 / (1.0 + (contrast / half_even).powi(2))
+}
+
 impl Lighting {
     /// What a light makes of the textures of `state`; `reflectances` are [`Lighting::reflectances`].
     pub fn new(
@@ -103,7 +108,7 @@ impl Lighting {
 
     /// 1 of a light that is the same from everywhere, 0 of lamps in the dark.
     fn evenness(&self) -> f32 {
-        1.0 / (1.0 + (self.light.contrast() / self.even_contrast).powi(2))
+        evenness(self.light.contrast(), self.even_contrast)
     }
 
     /// The pictures less their share of what all views share of the highlights.

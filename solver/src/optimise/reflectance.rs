@@ -61,12 +61,22 @@ impl Reflectances {
 
     /// Takes in what highlights say that were predicted with these reflectances, on a texture of the
     /// `regions`. Both what is expected and what is said weigh by their variances; a region that says
-    /// nothing mirrors like skin.
-    pub fn update(&mut self, config: &ReflectanceConfig, regression: &Regression, regions: &[u8]) {
-        let said = |now: f32, power: f32, of: &dyn Fn(u8) -> bool| {
+    /// nothing mirrors like skin. Under an even light (`evenness` up to 1) highlights vary at grazing angles
+    /// alone, where normals and visibility err most, and say little.
+    pub fn update(
+        &mut self,
+        config: &ReflectanceConfig,
+        evenness: f32,
+        regression: &Regression,
+        regions: &[u8],
+    ) {
+        // Skin, which has the stronger prior, is believed less.
+        let doubt = (1.0 - evenness).max(1e-3).recip();
+        let said = |now: f32, power: f32, doubt: f32, of: &dyn Fn(u8) -> bool| {
+            let model_error = config.model_error * doubt;
             let (slope, error) = regression.slope(|texel| of(regions[texel]))?;
             let now = f64::from(now);
-            let error = error.hypot(f64::from(config.model_error) * slope);
+            let error = error.hypot(f64::from(model_error) * slope);
             Some((now * slope.max(0.0).powf(f64::from(power)), now * error))
         };
         let posterior = |said: Option<(f64, f64)>, prior: f32, deviation: f32| {
@@ -76,14 +86,19 @@ impl Reflectances {
             (weight * said + (1.0 - weight) * prior) as f32
         };
         let is_skin = |region: u8| self.skin.contains(&region);
-        let said_of_skin =
-            said(self.regions[usize::from(self.skin[0])], config.relaxation, &is_skin);
+        let said_of_skin = said(
+            self.regions[usize::from(self.skin[0])],
+            config.relaxation,
+            doubt * doubt,
+            &is_skin,
+        );
         let skin = posterior(said_of_skin, self.expected, config.skin_deviation);
         let of = |region: u8| {
             if is_skin(region) {
                 return skin;
             }
-            let said = said(self.regions[usize::from(region)], 1.0, &|other| other == region);
+            let now = self.regions[usize::from(region)];
+            let said = said(now, 1.0, doubt, &|other| other == region);
             posterior(said, skin, config.region_deviation)
         };
         self.regions = (0..=u8::MAX).map(of).collect();
@@ -111,7 +126,7 @@ mod tests {
         let regression = Regression::new(&samples, &samples.weight, &predicted, shown);
         let mut all = Reflectances { regions: vec![SKIN; 256], expected: SKIN, skin: vec![1] };
         let config = ReflectanceConfig { relaxation: 1.0, ..Config::default().reflectance };
-        all.update(&config, &regression, &regions);
+        all.update(&config, 0.0, &regression, &regions);
         all.of(&[1, 2]).try_into().unwrap()
     }
 
