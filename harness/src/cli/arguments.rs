@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::bench::BenchArgs;
+use super::calibrate::CalibrateArgs;
+use super::compare::CompareArgs;
 use super::export::ExportArgs;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
@@ -101,6 +103,9 @@ pub(super) enum Verb {
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
+    /// Measure how far a suite's scores move with the seeds, and write tolerances with a known rate of
+    /// false alarms.
+    Calibrate(CalibrateArgs),
     /// Time the solver's kernels and steps against what this machine reaches.
     Bench(BenchArgs),
     /// Say what this machine has, and what is missing with the mend.
@@ -155,20 +160,6 @@ pub(super) struct SolveArgs {
     #[arg(long, value_name = "PLACE", num_args = 0..=1,
           default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub rerun: Option<String>,
-}
-
-#[derive(Args)]
-pub(super) struct CompareArgs {
-    /// The run's folder.
-    pub run: PathBuf,
-    /// A `baseline.json` that `unshade report` wrote.
-    pub baseline: PathBuf,
-    /// How far a metric may move; the built-in rules are scenes/tolerances.toml.
-    #[arg(long)]
-    pub tolerances: Option<PathBuf>,
-    /// Also write the verdicts as JUnit XML.
-    #[arg(long)]
-    pub junit: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

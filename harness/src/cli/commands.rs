@@ -5,17 +5,16 @@ use std::path::Path;
 use std::time::Instant;
 
 use formats::atomic;
-use scoring::compare::{Baseline, Tolerances, compare};
 use scoring::score;
 use solver::Choice;
 
 use super::alone::{alone, tools};
 use super::arguments::{
-    BackendName, CompareArgs, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
+    BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
 };
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{bench, check, doctor, export, start};
+use super::{bench, calibrate, check, compare, doctor, export, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
 use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
 
@@ -60,7 +59,8 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             words.push(format!("-o {}", out.display()));
             report::write_results(&runs, &out, &words.join(" "))?;
         }
-        Verb::Compare(arguments) => return compare_run(&arguments),
+        Verb::Compare(arguments) => return compare::compare(&arguments),
+        Verb::Calibrate(arguments) => return calibrate::calibrate(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
@@ -150,19 +150,4 @@ fn run_suite(suite: &Path, out: &Path, options: RunOptions) -> Result<u8, RunErr
         eprintln!("unshade: {name} failed: {reason}");
     }
     Ok(if summary.failed.is_empty() { DONE } else { CHECK_FAILED })
-}
-
-fn compare_run(arguments: &CompareArgs) -> Result<u8, RunError> {
-    let tolerances = match &arguments.tolerances {
-        Some(path) => Tolerances::read(path)?,
-        None => Tolerances::built_in()?,
-    };
-    let current = Baseline::of_run(&arguments.run)?;
-    let comparison = compare(&current, &Baseline::read(&arguments.baseline)?, &tolerances)?;
-    if let Some(path) = &arguments.junit {
-        let written = atomic::write_file(path, comparison.junit()?.as_bytes());
-        written.map_err(|reason| RunError::File { path: path.clone(), reason })?;
-    }
-    say!("{}", comparison.table().trim_end());
-    Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
 }

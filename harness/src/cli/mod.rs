@@ -12,9 +12,12 @@ macro_rules! say {
 
 mod alone;
 mod arguments;
+mod baseline_branch;
 mod bench;
+mod calibrate;
 mod check;
 mod commands;
+mod compare;
 mod doctor;
 mod exit;
 mod export;

@@ -58,6 +58,11 @@ impl Competitor {
         Some(Self { name, title, class })
     }
 
+    /// Whether its settings have a seed.
+    pub(super) fn has_seed(self) -> bool {
+        self.name == "path-traced"
+    }
+
     /// Writes the maps folder `maps` from `capture`; `settings` are JSON. A passive method never sees more
     /// than the blind copy that programs of others get.
     pub(super) fn make(

@@ -1,6 +1,7 @@
 //! Suites: every face in every light and variant through every solver, resumable, nothing done twice.
 
 mod baseline;
+mod case_place;
 mod cases;
 mod competitor;
 mod error;
@@ -16,11 +17,13 @@ mod record;
 mod relit;
 mod run;
 mod scene;
+mod seeds;
 mod sources;
 mod stages;
 mod tools;
 
 pub use baseline::BaselineMethod;
+pub use case_place::case_places;
 pub use cases::Case;
 pub use competitor::{Class, Competitor};
 pub use error::RunError;

@@ -1,10 +1,11 @@
 //! The scores of a run in one small file: what a later run is compared with.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
 use formats::atomic;
+use formats::content_hash::hash_parts;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -13,6 +14,10 @@ use crate::score::Scores;
 
 const FORMAT: u32 = 1;
 
+fn one() -> u64 {
+    1
+}
+
 /// Every score of a run under `<case>/<solver>/<row id>`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Baseline {
@@ -20,10 +25,33 @@ pub struct Baseline {
     pub format: u32,
     /// Name of the suite.
     pub suite: String,
+    /// Hash of the suite's text; none in files of earlier versions.
+    #[serde(default)]
+    pub suite_hash: Option<String>,
     /// Versions that made the run.
     pub versions: BTreeMap<String, Value>,
+    /// What each case was made of.
+    #[serde(default)]
+    pub cases: BTreeMap<String, Captured>,
+    /// What the solver computed on.
+    #[serde(default)]
+    pub devices: BTreeSet<String>,
+    /// How many runs the values are means of.
+    #[serde(default = "one")]
+    pub runs: u64,
     /// The scores.
     pub rows: BTreeMap<String, Entry>,
+}
+
+/// A case of the run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Captured {
+    /// Name of the face.
+    pub face: String,
+    /// Name of the light of the capture.
+    pub light: String,
+    /// Hash of the capture; none where the values are means over captures.
+    pub capture: Option<String>,
 }
 
 /// One score.
@@ -37,12 +65,25 @@ pub struct Entry {
     pub n: u64,
 }
 
+/// Everything of a baseline but its rows.
+#[derive(Serialize)]
+struct Head<'a> {
+    format: u32,
+    suite: &'a str,
+    suite_hash: Option<&'a str>,
+    versions: &'a BTreeMap<String, Value>,
+    cases: &'a BTreeMap<String, Captured>,
+    devices: &'a BTreeSet<String>,
+    runs: u64,
+}
+
 /// The part of `run.json` that says where the scores are.
 #[derive(Deserialize)]
 struct Run {
     suite: String,
     #[serde(default)]
     versions: BTreeMap<String, Value>,
+    suite_toml: Option<String>,
     cases: Vec<Case>,
 }
 
@@ -58,6 +99,13 @@ struct Method {
     id: String,
     /// None of a method that failed.
     scores: Option<String>,
+    maps: Option<String>,
+}
+
+/// The part of a maps folder's `solve.json` that says what computed.
+#[derive(Deserialize)]
+struct Solve {
+    backend: Option<String>,
 }
 
 impl Baseline {
@@ -66,7 +114,11 @@ impl Baseline {
         Self {
             format: FORMAT,
             suite: suite.to_owned(),
+            suite_hash: None,
             versions: BTreeMap::new(),
+            cases: BTreeMap::new(),
+            devices: BTreeSet::new(),
+            runs: 1,
             rows: BTreeMap::new(),
         }
     }
@@ -74,16 +126,39 @@ impl Baseline {
     /// Collects the scores of a finished run folder.
     pub fn of_run(run: &Path) -> Result<Self, CompareError> {
         let path = run.join("run.json");
-        let Run { suite, versions, cases } = parse(&path)?;
-        let mut baseline = Self { versions, ..Self::new(&suite) };
+        let Run { suite, versions, suite_toml, cases } = parse(&path)?;
+        let suite_hash = suite_toml.map(|text| hash_parts(&["suite", &text]));
+        let mut baseline = Self { suite_hash, versions, ..Self::new(&suite) };
         for case in &cases {
             for method in &case.methods {
                 let Some(scores) = &method.scores else { continue };
                 let scores = Scores::read(&run.join(scores))?;
+                let Scores { face, light, .. } = scores.clone();
+                let captured = Captured { face, light, capture: Some(scores.inputs.capture.clone()) };
+                baseline.cases.insert(case.id.clone(), captured);
+                // Methods that leave no such file say nothing of what they computed on.
+                let solve = method.maps.as_ref().map(|maps| run.join(maps).join("solve.json"));
+                if let Some(solve) = solve.filter(|solve| solve.is_file()) {
+                    baseline.devices.extend(parse::<Solve>(&solve)?.backend);
+                }
                 baseline.add(&format!("{}/{}", case.id, method.id), &scores);
             }
         }
         baseline.checked(&path)
+    }
+
+    /// The means of runs that differ in their seeds alone, of the rows that have a value in each.
+    ///
+    /// Intervals are those of the first: they say what the choice of pixels does, not what seeds do.
+    pub fn mean(runs: &[Self]) -> Option<Self> {
+        let mut mean = runs.first()?.clone();
+        mean.cases.values_mut().for_each(|case| case.capture = None);
+        mean.runs = runs.len() as u64;
+        for (id, entry) in &mut mean.rows {
+            let values: Option<Vec<f64>> = runs.iter().map(|run| run.rows.get(id)?.value).collect();
+            entry.value = values.map(|values| values.iter().sum::<f64>() / values.len() as f64);
+        }
+        Some(mean)
     }
 
     /// Adds the rows of one solver on one case, under `prefix`.
@@ -124,12 +199,23 @@ impl Baseline {
                 Ok(format!("  {}: {}", Value::from(id.as_str()), serde_json::to_string(entry)?))
             })
             .collect::<serde_json::Result<_>>()?;
-        let suite = Value::from(self.suite.as_str());
-        let versions = serde_json::to_string(&self.versions)?;
-        let (format, rows) = (self.format, rows.join(",\n"));
-        Ok(format!(
-            "{{\n \"format\": {format},\n \"suite\": {suite},\n \"versions\": {versions},\n \"rows\": {{\n{rows}\n }}\n}}\n"
-        ))
+        let head = Head {
+            format: self.format,
+            suite: &self.suite,
+            suite_hash: self.suite_hash.as_deref(),
+            versions: &self.versions,
+            cases: &self.cases,
+            devices: &self.devices,
+            runs: self.runs,
+        };
+        let head = serde_json::to_value(head)?;
+        let head: Vec<String> = head
+            .as_object()
+            .into_iter()
+            .flatten()
+            .map(|(key, value)| format!(" {key:?}: {value}"))
+            .collect();
+        Ok(format!("{{\n{},\n \"rows\": {{\n{}\n }}\n}}\n", head.join(",\n"), rows.join(",\n")))
     }
 
     fn checked(self, path: &Path) -> Result<Self, CompareError> {

@@ -39,6 +39,22 @@ pub enum CompareError {
         /// The baseline's.
         baseline: String,
     },
+    /// Too few runs say nothing of a spread.
+    #[error(
+        "{runs} runs are too few to measure a spread; give at least {fewest} that differ in their seeds"
+    )]
+    FewRuns {
+        /// How many there are.
+        runs: usize,
+        /// How many it takes.
+        fewest: usize,
+    },
+    /// A date that is none.
+    #[error("--until {0}: is no day; write YYYY-MM-DD")]
+    Day(String),
+    /// An acceptance of nothing.
+    #[error("--accept {0}: no row that is worse or missing matches; * stands for any text")]
+    NothingToAccept(String),
     /// A row has no tolerance.
     #[error("no rule of the tolerances matches {0}; add one, rows = \"*\" matches everything")]
     NoRule(String),

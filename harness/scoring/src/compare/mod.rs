@@ -1,11 +1,28 @@
-//! Regression scoring: a run against a baseline, score by score, with stated tolerances.
+//! Regression scoring: a run against a baseline, score by score, with tolerances that were measured or
+//! reasoned.
 
+mod acceptance;
+mod annotations;
 mod baseline;
+mod calibration;
+mod cause;
+mod context;
 mod error;
+mod junit;
+mod markdown;
+mod measure;
+mod row_id;
+mod spread;
+mod text;
 mod tolerance;
 mod verdict;
 
-pub use baseline::{Baseline, Entry};
+pub use acceptance::{Acceptance, Acceptances, is_day};
+pub use baseline::{Baseline, Captured, Entry};
+pub use calibration::{Calibration, FEWEST_RUNS, Limits, Spread};
+pub use cause::Finding;
 pub use error::CompareError;
+pub use junit::Places;
+pub use row_id::RowId;
 pub use tolerance::{Rule, Tolerances};
-pub use verdict::{Comparison, Judged, Verdict, compare};
+pub use verdict::{Comparison, Judged, VERDICTS, Verdict, compare};

@@ -6,17 +6,25 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::CompareError;
+use super::calibration::Calibration;
 
 /// The rules that hold unless a file says otherwise.
 const BUILT_IN: &str = include_str!("../../../../scenes/tolerances.toml");
 
-/// Rules in order; the first whose pattern matches a row decides.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// What was measured of a row decides; of others the first rule whose pattern matches.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tolerances {
-    format: u32,
-    #[serde(rename = "rule")]
     rules: Vec<Rule>,
+    calibration: Option<Calibration>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    format: u32,
+    #[serde(default, rename = "rule")]
+    rules: Vec<Rule>,
+    calibration: Option<Calibration>,
 }
 
 /// What rows of a kind may do.
@@ -45,10 +53,15 @@ impl Tolerances {
         Self::parse(Path::new("scenes/tolerances.toml"), BUILT_IN)
     }
 
-    /// Reads a rules file.
+    /// Reads a file of rules, or what `unshade calibrate` wrote.
     pub fn read(path: &Path) -> Result<Self, CompareError> {
         let text = fs::read_to_string(path).map_err(|error| CompareError::io(path, error))?;
         Self::parse(path, &text)
+    }
+
+    /// The built-in rules with a measured spread.
+    pub fn calibrated(calibration: Calibration) -> Result<Self, CompareError> {
+        Ok(Self { calibration: Some(calibration), ..Self::built_in()? })
     }
 
     /// The rule for a row.
@@ -57,22 +70,33 @@ impl Tolerances {
         found.ok_or_else(|| CompareError::NoRule(CompareError::line(id)))
     }
 
+    /// The measured spread, if there is one.
+    pub fn calibration(&self) -> Option<&Calibration> {
+        self.calibration.as_ref()
+    }
+
     fn parse(path: &Path, text: &str) -> Result<Self, CompareError> {
-        let tolerances: Self =
+        let File { format, rules, calibration } =
             toml::from_str(text).map_err(|error| CompareError::text(path, error.message()))?;
-        if tolerances.format != 1 {
-            let reason = format!("has format {}, this version reads 1", tolerances.format);
-            return Err(CompareError::text(path, reason));
+        let wrong = |reason: String| Err(CompareError::text(path, reason));
+        match (format, &calibration) {
+            (1, None) | (2, Some(_)) => {}
+            (1, Some(_)) => return wrong("has format 1, and a calibration has format 2".to_owned()),
+            (2, None) => return wrong("has format 2, and no [calibration]".to_owned()),
+            _ => return wrong(format!("has format {format}, this version reads 1 and 2")),
         }
         let is_amount = |amount: f64| amount.is_finite() && amount >= 0.0;
-        match tolerances.rules.iter().find(|r| !is_amount(r.absolute) || !is_amount(r.relative)) {
-            Some(rule) => {
-                let reason =
-                    format!("the rule for {:?} has a negative or infinite allowance", rule.rows);
-                Err(CompareError::text(path, reason))
-            }
-            None => Ok(tolerances),
+        if let Some(rule) =
+            rules.iter().find(|rule| !is_amount(rule.absolute) || !is_amount(rule.relative))
+        {
+            return wrong(format!("the rule for {:?} has a negative or infinite allowance", rule.rows));
         }
+        if let Some(fault) = calibration.as_ref().and_then(Calibration::fault) {
+            return wrong(fault);
+        }
+        // A calibration's other rows, and whether a change for the better is wanted, are the rules'.
+        let rules = if format == 2 && rules.is_empty() { Self::built_in()?.rules } else { rules };
+        Ok(Self { rules, calibration })
     }
 }
 
@@ -84,7 +108,7 @@ impl Rule {
 }
 
 /// Whether `text` has the form of `pattern`, in which `*` stands for any text.
-fn matches(pattern: &str, text: &str) -> bool {
+pub(super) fn matches(pattern: &str, text: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == text,
         Some((head, rest)) => text.strip_prefix(head).is_some_and(|tail| {

@@ -1,28 +1,44 @@
-//! The comparison itself, and how it is told.
+//! What became of each score: better, same, worse, or more than the runs can tell.
 
-use std::fmt::Write;
-
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use serde::Serialize;
 
 use super::CompareError;
 use super::baseline::{Baseline, Entry};
+use super::context::differences;
+use super::row_id::RowId;
 use super::tolerance::{Rule, Tolerances};
 use crate::metrics::Metric;
 
 /// What became of a score.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Beyond the tolerance, for the worse: a regression.
     Worse,
     /// In the baseline alone: a regression.
     Missing,
+    /// A regression that somebody accepted, with a reason.
+    Accepted,
     /// Beyond the tolerance, for the better.
     Better,
     /// Not in the baseline.
     New,
+    /// No change was seen, and one that matters is not excluded.
+    CannotTell,
     /// Within the tolerance.
     Same,
 }
+
+/// All of them, in order.
+pub const VERDICTS: [Verdict; 7] = [
+    Verdict::Worse,
+    Verdict::Missing,
+    Verdict::Accepted,
+    Verdict::Better,
+    Verdict::New,
+    Verdict::CannotTell,
+    Verdict::Same,
+];
 
 impl Verdict {
     /// Whether it fails the comparison.
@@ -30,19 +46,22 @@ impl Verdict {
         matches!(self, Self::Worse | Self::Missing)
     }
 
-    fn word(self) -> &'static str {
+    /// As tables have it.
+    pub fn word(self) -> &'static str {
         match self {
-            Self::Worse => "WORSE",
-            Self::Missing => "MISSING",
+            Self::Worse => "worse",
+            Self::Missing => "missing",
+            Self::Accepted => "accepted",
             Self::Better => "better",
             Self::New => "new",
+            Self::CannotTell => "cannot tell",
             Self::Same => "same",
         }
     }
 }
 
 /// A score beside its baseline.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judged {
     /// `<case>/<solver>/<row id>`.
     pub id: String,
@@ -56,8 +75,10 @@ pub struct Judged {
     pub allowed: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// Why it may move so far.
+    /// Why it may move so far, or why the change was accepted.
     pub reason: String,
+    /// Whether `allowed` is from a measured spread and not from a reasoned tolerance.
+    pub measured: bool,
 }
 
 /// Verdicts on every score, regressions first.
@@ -65,8 +86,14 @@ pub struct Judged {
 pub struct Comparison {
     /// The suite's name.
     pub suite: String,
+    /// What else differs between the two, in words; what follows is not like with like.
+    pub differences: Vec<String>,
+    /// What decides, in one sentence.
+    pub tolerances: String,
     /// Sorted by verdict, then by id.
     pub rows: Vec<Judged>,
+    /// The light of each case, as it is shown.
+    pub(super) lights: Vec<(String, String)>,
 }
 
 /// Judges every score of `current` and of `baseline`.
@@ -81,13 +108,22 @@ pub fn compare(
     }
     let mut rows = Vec::new();
     for (id, old) in &baseline.rows {
-        rows.push(judge(id, Some(old), current.rows.get(id), tolerances)?);
+        rows.push(judge(id, Some(old), current.rows.get(id), tolerances, baseline.runs)?);
     }
     for (id, new) in current.rows.iter().filter(|(id, _)| !baseline.rows.contains_key(*id)) {
-        rows.push(judge(id, None, Some(new), tolerances)?);
+        rows.push(judge(id, None, Some(new), tolerances, baseline.runs)?);
     }
-    rows.sort_by(|a, b| (a.verdict, &a.id).cmp(&(b.verdict, &b.id)));
-    Ok(Comparison { suite: baseline.suite.clone(), rows })
+    let cases = baseline.cases.iter().chain(&current.cases);
+    let lights = cases.map(|(id, case)| (id.clone(), case.light.clone())).collect();
+    let mut comparison = Comparison {
+        suite: baseline.suite.clone(),
+        differences: differences(current, baseline, tolerances),
+        tolerances: in_words(tolerances, &rows),
+        rows,
+        lights,
+    };
+    comparison.sort();
+    Ok(comparison)
 }
 
 fn judge(
@@ -95,48 +131,112 @@ fn judge(
     old: Option<&Entry>,
     new: Option<&Entry>,
     tolerances: &Tolerances,
+    runs: u64,
 ) -> Result<Judged, CompareError> {
     let rule = tolerances.rule(id)?;
-    let metric = metric_of(id)?;
+    let metric = RowId::parse(id)?.metric;
     let (baseline, current) = (old.and_then(|old| old.value), new.and_then(|new| new.value));
-    let allowed = baseline.map_or(0.0, |baseline| rule.allowed(baseline));
+    let limits = limits(id, baseline, tolerances, rule, runs);
     let verdict = match (baseline, current) {
-        (Some(old), Some(new)) => weigh(metric, rule, old, new),
+        (Some(old), Some(new)) => limits.weigh(metric, old, new),
         (Some(_), None) => Verdict::Missing,
         // A row that was and is not defined, unless it has gone altogether.
         (None, None) if old.is_some() && new.is_none() => Verdict::Missing,
         (None, None) if old.is_some() => Verdict::Same,
         (None, _) => Verdict::New,
     };
-    let (id, reason) = (id.to_owned(), rule.reason.clone());
-    Ok(Judged { id, verdict, baseline, current, allowed, unit: metric.unit, reason })
+    let (id, allowed) = (id.to_owned(), limits.change);
+    let (unit, measured) = (metric.unit, limits.measured);
+    let reason = if measured { String::new() } else { rule.reason.clone() };
+    Ok(Judged { id, verdict, baseline, current, allowed, unit, reason, measured })
 }
 
-fn weigh(metric: &Metric, rule: &Rule, old: f64, new: f64) -> Verdict {
-    let allowed = rule.allowed(old);
-    let gain = metric.direction.gain(old, new);
-    if rule.either_way && (new - old).abs() > allowed || gain < -allowed {
-        Verdict::Worse
-    } else if gain > allowed {
-        Verdict::Better
-    } else {
-        Verdict::Same
+/// What the two values of a row are held against.
+struct RowLimits {
+    change: f64,
+    same: f64,
+    either_way: bool,
+    measured: bool,
+}
+
+fn limits(
+    id: &str,
+    baseline: Option<f64>,
+    tolerances: &Tolerances,
+    rule: &Rule,
+    runs: u64,
+) -> RowLimits {
+    let either_way = rule.either_way;
+    let measured = tolerances.calibration().and_then(|all| Some((all, all.rows.get(id)?)));
+    match measured {
+        Some((calibration, row)) => {
+            let limits = calibration.limits(row, runs);
+            RowLimits { change: limits.change, same: limits.same, either_way, measured: true }
+        }
+        None => {
+            let change = baseline.map_or(0.0, |baseline| rule.allowed(baseline));
+            RowLimits { change, same: change, either_way, measured: false }
+        }
     }
 }
 
-/// The metric of `.../<metric>@<region>:<scale>`.
-fn metric_of(id: &str) -> Result<&'static Metric, CompareError> {
-    let name = id.split('@').next().and_then(|head| head.rsplit('/').next()).unwrap_or_default();
-    Metric::find(name).map_err(|source| CompareError::Metric { id: CompareError::line(id), source })
+impl RowLimits {
+    fn weigh(&self, metric: &Metric, old: f64, new: f64) -> Verdict {
+        let gain = metric.direction.gain(old, new);
+        // Of a reasoned tolerance the gain counts, of a measured one whether the number moved at all.
+        let moved = if self.measured || self.either_way { (new - old).abs() } else { gain.abs() };
+        if moved > self.change {
+            let better = gain > 0.0 && !self.either_way;
+            if better { Verdict::Better } else { Verdict::Worse }
+        } else if moved <= self.same || new == old {
+            Verdict::Same
+        } else {
+            Verdict::CannotTell
+        }
+    }
+}
+
+fn in_words(tolerances: &Tolerances, rows: &[Judged]) -> String {
+    let Some(calibration) = tolerances.calibration() else {
+        return "reasoned tolerances, for which no rate of false alarms is known; unshade calibrate \
+                measures it"
+            .to_owned();
+    };
+    let rate = 100.0 * calibration.false_alarms;
+    let runs = calibration.runs;
+    let mut words =
+        format!("{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds");
+    let reasoned = rows.iter().filter(|row| !row.measured && row.baseline.is_some()).count();
+    if reasoned > 0 {
+        words += &format!("; {reasoned} rows were not calibrated and have reasoned tolerances");
+    }
+    words
 }
 
 impl Judged {
     /// `28.104 -> 27.402 dB, allowed 0.1`.
-    fn change(&self) -> String {
+    pub fn change(&self) -> String {
         let shown = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{v:.5}"));
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let (old, new) = (shown(self.baseline), shown(self.current));
         format!("{old} -> {new}{unit}, allowed {:.5}", self.allowed)
+    }
+
+    /// `change` with why, where there is a reason.
+    pub fn explained(&self) -> String {
+        match self.reason.as_str() {
+            "" => self.change(),
+            reason => format!("{} ({reason})", self.change()),
+        }
+    }
+
+    /// How many times the allowance it moved.
+    pub(super) fn severity(&self) -> f64 {
+        match (self.baseline, self.current) {
+            (Some(old), Some(new)) if self.allowed > 0.0 => (new - old).abs() / self.allowed,
+            (Some(old), Some(new)) if old == new => 0.0,
+            _ => f64::INFINITY,
+        }
     }
 }
 
@@ -151,65 +251,19 @@ impl Comparison {
         self.rows.iter().filter(|row| row.verdict == verdict).count()
     }
 
-    /// What moved, one line each, and the sums.
-    pub fn table(&self) -> String {
-        let moved: Vec<&Judged> =
-            self.rows.iter().filter(|row| row.verdict != Verdict::Same).collect();
-        let width = moved.iter().map(|row| row.id.len()).max().unwrap_or(0);
-        let mut text = String::new();
-        for row in moved {
-            let reason = if row.verdict == Verdict::Worse {
-                format!(" ({})", row.reason)
-            } else {
-                String::new()
-            };
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{:8}{:width$}  {}{reason}",
-                row.verdict.word(),
-                row.id,
-                row.change(),
-            );
-        }
-        let counts =
-            [Verdict::Worse, Verdict::Missing, Verdict::Better, Verdict::New, Verdict::Same].map(
-                |verdict| format!("{} {}", self.count(verdict), verdict.word().to_lowercase()),
-            );
-        let outcome = if self.passed() { "no regression" } else { "REGRESSION" };
-        let _ = writeln!(text, "{}: {outcome}: {}", self.suite, counts.join(", "));
-        text
+    pub(super) fn sort(&mut self) {
+        self.rows.sort_by(|a, b| (a.verdict, &a.id).cmp(&(b.verdict, &b.id)));
     }
 
-    /// JUnit XML: a suite per case and solver, a test per score; no times, so that equal
-    /// comparisons give equal text.
-    pub fn junit(&self) -> Result<String, CompareError> {
-        let mut report = Report::new(format!("unshade compare {}", self.suite));
-        let mut suites: Vec<TestSuite> = Vec::new();
-        let mut rows: Vec<&Judged> = self.rows.iter().collect();
-        rows.sort_by(|a, b| a.id.cmp(&b.id));
-        for row in rows {
-            let cut = row.id.match_indices('/').nth(1).map_or(0, |(at, _)| at);
-            let (method, name) = (&row.id[..cut], row.id[cut..].trim_start_matches('/'));
-            let status = if row.verdict.is_regression() {
-                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                status.set_type(row.verdict.word());
-                status.set_message(format!("{} ({})", row.change(), row.reason));
-                status
-            } else {
-                TestCaseStatus::success()
-            };
-            let mut case = TestCase::new(name, status);
-            case.set_classname(method);
-            if !row.verdict.is_regression() {
-                case.set_system_out(format!("{}: {}", row.verdict.word(), row.change()));
-            }
-            if suites.last().is_none_or(|suite| suite.name.as_str() != method) {
-                suites.push(TestSuite::new(method));
-            }
-            suites.iter_mut().last().map(|suite| suite.add_test_case(case));
-        }
-        report.add_test_suites(suites);
-        Ok(report.to_string()?)
+    /// `0 worse, 0 missing, 1 better, ...`; what there is none of is left out, except of what is worse.
+    pub fn counts(&self) -> String {
+        let counted = VERDICTS.into_iter().map(|verdict| (self.count(verdict), verdict));
+        let shown = counted.filter(|(count, verdict)| *count > 0 || *verdict == Verdict::Worse);
+        shown.map(|(n, verdict)| format!("{n} {}", verdict.word())).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The verdict on the whole.
+    pub fn outcome(&self) -> &'static str {
+        if self.passed() { "no regression" } else { "REGRESSION" }
     }
 }

@@ -1,0 +1,168 @@
+//! How far scores move when nothing but seeds differs, measured on runs: what a change is held against.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+use formats::atomic;
+use serde::Deserialize;
+use serde_json::Value;
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use super::CompareError;
+
+/// The fewest runs that a spread is estimated from.
+pub const FEWEST_RUNS: usize = 4;
+
+/// Probability of a change that `sees` states.
+const POWER: f64 = 0.9;
+
+/// Confidence with which "same" excludes a change that matters.
+const SAME: f64 = 0.95;
+
+/// A standard deviation below this share of the change that matters is not believed: other processors
+/// round differently.
+pub(super) const LEAST: f64 = 0.02;
+
+/// The measured spread of a suite's scores.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Calibration {
+    /// The suite's name.
+    pub suite: String,
+    /// Hash of the suite's text.
+    pub suite_hash: Option<String>,
+    /// Versions that made the runs.
+    #[serde(default)]
+    pub versions: BTreeMap<String, Value>,
+    /// Runs that differed in their seeds alone.
+    pub runs: usize,
+    /// Probability that a comparison of two such runs calls any row better or worse.
+    pub false_alarms: f64,
+    /// How many standard deviations of a difference are a change; absent if nothing moves.
+    #[serde(default)]
+    pub critical: Option<f64>,
+    /// By row id.
+    pub rows: BTreeMap<String, Spread>,
+}
+
+/// What is known of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spread {
+    /// Standard deviation over the runs, in the metric's unit.
+    pub sd: f64,
+    /// The change that matters, in the same unit: the reasoned tolerance.
+    pub matters: f64,
+    /// The change that a comparison of two runs sees with probability 0.9.
+    pub sees: f64,
+    /// The probability of seeing the change that matters.
+    pub power: f64,
+}
+
+/// What two values of a row, or their means over runs, are held against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// A larger difference is a change.
+    pub change: f64,
+    /// A smaller one is none, at 95 % confidence that a change that matters is excluded; below 0 where
+    /// no difference is small enough.
+    pub same: f64,
+}
+
+impl Calibration {
+    /// What a row with this spread says, if so large a change matters.
+    pub(super) fn spread(&self, sd: f64, matters: f64) -> Spread {
+        let row = Spread { sd, matters, sees: 0.0, power: 0.0 };
+        let change = self.limits(&row, 1).change;
+        let of_two = row.believed() * std::f64::consts::SQRT_2;
+        let normal = Normal::standard();
+        let sees = change + normal.inverse_cdf(POWER) * of_two;
+        let beyond = |edge: f64| if of_two > 0.0 { normal.sf(edge / of_two) } else { 0.0 };
+        Spread { sees, power: beyond(change - matters) + beyond(change + matters), ..row }
+    }
+
+    /// What a run's value is held against, of a baseline that is the mean of so many runs.
+    pub fn limits(&self, row: &Spread, baseline_runs: u64) -> Limits {
+        let of_difference = row.believed() * (1.0 + 1.0 / baseline_runs.max(1) as f64).sqrt();
+        // A row that never moved has the critical value of those that did.
+        let change = self.critical.unwrap_or(0.0).max(self.student(SAME)) * of_difference;
+        Limits { change, same: (row.matters - self.student(SAME) * of_difference).min(change) }
+    }
+
+    fn student(&self, confidence: f64) -> f64 {
+        // At least three degrees of freedom: both writer and reader refuse fewer runs.
+        StudentsT::new(0.0, 1.0, (self.runs.max(2) - 1) as f64)
+            .map_or(f64::INFINITY, |student| student.inverse_cdf(confidence))
+    }
+
+    /// What `false_alarms` would ask for if every row were a chance of its own, in standard deviations.
+    pub fn bonferroni(&self) -> f64 {
+        let moving = self.rows.values().filter(|row| row.sd > 0.0).count().max(1);
+        self.student(1.0 - self.false_alarms / (2 * moving) as f64)
+    }
+
+    /// The file's text, one row a line.
+    pub fn to_toml(&self) -> String {
+        // A text of JSON is one of TOML.
+        let text = |text: &str| Value::from(text).to_string();
+        let mut lines = format!(
+            "# How far the scores of a suite move when nothing but seeds differs, as `unshade calibrate` \
+             measured it.\n# sd: standard deviation; matters: the reasoned tolerance; sees: what a \
+             comparison sees with\n# probability {POWER}; power: the probability of seeing what matters.\n\
+             format = 2\n\n[calibration]\nsuite = {}\n",
+            text(&self.suite)
+        );
+        if let Some(hash) = &self.suite_hash {
+            // Writing to a string cannot fail.
+            let _ = writeln!(lines, "suite_hash = {}", text(hash));
+        }
+        let _ = writeln!(lines, "runs = {}\nfalse_alarms = {:?}", self.runs, self.false_alarms);
+        if let Some(critical) = self.critical {
+            let _ = writeln!(lines, "critical = {critical:.3}");
+        }
+        lines.push_str("\n[calibration.versions]\n");
+        for (name, version) in &self.versions {
+            let version = version.as_str().map_or_else(|| version.to_string(), str::to_owned);
+            let _ = writeln!(lines, "{} = {}", text(name), text(&version));
+        }
+        lines.push_str("\n[calibration.rows]\n");
+        for (id, row) in &self.rows {
+            let Spread { sd, matters, sees, power } = row;
+            let _ = writeln!(
+                lines,
+                "{} = {{ sd = {sd:.3e}, matters = {matters:.3e}, sees = {sees:.3e}, power = {power:.3} }}",
+                text(id)
+            );
+        }
+        lines
+    }
+
+    /// Writes the file, completely or not at all.
+    pub fn write(&self, path: &Path) -> Result<(), CompareError> {
+        atomic::write_file(path, self.to_toml().as_bytes())
+            .map_err(|error| CompareError::io(path, error))
+    }
+
+    /// Why the file cannot be used, if so.
+    pub(super) fn fault(&self) -> Option<String> {
+        let amount = |value: f64| value.is_finite() && value >= 0.0;
+        if self.runs < FEWEST_RUNS {
+            return Some(format!("has {} runs, at least {FEWEST_RUNS} are needed", self.runs));
+        }
+        if !(self.false_alarms > 0.0 && self.false_alarms < 1.0) {
+            return Some("false_alarms is not between 0 and 1".to_owned());
+        }
+        if !amount(self.critical.unwrap_or(0.0)) {
+            return Some("critical is negative or infinite".to_owned());
+        }
+        let bad = self.rows.iter().find(|(_, row)| !amount(row.sd) || !amount(row.matters));
+        bad.map(|(id, _)| format!("the row {id:?} has a negative or infinite spread"))
+    }
+}
+
+impl Spread {
+    fn believed(&self) -> f64 {
+        self.sd.max(LEAST * self.matters)
+    }
+}

@@ -1,0 +1,54 @@
+//! The spread of scores, from runs that differ in their seeds alone.
+
+use std::collections::BTreeMap;
+
+use super::CompareError;
+use super::baseline::Baseline;
+use super::calibration::{Calibration, FEWEST_RUNS, LEAST};
+use super::spread::{Column, SIMULATIONS, critical, deviation};
+use super::tolerance::Tolerances;
+
+/// Seed of the simulated comparisons.
+const SEED: u64 = 39;
+
+impl Calibration {
+    /// Measures the spread over `runs` of one suite, of which each row must have a value in every one.
+    pub fn of_runs(
+        runs: &[Baseline],
+        tolerances: &Tolerances,
+        false_alarms: f64,
+    ) -> Result<Self, CompareError> {
+        let Some(first) = runs.first().filter(|_| runs.len() >= FEWEST_RUNS) else {
+            return Err(CompareError::FewRuns { runs: runs.len(), fewest: FEWEST_RUNS });
+        };
+        if let Some(other) = runs.iter().find(|run| run.suite != first.suite) {
+            let (run, baseline) = (other.suite.clone(), first.suite.clone());
+            return Err(CompareError::Suites { run, baseline });
+        }
+        let mut columns = Vec::new();
+        let mut measured = Vec::new();
+        for id in first.rows.keys() {
+            let values: Option<Vec<f64>> =
+                runs.iter().map(|run| run.rows.get(id).and_then(|entry| entry.value)).collect();
+            let Some(values) = values else { continue };
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let matters = tolerances.rule(id)?.allowed(mean);
+            columns.extend(Column::new(&values, LEAST * matters));
+            measured.push((id.clone(), deviation(&values), matters));
+        }
+        let mut calibration = Self {
+            suite: first.suite.clone(),
+            suite_hash: first.suite_hash.clone(),
+            versions: first.versions.clone(),
+            runs: runs.len(),
+            false_alarms,
+            critical: critical(&columns, false_alarms, SIMULATIONS, SEED),
+            rows: BTreeMap::new(),
+        };
+        for (id, sd, matters) in measured {
+            let row = calibration.spread(sd, matters);
+            calibration.rows.insert(id, row);
+        }
+        Ok(calibration)
+    }
+}

@@ -1,0 +1,140 @@
+//! `unshade calibrate`.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use scoring::compare::{Baseline, Calibration, FEWEST_RUNS, Tolerances};
+
+use super::alone::tools;
+use super::exit::{CHECK_FAILED, DONE};
+use super::progress::Progress;
+use crate::suite::{self, RunError, RunOptions, Suite};
+
+/// How many of the rows that see least are named.
+const NAMED: usize = 3;
+
+/// The power below which a row is told.
+const POWER: f64 = 0.9;
+
+#[derive(Args)]
+pub(super) struct CalibrateArgs {
+    /// The suite to run again and again: a file, or the name of one that comes with unshade.
+    #[arg(required_unless_present = "runs", conflicts_with = "runs")]
+    suite: Option<PathBuf>,
+    /// How often, each time with other seeds of the renderer and of the methods.
+    #[arg(long, default_value_t = 8, value_name = "N",
+          value_parser = clap::value_parser!(u32).range(FEWEST_RUNS as i64..=1000))]
+    seeds: u32,
+    /// Finished runs of one suite that differ in their seeds alone, in place of a suite.
+    #[arg(long, value_name = "RUN", num_args = 1..)]
+    runs: Vec<PathBuf>,
+    /// The tolerances' file.
+    #[arg(short, long)]
+    out: PathBuf,
+    /// Where the runs are kept, one folder a seed; beside the tolerances without it.
+    #[arg(long, value_name = "DIR", conflicts_with = "runs")]
+    keep: Option<PathBuf>,
+    /// Also write the means of the runs, a baseline that is nearer to the suite's expected scores than
+    /// any one run.
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
+    /// The probability that a comparison of runs that differ in their seeds alone calls any row better
+    /// or worse.
+    #[arg(long, default_value_t = 0.01, value_name = "RATE", value_parser = rate)]
+    false_alarms: f64,
+    /// What change matters; the built-in rules are scenes/tolerances.toml.
+    #[arg(long, value_name = "FILE")]
+    rules: Option<PathBuf>,
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate: f64 = text.parse().map_err(|_| "is no number".to_owned())?;
+    // Fewer than ten simulated comparisons decide about less.
+    let holds = (0.0005..=0.5).contains(&rate);
+    holds.then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
+}
+
+/// Runs what is not run yet, and writes the tolerances.
+pub(super) fn calibrate(arguments: &CalibrateArgs) -> Result<u8, RunError> {
+    let rules = match &arguments.rules {
+        Some(path) => Tolerances::read(path)?,
+        None => Tolerances::built_in()?,
+    };
+    let folders = match &arguments.suite {
+        Some(suite) => match make_runs(suite, arguments)? {
+            Ok(folders) => folders,
+            Err(code) => return Ok(code),
+        },
+        None => arguments.runs.clone(),
+    };
+    let runs: Vec<Baseline> =
+        folders.iter().map(|run| Baseline::of_run(run)).collect::<Result<_, _>>()?;
+    let calibration = Calibration::of_runs(&runs, &rules, arguments.false_alarms)?;
+    if let (Some(path), Some(mean)) = (&arguments.baseline, Baseline::mean(&runs)) {
+        mean.write(path)?;
+    }
+    calibration.write(&arguments.out)?;
+    tell(&calibration, runs.first().map_or(0, |run| run.rows.len()));
+    say!("{}", arguments.out.display());
+    Ok(DONE)
+}
+
+/// The runs' folders, or the exit code if a method failed in one.
+fn make_runs(
+    suite: &Path,
+    arguments: &CalibrateArgs,
+) -> Result<Result<Vec<PathBuf>, u8>, RunError> {
+    let suite = Suite::open(suite)?;
+    let keep = arguments.keep.clone().unwrap_or_else(|| {
+        let stem = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
+        arguments.out.with_file_name(format!("{stem}-runs"))
+    });
+    let tools = tools();
+    let mut folders = Vec::new();
+    for round in 1..=arguments.seeds {
+        let folder = keep.join(format!("seed-{round:02}"));
+        let suite = suite.reseeded(round)?;
+        eprintln!("calibrate: run {round} of {}", arguments.seeds);
+        let mut progress = Progress::new();
+        let options = RunOptions::default();
+        let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);
+        progress.finish();
+        let summary = summary?;
+        for (name, reason) in &summary.failed {
+            eprintln!("unshade: {name} failed: {reason}");
+        }
+        if !summary.failed.is_empty() {
+            return Ok(Err(CHECK_FAILED));
+        }
+        folders.push(folder);
+    }
+    Ok(Ok(folders))
+}
+
+/// Says what the tolerances can see.
+fn tell(calibration: &Calibration, rows: usize) {
+    let rate = 100.0 * calibration.false_alarms;
+    let count = calibration.rows.len();
+    let Some(critical) = calibration.critical else {
+        say!("{count} rows, none of which moves with the seed");
+        return;
+    };
+    say!(
+        "{count} of {rows} rows in {} runs; {rate} % false alarms over all of them at {critical:.1} \
+         standard deviations of a difference ({:.1} if every row were on its own)",
+        calibration.runs,
+        calibration.bonferroni()
+    );
+    let mut blind: Vec<_> =
+        calibration.rows.iter().filter(|(_, row)| row.power < POWER).collect();
+    blind.sort_by(|a, b| (b.1.sees / b.1.matters).total_cmp(&(a.1.sees / a.1.matters)));
+    say!(
+        "{} rows see a change that matters with probability {POWER} or more, {} do not{}",
+        count - blind.len(),
+        blind.len(),
+        if blind.is_empty() { "" } else { "; least of all:" }
+    );
+    for (id, row) in blind.iter().take(NAMED) {
+        say!("  {id}: {:.4} matters, {:.4} is seen", row.matters, row.sees);
+    }
+}

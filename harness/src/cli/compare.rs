@@ -1,0 +1,118 @@
+//! `unshade compare`.
+
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use clap::Args;
+use formats::atomic;
+use scoring::compare::{Acceptances, Baseline, Places, Tolerances};
+
+use super::baseline_branch;
+use super::exit::{CHECK_FAILED, DONE};
+use crate::suite::{RunError, Suite, case_places};
+
+#[derive(Args)]
+pub(super) struct CompareArgs {
+    /// The run's folder.
+    run: PathBuf,
+    /// A `baseline.json` that `unshade report` wrote, or the folder of an earlier run.
+    #[arg(required_unless_present = "baseline_branch", conflicts_with = "baseline_branch")]
+    baseline: Option<PathBuf>,
+    /// The baseline of the commit where this one left the branch, or of the nearest before.
+    #[arg(long, value_name = "BRANCH", requires = "baselines")]
+    baseline_branch: Option<String>,
+    /// Where the branch's baselines are: <commit>.json.
+    #[arg(long, value_name = "DIR", requires = "baseline_branch")]
+    baselines: Option<PathBuf>,
+    /// What `unshade calibrate` wrote, or reasoned rules; without it those of scenes/tolerances.toml.
+    #[arg(long, value_name = "FILE")]
+    tolerances: Option<PathBuf>,
+    /// Also write the verdicts as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Also write a page of Markdown: the summary of a job, or a comment.
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+    /// Also write everything as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Print GitHub's annotations before the table.
+    #[arg(long)]
+    github: bool,
+    /// The run's suite: then JUnit and annotations name file and line of each case.
+    #[arg(long, value_name = "SUITE")]
+    suite: Option<PathBuf>,
+    /// Accept the regressions that this matches (`*` stands for any text), in the file of --acceptances.
+    #[arg(long, value_name = "ROW", requires_all = ["reason", "acceptances"])]
+    accept: Option<String>,
+    /// Why they are accepted.
+    #[arg(long, value_name = "TEXT", requires = "accept")]
+    reason: Option<String>,
+    /// The last day on which they are, YYYY-MM-DD.
+    #[arg(long, value_name = "DATE", requires = "accept")]
+    until: Option<String>,
+    /// Regressions that were accepted, a TOML file.
+    #[arg(long, value_name = "FILE")]
+    acceptances: Option<PathBuf>,
+}
+
+/// Judges the run and writes what is asked for; exit code 1 on a regression.
+pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
+    let tolerances = match &arguments.tolerances {
+        Some(path) => Tolerances::read(path)?,
+        None => Tolerances::built_in()?,
+    };
+    let places: Places = match &arguments.suite {
+        Some(suite) => case_places(&Suite::open(suite)?),
+        None => Places::new(),
+    };
+    let current = Baseline::of_run(&arguments.run)?;
+    let source = source(arguments)?;
+    let baseline =
+        if source.is_dir() { Baseline::of_run(&source)? } else { Baseline::read(&source)? };
+    let mut comparison = scoring::compare::compare(&current, &baseline, &tolerances)?;
+    if let Some(path) = &arguments.acceptances {
+        let today = today();
+        comparison.accept(&Acceptances::read(path)?, &today);
+        if let (Some(rows), Some(reason)) = (&arguments.accept, &arguments.reason) {
+            let until = arguments.until.as_deref();
+            let count = comparison.write_acceptance(path, rows, reason, until)?;
+            eprintln!("{count} rows accepted in {}", path.display());
+            comparison.accept(&Acceptances::read(path)?, &today);
+        }
+    }
+    if let Some(path) = &arguments.junit {
+        write(path, &comparison.junit(&places)?)?;
+    }
+    if let Some(path) = &arguments.markdown {
+        write(path, &comparison.markdown())?;
+    }
+    if let Some(path) = &arguments.json {
+        write(path, &format!("{:#}\n", comparison.json()))?;
+    }
+    if arguments.github {
+        comparison.annotations(&places).iter().for_each(|line| say!("{line}"));
+    }
+    say!("{}", comparison.table().trim_end());
+    Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
+}
+
+/// What to compare with: the file or folder that was named, or the branch's.
+fn source(arguments: &CompareArgs) -> Result<PathBuf, RunError> {
+    let CompareArgs { baseline, baseline_branch, baselines, .. } = arguments;
+    match (baseline, baseline_branch, baselines) {
+        (_, Some(branch), Some(folder)) => baseline_branch::baseline(branch, folder),
+        // The parser asks for one of the two.
+        (baseline, ..) => Ok(baseline.clone().unwrap_or_default()),
+    }
+}
+
+fn today() -> String {
+    let now = chrono::DateTime::<chrono::Utc>::from(SystemTime::now());
+    now.format("%Y-%m-%d").to_string()
+}
+
+fn write(path: &Path, text: &str) -> Result<(), RunError> {
+    let written = atomic::write_file(path, text.as_bytes());
+    written.map_err(|reason| RunError::File { path: path.to_path_buf(), reason })
+}
