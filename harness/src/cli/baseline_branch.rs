@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::suite::RunError;
+use scoring::compare::CompareError;
 
 /// How far back a baseline is looked for, commits of the branch itself.
 const FARTHEST: &str = "200";
 
 /// `<folder>/<commit>.json` of the merge base of `HEAD` and `branch`, or of the nearest commit before it
 /// that has one.
-pub(super) fn baseline(branch: &str, folder: &Path) -> Result<PathBuf, RunError> {
-    let wrong = |reason: String| RunError::Branch(format!("--baseline-branch {branch}: {reason}"));
+pub(super) fn baseline(branch: &str, folder: &Path) -> Result<PathBuf, CompareError> {
+    let wrong = |reason: String| CompareError::Branch { branch: branch.to_owned(), reason };
     let base = git(&["merge-base", "HEAD", branch]).map_err(&wrong)?;
     let list = ["rev-list", "--first-parent", "--max-count", FARTHEST, base.as_str()];
     let commits = git(&list).map_err(&wrong)?;

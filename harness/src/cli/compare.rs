@@ -101,7 +101,9 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
 fn source(arguments: &CompareArgs) -> Result<PathBuf, RunError> {
     let CompareArgs { baseline, baseline_branch, baselines, .. } = arguments;
     match (baseline, baseline_branch, baselines) {
-        (_, Some(branch), Some(folder)) => baseline_branch::baseline(branch, folder),
+        (_, Some(branch), Some(folder)) => {
+            Ok(baseline_branch::baseline(branch, folder)?)
+        }
         // The parser asks for one of the two.
         (baseline, ..) => Ok(baseline.clone().unwrap_or_default()),
     }

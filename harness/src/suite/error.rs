@@ -58,8 +58,6 @@ pub enum RunError {
     Folder(#[from] io::Error),
     #[error("--redo: the suite has no method {name:?}; there are {known}")]
     Redo { name: String, known: String },
-    #[error("{0}")]
-    Branch(String),
     #[error("interrupted; the same command goes on from here")]
     Interrupted,
     #[error(

@@ -49,6 +49,14 @@ pub enum CompareError {
         /// How many it takes.
         fewest: usize,
     },
+    /// A branch has no baseline that can be found.
+    #[error("--baseline-branch {branch}: {reason}")]
+    Branch {
+        /// As it was named.
+        branch: String,
+        /// Why, and the mend.
+        reason: String,
+    },
     /// A date that is none.
     #[error("--until {0}: is no day; write YYYY-MM-DD")]
     Day(String),
