@@ -102,11 +102,16 @@ def _parser() -> argparse.ArgumentParser:
     sheet.add_argument("--out", type=Path, required=True)
     sheet.set_defaults(stage=_contact_sheet)
 
+    history = verbs.add_parser("history", help="draw the history of a suite's scores")
+    history.add_argument("--history", type=Path, required=True)
+    history.add_argument("--out", type=Path, required=True)
+    history.set_defaults(stage=_history)
+
     doctor = verbs.add_parser("doctor", help="say what rendering finds on this machine")
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, lights, export, method, check, describe, sheet, doctor, physics):
+    for verb in (synth, relight, lights, export, method, check, describe, sheet, history, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -238,6 +243,12 @@ def _contact_sheet(options: argparse.Namespace) -> dict[str, Any]:
 
     contact_sheet(options.count, options.out, options.seed, _progress)
     return {"picture": str(options.out)}
+
+
+def _history(options: argparse.Namespace) -> dict[str, Any]:
+    from .history_chart import write
+
+    return {"steps": write(options.history, options.out)}
 
 
 def _physics(options: argparse.Namespace) -> dict[str, Any]:

@@ -6,6 +6,7 @@
 //! bytes, except in the section with the wall times.
 
 mod case;
+mod changed;
 mod comparison_figures;
 mod contact_sheets;
 mod curve;
@@ -35,6 +36,7 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::{self, Folder, FolderError};
 
+pub use changed::write_changes;
 pub use error::ReportError;
 use page::Page;
 pub use page::ProgressCallback;

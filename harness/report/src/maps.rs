@@ -13,7 +13,7 @@ pub(super) struct MapKind {
     pub title: &'static str,
     pub channels: &'static [&'static str],
     pub show: Show,
-    measure: Measure,
+    pub measure: Measure,
     metric: &'static str,
 }
 

@@ -5,7 +5,9 @@
 use std::fs;
 
 use quick_junit::Report;
-use scoring::compare::{Baseline, CompareError, Entry, Places, Tolerances, Verdict, compare};
+use scoring::compare::{
+    Baseline, Calibration, Captured, CompareError, Entry, Places, Tolerances, Verdict, compare,
+};
 
 const PSNR: &str = "ada-studio/unshade/diffuse_albedo/psnr_srgb@coverage-e5:global";
 const FLIP: &str = "ada-studio/unshade/relit/flash/flip_mean@mask-e5:global";
@@ -141,4 +143,158 @@ fn a_run_folder_becomes_a_baseline() {
     let baseline = Baseline::of_run(run.path()).unwrap();
     assert_eq!(baseline.rows[FLIP], Entry { value: Some(0.1), ci95: Some([0.05, 0.2]), n: 7 });
     assert_eq!(baseline.versions["unshade"], "0.1.0");
+}
+
+/// Runs of one suite whose scores share most of their noise, as scores do.
+fn seed_runs(runs: usize, shift: f64) -> Vec<Baseline> {
+    let random = |at: usize| {
+        // Sums of twelve uniform numbers: normal enough, and the same every time.
+        let mut state = at as u64 * 7919 + 1;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1_u32 << 31)
+        };
+        (0..24).map(|_| uniform()).sum::<f64>() - 12.0
+    };
+    let run = |at: usize| {
+        let (shared, own) = (0.02 * random(2 * at), 0.005 * random(2 * at + 1));
+        let mut run = baseline(&[
+            (PSNR, Some(28.0 + shared + own - shift)),
+            (FLIP, Some(0.1 * (0.02 * shared).exp())),
+            (SCALE, Some(1.0)),
+        ]);
+        run.suite_hash = Some("a".to_owned());
+        run
+    };
+    (0..runs).map(run).collect()
+}
+
+#[test]
+fn measured_tolerances_see_what_they_say_and_survive_their_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tolerances.toml");
+    let rules = Tolerances::built_in().unwrap();
+    let runs = seed_runs(24, 0.0);
+    let calibration = Calibration::of_runs(&runs[..12], &rules, 0.01).unwrap();
+    calibration.write(&path).unwrap();
+    let measured = Tolerances::read(&path).unwrap();
+    let row = calibration.rows[PSNR];
+    assert_eq!(measured.calibration().unwrap().rows.len(), 3);
+    assert!(!row.relative && calibration.rows[FLIP].relative, "errors are multiplied by chance");
+    for (old, new) in runs[12..].iter().zip(&runs[13..]) {
+        let comparison = compare(new, old, &measured).unwrap();
+        assert!(
+            comparison.passed() && comparison.count(Verdict::Better) == 0,
+            "{}",
+            comparison.table()
+        );
+        assert!(comparison.table().contains("1 % false alarms over all rows"));
+    }
+    // A change that is seen with probability 0.9, planted in twelve runs; and one of the row's spread.
+    let planted = |shift: f64| {
+        let changed = seed_runs(24, shift);
+        let pairs = changed[12..].iter().zip(&runs[..12]);
+        let seen = pairs.filter(|(new, old)| !compare(new, old, &measured).unwrap().passed());
+        seen.count()
+    };
+    assert!(planted(row.sees) >= 9, "{} of 12", planted(row.sees));
+    assert_eq!(planted(row.sd), 0);
+    // What never moved is seen when it moves.
+    let mut moved = runs[0].clone();
+    moved.rows.insert(SCALE.to_owned(), Entry { value: Some(1.006), ci95: None, n: 10 });
+    let comparison = compare(&moved, &runs[0], &measured).unwrap();
+    assert_eq!(comparison.count(Verdict::Worse), 1, "{}", comparison.table());
+    // Of twelve runs' mean less is enough.
+    let mean = Baseline::mean(&runs[..12]).unwrap();
+    let change = |baseline: &Baseline| {
+        let rows = compare(&runs[20], baseline, &measured).unwrap().rows;
+        rows.into_iter().find(|row| row.id == PSNR).unwrap().allowed
+    };
+    assert!((change(&mean) / change(&runs[0]) - (13.0_f64 / 24.0).sqrt()).abs() < 1e-9);
+}
+
+#[test]
+fn few_runs_and_broken_calibrations_are_refused() {
+    let rules = Tolerances::built_in().unwrap();
+    let error = Calibration::of_runs(&seed_runs(3, 0.0), &rules, 0.01).unwrap_err().to_string();
+    assert!(error.contains("3 runs are too few"), "{error}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.toml");
+    let head = "format = 2\n[calibration]\nsuite = \"s\"\nfalse_alarms = 0.01\n";
+    for (text, expected) in [
+        ("format = 2\n".to_owned(), "no [calibration]"),
+        (format!("{head}runs = 2\n[calibration.rows]\n"), "at least 4"),
+        (format!("{head}runs = 8\ncritical = -1.0\n[calibration.rows]\n"), "critical"),
+        (
+            format!(
+                "{head}runs = 8\n[calibration.rows]\na = {{ sd = nan, matters = 0.1, sees = 0.1, power = 1.0 }}\n"
+            ),
+            "infinite spread",
+        ),
+    ] {
+        fs::write(&path, text).unwrap();
+        let error = Tolerances::read(&path).unwrap_err().to_string();
+        assert!(error.contains(expected) && error.lines().count() == 1, "{error}");
+    }
+}
+
+#[test]
+fn what_the_runs_cannot_tell_is_neither_the_same_nor_a_failure() {
+    let rules = Tolerances::built_in().unwrap();
+    let noisy: Vec<Baseline> = [27.0, 28.0, 29.0, 28.5, 27.5]
+        .iter()
+        .map(|psnr| baseline(&[(PSNR, Some(*psnr))]))
+        .collect();
+    let measured =
+        Tolerances::calibrated(Calibration::of_runs(&noisy, &rules, 0.01).unwrap()).unwrap();
+    let comparison = compare(&noisy[0], &noisy[2], &measured).unwrap();
+    assert_eq!(comparison.rows[0].verdict, Verdict::CannotTell);
+    assert!(comparison.passed());
+    assert_eq!(compare(&noisy[0], &noisy[0], &measured).unwrap().rows[0].verdict, Verdict::Same);
+    assert!(comparison.junit(&Places::new()).unwrap().contains("<skipped"));
+}
+
+#[test]
+fn a_map_accounts_for_its_pictures_and_the_oracle_for_the_pipeline() {
+    let tolerances = Tolerances::built_in().unwrap();
+    let (a, b) = ("mei-flash/unshade", "mei-studio/unshade");
+    let albedo = "diffuse_albedo/scale_global@coverage-e5:none";
+    let relit = "relit/flash/psnr_srgb@mask-e5:global";
+    let rows = |scale: f64, psnr: f64, oracle: f64| {
+        let rows = [
+            (format!("{a}/{albedo}"), scale),
+            (format!("{b}/{albedo}"), scale),
+            (format!("{a}/{relit}"), psnr),
+            (format!("mei-studio/oracle/{relit}"), oracle),
+        ];
+        let rows: Vec<(&str, Option<f64>)> =
+            rows.iter().map(|(id, value)| (id.as_str(), Some(*value))).collect();
+        let mut run = baseline(&rows);
+        for (case, light) in [("mei-flash", "flash"), ("mei-studio", "studio")] {
+            let (face, light) = ("mei".to_owned(), light.to_owned());
+            run.cases.insert(case.to_owned(), Captured { face, light, capture: None });
+        }
+        run
+    };
+    let old = rows(1.0, 30.0, 40.0);
+    let sentences = |new: &Baseline| -> Vec<String> {
+        let findings = compare(new, &old, &tolerances).unwrap().findings();
+        findings.into_iter().map(|finding| finding.sentence).collect()
+    };
+    assert_eq!(
+        sentences(&rows(1.021, 29.0, 40.0)),
+        [
+            "diffuse albedo of `unshade` is 2.1 % darker than the baseline's (2.1 % too dark against \
+             the truth) under flash and studio; so do the pictures that are made with it (rows: 1)"
+        ]
+    );
+    let pictures = sentences(&rows(1.0, 29.0, 40.0));
+    assert!(
+        pictures[0].starts_with("relit of `unshade` is 1.00 dB worse (PSNR 30.00 -> 29.00 dB)")
+    );
+    assert!(pictures[0].ends_with("no map that it is made of moved as far"), "{pictures:?}");
+    let pipeline = sentences(&rows(1.5, 29.0, 30.0));
+    assert!(pipeline.len() == 2 && pipeline[0].contains("no method's doing"), "{pipeline:?}");
 }

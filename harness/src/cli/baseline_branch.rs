@@ -32,10 +32,9 @@ pub(super) fn head() -> Option<String> {
 }
 
 fn git(arguments: &[&str]) -> Result<String, String> {
-    let done = Command::new("git")
-        .args(arguments)
-        .output()
-        .map_err(|error| format!("git cannot be started: {error}; install it, or name a baseline"))?;
+    let done = Command::new("git").args(arguments).output().map_err(|error| {
+        format!("git cannot be started: {error}; install it, or name a baseline")
+    })?;
     if done.status.success() {
         return Ok(String::from_utf8_lossy(&done.stdout).trim().to_owned());
     }

@@ -125,8 +125,7 @@ fn tell(calibration: &Calibration, rows: usize) {
         calibration.runs,
         calibration.bonferroni()
     );
-    let mut blind: Vec<_> =
-        calibration.rows.iter().filter(|(_, row)| row.power < POWER).collect();
+    let mut blind: Vec<_> = calibration.rows.iter().filter(|(_, row)| row.power < POWER).collect();
     blind.sort_by(|a, b| (b.1.sees / b.1.matters).total_cmp(&(a.1.sees / a.1.matters)));
     say!(
         "{} rows see a change that matters with probability {POWER} or more, {} do not{}",

@@ -9,9 +9,7 @@ use scoring::score;
 use solver::Choice;
 
 use super::alone::{alone, tools};
-use super::arguments::{
-    BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
-};
+use super::arguments::{BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb};
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
 use super::{bench, calibrate, check, compare, doctor, export, start};

@@ -1,5 +1,6 @@
 //! `unshade compare`.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -7,9 +8,11 @@ use clap::Args;
 use formats::atomic;
 use scoring::compare::{Acceptances, Baseline, Places, Tolerances};
 
+use super::alone::tools;
 use super::baseline_branch;
 use super::exit::{CHECK_FAILED, DONE};
 use crate::suite::{RunError, Suite, case_places};
+use crate::synth::run_stage;
 
 #[derive(Args)]
 pub(super) struct CompareArgs {
@@ -39,6 +42,16 @@ pub(super) struct CompareArgs {
     /// Print GitHub's annotations before the table.
     #[arg(long)]
     github: bool,
+    /// Also write small pictures of what changed into this folder: what was (where the baseline is a run's
+    /// folder), what is, the truth, the difference.
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    /// Also add this run to a history of the suite: a line of JSON.
+    #[arg(long, value_name = "FILE")]
+    history: Option<PathBuf>,
+    /// Draw the history as an SVG, with the steps in it (needs the extra `history`).
+    #[arg(long, value_name = "FILE", requires = "history")]
+    chart: Option<PathBuf>,
     /// The run's suite: then JUnit and annotations name file and line of each case.
     #[arg(long, value_name = "SUITE")]
     suite: Option<PathBuf>,
@@ -72,7 +85,7 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
         if source.is_dir() { Baseline::of_run(&source)? } else { Baseline::read(&source)? };
     let mut comparison = scoring::compare::compare(&current, &baseline, &tolerances)?;
     if let Some(path) = &arguments.acceptances {
-        let today = today();
+        let today = now("%Y-%m-%d");
         comparison.accept(&Acceptances::read(path)?, &today);
         if let (Some(rows), Some(reason)) = (&arguments.accept, &arguments.reason) {
             let until = arguments.until.as_deref();
@@ -90,6 +103,20 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
     if let Some(path) = &arguments.json {
         write(path, &format!("{:#}\n", comparison.json()))?;
     }
+    if let Some(folder) = &arguments.pictures {
+        let old = source.is_dir().then_some(source.as_path());
+        report::write_changes(&comparison.findings(), &arguments.run, old, folder)?;
+    }
+    if let Some(path) = &arguments.history {
+        comparison.append_history(
+            path,
+            &now("%Y-%m-%dT%H:%M:%SZ"),
+            baseline_branch::head().as_deref(),
+        )?;
+        if let Some(chart) = &arguments.chart {
+            history_chart(path, chart)?;
+        }
+    }
     if arguments.github {
         comparison.annotations(&places).iter().for_each(|line| say!("{line}"));
     }
@@ -101,17 +128,24 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
 fn source(arguments: &CompareArgs) -> Result<PathBuf, RunError> {
     let CompareArgs { baseline, baseline_branch, baselines, .. } = arguments;
     match (baseline, baseline_branch, baselines) {
-        (_, Some(branch), Some(folder)) => {
-            Ok(baseline_branch::baseline(branch, folder)?)
-        }
+        (_, Some(branch), Some(folder)) => Ok(baseline_branch::baseline(branch, folder)?),
         // The parser asks for one of the two.
         (baseline, ..) => Ok(baseline.clone().unwrap_or_default()),
     }
 }
 
-fn today() -> String {
-    let now = chrono::DateTime::<chrono::Utc>::from(SystemTime::now());
-    now.format("%Y-%m-%d").to_string()
+/// The time in UTC.
+fn now(form: &str) -> String {
+    chrono::DateTime::<chrono::Utc>::from(SystemTime::now()).format(form).to_string()
+}
+
+fn history_chart(history: &Path, chart: &Path) -> Result<(), RunError> {
+    let arguments = [("--history", history), ("--out", chart)];
+    let arguments: Vec<OsString> =
+        arguments.iter().flat_map(|(flag, path)| [flag.into(), path.as_os_str().into()]).collect();
+    let tools = tools();
+    run_stage(&tools.interpreter, "history", &arguments, &tools.interrupt, &mut |_, _, _| {})?;
+    Ok(())
 }
 
 fn write(path: &Path, text: &str) -> Result<(), RunError> {

@@ -19,7 +19,8 @@ pub fn case_places(suite: &Suite) -> BTreeMap<String, (String, usize)> {
             None => None,
         };
         let found = found.map(|line| (suite.path.clone(), line)).or_else(|| face(&sources, case));
-        let fallback = || (suite.path.clone(), own("scene").or_else(|| own("captures")).unwrap_or(1));
+        let fallback =
+            || (suite.path.clone(), own("scene").or_else(|| own("captures")).unwrap_or(1));
         let (path, line) = found.unwrap_or_else(fallback);
         (case.id.clone(), (plain(&path).display().to_string(), line))
     };
@@ -79,7 +80,10 @@ mod tests {
             fs::write(path, text).unwrap();
         };
         let light = "light = { name = \"l\" }\nrig = { name = \"r\" }\nname = \"ada\"\n[render]\n";
-        write("s/scene.toml", &format!("format = 1\nface = {{ seed = 1, name = \"ada\" }}\n{light}"));
+        write(
+            "s/scene.toml",
+            &format!("format = 1\nface = {{ seed = 1, name = \"ada\" }}\n{light}"),
+        );
         write("f/mei.toml", "# a face\nname = \"mei\"\n");
         let suite = "format = 1\nname = \"ada\"\nscene = \"../s/scene.toml\"\n";
         let method = "[[method]]\nname = \"oracle\"\n";

@@ -34,8 +34,9 @@ impl Suite {
                     let seed = solver::Config::from_toml(config)
                         .map_err(|error| unreadable(error.to_string()))?
                         .seed;
-                    let mut values: Table =
-                        config.parse().map_err(|error: toml::de::Error| unreadable(error.to_string()))?;
+                    let mut values: Table = config
+                        .parse()
+                        .map_err(|error: toml::de::Error| unreadable(error.to_string()))?;
                     let seed = Value::Integer((seed as i64).wrapping_add(add));
                     values.insert("seed".to_owned(), seed);
                     *config =

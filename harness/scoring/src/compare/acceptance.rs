@@ -78,7 +78,8 @@ impl Acceptances {
 
 /// Whether a text has the form `YYYY-MM-DD`.
 pub fn is_day(text: &str) -> bool {
-    let form = |(at, c): (usize, char)| if at == 4 || at == 7 { c == '-' } else { c.is_ascii_digit() };
+    let form =
+        |(at, c): (usize, char)| if at == 4 || at == 7 { c == '-' } else { c.is_ascii_digit() };
     let number = |range: std::ops::Range<usize>| text.get(range).and_then(|part| part.parse().ok());
     text.len() == 10
         && text.chars().enumerate().all(form)
@@ -128,22 +129,22 @@ impl Comparison {
         Acceptances::read(path)?;
         let mut text = match fs::read_to_string(path) {
             Ok(text) => text,
-            Err(_) => "# Changes of scores that were accepted: reviewed as code is.\nformat = 1\n".to_owned(),
+            Err(_) => "# Changes of scores that were accepted: reviewed as code is.\nformat = 1\n"
+                .to_owned(),
         };
         // A text of JSON is one of TOML.
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
         // Writing to a string cannot fail.
-        let _ = write!(
-            text,
-            "\n[[accepted]]\nrows = {}\nreason = {}\n",
-            quoted(rows),
-            quoted(reason)
-        );
+        let _ =
+            write!(text, "\n[[accepted]]\nrows = {}\nreason = {}\n", quoted(rows), quoted(reason));
         if let Some(until) = until {
             let _ = writeln!(text, "until = {}", quoted(until));
         }
-        let missing: Vec<String> =
-            accepted.iter().filter(|row| row.current.is_none()).map(|row| quoted(&row.id)).collect();
+        let missing: Vec<String> = accepted
+            .iter()
+            .filter(|row| row.current.is_none())
+            .map(|row| quoted(&row.id))
+            .collect();
         if !missing.is_empty() {
             let _ = writeln!(text, "missing = [{}]", missing.join(", "));
         }

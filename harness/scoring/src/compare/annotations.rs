@@ -14,12 +14,16 @@ impl Comparison {
             lines.push(format!("::notice title={}::{}", property(&self.suite), data(&line)));
         }
         for finding in self.findings().iter().take(SHOWN) {
-            let (kind, word) = if finding.worse { ("error", "worse") } else { ("notice", "better") };
+            let (kind, word) =
+                if finding.worse { ("error", "worse") } else { ("notice", "better") };
             let place = finding.cases.iter().find_map(|case| places.get(case));
             let place = place.map_or(String::new(), |(file, line)| {
                 format!("file={},line={line},", property(file))
             });
-            let title = property(&format!("{}: {} of {} is {word}", self.suite, finding.subject, finding.method));
+            let title = property(&format!(
+                "{}: {} of {} is {word}",
+                self.suite, finding.subject, finding.method
+            ));
             lines.push(format!("::{kind} {place}title={title}::{}", data(&finding.sentence)));
         }
         lines

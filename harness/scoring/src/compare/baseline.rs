@@ -134,7 +134,8 @@ impl Baseline {
                 let Some(scores) = &method.scores else { continue };
                 let scores = Scores::read(&run.join(scores))?;
                 let Scores { face, light, .. } = scores.clone();
-                let captured = Captured { face, light, capture: Some(scores.inputs.capture.clone()) };
+                let captured =
+                    Captured { face, light, capture: Some(scores.inputs.capture.clone()) };
                 baseline.cases.insert(case.id.clone(), captured);
                 // Methods that leave no such file say nothing of what they computed on.
                 let solve = method.maps.as_ref().map(|maps| run.join(maps).join("solve.json"));

@@ -50,9 +50,13 @@ pub struct Calibration {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
-    /// Standard deviation over the runs, in the metric's unit.
+    /// Whether the other three are of the logarithm: shares of the value, for errors, which chance
+    /// multiplies; else they are in the metric's unit.
+    #[serde(default)]
+    pub relative: bool,
+    /// Standard deviation over the runs.
     pub sd: f64,
-    /// The change that matters, in the same unit: the reasoned tolerance.
+    /// The change that matters: the reasoned tolerance.
     pub matters: f64,
     /// The change that a comparison of two runs sees with probability 0.9.
     pub sees: f64,
@@ -72,8 +76,8 @@ pub struct Limits {
 
 impl Calibration {
     /// What a row with this spread says, if so large a change matters.
-    pub(super) fn spread(&self, sd: f64, matters: f64) -> Spread {
-        let row = Spread { sd, matters, sees: 0.0, power: 0.0 };
+    pub(super) fn spread(&self, relative: bool, sd: f64, matters: f64) -> Spread {
+        let row = Spread { relative, sd, matters, sees: 0.0, power: 0.0 };
         let change = self.limits(&row, 1).change;
         let of_two = row.believed() * std::f64::consts::SQRT_2;
         let normal = Normal::standard();
@@ -109,8 +113,8 @@ impl Calibration {
         let mut lines = format!(
             "# How far the scores of a suite move when nothing but seeds differs, as `unshade calibrate` \
              measured it.\n# sd: standard deviation; matters: the reasoned tolerance; sees: what a \
-             comparison sees with\n# probability {POWER}; power: the probability of seeing what matters.\n\
-             format = 2\n\n[calibration]\nsuite = {}\n",
+             comparison sees with\n# probability {POWER}; power: the probability of seeing what matters; \
+             relative: as shares of the value.\nformat = 2\n\n[calibration]\nsuite = {}\n",
             text(&self.suite)
         );
         if let Some(hash) = &self.suite_hash {
@@ -128,10 +132,11 @@ impl Calibration {
         }
         lines.push_str("\n[calibration.rows]\n");
         for (id, row) in &self.rows {
-            let Spread { sd, matters, sees, power } = row;
+            let Spread { relative, sd, matters, sees, power } = row;
+            let relative = if *relative { "relative = true, " } else { "" };
             let _ = writeln!(
                 lines,
-                "{} = {{ sd = {sd:.3e}, matters = {matters:.3e}, sees = {sees:.3e}, power = {power:.3} }}",
+                "{} = {{ {relative}sd = {sd:.3e}, matters = {matters:.3e}, sees = {sees:.3e}, power = {power:.3} }}",
                 text(id)
             );
         }
@@ -162,6 +167,22 @@ impl Calibration {
 }
 
 impl Spread {
+    /// How far two values are from one another, as the other numbers are.
+    pub fn distance(&self, old: f64, new: f64) -> f64 {
+        match self.relative {
+            _ if old == new => 0.0,
+            // No error is infinitely better than some, and some infinitely worse than none.
+            true if old <= 0.0 || new <= 0.0 => f64::INFINITY,
+            true => (new / old).ln().abs(),
+            false => (new - old).abs(),
+        }
+    }
+
+    /// A distance from the value `old`, towards larger values, in the metric's unit.
+    pub fn in_unit(&self, distance: f64, old: f64) -> f64 {
+        if self.relative { old.abs() * distance.exp_m1() } else { distance }
+    }
+
     fn believed(&self) -> f64 {
         self.sd.max(LEAST * self.matters)
     }

@@ -60,7 +60,8 @@ impl Comparison {
     fn of_verdicts(&self, worse: bool) -> Vec<Finding> {
         let mut groups: BTreeMap<(&str, &str), Group> = BTreeMap::new();
         for row in &self.rows {
-            let wanted = if worse { row.verdict.is_regression() } else { row.verdict == Verdict::Better };
+            let wanted =
+                if worse { row.verdict.is_regression() } else { row.verdict == Verdict::Better };
             let Ok(id) = RowId::parse(&row.id) else { continue };
             if wanted {
                 let empty = || Group { rows: Vec::new(), severity: 0.0 };
@@ -123,7 +124,7 @@ impl Comparison {
             sentence += "; this is no method's doing: the captures or the pipeline changed, and every \
                          method's rows with them";
         } else if following > 0 {
-            sentence += &format!("; {following} rows of pictures that are made with it follow");
+            sentence += &format!("; so do the pictures that are made with it (rows: {following})");
         } else if subject.starts_with("relit") {
             sentence += "; no map that it is made of moved as far";
         }

@@ -26,7 +26,8 @@ pub(super) fn differences(
     if differ(current.suite_hash.as_ref(), baseline.suite_hash.as_ref()) {
         found.push("another state of the suite's file".to_owned());
     }
-    let names: BTreeSet<&String> = current.versions.keys().chain(baseline.versions.keys()).collect();
+    let names: BTreeSet<&String> =
+        current.versions.keys().chain(baseline.versions.keys()).collect();
     let other =
         |name: &&&String| differ(current.versions.get(**name), baseline.versions.get(**name));
     let versions: Vec<&str> = names.iter().filter(other).map(|name| name.as_str()).collect();

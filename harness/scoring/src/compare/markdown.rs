@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::verdict::{Comparison, Judged, Verdict, VERDICTS};
+use super::verdict::{Comparison, Judged, VERDICTS, Verdict};
 
 /// Rows that are spelt out; a comment of GitHub holds 65536 characters.
 const SHOWN: usize = 150;
@@ -31,10 +31,14 @@ impl Comparison {
             .collect();
         if !moved.is_empty() {
             let _ = writeln!(text, "<details><summary>{} rows that moved</summary>\n", moved.len());
-            text.push_str("| row | verdict | baseline | now | allowed | |\n|---|---|--:|--:|--:|---|\n");
+            text.push_str(
+                "| row | verdict | baseline | now | allowed | |\n|---|---|--:|--:|--:|---|\n",
+            );
             for row in moved.iter().take(SHOWN) {
-                let value = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{v:.4}"));
-                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                let value =
+                    |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{v:.4}"));
+                let unit =
+                    if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
                 let _ = writeln!(
                     text,
                     "| `{}` | {} | {} | {}{unit} | {:.4} | {} |",

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use super::CompareError;
 use super::baseline::Baseline;
 use super::calibration::{Calibration, FEWEST_RUNS, LEAST};
+use super::row_id::RowId;
 use super::spread::{Column, SIMULATIONS, critical, deviation};
 use super::tolerance::Tolerances;
+use crate::metrics::Direction;
 
 /// Seed of the simulated comparisons.
 const SEED: u64 = 39;
@@ -30,11 +32,17 @@ impl Calibration {
         for id in first.rows.keys() {
             let values: Option<Vec<f64>> =
                 runs.iter().map(|run| run.rows.get(id).and_then(|entry| entry.value)).collect();
-            let Some(values) = values else { continue };
+            let Some(mut values) = values else { continue };
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let matters = tolerances.rule(id)?.allowed(mean);
+            let mut matters = tolerances.rule(id)?.allowed(mean);
+            let error = RowId::parse(id)?.metric.direction == Direction::Lower;
+            let relative = error && values.iter().all(|value| *value > 0.0);
+            if relative {
+                values.iter_mut().for_each(|value| *value = value.ln());
+                matters = (matters / mean).ln_1p();
+            }
             columns.extend(Column::new(&values, LEAST * matters));
-            measured.push((id.clone(), deviation(&values), matters));
+            measured.push((id.clone(), relative, deviation(&values), matters));
         }
         let mut calibration = Self {
             suite: first.suite.clone(),
@@ -45,8 +53,8 @@ impl Calibration {
             critical: critical(&columns, false_alarms, SIMULATIONS, SEED),
             rows: BTreeMap::new(),
         };
-        for (id, sd, matters) in measured {
-            let row = calibration.spread(sd, matters);
+        for (id, relative, sd, matters) in measured {
+            let row = calibration.spread(relative, sd, matters);
             calibration.rows.insert(id, row);
         }
         Ok(calibration)

@@ -8,6 +8,7 @@ mod calibration;
 mod cause;
 mod context;
 mod error;
+mod history;
 mod junit;
 mod markdown;
 mod measure;

@@ -49,7 +49,12 @@ impl Column {
 
 /// The value that the largest |difference of two runs| over √2 standard deviations exceeds with
 /// probability `rate`, when nothing but seeds differs; `None` if no row moves.
-pub(super) fn critical(columns: &[Column], rate: f64, simulations: usize, seed: u64) -> Option<f64> {
+pub(super) fn critical(
+    columns: &[Column],
+    rate: f64,
+    simulations: usize,
+    seed: u64,
+) -> Option<f64> {
     let runs = columns.first()?.standard.len();
     let shrinkage = shrinkage(columns);
     let chunks: Vec<Vec<f64>> = (0..simulations.div_ceil(CHUNK))

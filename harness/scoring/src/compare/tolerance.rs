@@ -81,7 +81,9 @@ impl Tolerances {
         let wrong = |reason: String| Err(CompareError::text(path, reason));
         match (format, &calibration) {
             (1, None) | (2, Some(_)) => {}
-            (1, Some(_)) => return wrong("has format 1, and a calibration has format 2".to_owned()),
+            (1, Some(_)) => {
+                return wrong("has format 1, and a calibration has format 2".to_owned());
+            }
             (2, None) => return wrong("has format 2, and no [calibration]".to_owned()),
             _ => return wrong(format!("has format {format}, this version reads 1 and 2")),
         }
@@ -89,7 +91,10 @@ impl Tolerances {
         if let Some(rule) =
             rules.iter().find(|rule| !is_amount(rule.absolute) || !is_amount(rule.relative))
         {
-            return wrong(format!("the rule for {:?} has a negative or infinite allowance", rule.rows));
+            return wrong(format!(
+                "the rule for {:?} has a negative or infinite allowance",
+                rule.rows
+            ));
         }
         if let Some(fault) = calibration.as_ref().and_then(Calibration::fault) {
             return wrong(fault);

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::CompareError;
 use super::baseline::{Baseline, Entry};
+use super::calibration::{Limits, Spread};
 use super::context::differences;
 use super::row_id::RowId;
 use super::tolerance::{Rule, Tolerances};
@@ -145,46 +146,53 @@ fn judge(
         (None, None) if old.is_some() => Verdict::Same,
         (None, _) => Verdict::New,
     };
-    let (id, allowed) = (id.to_owned(), limits.change);
-    let (unit, measured) = (metric.unit, limits.measured);
+    let (id, allowed) = (id.to_owned(), limits.allowed(baseline));
+    let (unit, measured) = (metric.unit, limits.measured.is_some());
     let reason = if measured { String::new() } else { rule.reason.clone() };
     Ok(Judged { id, verdict, baseline, current, allowed, unit, reason, measured })
 }
 
 /// What the two values of a row are held against.
-struct RowLimits {
+struct RowLimits<'a> {
+    /// A larger distance is a change.
     change: f64,
+    /// A smaller one is none.
     same: f64,
     either_way: bool,
-    measured: bool,
+    /// None where the limits are reasoned.
+    measured: Option<&'a Spread>,
 }
 
-fn limits(
+fn limits<'a>(
     id: &str,
     baseline: Option<f64>,
-    tolerances: &Tolerances,
+    tolerances: &'a Tolerances,
     rule: &Rule,
     runs: u64,
-) -> RowLimits {
+) -> RowLimits<'a> {
     let either_way = rule.either_way;
     let measured = tolerances.calibration().and_then(|all| Some((all, all.rows.get(id)?)));
     match measured {
         Some((calibration, row)) => {
-            let limits = calibration.limits(row, runs);
-            RowLimits { change: limits.change, same: limits.same, either_way, measured: true }
+            let Limits { change, same } = calibration.limits(row, runs);
+            RowLimits { change, same, either_way, measured: Some(row) }
         }
         None => {
             let change = baseline.map_or(0.0, |baseline| rule.allowed(baseline));
-            RowLimits { change, same: change, either_way, measured: false }
+            RowLimits { change, same: change, either_way, measured: None }
         }
     }
 }
 
-impl RowLimits {
+impl RowLimits<'_> {
     fn weigh(&self, metric: &Metric, old: f64, new: f64) -> Verdict {
         let gain = metric.direction.gain(old, new);
         // Of a reasoned tolerance the gain counts, of a measured one whether the number moved at all.
-        let moved = if self.measured || self.either_way { (new - old).abs() } else { gain.abs() };
+        let moved = match self.measured {
+            Some(row) => row.distance(old, new),
+            None if self.either_way => (new - old).abs(),
+            None => gain.abs(),
+        };
         if moved > self.change {
             let better = gain > 0.0 && !self.either_way;
             if better { Verdict::Better } else { Verdict::Worse }
@@ -192,6 +200,14 @@ impl RowLimits {
             Verdict::Same
         } else {
             Verdict::CannotTell
+        }
+    }
+
+    /// How far the metric may move, in its unit.
+    fn allowed(&self, baseline: Option<f64>) -> f64 {
+        match (self.measured, baseline) {
+            (Some(row), Some(old)) => row.in_unit(self.change, old),
+            _ => self.change,
         }
     }
 }
@@ -204,8 +220,9 @@ fn in_words(tolerances: &Tolerances, rows: &[Judged]) -> String {
     };
     let rate = 100.0 * calibration.false_alarms;
     let runs = calibration.runs;
-    let mut words =
-        format!("{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds");
+    let mut words = format!(
+        "{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds"
+    );
     let reasoned = rows.iter().filter(|row| !row.measured && row.baseline.is_some()).count();
     if reasoned > 0 {
         words += &format!("; {reasoned} rows were not calibrated and have reasoned tolerances");

@@ -1,0 +1,158 @@
+"""What a comparison writes is read by the tools that it is written for, and the CI files are valid."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import junitparser
+import pytest
+from conftest import TINY, unshade
+from doc_examples import ROOT
+from markdown_it import MarkdownIt
+
+CASE = "tiny-studio"
+
+
+@pytest.mark.parametrize(
+    ("file", "arguments"),
+    [
+        ("docs/ci/github.yml", ["--builtin-schema", "vendor.github-workflows"]),
+        ("docs/ci/gitlab-ci.yml", ["--builtin-schema", "vendor.gitlab-ci", "--data-transform", "gitlab-ci"]),
+    ],
+)
+def test_the_ci_files_keep_to_their_schema_and_call_what_there_is(file: str, arguments: list[str]) -> None:
+    checker = Path(sys.executable).with_name("check-jsonschema")
+    done = subprocess.run([checker, *arguments, ROOT / file], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    text = (ROOT / file).read_text().replace("\\\n", " ")
+    calls = re.findall(r"\.venv/bin/unshade (\w+)([^\n]*)", text)
+    assert {verb for verb, _ in calls} == {"run", "compare"}
+    for verb, rest in calls:
+        known = unshade(verb, "--help").stdout
+        for flag in re.findall(r"--[a-z-]+", rest):
+            assert re.search(rf"{flag}\b", known), f"unshade {verb} {flag}"
+
+
+@pytest.fixture(scope="module")
+def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The tiny run with an albedo that is 3 % darker, scored anew."""
+    import unshade as package
+
+    run = tmp_path_factory.mktemp("darker") / "run"
+    shutil.copytree(tiny_run, run)
+    capture, maps, relit = run / "captures" / CASE, run / "maps" / CASE / "quick", run / "relit" / CASE / "quick"
+    changed = package.Maps.read(maps)
+    changed.diffuse_albedo = changed.diffuse_albedo * 0.97
+    changed.write(maps)
+    unshade("relight", capture, maps, "-o", relit)
+    unshade("score", capture, maps, "--relit", relit, "-o", run / "scores" / CASE / "quick.json")
+    return run
+
+
+def test_consumers_read_a_comparison(tiny_run: Path, darker: Path, tmp_path: Path) -> None:
+    files = {name: tmp_path / name for name in ("junit", "markdown", "json", "pictures", "history", "chart")}
+    options = [item for name, path in files.items() for item in (f"--{name}", path)]
+    done = unshade("compare", darker, tiny_run, "--suite", TINY, "--github", *options, check=False)
+    assert done.returncode == 1, done.stdout + done.stderr
+
+    report = json.loads(files["json"].read_text())
+    first = report["findings"][0]
+    assert "diffuse albedo of `quick` is 3.0 % darker" in first["sentence"], first
+    assert first["following"] > 0 and "under studio" in first["sentence"]
+    assert sum(report["counts"].values()) == len(report["rows"])
+
+    failed = [
+        case
+        for suite in junitparser.JUnitXml.fromfile(str(files["junit"]))
+        for case in suite
+        if any(isinstance(result, junitparser.Failure) for result in case.result)
+    ]
+    assert len(failed) == report["counts"]["worse"]
+    scene = TINY.with_name("tiny-scene.toml")
+    assert all(case._elem.get("file") == str(scene) and case._elem.get("line") == "3" for case in failed)
+
+    marked = re.findall(r"^::error file=([^,]*),line=(\d+),title=[^:]*::(.*)$", done.stdout, re.MULTILINE)
+    assert marked[0] == (str(scene), "3", first["sentence"].replace("%", "%25"))
+
+    page = files["markdown"].read_text()
+    assert page.startswith("<!-- unshade compare: tiny -->\n")
+    tokens = MarkdownIt("commonmark", {"html": True}).enable("table").parse(page)
+    headings = [tokens[i + 1].content for i, token in enumerate(tokens) if token.type == "heading_open"]
+    assert headings == ["❌ unshade, tiny: REGRESSION"]
+    rows = [token for token in tokens if token.type == "tr_open"]
+    moved = [row for row in report["rows"] if row["verdict"] not in ("same", "cannot_tell")]
+    assert len(rows) == 1 + min(len(moved), 150)
+
+    names = {path.name for path in files["pictures"].iterdir()} - {".unshade"}
+    shown = {f"01-quick-diffuse_albedo-{what}.png" for what in ("old", "new", "truth", "difference")}
+    assert shown <= names
+    assert all((files["pictures"] / name).stat().st_size < 300_000 for name in names)
+
+    record = json.loads(files["history"].read_text())
+    assert record["suite"] == "tiny" and not record["passed"]
+    assert "<svg" in files["chart"].read_text()
+
+
+def test_an_accepted_change_passes_until_its_day_and_no_further(tiny_run: Path, darker: Path, tmp_path: Path) -> None:
+    file = tmp_path / "accepted.toml"
+    against = [tiny_run / "report" / "baseline.json", "--acceptances", file]
+    accept = ["--accept", f"{CASE}/quick/*", "--reason", 'a "darker" skin', "--until"]
+    bad = unshade("compare", darker, *against, *accept, "soon", check=False)
+    assert bad.returncode == 2 and "YYYY-MM-DD" in bad.stderr and not file.exists()
+    done = unshade("compare", darker, *against, *accept, "2999-12-31")
+    assert 'accepted: a "darker" skin' in done.stdout
+    assert unshade("compare", darker, *against).returncode == 0
+    file.write_text(file.read_text().replace("2999-12-31", "2001-12-31"))
+    late = unshade("compare", darker, *against, check=False)
+    assert late.returncode == 1 and "was accepted until 2001-12-31" in late.stdout
+
+
+def test_the_baseline_of_a_branch_is_that_of_the_merge_base(tiny_run: Path, tmp_path: Path) -> None:
+    def git(*arguments: str) -> str:
+        options = ["-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false"]
+        command = ["git", "-C", str(tmp_path), *options, *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    def compare() -> subprocess.CompletedProcess[str]:
+        command = [Path(sys.executable).with_name("unshade"), "compare", tiny_run]
+        command += ["--baseline-branch", "main", "--baselines", "kept"]
+        return subprocess.run(list(map(str, command)), capture_output=True, text=True, cwd=tmp_path)
+
+    git("init", "-b", "main")
+    git("commit", "--allow-empty", "-m", "one")
+    one = git("rev-parse", "HEAD")
+    git("commit", "--allow-empty", "-m", "two")
+    git("checkout", "-b", "change")
+    git("commit", "--allow-empty", "-m", "three")
+    missing = compare()
+    assert missing.returncode == 2 and "has no baseline of" in missing.stderr
+    (tmp_path / "kept").mkdir()
+    shutil.copy(tiny_run / "report" / "baseline.json", tmp_path / "kept" / f"{one}.json")
+    assert compare().returncode == 0
+
+
+def test_calibrate_runs_a_suite_over_seeds_and_goes_on_where_it_was(tmp_path: Path) -> None:
+    suite = tmp_path / "suite.toml"
+    scene = TINY.with_name("tiny-scene.toml")
+    suite.write_text(
+        f'format = 1\nname = "tiny"\nscene = "{scene}"\nscales = ["none"]\n'
+        '[render]\nwidth = 48\nheight = 48\nsamples = 4\n[[method]]\nname = "mean_texture"\ntexture_size = 64\n'
+    )
+    out = tmp_path / "tolerances.toml"
+    first = unshade("calibrate", suite, "--seeds", 4, "-o", out)
+    text = out.read_text()
+    assert "runs = 4" in text and "false_alarms = 0.01" in text
+    runs = [tmp_path / "tolerances-runs" / f"seed-{k:02d}" for k in range(1, 5)]
+    again = unshade("calibrate", "--runs", *runs, "-o", out)
+    assert out.read_text() == text and first.stdout == again.stdout
+    assert "still valid" in unshade("calibrate", suite, "--seeds", 4, "-o", out).stderr
+    same = unshade("compare", runs[0], runs[1], "--tolerances", out)
+    assert "Not like with like: other captures (tiny-studio)" in same.stdout
+    assert "1 % false alarms over all rows" in same.stdout
+    few = unshade("calibrate", "--runs", *runs[:3], "-o", tmp_path / "few.toml", check=False)
+    assert few.returncode == 2 and "3 runs are too few" in few.stderr
