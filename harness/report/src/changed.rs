@@ -1,5 +1,6 @@
 //! Pictures of what a comparison found: what was, what is, the truth, and the difference.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +66,12 @@ fn fill(
                     hand), from black (none) to pale yellow (the largest, as stated).\n"
         .to_owned();
     let mut count = 0;
+    let mut seen = BTreeSet::new();
     for finding in findings {
+        // What got worse in one respect and better in another is one picture.
+        if !seen.insert((&finding.method, &finding.subject)) {
+            continue;
+        }
         let Some(shown) = shown(finding, (new, &manifest), old.zip(before.as_ref()))? else {
             continue;
         };

@@ -6,7 +6,7 @@ use super::CompareError;
 use super::baseline::Baseline;
 use super::calibration::{Calibration, FEWEST_RUNS, LEAST};
 use super::row_id::RowId;
-use super::spread::{Column, SIMULATIONS, critical, deviation};
+use super::spread::{Column, SIMULATIONS, TAILS, critical, deviation};
 use super::tolerance::Tolerances;
 use crate::metrics::Direction;
 
@@ -50,7 +50,7 @@ impl Calibration {
             versions: first.versions.clone(),
             runs: runs.len(),
             false_alarms,
-            critical: critical(&columns, false_alarms, SIMULATIONS, SEED),
+            critical: critical(&columns, false_alarms, Some(TAILS), SIMULATIONS, SEED),
             rows: BTreeMap::new(),
         };
         for (id, relative, sd, matters) in measured {
