@@ -98,11 +98,27 @@ fn every_metric_agrees_with_an_independent_implementation() {
         .and_then(|pair| pair.with_cause(&p.cause))
         .and_then(|pair| pair.with_confidence(&p.confidence))
         .unwrap();
-    let normals = Pair::new(&p.normal, &p.true_normal, &region).unwrap();
+    let mesh = picture(3, |x, y, c| {
+        if (x + y) % 2 == 0 { p.true_normal.pixel(x, y)[c] } else { f32::from(u8::from(c == 2)) }
+    });
+    let normals =
+        Pair::new(&p.normal, &p.true_normal, &region).and_then(|pair| pair.with_cause(&mesh)).unwrap();
+    // Halves of the samples: the pictures with noise of the same size, opposite in the other half.
+    let shaken = |of: &Picture, seed: usize| {
+        picture(3, |x, y, c| {
+            (f64::from(of.pixel(x, y)[c]) + 0.02 * (noise(x, y, seed + c) - 0.5)) as f32
+        })
+    };
+    let halves = [shaken(&p.prediction, 21), shaken(&p.truth, 31)];
+    let split = Pair::new(&p.prediction, &p.truth, &region)
+        .and_then(|pair| pair.with_halves(&halves[0], &halves[1]))
+        .unwrap();
     let values = Pair::new(&value, &true_value, &region).unwrap();
     for metric in METRICS {
         let pair = match metric.id {
-            "rmse" | "pearson" | "spearman" => &values,
+            "rmse" | "pearson" | "spearman" | "log_ratio_rms" => &values,
+            "relief_invented" | "direction_mean_deg" => &normals,
+            id if id.ends_with("_unbiased") => &split,
             id if id.starts_with("normal") => &normals,
             _ => &colours,
         };

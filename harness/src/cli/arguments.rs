@@ -99,6 +99,16 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Statistics over the faces of finished runs: means with intervals, paired tests, the faces that a
+    /// study needs, what varies, fairness by skin tone.
+    Study {
+        /// The runs' folders.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The study's folder (Markdown, JSON, CSV); without it the Markdown is printed.
+        #[arg(short, long)]
+        out: Option<PathBuf>,
+    },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
     /// Time the solver's kernels and steps against what this machine reaches.

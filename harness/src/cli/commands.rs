@@ -1,12 +1,13 @@
 //! What each verb does.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use formats::atomic;
 use scoring::compare::{Baseline, Tolerances, compare};
 use scoring::score;
+use scoring::study::{self, Study};
 use solver::Choice;
 
 use super::alone::{alone, tools};
@@ -60,11 +61,29 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             words.push(format!("-o {}", out.display()));
             report::write_results(&runs, &out, &words.join(" "))?;
         }
+        Verb::Study { runs, out } => study(&runs, out.as_deref())?,
         Verb::Compare(arguments) => return compare_run(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)
+}
+
+fn study(runs: &[PathBuf], out: Option<&Path>) -> Result<(), RunError> {
+    let mut words = vec!["unshade study".to_owned()];
+    words.extend(runs.iter().map(|run| run.display().to_string()));
+    words.extend(out.map(|out| format!("-o {}", out.display())));
+    let command = words.join(" ");
+    let observations = study::observations(runs)?;
+    let found = Study::of(&observations);
+    match out {
+        Some(out) => {
+            study::write_study(&found, &observations, runs, out, &command)?;
+            say!("{}", out.join("study.md").display());
+        }
+        None => say!("{}", found.markdown(&command).trim_end()),
+    }
+    Ok(())
 }
 
 fn synth(arguments: SynthArgs) -> Result<(), RunError> {
@@ -86,7 +105,7 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let mut config = if arguments.config.ends_with(".toml") {
-        let path = std::path::PathBuf::from(&arguments.config);
+        let path = PathBuf::from(&arguments.config);
         let text = fs::read_to_string(&path);
         solver::Config::from_toml(&text.map_err(|reason| RunError::File { path, reason })?)?
     } else {

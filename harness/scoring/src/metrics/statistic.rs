@@ -23,6 +23,9 @@ pub enum Statistic {
     Mean,
     /// -10 log10 of the mean of x, peak 1.
     Psnr,
+    /// The same of products that may be negative: where their mean is not positive no error is left,
+    /// which is 100 dB.
+    UnbiasedPsnr,
     /// Square root of the mean of x.
     RootMean,
     /// Standard deviation of x.
@@ -39,6 +42,8 @@ pub enum Statistic {
     Correlation,
     /// Its square: the share of the variance of x that a line in y explains.
     Explained,
+    /// Slope of the line in y that fits x best: covariance of both over the variance of y.
+    Slope,
 }
 
 /// The values of one picture: `arity` (1: x, 2: x and y) of them per pixel of the region, and
@@ -55,9 +60,14 @@ impl Statistic {
     /// Values per pixel.
     pub fn arity(self) -> usize {
         match self {
-            Self::MeanDifference | Self::Ratio | Self::Correlation | Self::Explained => 2,
+            Self::MeanDifference
+            | Self::Ratio
+            | Self::Correlation
+            | Self::Explained
+            | Self::Slope => 2,
             Self::Mean
             | Self::Psnr
+            | Self::UnbiasedPsnr
             | Self::RootMean
             | Self::Spread
             | Self::Below(_)
@@ -114,11 +124,15 @@ impl Statistic {
             Self::Below(limit) => [f64::from(x < limit), 0.0, 0.0, 0.0, 0.0],
             Self::Spread => [x, x * x, 0.0, 0.0, 0.0],
             Self::MeanDifference | Self::Ratio => [x, value[1], 0.0, 0.0, 0.0],
-            Self::Correlation | Self::Explained => {
+            Self::Correlation | Self::Explained | Self::Slope => {
                 let y = value[1];
                 [x, y, x * x, y * y, x * y]
             }
-            Self::Mean | Self::Psnr | Self::RootMean | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
+            Self::Mean
+            | Self::Psnr
+            | Self::UnbiasedPsnr
+            | Self::RootMean
+            | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
         }
     }
 
@@ -130,6 +144,8 @@ impl Statistic {
         let value = match self {
             Self::Mean | Self::Below(_) => Some(a),
             Self::Psnr => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::UnbiasedPsnr if a > 0.0 => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::UnbiasedPsnr => Some(MAX_PSNR),
             Self::RootMean => Some(a.sqrt()),
             Self::Spread => Some(variance(a, b).sqrt()),
             Self::MeanDifference => Some((a - b).abs()),
@@ -141,6 +157,10 @@ impl Statistic {
                 }
                 let r = ((e - a * b) / (x * y).sqrt()).clamp(-1.0, 1.0);
                 Some(if self == Self::Correlation { r } else { r * r })
+            }
+            Self::Slope => {
+                let y = variance(b, d);
+                (y > 0.0).then(|| (e - a * b) / y)
             }
             Self::Quantile(_) => None,
         };

@@ -4,6 +4,9 @@ mod confidence;
 mod error;
 mod geometry;
 mod label_means;
+mod light;
+mod light_cells;
+mod light_spheres;
 mod maps;
 mod names;
 mod noise_floor;
@@ -72,6 +75,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
     if let Some((albedo, scale)) = found.diffuse_albedo.as_ref().zip(scale.as_ref()) {
         rows.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
     }
+    rows.extend(light::rows_of_light(capture, maps)?);
     rows.extend(views);
     rows.extend(relit_rows);
     let hash = |path: &Path| hash_path(path).map_err(|error| ScoreError::io(path, error));
@@ -83,6 +87,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         format: Scores::FORMAT,
         capture: name_of(capture),
         face,
+        skin_tone: truth.skin_tone(),
         light,
         solver: solver_name(maps)?,
         protocol,

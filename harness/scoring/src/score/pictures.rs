@@ -174,5 +174,35 @@ fn compare(
         let floors = if subject == heading.subject { &floors } else { &none };
         all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
     }
+    all.extend(unbiased_rows(frames, &found, &truths, heading)?);
     Ok(all)
+}
+
+/// Rows without what noise adds, where truth and relit pictures come in independent halves. A view
+/// of a solver has no noise and is its own half; a relit picture without a half has noise that
+/// nothing is known of.
+fn unbiased_rows(
+    frames: &[Frame],
+    found: &[Render],
+    truths: &[Render],
+    heading: Heading,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of(heading.subject);
+    let mut compared = Vec::new();
+    for ((frame, found), truth) in frames.iter().zip(found).zip(truths) {
+        let half = if heading.subject == "view" { &found.total } else { &found.half };
+        let (Some(total), Some(half), Some(true_total), Some(true_half)) =
+            (&found.total, half, &truth.total, &truth.half)
+        else {
+            return Ok(Vec::new());
+        };
+        let pair = Pair::new(total, true_total, &frame.region)
+            .and_then(|pair| pair.with_halves(half, true_half))
+            .map_err(&wrong)?;
+        compared.push(Compared { frame: Some(&frame.name), pair });
+    }
+    if compared.is_empty() {
+        return Ok(Vec::new());
+    }
+    rows(heading, &scored::UNBIASED, &compared, &Floors::new())
 }

@@ -24,6 +24,10 @@ pub struct Scores {
     pub capture: String,
     /// Name of the face.
     pub face: String,
+    /// Individual typology angle of the face's mean true skin colour, degrees; absent where no truth
+    /// or no skin is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skin_tone: Option<f64>,
     /// Name of the light of the capture.
     pub light: String,
     /// Name of the solver.

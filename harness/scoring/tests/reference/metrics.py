@@ -138,6 +138,38 @@ def references():
         "confidence_rank": stats.spearmanr(trust, error).statistic,
         "sparsification": np.average(error, weights=trusted) / error.mean(),
     }
+    # Halves of the samples: the pictures with noise of the same size, opposite in the other half.
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
+    shake = lambda seed: np.stack([0.02 * (noise(x, y, seed + c) - 0.5) for c in range(3)], -1)
+    half_p, half_t = ((v + s).astype(np.float32).astype(np.float64) for v, s in ((prediction, shake(21)), (truth, shake(31))))
+    crossed = lambda f: np.mean(((f(half_p) - f(half_t)) * (f(2 * p - half_p) - f(2 * t - half_t)))[inside])
+    dot = (pm * tm).sum(-1) / np.linalg.norm(pm, axis=-1) / np.linalg.norm(tm, axis=-1)
+
+    def band(values, sigma):
+        picture, weight = np.zeros(inside.shape), inside.astype(np.float64)
+        picture[inside] = values
+        blur = lambda v, s: ndimage.gaussian_filter(v, s, truncate=3.0)
+        mean = lambda s: blur(picture, s)[inside] / blur(weight, s)[inside]
+        return mean(sigma) - mean(2 * sigma)
+
+    slope = lambda sigma: stats.linregress(band(log(tm), sigma), band(log(pm), sigma)).slope
+    mesh = np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0])).astype(np.float64)[inside]
+    tilt = lambda v: np.degrees(
+        np.arctan2(np.linalg.norm(np.cross(v, mesh), axis=-1), (v * mesh).sum(-1))
+    )
+    flat = tilt(n) < 0.5
+    ratio = np.log(np.maximum(specular_p, 1e-3) / np.maximum(specular_t, 1e-3))
+    values |= {
+        "psnr_lin_unbiased": -10 * np.log10(crossed(lambda v: v)),
+        "psnr_srgb_unbiased": -10 * np.log10(crossed(srgb)),
+        "chromaticity_deg": np.degrees(np.arccos(np.minimum(dot, 1))).mean(),
+        "log_rmse": np.std(log(pm) - log(tm)),
+        "log_ratio_rms": np.sqrt(np.mean(ratio**2)),
+        "detail_slope_1_2": slope(1),
+        "detail_slope_2_4": slope(2),
+        "relief_invented": tilt(m)[flat].mean(),
+        "direction_mean_deg": degrees.mean(),
+    }
     channel = [np.linalg.lstsq(pm[:, [c]], tm[:, c], rcond=None)[0][0] for c in range(3)]
     median = [np.median((tm[:, c] / pm[:, c])[pm[:, c] > 0]) for c in range(3)]
     return {
