@@ -18,7 +18,7 @@ use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
 use super::{bench, check, doctor, export, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
+use crate::suite::{self, BaselineMethod, Budget, RunError, RunOptions, Suite};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
@@ -32,6 +32,12 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             alone("relight", |tools, step| {
                 suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
+        }
+        Verb::Budget { capture, maps, out, light, view } => {
+            let (light, view) = (light.as_deref(), view.as_deref());
+            let budget = Budget { capture: &capture, maps: &maps, out: &out, light, view };
+            alone("budget", |tools, step| suite::budget(&budget, tools, step).map(|_| ()))?;
+            say!("{}", out.join("budget.md").display());
         }
         Verb::Export(arguments) => export::export(&arguments)?,
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
