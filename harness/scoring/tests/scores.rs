@@ -43,10 +43,9 @@ fn a_light_is_scored_by_its_directions_after_one_factor() {
     assert!((1.5..5.0).contains(&peaks), "{peaks}");
     for sphere in ["mirror", "glossy", "diffuse"] {
         let row = |metric: &str| value(&scores, &format!("light_{sphere}_sphere/{metric}@sphere:global"));
-        let (psnr, colour) = (row("psnr_srgb"), row("chromaticity_deg"));
-        println!("{sphere}: {psnr:.1} dB, {colour:.1e}°");
-        assert!(psnr > 12.0 && colour < 1e-3, "{sphere}: {psnr} {colour}");
+        assert!(row("psnr_srgb") > 20.0, "{sphere}");
     }
+    assert!(value(&scores, "light_diffuse_sphere/chromaticity_deg@sphere:global") < 1e-3);
     // The same light, its rows taken for bands between the poles, is nearly the same light.
     fs::copy(bench.capture().join("truth/light.exr"), maps.join("light.exr")).unwrap();
     let scores = score(&bench.capture(), &maps, None).unwrap();

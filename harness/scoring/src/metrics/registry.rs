@@ -219,8 +219,8 @@ pub(crate) mod scored {
     /// Of the light's brightest directions.
     pub(crate) const PEAKS: [&str; 1] = ["direction_mean_deg"];
     /// Of the light, in equal solid angles.
-    pub(crate) const LIGHT: [&str; 2] = ["log_rmse", "chromaticity_deg"];
-    /// Of a sphere in the light.
+    pub(crate) const LIGHT: [&str; 1] = ["log_rmse"];
+    /// Of a sphere in the light; the last of one that no place of which is black.
     pub(crate) const SPHERE: [&str; 3] = ["psnr_srgb", "log_rmse", "chromaticity_deg"];
     /// Of the diffuse albedo, against the true diffuse shading and the true specular layer.
     pub(crate) const LEAKAGE: [&str; 2] = ["leakage_shading", "leakage_specular"];

@@ -57,7 +57,9 @@ pub(super) fn rows_of_light(capture: &Path, maps: &Path) -> Result<Vec<Row>, Sco
     ] {
         let [p, g] = [&found, &truth].map(|light| sphere(light, surface));
         let pair = Pair::new(&p, &g, &sphere_region).map_err(ScoreError::of(subject))?;
-        all.extend(light_rows(subject, ScaleMode::Global, &scored::SPHERE, pair.scaled(factors))?);
+        let metrics =
+            if surface == Surface::Diffuse { &scored::SPHERE[..] } else { &scored::SPHERE[..2] };
+        all.extend(light_rows(subject, ScaleMode::Global, metrics, pair.scaled(factors))?);
     }
     Ok(all)
 }

@@ -124,11 +124,12 @@ impl Study {
     fn component_table(&self, figure: &Figure) -> String {
         let line = |row: &Components| {
             let parts = [row.faces, row.lights, row.views, row.render_seeds, row.solver_seeds];
-            std::iter::once(escape(&row.method)).chain(parts.map(maybe)).collect()
+            let cells = std::iter::once(escape(&row.method)).chain(parts.map(maybe));
+            parts.iter().any(Option::is_some).then(|| cells.collect())
         };
         table(
             &["standard deviation between", "faces", "lights", "views", "renderer's seeds", "solver's seeds"],
-            self.components.iter().filter(|c| c.figure == *figure).map(line),
+            self.components.iter().filter(|c| c.figure == *figure).filter_map(line),
         )
     }
 
