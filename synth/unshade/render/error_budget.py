@@ -186,7 +186,7 @@ def _page(document: dict) -> str:
         "|---|---|---|---|---|",
     ]
     for row in document["maps"]:
-        share = "–" if row["share"] is None else f"{100 * row['share']:.1f} %"
+        share = "none" if row["share"] is None else f"{100 * row['share']:.1f} %"
         numbers = f"{row['squared_error']:.3e} | {row['alone']:.3e} | {row['gain_db']:.2f}"
         lines.append(f"| {row['map']} | {share} | {numbers} |")
     lines.append(f"| all | 100 % | {document['squared_error']:.3e} | {document['squared_error']:.3e} | |")
@@ -198,7 +198,9 @@ def _strip(pictures, inside: np.ndarray) -> bytes:
     """Truth, the method's view, then errors times eight around grey: of each map alone, and of all. A PNG."""
     exact, found = (pictures[frozenset(mix)].total for mix in ((), PLAYERS))
     alone = [pictures[frozenset([player])].total for player in PLAYERS]
-    errors = [np.where(inside[..., None], 0.5 + 8 * (_srgb(picture) - _srgb(exact)), 0.5) for picture in (*alone, found)]
+    errors = [
+        np.where(inside[..., None], 0.5 + 8 * (_srgb(picture) - _srgb(exact)), 0.5) for picture in (*alone, found)
+    ]
     row = np.concatenate([_srgb(exact), _srgb(found), *errors], axis=1)
     file = io.BytesIO()
     Image.fromarray((row.clip(0, 1) * 255 + 0.5).astype(np.uint8)).save(file, format="PNG")

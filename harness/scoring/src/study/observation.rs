@@ -35,7 +35,6 @@ pub struct Observation {
     /// What it is given: `passive`, `controlled` or `privileged`.
     pub class: String,
     /// The score.
-    #[serde(flatten)]
     pub row: Row,
 }
 

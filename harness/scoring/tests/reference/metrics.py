@@ -141,7 +141,9 @@ def references():
     # Halves of the samples: the pictures with noise of the same size, opposite in the other half.
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
     shake = lambda seed: np.stack([0.02 * (noise(x, y, seed + c) - 0.5) for c in range(3)], -1)
-    half_p, half_t = ((v + s).astype(np.float32).astype(np.float64) for v, s in ((prediction, shake(21)), (truth, shake(31))))
+    half_p, half_t = (
+        (v + s).astype(np.float32).astype(np.float64) for v, s in ((prediction, shake(21)), (truth, shake(31)))
+    )
     crossed = lambda f: np.mean(((f(half_p) - f(half_t)) * (f(2 * p - half_p) - f(2 * t - half_t)))[inside])
     dot = (pm * tm).sum(-1) / np.linalg.norm(pm, axis=-1) / np.linalg.norm(tm, axis=-1)
 
@@ -154,9 +156,7 @@ def references():
 
     slope = lambda sigma: stats.linregress(band(log(tm), sigma), band(log(pm), sigma)).slope
     mesh = np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0])).astype(np.float64)[inside]
-    tilt = lambda v: np.degrees(
-        np.arctan2(np.linalg.norm(np.cross(v, mesh), axis=-1), (v * mesh).sum(-1))
-    )
+    tilt = lambda v: np.degrees(np.arctan2(np.linalg.norm(np.cross(v, mesh), axis=-1), (v * mesh).sum(-1)))
     flat = tilt(n) < 0.5
     ratio = np.log(np.maximum(specular_p, 1e-3) / np.maximum(specular_t, 1e-3))
     values |= {
