@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import unshade as command
 
 import unshade
+from conftest import unshade as command
 from unshade.errors import ScoreError
 
 FACES = 8

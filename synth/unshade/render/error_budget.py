@@ -24,6 +24,7 @@ from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..scene_file import Scene
 from .folder import ResumableFolder, content_hash
+from .layers import Layers
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
@@ -95,10 +96,19 @@ def write_budget(
     meter.note("face")
     face = build_head(scene.face)
     seeds = [seed_of("budget", scene.render.seed, chosen_light.name, name) for name in (camera.name, "shared")]
-    pictures = {}
+    pictures: dict[frozenset[str], Layers] = {}
+    model = None
+    true = {player for player in PLAYERS if _same(truth, found, PLAYERS[player])}
     for mix in mixes:
         report = meter.begin(f"{' + '.join(mix) or 'truth'} of the method")
+        differs = frozenset(mix) - true
+        if differs in pictures:  # the others are the true maps whosever they are
+            pictures[frozenset(mix)] = pictures[differs]
+            continue
         shots = Shots(face, mixed(truth, found, mix), scene.render, PictureStore.of_user())
+        # The light's exposure is the face's, whatever its maps.
+        model = model or shots.light(chosen_light)
+        shots.set_light(chosen_light.name, model)
         pictures[frozenset(mix)] = shots.layers(chosen_light, camera, *seeds, report)
     inside = eroded(read_gray(capture / "masks" / f"{camera.name}.png") > 127)
     halves = {mix: _halves(layers) for mix, layers in pictures.items()}
@@ -121,6 +131,12 @@ def mixed(truth: ChartMaps, found: ChartMaps, mix: Sequence[str]) -> ChartMaps:
     return replace(truth, **{name: getattr(found, name) for name in names})
 
 
+def _same(truth: ChartMaps, found: ChartMaps, names: Sequence[str]) -> bool:
+    """Whether the maps found are the true ones."""
+    pairs = ((getattr(truth, name), getattr(found, name)) for name in names)
+    return all(b is not None and np.array_equal(a, b) for a, b in pairs)
+
+
 def eroded(mask: np.ndarray) -> np.ndarray:
     """A mask [H, W] eroded by 5 x 5; beyond the border is background."""
     size = 2 * _EROSION + 1
@@ -128,7 +144,7 @@ def eroded(mask: np.ndarray) -> np.ndarray:
     return windows.all((2, 3))
 
 
-def _halves(layers) -> tuple[np.ndarray, np.ndarray]:
+def _halves(layers: Layers) -> tuple[np.ndarray, np.ndarray]:
     total = layers.total.astype(np.float64)
     first = total if layers.half is None else layers.half.astype(np.float64)
     return first, 2 * total - first
