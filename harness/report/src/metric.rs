@@ -42,7 +42,11 @@ pub(super) fn trivial(subject: &str) -> Option<&'static str> {
 }
 
 /// Metrics that only the full list shows: variants of one that the table has.
-const VARIANTS: [&str; 7] = [
+const VARIANTS: [&str; 11] = [
+    "orb_psnr_h",
+    "orb_psnr_l",
+    "orb_albedo_psnr",
+    "psnr_lin_unbiased",
     "psnr_lin",
     "relmse",
     "flip_p95",
@@ -62,7 +66,8 @@ pub(super) fn is_chosen(row: &Row) -> bool {
 
 /// Whether a row covers its subject's whole region.
 pub(super) fn is_whole(row: &Row) -> bool {
-    row.label.is_none() && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "whole" | "sphere")
+    row.label.is_none()
+        && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "whole" | "sphere")
 }
 
 /// A subject's name.

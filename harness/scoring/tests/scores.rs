@@ -20,9 +20,14 @@ use scoring::score::{Scores, fit_scale, label_mean_maps, oracle_maps, score};
 /// A true light with two lamps, and one that was found: half as bright, the lamps a cell aside.
 fn write_lights(capture: &Path, maps: &Path) {
     let lit = |width: usize, height: usize, lamps: [(f64, f64); 2], level: f32| {
-        let mut light = Picture { data: vec![0.1 * level; 3 * width * height], ..Picture::new(width, height, 3) };
+        let mut light = Picture {
+            data: vec![0.1 * level; 3 * width * height],
+            ..Picture::new(width, height, 3)
+        };
         for (u, v) in lamps {
-            light.pixel_mut((u * width as f64) as usize, (v * height as f64) as usize).fill(90.0 * level);
+            light
+                .pixel_mut((u * width as f64) as usize, (v * height as f64) as usize)
+                .fill(90.0 * level);
         }
         light
     };
@@ -35,14 +40,17 @@ fn write_lights(capture: &Path, maps: &Path) {
 fn a_light_is_scored_by_its_directions_after_one_factor() {
     let bench = Bench::new(1e-5);
     let maps = bench.albedo_maps(SIDE, albedo);
-    assert!(score(&bench.capture(), &maps, None).unwrap().row("light/log_rmse@whole:global").is_none());
+    assert!(
+        score(&bench.capture(), &maps, None).unwrap().row("light/log_rmse@whole:global").is_none()
+    );
     write_lights(&bench.capture(), &maps);
     let scores = score(&bench.capture(), &maps, None).unwrap();
     // One lamp is 5.6° of azimuth aside, at 30 % of the way down: by sin(54°); the other a row's half.
     let peaks = value(&scores, "light_peaks/direction_mean_deg@whole:none");
     assert!((1.5..5.0).contains(&peaks), "{peaks}");
     for sphere in ["mirror", "glossy", "diffuse"] {
-        let row = |metric: &str| value(&scores, &format!("light_{sphere}_sphere/{metric}@sphere:global"));
+        let row =
+            |metric: &str| value(&scores, &format!("light_{sphere}_sphere/{metric}@sphere:global"));
         assert!(row("psnr_srgb") > 20.0, "{sphere}");
     }
     assert!(value(&scores, "light_diffuse_sphere/chromaticity_deg@sphere:global") < 1e-3);
@@ -91,7 +99,9 @@ fn scores_without_noise_say_the_planted_error_and_of_none_nothing() {
         let truth = value(&exact, &format!("relit/{light}/psnr_{space}@mask-e5:global"));
         let noisy = value(&scores, &format!("relit/{light}/psnr_{space}@mask-e5:global"));
         let ([low, high], found) = (row("global").ci95.unwrap(), row("global").value.unwrap());
-        println!("{light} {space}: exact {truth:.2}, unbiased {found:.2} ({low:.2} .. {high:.2}), as rendered {noisy:.2}");
+        println!(
+            "{light} {space}: exact {truth:.2}, unbiased {found:.2} ({low:.2} .. {high:.2}), as rendered {noisy:.2}"
+        );
         assert!(noisy < truth - 1.0, "{light} {space}: the noise is no smaller than the error");
         assert!(low <= truth && truth <= high && high < 60.0, "{light} {space}");
     }

@@ -35,10 +35,10 @@ fn share(hits: impl Iterator<Item = bool>) -> f64 {
 fn intervals_over_faces_hold_the_true_mean_in_95_percent_of_studies() {
     let mut noise = normal_noise(11);
     // Decibels of faces are near normal; the other law has a skewness of one.
-    let laws: [(&str, f64, fn(&mut dyn FnMut() -> f64) -> f64); 2] =
-        [("normal", 35.0, |n| 35.0 + 2.0 * n()), ("skewed", 35.0, |n| {
-            34.0 + (0..8).map(|_| n().powi(2)).sum::<f64>() / 8.0
-        })];
+    let laws: [(&str, f64, fn(&mut dyn FnMut() -> f64) -> f64); 2] = [
+        ("normal", 35.0, |n| 35.0 + 2.0 * n()),
+        ("skewed", 35.0, |n| 34.0 + (0..8).map(|_| n().powi(2)).sum::<f64>() / 8.0),
+    ];
     for (name, truth, law) in laws {
         let hits = (0..STUDIES).map(|_| {
             let (mut faces, mut views) = (normal_noise_of(&mut noise), normal_noise_of(&mut noise));
@@ -71,7 +71,10 @@ fn pooled_errors_hold_the_true_mean_square_in_95_percent_of_studies() {
                 let level = 30.0 + 1.5 * drawn();
                 let views: Vec<f64> = (0..4).map(|_| level + 0.7 * drawn()).collect();
                 let error = views.iter().map(|v| 10_f64.powf(-0.1 * v)).sum::<f64>() / 4.0;
-                Face { name: i.to_string(), cells: vec![Cell { value: -10.0 * error.log10(), views }] }
+                Face {
+                    name: i.to_string(),
+                    cells: vec![Cell { value: -10.0 * error.log10(), views }],
+                }
             })
             .collect();
         let (value, ends) = pooled_decibels(&faces);

@@ -92,7 +92,8 @@ pub(super) fn cases_of(path: &Path, base: &Scene, suite: &Table) -> Result<Vec<C
     for face in &faces {
         for light in &lights {
             let scene = base.clone().with_face(face.clone()).with_lights(light, &others);
-            for (variant, seed) in variants.iter().flat_map(|v| seeds.iter().map(move |s| (v, *s))) {
+            for (variant, seed) in variants.iter().flat_map(|v| seeds.iter().map(move |s| (v, *s)))
+            {
                 let case = case(path, scene.clone(), variant.as_ref(), seed)?;
                 if cases.iter().any(|other| other.id == case.id) {
                     let reason = format!("{} occurs twice; rename one", case.id);
@@ -136,7 +137,8 @@ fn case(
     if let Some(seed) = seed {
         id = format!("{id}-seed{seed}");
         let render = Table::from_iter([("seed".to_owned(), Value::Integer(seed.cast_signed()))]);
-        scene = scene.with_changes(&Table::from_iter([("render".to_owned(), Value::Table(render))]));
+        scene =
+            scene.with_changes(&Table::from_iter([("render".to_owned(), Value::Table(render))]));
     }
     scene::check_id(path, &id)?;
     scene.table.insert("name".to_owned(), Value::String(id.clone()));

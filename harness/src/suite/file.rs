@@ -10,8 +10,8 @@ use super::packaged::Kind;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 14] = [
-    "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant", "seeds",
-    "scales", "relight", "method",
+    "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
+    "seeds", "scales", "relight", "method",
 ];
 
 /// Keys that say something of a scene.

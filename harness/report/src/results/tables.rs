@@ -95,8 +95,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
     let mut text = format!("\n### {}\n", escape(&group.title()));
     for (title, figures) in TABLES {
         // A figure that no method has (confidence of a baseline's run) is no column.
-        let found =
-            |figure: &Figure, line: &Line| by_face(figure, line, &group.light);
+        let found = |figure: &Figure, line: &Line| by_face(figure, line, &group.light);
         let shown: Vec<&Figure> = figures
             .iter()
             .filter(|f| lines.iter().any(|line| !found(f, line).is_empty()))

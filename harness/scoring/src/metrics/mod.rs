@@ -14,6 +14,7 @@
 //! ```
 
 mod colour;
+mod compatible;
 mod error;
 mod filter;
 mod neighbourhood;
@@ -27,6 +28,7 @@ mod scale;
 mod statistic;
 
 pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
+pub use compatible::Protocol;
 pub use error::MetricError;
 pub(crate) use filter::gaussian;
 pub use pair::Pair;

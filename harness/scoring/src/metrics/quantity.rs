@@ -3,7 +3,7 @@
 use super::colour::{ciede2000, lab, srgb, typology_angle};
 use super::neighbourhood::{band, flip, high_pass, log, log_luminances, low_pass_error, ssim};
 use super::rank::{ranks, upper_half};
-use super::{MetricError, Pair};
+use super::{MetricError, Pair, Protocol};
 
 /// Keeps the relative squared error finite in the dark.
 pub const RELATIVE_OFFSET: f64 = 0.01;
@@ -63,6 +63,8 @@ pub enum Quantity {
     Band(u8),
     /// (Angle between p and the mesh's normal where the truth has the mesh's, 1 there), else zeros.
     InventedRelief,
+    /// The squared error of another benchmark's protocol.
+    Compatible(Protocol),
 }
 
 /// Where the truth is flat: within this of the mesh's normal, degrees.
@@ -94,6 +96,7 @@ impl Quantity {
             | Self::LogError
             | Self::SquaredLogError
             | Self::Band(_)
+            | Self::Compatible(_)
             | Self::LowPassError => None,
         }
     }
@@ -107,6 +110,8 @@ impl Quantity {
             | Self::Projection
             | Self::CrossProduct
             | Self::ColourAngle => "linear",
+            Self::Compatible(Protocol::OrbHdr | Protocol::OrbAlbedo) => "linear, as there",
+            Self::Compatible(_) => "gamma, as there",
             Self::SquaredErrorSrgb | Self::CrossProductSrgb => "sRGB clipped to [0, 1]",
             Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
             Self::ColourDifference | Self::Typology => "L*a*b*, D65",
@@ -195,6 +200,7 @@ impl Quantity {
                 cross_products(pair, curve)
                     .ok_or_else(|| needs("halves of the samples of both pictures"))?
             }
+            Self::Compatible(protocol) => protocol.errors(pair),
             Self::LogError => signed_log_errors(pair).collect(),
             Self::SquaredLogError => signed_log_errors(pair).map(|error| error * error).collect(),
             Self::Band(texels) => {
@@ -234,6 +240,7 @@ impl Quantity {
             | Self::Angle
             | Self::ColourAngle
             | Self::InventedRelief
+            | Self::Compatible(_)
             | Self::ColourDifference
             | Self::Typology => ("3", found == 3),
             Self::SquaredError

@@ -1,5 +1,6 @@
 //! Every metric, stated once: the scores, the report, the comparison and Python read this list.
 
+use super::compatible::Protocol as P;
 use super::quantity::Quantity as Q;
 use super::statistic::Statistic as S;
 use super::{MetricError, Pair};
@@ -189,6 +190,21 @@ pub static METRICS: &[Metric] = metrics! {
     "direction_mean_deg", "Direction error", "°", Lower, Q::Angle, S::Mean,
         "mean angle between two directions",
         "https://arxiv.org/abs/1411.4734";
+    "orb_psnr_h", "PSNR-H of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbHdr), S::PsnrOfPictures,
+        "as in Stanford-ORB: p after one factor per channel, both times mean(sRGB of g) / mean(g), clipped to [0, 4], linear; the squared error is divided by the whole frame, background included; no less than the PSNR of a picture of .5; mean over pictures",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "orb_psnr_l", "PSNR-L of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbLdr), S::PsnrOfPictures,
+        "as in Stanford-ORB: p after one factor per channel, sRGB values in [0, 1]; the squared error is divided by the whole frame, background included; no less than the PSNR of a picture of .5; mean over pictures",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "orb_albedo_psnr", "Albedo PSNR of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbAlbedo), S::PsnrOfPictures,
+        "as in Stanford-ORB, the frame being the texture: p after one factor per channel, linear values in [0, 1]; the squared error is divided by the whole frame; no less than the PSNR of a picture of .5",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "owl_psnr", "PSNR of objects-with-lighting", "dB", Higher, Q::Compatible(P::ObjectsWithLighting), S::PsnrOfPictures,
+        "as in objects-with-lighting: values to the power 1/2.2 in [0, 1], g of 8 bits; the exposure of p, then a factor from .5 to 2 for each channel, with the least mean absolute error where g is not overexposed; mean over pictures",
+        "https://github.com/isl-org/objects-with-lighting";
+    "nerfactor_albedo_psnr", "Albedo PSNR of NeRFactor", "dB", Higher, Q::Compatible(P::NerfactorAlbedo), S::PsnrOfPictures,
+        "as in NeRFactor, the frame being the texture: p after one factor per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared error is divided by the whole frame",
+        "https://github.com/google/nerfactor";
 };
 
 /// What is scored of what, in the order of the rows. A metric in none of these has no row, which
@@ -216,6 +232,12 @@ pub(crate) mod scored {
     pub(crate) const ROUGHNESS: [&str; 1] = ["log_ratio_rms"];
     /// Of a view or a relit picture, by independent halves of its samples.
     pub(crate) const UNBIASED: [&str; 2] = ["psnr_lin_unbiased", "psnr_srgb_unbiased"];
+    /// Of a view or a relit picture as it is, on the eroded mask and on the whole mask: as others score.
+    pub(crate) const COMPATIBLE: [&str; 2] = ["orb_psnr_h", "orb_psnr_l"];
+    pub(crate) const COMPATIBLE_WHOLE: [&str; 1] = ["owl_psnr"];
+    /// Of the diffuse albedo, on the eroded and on the whole coverage: as others score.
+    pub(crate) const COMPATIBLE_ALBEDO: [&str; 1] = ["orb_albedo_psnr"];
+    pub(crate) const COMPATIBLE_ALBEDO_WHOLE: [&str; 1] = ["nerfactor_albedo_psnr"];
     /// Of the light's brightest directions.
     pub(crate) const PEAKS: [&str; 1] = ["direction_mean_deg"];
     /// Of the light, in equal solid angles.

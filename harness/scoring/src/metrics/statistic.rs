@@ -26,6 +26,8 @@ pub enum Statistic {
     /// The same of products that may be negative: where their mean is not positive no error is left,
     /// which is 100 dB.
     UnbiasedPsnr,
+    /// Mean over the pictures of the PSNR of each; its interval is that of faces, not of pixels.
+    PsnrOfPictures,
     /// Square root of the mean of x.
     RootMean,
     /// Standard deviation of x.
@@ -68,6 +70,7 @@ impl Statistic {
             Self::Mean
             | Self::Psnr
             | Self::UnbiasedPsnr
+            | Self::PsnrOfPictures
             | Self::RootMean
             | Self::Spread
             | Self::Below(_)
@@ -83,6 +86,12 @@ impl Statistic {
             values.sort_unstable_by(f64::total_cmp);
             return quantile(&values, share);
         }
+        if self == Self::PsnrOfPictures {
+            let each: Option<Vec<f64>> =
+                samples.map(|values| Self::Psnr.value(std::iter::once(values))).collect();
+            let each = each.filter(|each| !each.is_empty())?;
+            return Some(each.iter().sum::<f64>() / each.len() as f64);
+        }
         let mut sums = Sums::default();
         samples.for_each(|values| {
             values.chunks_exact(self.arity()).for_each(|value| sums.add(self.terms(value)));
@@ -97,6 +106,9 @@ impl Statistic {
     pub fn interval(self, samples: &[Sample]) -> Option<[f64; 2]> {
         if let Self::Quantile(share) = self {
             return quantile_interval(samples, share);
+        }
+        if self == Self::PsnrOfPictures {
+            return None;
         }
         let mut blocks: Vec<Sums> = Vec::new();
         for sample in samples {
@@ -131,6 +143,7 @@ impl Statistic {
             Self::Mean
             | Self::Psnr
             | Self::UnbiasedPsnr
+            | Self::PsnrOfPictures
             | Self::RootMean
             | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
         }
@@ -143,7 +156,7 @@ impl Statistic {
         let [a, b, c, d, e] = sums.terms.map(|term| term / sums.count);
         let value = match self {
             Self::Mean | Self::Below(_) => Some(a),
-            Self::Psnr => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::Psnr | Self::PsnrOfPictures => Some((-10.0 * a.log10()).min(MAX_PSNR)),
             Self::UnbiasedPsnr if a > 0.0 => Some((-10.0 * a.log10()).min(MAX_PSNR)),
             Self::UnbiasedPsnr => Some(MAX_PSNR),
             Self::RootMean => Some(a.sqrt()),

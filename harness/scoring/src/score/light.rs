@@ -28,7 +28,8 @@ pub(super) fn rows_of_light(capture: &Path, maps: &Path) -> Result<Vec<Row>, Sco
     let peaks = truth.peaks();
     let nearest: Vec<DVec3> = {
         let own = found.peaks();
-        let near = |peak: &DVec3| own.iter().copied().max_by(|a, b| a.dot(*peak).total_cmp(&b.dot(*peak)));
+        let near =
+            |peak: &DVec3| own.iter().copied().max_by(|a, b| a.dot(*peak).total_cmp(&b.dot(*peak)));
         peaks.iter().map(|peak| near(peak).unwrap_or(DVec3::ZERO)).collect()
     };
     if !peaks.is_empty() {

@@ -49,9 +49,8 @@ impl CellLight {
                 RowsAt::Bands => [0.0, 1.0].map(|end| (y as f64 + end) / height as f64),
             };
             for part in 0..parts {
-                let [low, high] = [part, part + 1].map(|at| {
-                    pi * (ends[0] + (ends[1] - ends[0]) * at as f64 / parts as f64)
-                });
+                let [low, high] = [part, part + 1]
+                    .map(|at| pi * (ends[0] + (ends[1] - ends[0]) * at as f64 / parts as f64));
                 let (solid, t) = (low.cos() - high.cos(), 0.5 * (low + high));
                 let up = t.cos();
                 let cell_row = ((1.0 - up) * 0.5 * ROWS as f64).min(ROWS as f64 - 1.0) as usize;
@@ -151,7 +150,8 @@ mod tests {
         let angle = light.peaks()[0].dot(there).min(1.0).acos().to_degrees();
         assert!(angle < 0.2, "{angle}");
         // Solid angle by the formula of a band: three texels of 2 pi / 512 in azimuth.
-        let band = (t - std::f64::consts::PI / 512.0).cos() - (t + std::f64::consts::PI / 512.0).cos();
+        let band =
+            (t - std::f64::consts::PI / 512.0).cos() - (t + std::f64::consts::PI / 512.0).cos();
         let lamp_solid = 3.0 * std::f64::consts::TAU / 512.0 * band;
         let expected = 0.1 + 299.9 * lamp_solid / (4.0 * std::f64::consts::PI);
         let mean = light.picture.data.iter().map(|v| f64::from(*v)).sum::<f64>()

@@ -98,8 +98,8 @@ mod tests {
         let picture = sphere(&CellLight::of_cells(dark), Surface::Diffuse);
         let solid = 4.0 * std::f64::consts::PI / 2048.0;
         for pixel in [10 * SIDE + 32, 32 * SIDE + 40, 50 * SIDE + 20] {
-            let expected = 1000.0 * solid / std::f64::consts::PI
-                * normal(pixel).unwrap().dot(lamp).max(0.0);
+            let expected =
+                1000.0 * solid / std::f64::consts::PI * normal(pixel).unwrap().dot(lamp).max(0.0);
             let found = f64::from(picture.data[3 * pixel]);
             assert!((found - expected).abs() < 5e-3 * expected.max(0.1), "{found} {expected}");
         }

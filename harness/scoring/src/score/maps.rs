@@ -129,6 +129,12 @@ fn albedo_rows(
         None,
         pair(&truth.region, ScaleMode::None).map_err(&wrong)?,
     )?;
+    let whole = Region::of_mask("coverage", &truth.coverage).map_err(&wrong)?;
+    for (metrics, region) in
+        [(&scored::COMPATIBLE_ALBEDO, &truth.region), (&scored::COMPATIBLE_ALBEDO_WHOLE, &whole)]
+    {
+        add(metrics, ScaleMode::None, None, pair(region, ScaleMode::None).map_err(&wrong)?)?;
+    }
     for (metric, cause) in scored::LEAKAGE.iter().zip([&geometry.shading, &geometry.specular]) {
         let aligned = pair(&truth.region, ScaleMode::Global);
         let pair = aligned.and_then(|pair| pair.with_cause(cause)).map_err(&wrong)?;

@@ -175,6 +175,45 @@ fn compare(
         all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
     }
     all.extend(unbiased_rows(frames, &found, &truths, heading)?);
+    if heading.scale == "none" {
+        all.extend(compatible_rows(frames, &found, &truths, heading)?);
+    }
+    Ok(all)
+}
+
+/// Rows as other benchmarks score, which scale pictures themselves.
+fn compatible_rows(
+    frames: &[Frame],
+    found: &[Render],
+    truths: &[Render],
+    heading: Heading,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of(heading.subject);
+    let whole = frames.iter().map(|frame| Region::of_mask("mask", &frame.mask));
+    let whole: Vec<Region> = whole.collect::<Result<_, _>>().map_err(&wrong)?;
+    let eroded: Vec<&Region> = frames.iter().map(|frame| &frame.region).collect();
+    let mut all = Vec::new();
+    for (metrics, regions) in [
+        (&scored::COMPATIBLE[..], eroded),
+        (&scored::COMPATIBLE_WHOLE[..], whole.iter().collect::<Vec<_>>()),
+    ] {
+        let pictures = found
+            .iter()
+            .zip(truths)
+            .filter_map(|(found, truth)| Some((found.total.as_ref()?, truth.total.as_ref()?)));
+        let compared: Vec<Compared> = frames
+            .iter()
+            .zip(regions)
+            .zip(pictures)
+            .map(|((frame, region), (found, truth))| {
+                Ok(Compared { frame: Some(&frame.name), pair: Pair::new(found, truth, region)? })
+            })
+            .collect::<Result<_, _>>()
+            .map_err(&wrong)?;
+        if compared.len() == frames.len() && !compared.is_empty() {
+            all.extend(rows(heading, metrics, &compared, &Floors::new())?);
+        }
+    }
     Ok(all)
 }
 

@@ -54,7 +54,8 @@ pub fn spread(values: &[f64]) -> Option<f64> {
 /// None of fewer than two faces, which say nothing of others.
 pub fn interval(values: &[f64]) -> Option<[f64; 2]> {
     let centre = mean(values.iter().copied());
-    let half = critical(values.len() as f64 - 1.0)? * spread(values)? / (values.len() as f64).sqrt();
+    let half =
+        critical(values.len() as f64 - 1.0)? * spread(values)? / (values.len() as f64).sqrt();
     Some([centre - half, centre + half])
 }
 
@@ -115,7 +116,10 @@ pub fn pooled_decibels(faces: &[Face]) -> (f64, Option<[f64; 2]>) {
     pivots.sort_unstable_by(f64::total_cmp);
     let at = |share: f64| pivots.get((share * (pivots.len() - 1) as f64).round() as usize).copied();
     let ends = || Some([log - at(0.025)? * error, log - at(0.975)? * error]);
-    (decibels(log), if pivots.len() < RESAMPLES / 2 { None } else { ends().map(|e| e.map(decibels)) })
+    (
+        decibels(log),
+        if pivots.len() < RESAMPLES / 2 { None } else { ends().map(|e| e.map(decibels)) },
+    )
 }
 
 /// How far the mean of views drawn with replacement is from that of all.

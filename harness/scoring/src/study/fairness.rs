@@ -57,11 +57,7 @@ pub struct Group {
     pub ci95: Option<[f64; 2]>,
 }
 
-pub(super) fn fairness(
-    figure: &Figure,
-    method: &str,
-    scores: &[&Observation],
-) -> Option<Fairness> {
+pub(super) fn fairness(figure: &Figure, method: &str, scores: &[&Observation]) -> Option<Fairness> {
     let in_group = |name: &str| -> Vec<f64> {
         let of: Vec<&Observation> = scores
             .iter()
@@ -81,7 +77,8 @@ pub(super) fn fairness(
     let (worst, best) = (groups.iter().min_by(by)?, groups.iter().max_by(by)?);
     let several = groups.len() > 1;
     // The sign of the interval is that of the gain, whichever values are better.
-    let turned = |ends: [f64; 2]| if of(&best.1) < of(&worst.1) { [-ends[1], -ends[0]] } else { ends };
+    let turned =
+        |ends: [f64; 2]| if of(&best.1) < of(&worst.1) { [-ends[1], -ends[0]] } else { ends };
     Some(Fairness {
         figure: figure.clone(),
         method: method.to_owned(),

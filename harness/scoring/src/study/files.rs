@@ -62,7 +62,9 @@ fn csv<T: Serialize>(records: &[T], out: &Path) -> Result<String, StudyError> {
     let mut text = csv_line(columns.iter().map(|name| (*name).to_owned()));
     for row in &rows {
         let cell = |name: &&str| {
-            row.iter().find(|(other, _)| other == name).map_or(String::new(), |(_, cell)| cell.clone())
+            row.iter()
+                .find(|(other, _)| other == name)
+                .map_or(String::new(), |(_, cell)| cell.clone())
         };
         text.push_str(&csv_line(columns.iter().map(cell)));
     }
@@ -76,7 +78,9 @@ fn flatten(name: &str, value: &Value, row: &mut Vec<(String, String)>) {
             fields.iter().for_each(|(key, value)| flatten(&below(key), value, row));
         }
         Value::Array(list) => {
-            list.iter().enumerate().for_each(|(i, v)| flatten(&below(&(i + 1).to_string()), v, row));
+            list.iter()
+                .enumerate()
+                .for_each(|(i, v)| flatten(&below(&(i + 1).to_string()), v, row));
         }
         Value::Null => row.push((name.to_owned(), String::new())),
         Value::String(text) => row.push((name.to_owned(), text.clone())),

@@ -127,9 +127,28 @@ fn of_scores(
 }
 
 const COLUMNS: [&str; 22] = [
-    "suite", "case", "face", "skin_tone", "light", "variant", "seed", "method", "method_seed", "kind",
-    "class", "subject", "relit_light", "metric", "scale", "region", "label", "value", "ci95_low",
-    "ci95_high", "n", "floor",
+    "suite",
+    "case",
+    "face",
+    "skin_tone",
+    "light",
+    "variant",
+    "seed",
+    "method",
+    "method_seed",
+    "kind",
+    "class",
+    "subject",
+    "relit_light",
+    "metric",
+    "scale",
+    "region",
+    "label",
+    "value",
+    "ci95_low",
+    "ci95_high",
+    "n",
+    "floor",
 ];
 
 /// The tidy table: one line per case, method, subject, metric, scale; empty where there is nothing.

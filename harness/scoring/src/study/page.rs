@@ -24,7 +24,10 @@ impl Study {
         );
         for figure in self.key_figures() {
             let name = self.title(&figure);
-            text.push_str(&format!("\n## {name}\n\n{}", figure.metric().map_or("", |m| m.definition)));
+            text.push_str(&format!(
+                "\n## {name}\n\n{}",
+                figure.metric().map_or("", |m| m.definition)
+            ));
             text.push_str(&format!(". Better: {}\n", figure.direction().symbol()));
             text.push_str(&self.summary_table(&figure));
             text.push_str(&self.comparison_table(&figure));
@@ -44,7 +47,8 @@ impl Study {
     }
 
     fn title(&self, figure: &Figure) -> String {
-        let variant = figure.variant.as_ref().map_or(String::new(), |v| format!(" ({})", escape(v)));
+        let variant =
+            figure.variant.as_ref().map_or(String::new(), |v| format!(" ({})", escape(v)));
         let (name, unit) = figure.metric().map_or(("", ""), |metric| (metric.name, metric.unit));
         let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
         format!("{name}{unit}: `{}`{variant}", figure.id())
@@ -58,7 +62,11 @@ impl Study {
             head.extend(["pooled error", "95 %"]);
         }
         let line = |row: &Summary| {
-            let role = if row.kind == "oracle" || row.kind == "privileged" { &row.kind } else { &row.class };
+            let role = if row.kind == "oracle" || row.kind == "privileged" {
+                &row.kind
+            } else {
+                &row.class
+            };
             let role = if role == "passive" { String::new() } else { format!(" ({role})") };
             let mut cells = vec![
                 format!("{}{role}", escape(&row.method)),
@@ -97,8 +105,18 @@ impl Study {
             ]
         };
         table(
-            &["pair", "faces", "gain", "95 %", "effect size", "better on", "p", "p, Holm", "verdict",
-              "faces needed for it"],
+            &[
+                "pair",
+                "faces",
+                "gain",
+                "95 %",
+                "effect size",
+                "better on",
+                "p",
+                "p, Holm",
+                "verdict",
+                "faces needed for it",
+            ],
             self.comparisons.iter().filter(|c| c.figure == *figure).map(line),
         )
     }
@@ -112,7 +130,8 @@ impl Study {
             let spread = row.spread.filter(|spread| *spread > 0.0)?;
             let pair = format!("{} against {}", escape(&row.method), escape(&row.against));
             let needed = STATED.iter().map(|gain| {
-                faces_needed(gain / spread).map_or("over 10000".to_owned(), |faces| faces.to_string())
+                faces_needed(gain / spread)
+                    .map_or("over 10000".to_owned(), |faces| faces.to_string())
             });
             Some(std::iter::once(pair).chain(needed).collect())
         };
@@ -128,7 +147,14 @@ impl Study {
             parts.iter().any(Option::is_some).then(|| cells.collect())
         };
         table(
-            &["standard deviation between", "faces", "lights", "views", "renderer's seeds", "solver's seeds"],
+            &[
+                "standard deviation between",
+                "faces",
+                "lights",
+                "views",
+                "renderer's seeds",
+                "solver's seeds",
+            ],
             self.components.iter().filter(|c| c.figure == *figure).filter_map(line),
         )
     }
@@ -136,7 +162,13 @@ impl Study {
     fn fairness_table(&self, figure: &Figure) -> String {
         let line = |row: &Fairness| {
             let groups = row.groups.iter().map(|group| {
-                format!("{} {} {} ({})", group.group, number(group.mean), ends(group.ci95), group.faces)
+                format!(
+                    "{} {} {} ({})",
+                    group.group,
+                    number(group.mean),
+                    ends(group.ci95),
+                    group.faces
+                )
             });
             vec![
                 escape(&row.method),
@@ -152,7 +184,14 @@ impl Study {
             ]
         };
         table(
-            &["by skin tone", "mean, 95 % (faces)", "worst group", "gap to the best", "95 %", "bias"],
+            &[
+                "by skin tone",
+                "mean, 95 % (faces)",
+                "worst group",
+                "gap to the best",
+                "95 %",
+                "bias",
+            ],
             self.fairness.iter().filter(|f| f.figure == *figure && f.groups.len() > 1).map(line),
         )
     }
@@ -167,7 +206,13 @@ fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
 }
 
 fn number(value: f64) -> String {
-    let decimals = if value.abs() >= 10.0 { 1 } else if value.abs() >= 0.1 { 2 } else { 4 };
+    let decimals = if value.abs() >= 10.0 {
+        1
+    } else if value.abs() >= 0.1 {
+        2
+    } else {
+        4
+    };
     format!("{value:.decimals$}")
 }
 

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::Observation;
 use super::components::{Components, components};
-use super::fairness::{Fairness, fairness};
 use super::faces::{Face, interval, mean, pooled_decibels, spread};
+use super::fairness::{Fairness, fairness};
 use super::figures::{Figure, faces, place};
 use super::paired::{effect_size, faces_needed, holm, sign_flip};
 use crate::metrics::Statistic;
@@ -170,7 +170,9 @@ fn summary(figure: &Figure, scores: &[&Observation]) -> Option<Summary> {
 /// made from the truth, never competes.
 fn comparisons(figure: &Figure, methods: &Scores) -> Vec<Comparison> {
     let competes = |scores: &&Vec<&Observation>| {
-        scores.first().is_some_and(|o| o.class == "passive" && o.kind != "oracle" && o.kind != "privileged")
+        scores
+            .first()
+            .is_some_and(|o| o.class == "passive" && o.kind != "oracle" && o.kind != "privileged")
     };
     let contenders: Vec<_> = methods.values().filter(competes).collect();
     let mut all = Vec::new();

@@ -125,7 +125,8 @@ pub fn write_halves(
     let clean = formats::picture::read_exr(path, &LAYERS).unwrap();
     let (layers, channels) = (LAYERS.len(), LAYERS.len() + HALVES.len());
     let mut both = Picture::new(SIDE, SIDE, channels);
-    for (pixel, clean) in both.data.chunks_exact_mut(channels).zip(clean.data.chunks_exact(layers)) {
+    for (pixel, clean) in both.data.chunks_exact_mut(channels).zip(clean.data.chunks_exact(layers))
+    {
         pixel[..layers].copy_from_slice(clean);
         for c in 0..3 {
             let half = |n: f64| f64::from(clean[c]) + (2.0 * variance).sqrt() * n;
