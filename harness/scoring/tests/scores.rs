@@ -2,148 +2,19 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod bench;
 mod noise;
 mod plane;
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use formats::picture::{Picture, read_exr, read_png_gray, write_exr};
+use bench::{Bench, value, write_lights};
+use formats::picture::{read_exr, read_png_gray, write_exr};
 use noise::normal_noise;
-use plane::{
-    SIDE, albedo, map, shading, specular, write_capture, write_halves, write_render, write_rgb,
-};
+use plane::{SIDE, albedo, map, shading, specular, write_halves, write_render, write_rgb};
 use scoring::compare::{Baseline, Tolerances, Verdict, compare};
 use scoring::metrics::METRICS;
 use scoring::score::{Scores, fit_scale, label_mean_maps, oracle_maps, score};
-
-/// A true light with two lamps, and one that was found: half as bright, the lamps a cell aside.
-fn write_lights(capture: &Path, maps: &Path) {
-    let lit = |width: usize, height: usize, lamps: [(f64, f64); 2], level: f32| {
-        let mut light = Picture {
-            data: vec![0.1 * level; 3 * width * height],
-            ..Picture::new(width, height, 3)
-        };
-        for (u, v) in lamps {
-            light
-                .pixel_mut((u * width as f64) as usize, (v * height as f64) as usize)
-                .fill(90.0 * level);
-        }
-        light
-    };
-    let truth = lit(64, 33, [(0.4, 0.3), (0.7, 0.45)], 1.0);
-    write_rgb(&capture.join("truth/light.exr"), &truth);
-    write_rgb(&maps.join("light.exr"), &lit(64, 32, [(0.4 + 1.0 / 64.0, 0.3), (0.7, 0.45)], 0.5));
-}
-
-#[test]
-fn a_light_is_scored_by_its_directions_after_one_factor() {
-    let bench = Bench::new(1e-5);
-    let maps = bench.albedo_maps(SIDE, albedo);
-    assert!(
-        score(&bench.capture(), &maps, None).unwrap().row("light/log_rmse@whole:global").is_none()
-    );
-    write_lights(&bench.capture(), &maps);
-    let scores = score(&bench.capture(), &maps, None).unwrap();
-    // One lamp is 5.6° of azimuth aside, at 30 % of the way down: by sin(54°); the other a row's half.
-    let peaks = value(&scores, "light_peaks/direction_mean_deg@whole:none");
-    assert!((1.5..5.0).contains(&peaks), "{peaks}");
-    for sphere in ["mirror", "glossy", "diffuse"] {
-        let row =
-            |metric: &str| value(&scores, &format!("light_{sphere}_sphere/{metric}@sphere:global"));
-        assert!(row("psnr_srgb") > 20.0, "{sphere}");
-    }
-    assert!(value(&scores, "light_diffuse_sphere/chromaticity_deg@sphere:global") < 1e-3);
-    // The same light, its rows taken for bands between the poles, is nearly the same light.
-    fs::copy(bench.capture().join("truth/light.exr"), maps.join("light.exr")).unwrap();
-    let scores = score(&bench.capture(), &maps, None).unwrap();
-    let diffuse = value(&scores, "light_diffuse_sphere/psnr_srgb@sphere:global");
-    let mirror = value(&scores, "light_mirror_sphere/psnr_srgb@sphere:global");
-    assert!(diffuse > 35.0 && mirror > 35.0, "{diffuse} {mirror}");
-}
-
-#[test]
-fn scores_without_noise_say_the_planted_error_and_of_none_nothing() {
-    let bench = Bench::new(0.0);
-    let maps = bench.albedo_maps(SIDE, albedo);
-    let relit = bench.root.path().join("relit");
-    let mut noise = normal_noise(5);
-    // The relit light is too bright by a share of the diffuse layer: an error known without noise.
-    for (folder, gain, variance) in [("none", 1.0, 1e-3), ("global", 1.05, 1e-3)] {
-        for (light, own) in [("own", 1.0), ("other", 1.3)] {
-            for frame in [3, 4] {
-                let path = relit.join(format!("{folder}/{light}/{frame:03}.exr"));
-                write_halves(&path, frame, variance, &mut noise, own * gain);
-                let truth = bench.capture().join(format!("truth/relit/{light}/{frame:03}.exr"));
-                write_halves(&truth, frame, variance, &mut noise, own);
-            }
-        }
-    }
-    let scores = score(&bench.capture(), &maps, Some(&relit)).unwrap();
-    let clean = Bench::new(0.0);
-    let clean_relit = clean.root.path().join("relit");
-    for frame in [3, 4] {
-        for (light, own) in [("own", 1.0), ("other", 1.3)] {
-            let path = clean_relit.join(format!("global/{light}/{frame:03}.exr"));
-            write_render(&path, frame, 0.0, &mut || 0.0, 1.05 * own);
-        }
-    }
-    let maps = clean.albedo_maps(SIDE, albedo);
-    let exact = score(&clean.capture(), &maps, Some(&clean_relit)).unwrap();
-    for (light, space) in [("own", "lin"), ("other", "lin"), ("own", "srgb"), ("other", "srgb")] {
-        let row = |scale: &str| {
-            scores.row(&format!("relit/{light}/psnr_{space}_unbiased@mask-e5:{scale}")).unwrap()
-        };
-        // Nothing is wrong: any error is within the interval, the infinite one too.
-        assert_eq!(row("none").ci95.unwrap()[1], 100.0, "{light} {space}");
-        let truth = value(&exact, &format!("relit/{light}/psnr_{space}@mask-e5:global"));
-        let noisy = value(&scores, &format!("relit/{light}/psnr_{space}@mask-e5:global"));
-        let ([low, high], found) = (row("global").ci95.unwrap(), row("global").value.unwrap());
-        println!(
-            "{light} {space}: exact {truth:.2}, unbiased {found:.2} ({low:.2} .. {high:.2}), as rendered {noisy:.2}"
-        );
-        assert!(noisy < truth - 1.0, "{light} {space}: the noise is no smaller than the error");
-        assert!(low <= truth && truth <= high && high < 60.0, "{light} {space}");
-    }
-}
-
-struct Bench {
-    root: tempfile::TempDir,
-}
-
-impl Bench {
-    fn new(variance: f64) -> Self {
-        let bench = Self { root: tempfile::tempdir().unwrap() };
-        write_capture(&bench.capture(), variance);
-        bench
-    }
-
-    fn capture(&self) -> PathBuf {
-        self.root.path().join("capture")
-    }
-
-    /// A maps folder with one map only.
-    fn albedo_maps(&self, side: usize, texture: impl Fn(f64, f64) -> [f64; 3]) -> PathBuf {
-        let maps = self.root.path().join("maps");
-        fs::create_dir_all(&maps).unwrap();
-        write_rgb(&maps.join("diffuse_albedo.exr"), &map(side, 3, texture));
-        maps
-    }
-
-    fn score_albedo(&self, texture: impl Fn(f64, f64) -> [f64; 3]) -> Scores {
-        score(&self.capture(), &self.albedo_maps(SIDE, texture), None).unwrap()
-    }
-
-    fn refused(&self, maps: &Path, relit: Option<&Path>) -> String {
-        let error = score(&self.capture(), maps, relit).unwrap_err().to_string();
-        assert!(!error.contains('\n'), "{error}");
-        error
-    }
-}
-
-fn value(scores: &Scores, id: &str) -> f64 {
-    scores.row(id).unwrap_or_else(|| panic!("no row {id}")).value.unwrap()
-}
 
 #[test]
 fn the_oracle_is_perfect_and_scores_survive_their_file() {

@@ -35,7 +35,8 @@ fn share(hits: impl Iterator<Item = bool>) -> f64 {
 fn intervals_over_faces_hold_the_true_mean_in_95_percent_of_studies() {
     let mut noise = normal_noise(11);
     // Decibels of faces are near normal; the other law has a skewness of one.
-    let laws: [(&str, f64, fn(&mut dyn FnMut() -> f64) -> f64); 2] = [
+    type Law = fn(&mut dyn FnMut() -> f64) -> f64;
+    let laws: [(&str, f64, Law); 2] = [
         ("normal", 35.0, |n| 35.0 + 2.0 * n()),
         ("skewed", 35.0, |n| 34.0 + (0..8).map(|_| n().powi(2)).sum::<f64>() / 8.0),
     ];

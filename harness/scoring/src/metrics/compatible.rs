@@ -4,6 +4,7 @@
 
 use super::Pair;
 use super::colour::{luminance, srgb};
+use super::pair::triple;
 
 /// Whose protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,12 +28,9 @@ const GAMMA: f64 = 2.2;
 impl Protocol {
     /// A squared error for each pixel of the region.
     pub(super) fn errors(self, pair: &Pair) -> Vec<f64> {
-        let read = |values: &dyn Fn(usize) -> Vec<f64>| -> Vec<[f64; 3]> {
-            let triple = |i: &usize| std::array::from_fn(|c| values(*i)[c]);
-            pair.region().pixels().iter().map(triple).collect()
-        };
-        let p = read(&|i| pair.predicted(i).collect());
-        let g = read(&|i| pair.true_values(i).collect());
+        let pixels = pair.region().pixels();
+        let p: Vec<[f64; 3]> = pixels.iter().map(|i| triple(pair.predicted(*i))).collect();
+        let g: Vec<[f64; 3]> = pixels.iter().map(|i| triple(pair.true_values(*i))).collect();
         let (width, height) = pair.region().size();
         // Stanford-ORB and NeRFactor divide by the whole frame, whose background is right.
         let share = p.len() as f64 / (width * height) as f64;
@@ -87,38 +85,42 @@ fn channel_factor(p: &[[f64; 3]], g: &[[f64; 3]], c: usize, least: f64) -> f64 {
 
 /// The truth is an 8-bit picture of power 1 / 2.2. Where it is not overexposed, the exposure with
 /// the least mean absolute error is searched, then each channel's factor from .5 to 2.
+///
+/// A factor before the power is its power after it, so that the power is taken once.
 fn objects_with_lighting(mut p: Vec<[f64; 3]>, g: &[[f64; 3]]) -> Vec<f64> {
-    let curve = |value: f64| value.max(0.0).powf(1.0 / GAMMA).min(1.0);
-    let eight = |value: f64| (curve(value) * 255.0).round() / 255.0;
+    let power = |value: f64| value.max(0.0).powf(1.0 / GAMMA);
+    let eight = |value: f64| (power(value).min(1.0) * 255.0).round() / 255.0;
     let g: Vec<[f64; 3]> = g.iter().map(|pixel| pixel.map(eight)).collect();
     let fitted: Vec<usize> = (0..g.len()).filter(|i| g[*i].iter().all(|v| *v < 1.0)).collect();
-    let error = |p: &[[f64; 3]], c: usize, factor: f64| -> f64 {
-        fitted.iter().map(|i| (curve(p[*i][c] * factor) - g[*i][c]).abs()).sum()
-    };
     let darkest = fitted
         .iter()
         .map(|i| p[*i].iter().copied().fold(f64::INFINITY, f64::min))
         .filter(|value| *value > 0.0)
         .fold(f64::INFINITY, f64::min);
+    p.iter_mut().flatten().for_each(|value| *value = power(*value));
     if darkest.is_finite() {
+        let error = |p: &[[f64; 3]], c: usize, factor: f64| -> f64 {
+            let factor = power(factor);
+            fitted.iter().map(|i| ((p[*i][c] * factor).min(1.0) - g[*i][c]).abs()).sum()
+        };
         let most = (0.95_f64.powf(GAMMA) / darkest).log2();
         let all = |stops: f64| (0..3).map(|c| error(&p, c, stops.exp2())).sum();
-        let exposure = least(all, -10.0, most).exp2();
+        let exposure = power(least(all, -10.0, most).exp2());
         p.iter_mut().flatten().for_each(|value| *value *= exposure);
         for c in 0..3 {
-            let balance = least(|factor| error(&p, c, factor), 0.5, 2.0);
+            let balance = power(least(|factor| error(&p, c, factor), 0.5, 2.0));
             p.iter_mut().for_each(|pixel| pixel[c] *= balance);
         }
     }
     let square = |(p, g): (&[f64; 3], &[f64; 3])| {
-        (0..3).map(|c| (curve(p[c]) - g[c]).powi(2)).sum::<f64>() / 3.0
+        (0..3).map(|c| (p[c].min(1.0) - g[c]).powi(2)).sum::<f64>() / 3.0
     };
     p.iter().zip(&g).map(square).collect()
 }
 
 /// Where a function is least: the best of a scan, then a golden-section search around it.
 fn least(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
-    const STEPS: usize = 128;
+    const STEPS: usize = 32;
     let at = |step: usize| low + (high - low) * step as f64 / STEPS as f64;
     let best = (0..=STEPS)
         .map(|step| (step, function(at(step))))
@@ -126,9 +128,18 @@ fn least(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
         .map_or(0, |(step, _)| step);
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (at(best.saturating_sub(1)), at((best + 1).min(STEPS)));
+    let inner = |a: f64, b: f64| [b - golden * (b - a), a + golden * (b - a)];
+    let [mut left, mut right] = inner(a, b).map(|x| (x, function(x)));
     for _ in 0..40 {
-        let (left, right) = (b - golden * (b - a), a + golden * (b - a));
-        if function(left) < function(right) { b = right } else { a = left }
+        if left.1 < right.1 {
+            (b, right) = (right.0, left);
+            let x = inner(a, b)[0];
+            left = (x, function(x));
+        } else {
+            (a, left) = (left.0, right);
+            let x = inner(a, b)[1];
+            right = (x, function(x));
+        }
     }
     0.5 * (a + b)
 }

@@ -15,6 +15,7 @@
 
 mod colour;
 mod compatible;
+mod correlation;
 mod error;
 mod filter;
 mod neighbourhood;
@@ -29,6 +30,7 @@ mod statistic;
 
 pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
 pub use compatible::Protocol;
+pub use correlation::block_side;
 pub use error::MetricError;
 pub(crate) use filter::gaussian;
 pub use pair::Pair;

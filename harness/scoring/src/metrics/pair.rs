@@ -157,6 +157,13 @@ impl<'a> Pair<'a> {
     }
 }
 
+/// The three channels of a colour or a vector.
+pub(super) fn triple(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let mut triple = [0.0; 3];
+    triple.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
+    triple
+}
+
 fn check_size(
     what: &'static str,
     (found_width, found_height): (usize, usize),

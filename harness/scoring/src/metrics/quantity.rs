@@ -2,6 +2,7 @@
 
 use super::colour::{ciede2000, lab, srgb, typology_angle};
 use super::neighbourhood::{band, flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::pair::triple;
 use super::rank::{ranks, upper_half};
 use super::{MetricError, Pair, Protocol};
 
@@ -307,12 +308,6 @@ fn cross_products(pair: &Pair, curve: fn(f64) -> f64) -> Option<Vec<f64>> {
 
 fn triples(pair: &Pair, compare: impl Fn([f64; 3], [f64; 3]) -> f64) -> Vec<f64> {
     pixels(pair).map(|i| compare(triple(pair.predicted(i)), triple(pair.true_values(i)))).collect()
-}
-
-fn triple(values: impl Iterator<Item = f64>) -> [f64; 3] {
-    let mut triple = [0.0; 3];
-    triple.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
-    triple
 }
 
 /// By the arc tangent: the arc cosine is flat where the angle is small.

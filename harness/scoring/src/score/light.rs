@@ -71,7 +71,7 @@ fn light_rows(
     metrics: &[&str],
     pair: Pair,
 ) -> Result<Vec<Row>, ScoreError> {
-    let heading = Heading { subject, light: None, scale: mode.id(), label: None, block: 8 };
+    let heading = Heading { subject, light: None, scale: mode.id(), label: None };
     rows(heading, metrics, &[Compared { frame: None, pair }], &Floors::new())
 }
 

@@ -5,7 +5,6 @@ use formats::picture::{GrayImage, Picture};
 
 use super::ScoreError;
 use super::geometry::Geometry;
-use super::protocol::MAP_BLOCK;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
 use super::truth::{LABELS, Truth, mean_alpha};
@@ -177,7 +176,7 @@ fn map_rows(
 }
 
 fn heading(subject: &str, mode: ScaleMode) -> Heading<'_> {
-    Heading { subject, light: None, scale: mode.id(), label: None, block: MAP_BLOCK }
+    Heading { subject, light: None, scale: mode.id(), label: None }
 }
 
 fn fit_to(map: &Picture, truth: &Truth) -> Picture {

@@ -81,7 +81,8 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
     let hash = |path: &Path| hash_path(path).map_err(|error| ScoreError::io(path, error));
     let inputs =
         Inputs { capture: hash(capture)?, maps: hash(maps)?, relit: relit.map(hash).transpose()? };
-    let mut regions = vec![maps::region_size(&truth, found.coverage.as_ref())];
+    let of_maps = maps::region_size(&truth, found.coverage.as_ref());
+    let mut regions = vec![RegionSize { texel_mm: Some(geometry.texel_mm), ..of_maps }];
     regions.extend(frames.iter().map(Frame::region_size));
     Ok(Scores {
         format: Scores::FORMAT,

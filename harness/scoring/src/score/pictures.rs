@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::ScoreError;
 use super::noise_floor;
-use super::protocol::PICTURE_BLOCK;
 use super::render::Render;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
@@ -74,8 +73,7 @@ pub(super) fn view_rows(
     }
     let truth = true_folder(capture, light)?;
     let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
-    let heading =
-        Heading { subject: "view", light: None, scale: "none", label: None, block: PICTURE_BLOCK };
+    let heading = Heading { subject: "view", light: None, scale: "none", label: None };
     compare(frames, &views, &truth, heading, subjects)
 }
 
@@ -95,7 +93,7 @@ pub(super) fn relit_rows(
         let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
         let truth = true_folder(capture, light)?;
         let light = Some(light.as_str());
-        let heading = Heading { subject: "relit", light, scale, label: None, block: PICTURE_BLOCK };
+        let heading = Heading { subject: "relit", light, scale, label: None };
         compare(frames, &folder, &truth, heading, subjects)
     };
     let jobs: Vec<_> =
@@ -116,7 +114,7 @@ pub(super) fn photograph_rows(
         return Ok(Vec::new());
     }
     let subject = if light.is_some() { "relit" } else { "view" };
-    let heading = Heading { subject, light, scale: "none", label: None, block: PICTURE_BLOCK };
+    let heading = Heading { subject, light, scale: "none", label: None };
     compare(frames, folder, photographs, heading, [subject, "", ""])
 }
 
