@@ -56,6 +56,11 @@ __all__ = [
     "detail_slope_2_4",
     "relief_invented",
     "direction_mean_deg",
+    "orb_psnr_h",
+    "orb_psnr_l",
+    "orb_albedo_psnr",
+    "owl_psnr",
+    "nerfactor_albedo_psnr",
 ]
 
 def psnr_srgb(
@@ -446,3 +451,63 @@ def direction_mean_deg(
     scale: _Scale = "none",
 ) -> float | None:
     """Direction error [°]: mean angle between two directions"""
+
+def orb_psnr_h(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR-H of Stanford-ORB [dB]: as in Stanford-ORB: p after one factor per channel, both times
+    mean(sRGB of g) / mean(g), clipped to [0, 4], linear; the squared error is divided by the whole
+    frame, background included; no less than the PSNR of a picture of .5; mean over pictures"""
+
+def orb_psnr_l(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR-L of Stanford-ORB [dB]: as in Stanford-ORB: p after one factor per channel, sRGB values in
+    [0, 1]; the squared error is divided by the whole frame, background included; no less than the
+    PSNR of a picture of .5; mean over pictures"""
+
+def orb_albedo_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Albedo PSNR of Stanford-ORB [dB]: as in Stanford-ORB, the frame being the texture: p after one
+    factor per channel, linear values in [0, 1]; the squared error is divided by the whole frame; no
+    less than the PSNR of a picture of .5"""
+
+def owl_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR of objects-with-lighting [dB]: as in objects-with-lighting: values to the power 1/2.2 in
+    [0, 1], g of 8 bits; the exposure of p, then a factor from .5 to 2 for each channel, with the
+    least mean absolute error where g is not overexposed; mean over pictures"""
+
+def nerfactor_albedo_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Albedo PSNR of NeRFactor [dB]: as in NeRFactor, the frame being the texture: p after one factor
+    per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared
+    error is divided by the whole frame"""

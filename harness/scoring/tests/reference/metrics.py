@@ -58,6 +58,19 @@ def normals():
     return truth, (truth * 2.0 + 1.8 * bend).astype(np.float32)
 
 
+def halves(prediction, truth):
+    """Means of half of the samples: the pictures with noise of one size, opposite in the other half; float32."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
+    shake = lambda seed: np.stack([0.02 * (noise(x, y, seed + c) - 0.5) for c in range(3)], -1)
+    return (prediction + shake(21)).astype(np.float32), (truth + shake(31)).astype(np.float32)
+
+
+def mesh_normals():
+    """The true normals in every other pixel, +Z in the others, float32."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
+    return np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0], np.float32))
+
+
 def references():
     truth, prediction, cause, mask, labels, confidence = pictures()
     inside = ndimage.binary_erosion(mask > 127, np.ones((5, 5)), border_value=0)
@@ -138,12 +151,7 @@ def references():
         "confidence_rank": stats.spearmanr(trust, error).statistic,
         "sparsification": np.average(error, weights=trusted) / error.mean(),
     }
-    # Halves of the samples: the pictures with noise of the same size, opposite in the other half.
-    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
-    shake = lambda seed: np.stack([0.02 * (noise(x, y, seed + c) - 0.5) for c in range(3)], -1)
-    half_p, half_t = (
-        (v + s).astype(np.float32).astype(np.float64) for v, s in ((prediction, shake(21)), (truth, shake(31)))
-    )
+    half_p, half_t = (half.astype(np.float64) for half in halves(prediction, truth))
     crossed = lambda f: np.mean(((f(half_p) - f(half_t)) * (f(2 * p - half_p) - f(2 * t - half_t)))[inside])
     dot = (pm * tm).sum(-1) / np.linalg.norm(pm, axis=-1) / np.linalg.norm(tm, axis=-1)
 
@@ -155,7 +163,7 @@ def references():
         return mean(sigma) - mean(2 * sigma)
 
     slope = lambda sigma: stats.linregress(band(log(tm), sigma), band(log(pm), sigma)).slope
-    mesh = np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0])).astype(np.float64)[inside]
+    mesh = mesh_normals().astype(np.float64)[inside]
     tilt = lambda v: np.degrees(np.arctan2(np.linalg.norm(np.cross(v, mesh), axis=-1), (v * mesh).sum(-1)))
     flat = tilt(n) < 0.5
     ratio = np.log(np.maximum(specular_p, 1e-3) / np.maximum(specular_t, 1e-3))
