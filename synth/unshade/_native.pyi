@@ -36,6 +36,7 @@ __all__ = [
     "report",
     "run",
     "run_command_line",
+    "budget",
     "score_json",
     "study_json",
     "skin_reflected",
