@@ -17,7 +17,10 @@ from unshade.metrics import DEFINITIONS
 
 SCRIPT = Path(__file__).parents[1] / "harness" / "scoring" / "tests" / "reference" / "metrics.py"
 STORED = json.loads(SCRIPT.with_suffix(".json").read_text())["values"]
-SPECULAR = ("rmse", "pearson", "spearman")
+SPECULAR = ("rmse", "pearson", "spearman", "log_ratio_rms")
+VECTORS = ("relief_invented", "direction_mean_deg")
+WHOLE = ("owl_psnr", "nerfactor_albedo_psnr")
+"""Scored on the mask as it is."""
 
 
 @pytest.fixture(scope="module")
@@ -36,12 +39,13 @@ def arguments(reference: ModuleType):
     truth, prediction, cause, mask, labels, confidence = reference.pictures()
     true_normal, normal = reference.normals()
     beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence}
+    beside |= {"mesh_normal": reference.mesh_normals(), "halves": reference.halves(prediction, truth)}
 
     def of(name: str):
         pair = prediction, truth
         if name in SPECULAR:
             pair = prediction[..., 1], truth[..., 0]
-        if name.startswith("normal"):
+        if name.startswith("normal") or name in VECTORS:
             pair = normal, true_normal
         needs = DEFINITIONS[name].needs
         return *pair, mask, {needs: beside[needs]} if needs else {}
@@ -50,14 +54,14 @@ def arguments(reference: ModuleType):
 
 
 def close(name: str):
-    return pytest.approx(STORED[name], rel=1e-4 if name.startswith("flip") else 1e-9)
+    return pytest.approx(STORED[name], rel=1e-4 if name.startswith(("flip", "owl")) else 1e-9)
 
 
 @pytest.mark.parametrize("name", DEFINITIONS)
 def test_every_metric_has_the_value_of_independent_libraries(name: str, arguments) -> None:
     prediction, truth, mask, beside = arguments(name)
     metric = getattr(unshade.metrics, name)
-    assert metric(prediction, truth, mask, erode=True, **beside) == close(name)
+    assert metric(prediction, truth, mask, erode=name not in WHOLE, **beside) == close(name)
     assert list(inspect.signature(metric).parameters)[3:] == [*beside, "erode", "scale"]
 
 
@@ -69,11 +73,14 @@ def test_what_lies_beside_the_mask_is_no_matter(name: str, arguments) -> None:
         pair = [np.array(picture) for picture in (prediction, truth)]
         for picture in pair:
             picture[mask == 0] = fill(picture[mask == 0].shape)
-        others = {key: np.array(value) for key, value in beside.items()}
-        for value in others.values():
+        others = {
+            key: [np.array(half) for half in value] if key == "halves" else np.array(value)
+            for key, value in beside.items()
+        }
+        for value in others.get("halves", list(others.values())):
             if value.dtype == np.float32:
                 value[mask == 0] = fill(value[mask == 0].shape)
-        assert getattr(unshade.metrics, name)(*pair, mask, erode=True, **others) == close(name)
+        assert getattr(unshade.metrics, name)(*pair, mask, erode=name not in WHOLE, **others) == close(name)
 
 
 def test_every_kind_of_array_gives_the_same_value(arguments) -> None:
@@ -145,6 +152,10 @@ def test_what_cannot_be_meant_is_refused_by_name() -> None:
         r"labels: has shape \(6, 4\), expected \(4, 6\).*transpose": lambda: wcorr(p, p, labels=mask.T * 1),
         r"labels: holds 256; give uint8": lambda: wcorr(p, p, labels=mask * 256),
         r"shading: has shape \(2, 6\), expected \(4, 6\)": lambda: baked(p, p, shading=p[:2]),
+        r"halves: is no pair": lambda: unshade.metrics.psnr_lin_unbiased(p, p, halves=p),
+        r"halves: has shape \(2, 6\), expected \(4, 6\)": lambda: unshade.metrics.psnr_lin_unbiased(
+            p, p, halves=(p, p[:2])
+        ),
         r"confidence: has 3 channels": lambda: rank(p, p, confidence=p),
     }
     for words, call in refused.items():
@@ -160,6 +171,7 @@ def test_needs_are_those_that_the_metrics_state() -> None:
     assert needs == {
         "wcorr": "labels", "leakage_shading": "shading", "leakage_specular": "specular",
         "confidence_rank": "confidence", "sparsification": "confidence",
+        "psnr_lin_unbiased": "halves", "psnr_srgb_unbiased": "halves", "relief_invented": "mesh_normal",
     }  # fmt: skip
     picture = np.random.default_rng(0).random((8, 8, 3))
     for name, argument in needs.items():

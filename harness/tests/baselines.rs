@@ -4,7 +4,6 @@
 
 #[path = "../scoring/tests/noise/mod.rs"]
 mod noise;
-#[allow(dead_code)]
 #[path = "../scoring/tests/plane/mod.rs"]
 mod plane;
 

@@ -19,13 +19,16 @@ from importlib import import_module
 os.environ.setdefault("NODEVICE_SELECT", "1")
 
 _HOMES = {
+    "Budget": "stages",
     "Fidelity": "stages",
     "Finding": "stages",
     "Capture": "_native",
     "Maps": "_native",
     "Score": "scores",
     "Scores": "scores",
+    "Study": "studies",
     "__version__": "_native",
+    "budget": "stages",
     "solve": "_native",
     "check": "stages",
     "compare": "stages",
@@ -37,6 +40,7 @@ _HOMES = {
     "report": "stages",
     "run": "stages",
     "score": "stages",
+    "study": "studies",
     "synth": "stages",
 }
 _MODULES = ("errors", "metrics")

@@ -10,8 +10,10 @@ from unshade.importing import import_capture as import_capture
 from unshade.importing.maps import import_maps as import_maps
 from unshade.scores import Score as Score
 from unshade.scores import Scores as Scores
+from unshade.stages import Budget as Budget
 from unshade.stages import Fidelity as Fidelity
 from unshade.stages import Finding as Finding
+from unshade.stages import budget as budget
 from unshade.stages import check as check
 from unshade.stages import compare as compare
 from unshade.stages import export as export
@@ -20,3 +22,5 @@ from unshade.stages import report as report
 from unshade.stages import run as run
 from unshade.stages import score as score
 from unshade.stages import synth as synth
+from unshade.studies import Study as Study
+from unshade.studies import study as study

@@ -36,7 +36,9 @@ __all__ = [
     "report",
     "run",
     "run_command_line",
+    "budget",
     "score_json",
+    "study_json",
     "skin_reflected",
     "solve",
     "synth",
@@ -206,6 +208,15 @@ def solve(
     """
 
 def run_command_line(arguments: list[str]) -> int: ...
+def study_json(runs: list[_Path], out: _Path | None = None) -> tuple[str, str]: ...
+def budget(
+    capture: _Path,
+    maps: _Path,
+    out: _Path,
+    light: str | None = None,
+    view: str | None = None,
+    progress: _Progress | None = None,
+) -> str: ...
 def score_json(capture: _Path, maps: _Path, relit: _Path | None = None) -> str: ...
 def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...

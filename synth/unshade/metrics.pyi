@@ -47,6 +47,20 @@ __all__ = [
     "leakage_specular",
     "confidence_rank",
     "sparsification",
+    "psnr_lin_unbiased",
+    "psnr_srgb_unbiased",
+    "chromaticity_deg",
+    "log_rmse",
+    "log_ratio_rms",
+    "detail_slope_1_2",
+    "detail_slope_2_4",
+    "relief_invented",
+    "direction_mean_deg",
+    "orb_psnr_h",
+    "orb_psnr_l",
+    "orb_albedo_psnr",
+    "owl_psnr",
+    "nerfactor_albedo_psnr",
 ]
 
 def psnr_srgb(
@@ -331,3 +345,169 @@ def sparsification(
     """Error of the trusted half: mean |difference of the log luminances| of the half with the highest
     confidence / that of all, luminances below .001 raised to it; equal confidences share the half's
     last places: 1 if confidence says nothing"""
+
+def psnr_lin_unbiased(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    halves: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR without noise, linear [dB]: -10 log10 of the mean over pixels and channels of (a-b)(a'-b')
+    of linear values, a and b being the means of independent halves of the samples of p and g, a'
+    and b' those of the others: what noise adds to (p-g)² has the mean 0 in it; peak 1; 100 where
+    nothing is left"""
+
+def psnr_srgb_unbiased(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    halves: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR without noise [dB]: -10 log10 of the mean over pixels and channels of (a-b)(a'-b') of sRGB
+    values clipped to [0, 1], a and b being the means of independent halves of the samples of p and
+    g, a' and b' those of the others; the curve of noisy values is bent, and unequal noise of p and
+    g leaves a bias; peak 1; 100 where nothing is left"""
+
+def chromaticity_deg(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Chromaticity error [°]: mean angle between the linear colours p and g, whatever their intensity;
+    90 where one is black"""
+
+def log_rmse(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Log error after one factor: standard deviation of the difference of the log luminances, which is
+    their RMSE after the one factor that makes it least; luminances below .001 raised to it"""
+
+def log_ratio_rms(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Log ratio: square root of the mean of ln(p/g)²; values below .001 raised to it"""
+
+def detail_slope_1_2(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Detail at 1 to 2 texels: slope of the regression of p on g, both log luminances between Gaussian
+    means over the region of sigma 1 and 2 texels, cut off at 3 sigma; luminances below .001 raised
+    to it"""
+
+def detail_slope_2_4(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Detail at 2 to 4 texels: slope of the regression of p on g, both log luminances between Gaussian
+    means over the region of sigma 2 and 4 texels, cut off at 3 sigma; luminances below .001 raised
+    to it"""
+
+def relief_invented(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    mesh_normal: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Invented relief [°]: mean angle between p and the mesh's normal where g is within .5° of it;
+    none where g is so nowhere"""
+
+def direction_mean_deg(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Direction error [°]: mean angle between two directions"""
+
+def orb_psnr_h(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR-H of Stanford-ORB [dB]: as in Stanford-ORB: p after one factor per channel, both times
+    mean(sRGB of g) / mean(g), clipped to [0, 4], linear; the squared error is divided by the whole
+    frame, background included; no less than the PSNR of a picture of .5; mean over pictures"""
+
+def orb_psnr_l(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR-L of Stanford-ORB [dB]: as in Stanford-ORB: p after one factor per channel, sRGB values in
+    [0, 1]; the squared error is divided by the whole frame, background included; no less than the
+    PSNR of a picture of .5; mean over pictures"""
+
+def orb_albedo_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Albedo PSNR of Stanford-ORB [dB]: as in Stanford-ORB, the frame being the texture: p after one
+    factor per channel, linear values in [0, 1]; the squared error is divided by the whole frame; no
+    less than the PSNR of a picture of .5"""
+
+def owl_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR of objects-with-lighting [dB]: as in objects-with-lighting: values to the power 1/2.2 in
+    [0, 1], g of 8 bits; the exposure of p, then a factor from .5 to 2 for each channel, with the
+    least mean absolute error where g is not overexposed; mean over pictures"""
+
+def nerfactor_albedo_psnr(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Albedo PSNR of NeRFactor [dB]: as in NeRFactor, the frame being the texture: p after one factor
+    per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared
+    error is divided by the whole frame"""

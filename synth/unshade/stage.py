@@ -65,6 +65,15 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
 
+    budget = verbs.add_parser("budget", help="say which map makes how much of a relit view's error")
+    budget.add_argument("--capture", type=Path, required=True)
+    budget.add_argument("--maps", type=Path, required=True)
+    budget.add_argument("--out", type=Path, required=True)
+    budget.add_argument("--factor", type=float, required=True)
+    budget.add_argument("--light")
+    budget.add_argument("--view")
+    budget.set_defaults(stage=_budget)
+
     lights = verbs.add_parser("lights", help="write the other lights of a capture as lat-long pictures")
     lights.add_argument("--capture", type=Path, required=True)
     lights.add_argument("--out", type=Path, required=True)
@@ -111,7 +120,7 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, lights, export, method, check, describe, sheet, history, doctor, physics):
+    for verb in (synth, relight, budget, lights, export, method, check, describe, sheet, history, doctor, physics):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -158,6 +167,18 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _budget(options: argparse.Namespace) -> dict[str, Any]:
+    from .render import llvm
+    from .render.truth_scene import captured_scene
+
+    scene = captured_scene(options.capture)
+    _activate(llvm.choose(scene.versions["variant"]))
+    from .render.error_budget import write_budget
+
+    chosen = {"light": options.light, "view": options.view, "factor": options.factor}
+    return write_budget(scene, options.capture, options.maps, options.out, **chosen, progress=_progress, warn=_warn)
 
 
 def _lights(options: argparse.Namespace) -> dict[str, Any]:

@@ -100,6 +100,42 @@ def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None =
         return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit)))
 
 
+class Budget(TypedDict):
+    """What a map adds to the error of a relit view."""
+
+    map: str
+    """``diffuse albedo``, ``specular albedo``, ``normals``, ``roughness``."""
+    squared_error: float
+    """Its Shapley value of the mean squared error of linear values, without noise; all sum to the error."""
+    share: float | None
+    """Of the whole error; None where there is no error."""
+    alone: float
+    """The error of the view where this map alone is the method's."""
+    gain_db: float
+    """What the true map in its place would bring."""
+
+
+def budget(
+    capture: Capture | _Path,
+    maps: Maps | _Path,
+    out: _Path,
+    *,
+    light: str | None = None,
+    view: str | None = None,
+    progress: _Progress | None = None,
+) -> list[Budget]:
+    """Say which map makes how much of the error of a relit view, and write it into the folder ``out``.
+
+    The view is rendered with every choice of maps from the truth and from ``maps``, whose diffuse albedo is
+    multiplied by its one factor. Without ``light`` it is lit as the capture, without ``view`` it is the first
+    withheld one.
+    """
+    with _folder_of(maps) as folder:
+        said = json.loads(_native.budget(_path_of(capture), folder, out, light, view, progress))
+    rows: list[Budget] = said["maps"]
+    return rows
+
+
 def run(suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None) -> Path:
     """Run a suite in the folder ``out``, resuming it; returns its report's page.
 

@@ -8,7 +8,7 @@ use harness::suite::SOLVER_SOURCES;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use scoring::compare::{self as comparing, Baseline, Tolerances};
-use scoring::{check, score};
+use scoring::{check, score, study};
 use solver::{Choice, Options};
 
 use super::capture::Capture;
@@ -119,6 +119,28 @@ pub(super) fn write_scores(py: Python<'_>, text: &str, path: PathBuf) -> PyResul
 #[pyfunction]
 pub(super) fn read_scores(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     json_of(&py.detach(|| score::Scores::read(&path)).map_err(raise)?)
+}
+
+/// The study of runs as JSON text: (the study, its observations). With `out`, its folder is written.
+#[pyfunction]
+#[pyo3(signature = (runs, out=None))]
+pub(super) fn study_json(
+    py: Python<'_>,
+    runs: Vec<PathBuf>,
+    out: Option<PathBuf>,
+) -> PyResult<(String, String)> {
+    let made = || {
+        let observations = study::observations(&runs)?;
+        let found = study::Study::of(&observations);
+        if let Some(out) = &out {
+            study::write_study(&found, &observations, &runs, out, "unshade.study")?;
+        }
+        Ok::<_, study::StudyError>((found, observations))
+    };
+    let (found, observations) = py.detach(made).map_err(raise)?;
+    let text = |error: serde_json::Error| named_error("ScoreError", &error.to_string());
+    let found = serde_json::to_string(&found).map_err(text)?;
+    Ok((found, serde_json::to_string(&observations).map_err(text)?))
 }
 
 fn json_of(scores: &score::Scores) -> PyResult<String> {

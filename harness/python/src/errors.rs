@@ -34,6 +34,7 @@ named! {
     formats::picture::PictureError => "PictureError",
     scoring::compare::CompareError => "CompareError",
     scoring::metrics::MetricError => "MetricError",
+    scoring::study::StudyError => "ScoreError",
 }
 
 /// A folder that may not be written is the same fault for all.
@@ -83,6 +84,7 @@ impl Named for RunError {
             Self::Check(error) => error.class(),
             Self::Report(error) => error.class(),
             Self::Compare(error) => error.class(),
+            Self::Study(error) => error.class(),
             Self::Program { .. } | Self::Methods { .. } => "SolveError",
             Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
             Self::Interrupted | Self::Stopped { .. } => "Stopped",

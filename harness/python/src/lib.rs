@@ -27,12 +27,14 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;
     module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
     module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::study_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::check_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::compare, module)?)?;
     module.add_function(wrap_pyfunction!(calls::read_scores, module)?)?;
     module.add_function(wrap_pyfunction!(calls::write_scores, module)?)?;
     module.add_function(wrap_pyfunction!(stages::synth, module)?)?;
     module.add_function(wrap_pyfunction!(stages::relight, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::budget, module)?)?;
     module.add_function(wrap_pyfunction!(stages::run, module)?)?;
     module.add_function(wrap_pyfunction!(folders::begin_folder, module)?)?;
     module.add_function(wrap_pyfunction!(folders::commit_folder, module)?)?;

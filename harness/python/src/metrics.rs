@@ -89,11 +89,13 @@ pub(super) fn measure(
         }
         Ok(Some(picture))
     };
-    let shading = float("shading")?;
+    // A metric needs one of them at most.
+    let cause = [float("shading")?, float("specular")?, float("mesh_normal")?];
     let inputs = Inputs {
         labels,
-        cause: if shading.is_some() { shading } else { float("specular")? },
+        cause: cause.into_iter().flatten().next(),
         confidence: float("confidence")?,
+        halves: given("halves")?.map(|given| halves(&given, &truth)).transpose()?,
     };
     let value = || value(metric, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
     py.detach(value).map_err(raise)
@@ -104,6 +106,21 @@ struct Inputs {
     labels: Option<GrayImage>,
     cause: Option<Picture>,
     confidence: Option<Picture>,
+    halves: Option<[Picture; 2]>,
+}
+
+/// The halves of prediction and truth: a pair of pictures of the truth's shape.
+fn halves(given: &Bound<PyAny>, truth: &Picture) -> PyResult<[Picture; 2]> {
+    let refused =
+        || argument("halves").refused("is no pair (half of the prediction, of the truth)");
+    let pair: Vec<Bound<PyAny>> = given.extract().map_err(|_| refused())?;
+    let [p, g]: [Bound<PyAny>; 2] = pair.try_into().map_err(|_| refused())?;
+    let picture = |given: &Bound<PyAny>| {
+        let half = argument("halves").picture(given)?;
+        check_size("halves", (half.width, half.height), truth)?;
+        Ok::<_, PyErr>(half)
+    };
+    Ok([picture(&p)?, picture(&g)?])
 }
 
 fn value(
@@ -135,6 +152,9 @@ fn value(
     }
     if let Some(confidence) = &inputs.confidence {
         pair = pair.with_confidence(confidence)?;
+    }
+    if let Some([prediction, truth]) = &inputs.halves {
+        pair = pair.with_halves(prediction, truth)?;
     }
     metric.value(&pair)
 }

@@ -48,6 +48,26 @@ pub(super) fn relight(
     Ok(out)
 }
 
+/// Writes the error budget of a relit view; JSON text of what it found.
+#[pyfunction]
+#[pyo3(signature = (capture, maps, out, light=None, view=None, progress=None))]
+pub(super) fn budget(
+    py: Python<'_>,
+    capture: PathBuf,
+    maps: PathBuf,
+    out: PathBuf,
+    light: Option<String>,
+    view: Option<String>,
+    progress: Heard,
+) -> PyResult<String> {
+    let said = watched(py, progress, |tools, said| {
+        let (light, view) = (light.as_deref(), view.as_deref());
+        let budget = suite::Budget { capture: &capture, maps: &maps, out: &out, light, view };
+        suite::budget(&budget, tools, &mut |done, total, what| said.say(done, total, what))
+    })?;
+    Ok(said.to_string())
+}
+
 /// Writes maps as an asset; JSON text of what the asset says of itself.
 #[pyfunction]
 #[pyo3(signature = (maps, out, options, capture=None, mesh=None, progress=None))]

@@ -4,12 +4,19 @@ use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
 /// What is compared, in the order of the table.
-pub(super) const SUBJECTS: [(&str, &str); 14] = [
+pub(super) const SUBJECTS: [(&str, &str); 21] = [
     ("diffuse_albedo", "Diffuse albedo map"),
     ("confidence", "Confidence map, against the error of the diffuse albedo"),
     ("specular_albedo", "Specular albedo map"),
     ("specular_normal", "Specular normal map"),
     ("diffuse_normal", "Diffuse normal map"),
+    ("roughness", "Roughness map"),
+    ("light_peaks", "Light, its brightest directions"),
+    ("light", "Light, over equal solid angles"),
+    ("light_mirror_sphere", "Mirror sphere in the light"),
+    ("light_glossy_sphere", "Glossy sphere in the light"),
+    ("light_diffuse_sphere", "Diffuse sphere in the light"),
+    ("constant_roughness", "Roughness, best constant"),
     ("constant_specular_albedo", "Specular albedo, best constant"),
     ("mesh_specular_normal", "Specular normal, plain mesh"),
     ("mesh_diffuse_normal", "Diffuse normal, plain mesh"),
@@ -22,7 +29,8 @@ pub(super) const SUBJECTS: [(&str, &str); 14] = [
 ];
 
 /// Answers that need no pictures: their scores stand beside those of the map they answer for.
-const TRIVIAL: [(&str, &str); 3] = [
+const TRIVIAL: [(&str, &str); 4] = [
+    ("roughness", "constant_roughness"),
     ("specular_albedo", "constant_specular_albedo"),
     ("specular_normal", "mesh_specular_normal"),
     ("diffuse_normal", "mesh_diffuse_normal"),
@@ -34,7 +42,11 @@ pub(super) fn trivial(subject: &str) -> Option<&'static str> {
 }
 
 /// Metrics that only the full list shows: variants of one that the table has.
-const VARIANTS: [&str; 7] = [
+const VARIANTS: [&str; 11] = [
+    "orb_psnr_h",
+    "orb_psnr_l",
+    "orb_albedo_psnr",
+    "psnr_lin_unbiased",
     "psnr_lin",
     "relmse",
     "flip_p95",
@@ -54,7 +66,8 @@ pub(super) fn is_chosen(row: &Row) -> bool {
 
 /// Whether a row covers its subject's whole region.
 pub(super) fn is_whole(row: &Row) -> bool {
-    row.label.is_none() && matches!(row.region.as_str(), "coverage-e5" | "mask-e5")
+    row.label.is_none()
+        && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "whole" | "sphere")
 }
 
 /// A subject's name.
@@ -68,6 +81,8 @@ pub(super) fn region(id: &str, label: Option<&str>) -> String {
         "coverage-e5" => "seen texels, eroded 5×5",
         "coverage-e5-views2" => "texels seen by two views, eroded 5×5",
         "mask-e5" => "face mask, eroded 5×5",
+        "whole" => "all of it",
+        "sphere" => "its disc",
         other => other,
     };
     label.map_or(words.to_owned(), |label| format!("{words}, {label}"))

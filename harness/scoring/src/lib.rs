@@ -7,3 +7,4 @@ pub mod check;
 pub mod compare;
 pub mod metrics;
 pub mod score;
+pub mod study;

@@ -2,56 +2,19 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod bench;
 mod noise;
 mod plane;
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
+use bench::{Bench, value, write_lights};
 use formats::picture::{read_exr, read_png_gray, write_exr};
 use noise::normal_noise;
-use plane::{SIDE, albedo, map, shading, specular, write_capture, write_render, write_rgb};
+use plane::{SIDE, albedo, map, shading, specular, write_halves, write_render, write_rgb};
 use scoring::compare::{Baseline, Tolerances, Verdict, compare};
 use scoring::metrics::METRICS;
 use scoring::score::{Scores, fit_scale, label_mean_maps, oracle_maps, score};
-
-struct Bench {
-    root: tempfile::TempDir,
-}
-
-impl Bench {
-    fn new(variance: f64) -> Self {
-        let bench = Self { root: tempfile::tempdir().unwrap() };
-        write_capture(&bench.capture(), variance);
-        bench
-    }
-
-    fn capture(&self) -> PathBuf {
-        self.root.path().join("capture")
-    }
-
-    /// A maps folder with one map only.
-    fn albedo_maps(&self, side: usize, texture: impl Fn(f64, f64) -> [f64; 3]) -> PathBuf {
-        let maps = self.root.path().join("maps");
-        fs::create_dir_all(&maps).unwrap();
-        write_rgb(&maps.join("diffuse_albedo.exr"), &map(side, 3, texture));
-        maps
-    }
-
-    fn score_albedo(&self, texture: impl Fn(f64, f64) -> [f64; 3]) -> Scores {
-        score(&self.capture(), &self.albedo_maps(SIDE, texture), None).unwrap()
-    }
-
-    fn refused(&self, maps: &Path, relit: Option<&Path>) -> String {
-        let error = score(&self.capture(), maps, relit).unwrap_err().to_string();
-        assert!(!error.contains('\n'), "{error}");
-        error
-    }
-}
-
-fn value(scores: &Scores, id: &str) -> f64 {
-    scores.row(id).unwrap_or_else(|| panic!("no row {id}")).value.unwrap()
-}
 
 #[test]
 fn the_oracle_is_perfect_and_scores_survive_their_file() {
@@ -217,7 +180,10 @@ fn every_metric_is_scored_of_something() {
     for frame in [3, 4] {
         let view = maps.join(format!("views/{frame:03}.exr"));
         write_render(&view, frame, 0.0, &mut || 0.0, 1.0);
+        let truth = bench.capture().join(format!("truth/relit/own/{frame:03}.exr"));
+        write_halves(&truth, frame, 1e-5, &mut || 0.0, 1.0);
     }
+    write_lights(&bench.capture(), &maps);
     let scores = score(&bench.capture(), &maps, None).unwrap();
     for metric in METRICS {
         let found = scores.rows.iter().any(|row| row.metric == metric.id);

@@ -6,7 +6,7 @@
 mod noise;
 
 use noise::normal_noise;
-use scoring::metrics::{Sample, Statistic};
+use scoring::metrics::{Region, Sample, Statistic, block_side};
 
 const SIDE: usize = 96;
 /// Pixels of a square that share one error.
@@ -44,6 +44,33 @@ fn intervals_cover_the_truth_in_about_95_percent_of_trials() {
         // percentile interval of 144 blocks is known to be a little short.
         assert!((0.89..=0.99).contains(&share), "{name}: {share}");
     }
+}
+
+#[test]
+fn blocks_follow_the_correlation_and_their_intervals_hold() {
+    // White noise, and noise that patches of 6 and 12 pixels share: the same field seen finer.
+    let mut noise = normal_noise(8);
+    let region = Region::whole(SIDE, SIDE).unwrap();
+    let mut field = |patch: usize| -> Vec<f64> {
+        let per_row = SIDE / patch;
+        let patches: Vec<f64> = (0..per_row * per_row).map(|_| noise()).collect();
+        (0..SIDE * SIDE).map(|i| patches[i / SIDE / patch * per_row + i % SIDE / patch]).collect()
+    };
+    let side = |values: &[f64]| block_side(values, 1, &region);
+    assert_eq!(side(&field(1)), 4);
+    let (fine, coarse) = (side(&field(3)), side(&field(6)));
+    // Patches of n correlate by 1 - lag / n, which is 1 / e at .63 n.
+    assert!((7..=9).contains(&fine) && (14..=17).contains(&coarse), "{fine} {coarse}");
+    assert_eq!(side(&vec![1.0; SIDE * SIDE]), 4, "a constant");
+    let hits = (0..TRIALS).filter(|_| {
+        let values = field(4);
+        let blocks = region.blocks(side(&values)).collect();
+        let [low, high] = Statistic::Mean.interval(&[Sample { values, blocks }]).unwrap();
+        (low..=high).contains(&0.0)
+    });
+    let share = hits.count() as f64 / TRIALS as f64;
+    println!("chosen blocks {share}");
+    assert!((0.88..=0.99).contains(&share), "{share}");
 }
 
 #[test]

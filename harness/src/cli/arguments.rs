@@ -44,6 +44,22 @@ pub(super) enum Verb {
         #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
         renderer: RendererName,
     },
+    /// Say which map makes how much of the error of a relit view: Shapley values over the maps.
+    Budget {
+        /// The capture with its truth.
+        capture: PathBuf,
+        /// The maps.
+        maps: PathBuf,
+        /// The budget's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+        /// The light; the capture's own without it.
+        #[arg(long)]
+        light: Option<String>,
+        /// The withheld view; the first without it.
+        #[arg(long)]
+        view: Option<String>,
+    },
     /// Write maps as an asset of another program, and say what it loses.
     Export(ExportArgs),
     /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
@@ -100,6 +116,16 @@ pub(super) enum Verb {
         /// The file.
         #[arg(short, long)]
         out: PathBuf,
+    },
+    /// Statistics over the faces of finished runs: means with intervals, paired tests, the faces that a
+    /// study needs, what varies, fairness by skin tone.
+    Study {
+        /// The runs' folders.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The study's folder (Markdown, JSON, CSV); without it the Markdown is printed.
+        #[arg(short, long)]
+        out: Option<PathBuf>,
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),

@@ -1,11 +1,12 @@
 //! What each verb does.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use formats::atomic;
 use scoring::score;
+use scoring::study::{self, Study};
 use solver::Choice;
 
 use super::alone::{alone, tools};
@@ -14,7 +15,7 @@ use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
 use super::{bench, calibrate, check, compare, doctor, export, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
+use crate::suite::{self, BaselineMethod, Budget, RunError, RunOptions, Suite};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
@@ -28,6 +29,12 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             alone("relight", |tools, step| {
                 suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
             })?;
+        }
+        Verb::Budget { capture, maps, out, light, view } => {
+            let (light, view) = (light.as_deref(), view.as_deref());
+            let budget = Budget { capture: &capture, maps: &maps, out: &out, light, view };
+            alone("budget", |tools, step| suite::budget(&budget, tools, step).map(|_| ()))?;
+            say!("{}", out.join("budget.md").display());
         }
         Verb::Export(arguments) => export::export(&arguments)?,
         Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
@@ -59,10 +66,28 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         }
         Verb::Compare(arguments) => return compare::compare(&arguments),
         Verb::Calibrate(arguments) => return calibrate::calibrate(&arguments),
+        Verb::Study { runs, out } => study(&runs, out.as_deref())?,
         Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
     Ok(DONE)
+}
+
+fn study(runs: &[PathBuf], out: Option<&Path>) -> Result<(), RunError> {
+    let mut words = vec!["unshade study".to_owned()];
+    words.extend(runs.iter().map(|run| run.display().to_string()));
+    words.extend(out.map(|out| format!("-o {}", out.display())));
+    let command = words.join(" ");
+    let observations = study::observations(runs)?;
+    let found = Study::of(&observations);
+    match out {
+        Some(out) => {
+            study::write_study(&found, &observations, runs, out, &command)?;
+            say!("{}", out.join("study.md").display());
+        }
+        None => say!("{}", found.markdown(&command).trim_end()),
+    }
+    Ok(())
 }
 
 fn synth(arguments: SynthArgs) -> Result<(), RunError> {
@@ -84,7 +109,7 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let mut config = if arguments.config.ends_with(".toml") {
-        let path = std::path::PathBuf::from(&arguments.config);
+        let path = PathBuf::from(&arguments.config);
         let text = fs::read_to_string(&path);
         solver::Config::from_toml(&text.map_err(|reason| RunError::File { path, reason })?)?
     } else {

@@ -1,5 +1,6 @@
 //! The cases of a suite: every face in every light, in every variant of the scene.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
@@ -11,10 +12,12 @@ use scoring::score;
 /// One capture: a face in a light, in a variant of the scene.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// `<face>-<light>[-<variant>]`.
+    /// `<face>-<light>[-<variant>][-seed<seed>]`.
     pub id: String,
     /// The variant's name; none in a suite without variants.
     pub variant: Option<String>,
+    /// The renderer's seed, of a suite that has several.
+    pub seed: Option<u64>,
     /// What is rendered; of photographs the names alone.
     pub scene: Scene,
     /// The capture's folder, if it was photographed and not rendered.
@@ -84,12 +87,14 @@ pub(super) fn cases_of(path: &Path, base: &Scene, suite: &Table) -> Result<Vec<C
     let lights = or_own(referenced(path, suite, "lights")?, "light");
     let others: Vec<Table> = lights.iter().cloned().chain(base.relight()).collect();
     let variants = variants_of(path, suite)?;
+    let seeds = seeds_of(path, suite)?;
     let mut cases: Vec<Case> = Vec::new();
     for face in &faces {
         for light in &lights {
             let scene = base.clone().with_face(face.clone()).with_lights(light, &others);
-            for variant in &variants {
-                let case = case(path, scene.clone(), variant.as_ref())?;
+            for (variant, seed) in variants.iter().flat_map(|v| seeds.iter().map(move |s| (v, *s)))
+            {
+                let case = case(path, scene.clone(), variant.as_ref(), seed)?;
                 if cases.iter().any(|other| other.id == case.id) {
                     let reason = format!("{} occurs twice; rename one", case.id);
                     let key = if variant.is_some() { "faces, lights, variant" } else { "faces" };
@@ -118,16 +123,27 @@ fn face_changes(path: &Path, value: &Value) -> Result<Table, SceneError> {
     }
 }
 
-fn case(path: &Path, mut scene: Scene, variant: Option<&Variant>) -> Result<Case, SceneError> {
+fn case(
+    path: &Path,
+    mut scene: Scene,
+    variant: Option<&Variant>,
+    seed: Option<u64>,
+) -> Result<Case, SceneError> {
     let mut id = format!("{}-{}", scene.name_of("face"), scene.name_of("light"));
     if let Some(variant) = variant {
         id = format!("{id}-{}", variant.id());
         scene = scene.with_changes(&variant.changes);
     }
+    if let Some(seed) = seed {
+        id = format!("{id}-seed{seed}");
+        let render = Table::from_iter([("seed".to_owned(), Value::Integer(seed.cast_signed()))]);
+        scene =
+            scene.with_changes(&Table::from_iter([("render".to_owned(), Value::Table(render))]));
+    }
     scene::check_id(path, &id)?;
     scene.table.insert("name".to_owned(), Value::String(id.clone()));
     let variant = variant.map(|variant| variant.name.clone());
-    Ok(Case { id, variant, scene, photographed: None })
+    Ok(Case { id, variant, seed, scene, photographed: None })
 }
 
 /// The captures of the file's list, folders beside it, each a case of its folder's name.
@@ -153,9 +169,32 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
             return Err(wrong(format!("{id} occurs twice; rename one folder")));
         }
         let scene = Scene::named(&id, score::FOUND_LIGHT);
-        cases.push(Case { id, variant: None, scene, photographed: Some(folder) });
+        cases.push(Case { id, variant: None, seed: None, scene, photographed: Some(folder) });
     }
     Ok(cases)
+}
+
+/// The renderer's seeds, each of which every case is rendered with; a single none where the file
+/// has none.
+fn seeds_of(path: &Path, suite: &Table) -> Result<Vec<Option<u64>>, SceneError> {
+    let Some(listed) = suite.get("seeds") else { return Ok(vec![None]) };
+    let seeds = seeds(listed).ok_or_else(|| {
+        SceneError::value(path, "seeds", "must be a list of whole numbers from 0, each once")
+    })?;
+    Ok(seeds.into_iter().map(Some).collect())
+}
+
+/// A list of seeds, each once.
+pub(super) fn seeds(listed: &Value) -> Option<Vec<u64>> {
+    let seeds: Option<Vec<u64>> = listed
+        .as_array()?
+        .iter()
+        .map(|seed| seed.as_integer().and_then(|seed| u64::try_from(seed).ok()))
+        .collect();
+    let distinct = |seeds: &Vec<u64>| {
+        !seeds.is_empty() && seeds.iter().collect::<BTreeSet<_>>().len() == seeds.len()
+    };
+    seeds.filter(distinct)
 }
 
 /// The variants of the file; a single none where it has none.

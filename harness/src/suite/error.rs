@@ -41,6 +41,8 @@ pub enum RunError {
     #[error(transparent)]
     Compare(#[from] CompareError),
     #[error(transparent)]
+    Study(#[from] scoring::study::StudyError),
+    #[error(transparent)]
     Viewer(#[from] ViewerError),
     #[error(transparent)]
     Bench(#[from] bench::BenchError),

@@ -9,13 +9,13 @@ use super::method::{self, Method};
 use super::packaged::Kind;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
-    "scales", "relight", "method",
+    "seeds", "scales", "relight", "method",
 ];
 
 /// Keys that say something of a scene.
-const OF_SCENES: [&str; 5] = ["faces", "lights", "face", "render", "variant"];
+const OF_SCENES: [&str; 6] = ["faces", "lights", "face", "render", "variant", "seeds"];
 
 /// What the diffuse albedo can be multiplied by before maps are relit: nothing, and the one factor that
 /// aligns it with the truth.

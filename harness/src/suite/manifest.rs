@@ -24,6 +24,10 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
                         "id": method.id, "kind": method.role(), "class": method.class().name(),
                         "title": method.title,
                     });
+                    if let Some((name, seed)) = &method.replicate {
+                        solver["of"] = json!(name);
+                        solver["seed"] = json!(seed);
+                    }
                     if let Some(reason) = failed.get(&name) {
                         solver["failed"] = json!(reason);
                     } else {
@@ -37,6 +41,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
             json!({
                 "id": case.id, "face": case.scene.name_of("face"),
                 "light": case.scene.name_of("light"), "variant": case.variant,
+                "seed": case.seed,
                 "capture": match &case.photographed {
                     Some(folder) => folder.display().to_string(),
                     None => format!("captures/{}", case.id),

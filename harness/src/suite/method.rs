@@ -8,6 +8,7 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
+use super::cases;
 use super::competitor::{Class, Competitor};
 use super::place;
 use super::program::{Gives, Limits, Program, Start};
@@ -58,6 +59,8 @@ pub struct Method {
     pub title: String,
     /// How it is started.
     pub kind: MethodKind,
+    /// Of a method with several seeds: the method's name, and the seed.
+    pub replicate: Option<(String, u64)>,
 }
 
 impl Method {
@@ -90,7 +93,7 @@ impl Method {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MethodTable {
     name: String,
@@ -100,6 +103,8 @@ struct MethodTable {
     /// Single values that replace those of the configuration.
     #[serde(default)]
     set: Table,
+    /// Of our solver: it is run once with each.
+    seeds: Option<Value>,
     backend: Option<String>,
     command: Option<CommandLine>,
     python: Option<String>,
@@ -115,7 +120,7 @@ struct MethodTable {
     environment: Option<BTreeMap<String, String>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(untagged)]
 enum CommandLine {
     Words(Vec<String>),
@@ -134,14 +139,38 @@ pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, Scen
             let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
             SceneError::in_table(path, name, "method", error.message())
         })?;
-        let method = method_of(path, table)?;
-        if methods.iter().any(|other| other.id == method.id) {
-            let reason = format!("{:?} occurs twice; rename one", method.id);
-            return Err(SceneError::value(path, "method", reason));
+        for table in replicates(path, table)? {
+            let (replicate, table) = table;
+            let method = Method { replicate, ..method_of(path, table)? };
+            if methods.iter().any(|other| other.id == method.id) {
+                let reason = format!("{:?} occurs twice; rename one", method.id);
+                return Err(SceneError::value(path, "method", reason));
+            }
+            methods.push(method);
         }
-        methods.push(method);
     }
     Ok(methods)
+}
+
+type Replicate = (Option<(String, u64)>, MethodTable);
+
+/// The table once for each of its seeds, under the name `<name>-seed<seed>`; as it is without any.
+fn replicates(path: &Path, mut table: MethodTable) -> Result<Vec<Replicate>, SceneError> {
+    table.check_keys(path)?;
+    let Some(listed) = table.seeds.take() else { return Ok(vec![(None, table)]) };
+    let seeds = cases::seeds(&listed).ok_or_else(|| {
+        let reason = "must be a list of whole numbers from 0, each once".to_owned();
+        SceneError::in_table(path, &table.name, "seeds", reason)
+    })?;
+    let of_seed = |seed: u64| {
+        let mut one = table.clone();
+        one.config = Some(table.config.clone().unwrap_or_else(|| table.name.clone()));
+        one.name = format!("{}-seed{seed}", table.name);
+        one.title = Some(format!("{}, seed {seed}", table.title.as_ref().unwrap_or(&table.name)));
+        one.set.insert("seed".to_owned(), Value::Integer(seed.cast_signed()));
+        (Some((table.name.clone(), seed)), one)
+    };
+    Ok(seeds.into_iter().map(of_seed).collect())
 }
 
 fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
@@ -181,7 +210,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
         MethodKind::Competitor { competitor, .. } => competitor.title.to_owned(),
         MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
     });
-    Ok(Method { id: table.name, title, kind })
+    Ok(Method { id: table.name, title, kind, replicate: None })
 }
 
 impl MethodTable {
@@ -244,6 +273,7 @@ impl MethodTable {
             title: _,
             config,
             set,
+            seeds,
             backend,
             command,
             python,
@@ -272,6 +302,7 @@ impl MethodTable {
         for (key, given, means) in [
             ("config", config.is_some(), fields),
             ("set", !set.is_empty(), fields || competitor),
+            ("seeds", seeds.is_some(), fields),
             ("backend", backend.is_some(), fields),
             ("texture_size", texture_size.is_some(), if foreign { pictures } else { baseline }),
             ("gives", gives.is_some(), foreign),

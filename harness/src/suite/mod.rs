@@ -35,5 +35,5 @@ pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};
 pub use sources::{READER_SOURCES, SOLVER_SOURCES};
-pub use stages::{Export, contact_sheet, describe, export, relight, synth};
+pub use stages::{Budget, Export, budget, contact_sheet, describe, export, relight, synth};
 pub use tools::{Observer, Tools};

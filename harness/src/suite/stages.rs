@@ -99,6 +99,42 @@ pub fn relight(
     Ok(())
 }
 
+/// Which picture an error budget is of, and where it goes.
+pub struct Budget<'a> {
+    /// The capture with its truth.
+    pub capture: &'a Path,
+    /// The maps.
+    pub maps: &'a Path,
+    /// The budget's folder.
+    pub out: &'a Path,
+    /// The light; the capture's own if none.
+    pub light: Option<&'a str>,
+    /// The withheld view; the first if none.
+    pub view: Option<&'a str>,
+}
+
+/// Says which map makes how much of the error of a relit view, the diffuse albedo after one factor;
+/// the result is what it found.
+pub fn budget(
+    budget: &Budget,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<serde_json::Value, RunError> {
+    let Budget { capture, maps, out, light, view } = *budget;
+    atomic::refuse_overlap(out, &[capture, maps])?;
+    let factor = OsString::from(score::fit_scale(capture, maps)?.global.to_string());
+    let mut arguments = words(&[
+        ("--capture", capture.as_os_str()),
+        ("--maps", maps.as_os_str()),
+        ("--out", out.as_os_str()),
+        ("--factor", &factor),
+    ]);
+    for (flag, name) in [("--light", light), ("--view", view)] {
+        arguments.extend(name.into_iter().flat_map(|name| words(&[(flag, OsStr::new(name))])));
+    }
+    Ok(run_stage(&tools.interpreter, "budget", &arguments, &tools.interrupt, step)?)
+}
+
 /// Where maps go as an asset, and what decides how.
 pub struct Export<'a> {
     /// The maps' folder.

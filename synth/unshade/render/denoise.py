@@ -48,7 +48,7 @@ def denoised(layers: Layers, head: HeadScene, sensor, lens: Lens | None = None) 
         # Where no head is seen there is nothing, whatever a network makes of it.
         return np.where(normal.any(-1, keepdims=True), np.array(picture, np.float32).clip(0), 0).astype(np.float32)
 
-    return replace(layers, diffuse=clean(layers.diffuse), specular=clean(layers.specular))
+    return replace(layers, diffuse=clean(layers.diffuse), specular=clean(layers.specular), half=None)
 
 
 def _guides(head: HeadScene, sensor, lens: Lens | None) -> tuple[np.ndarray, np.ndarray]:

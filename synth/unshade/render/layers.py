@@ -15,6 +15,8 @@ class Layers:
     specular: np.ndarray
     variance: np.ndarray
     """Variance of the mean of the total."""
+    half: np.ndarray | None = None
+    """The total of one half of the samples, independent of the other; None where they were not so split."""
 
     @property
     def total(self) -> np.ndarray:
@@ -23,4 +25,5 @@ class Layers:
 
     def channels(self) -> dict[str, np.ndarray]:
         """The EXR channels that describe how the picture came about."""
-        return {"diffuse": self.diffuse, "specular": self.specular, "variance": self.variance}
+        halves = {} if self.half is None else {"half": self.half}
+        return {"diffuse": self.diffuse, "specular": self.specular, "variance": self.variance, **halves}

@@ -2,7 +2,7 @@
 
 The samples of a pixel are split over independent passes, each stratified in itself; the
 spread of the passes gives the variance of the mean that scoring needs for its noise
-floor. Sums run over blocks of neighbouring samples, never through atomics, so equal
+floor, and the mean of half of them what it needs to leave the noise out. Sums run over blocks of neighbouring samples, never through atomics, so equal
 seeds give equal bytes.
 """
 
@@ -91,7 +91,10 @@ def _render_bands(band, sensor, samples, seed, lens, progress) -> Layers:
     picture = np.concatenate(bands)
     mean = picture.mean(2).astype(np.float32)
     variance = (picture[..., :3] + picture[..., 3:]).var(2, ddof=1) / passes
-    return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32))
+    # Passes are independent of one another, so halves of them are; of an odd number none is half.
+    first = picture[:, :, : passes // 2].mean(2)
+    half = None if passes % 2 else (first[..., :3] + first[..., 3:]).astype(np.float32)
+    return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32), half)
 
 
 def _band(estimator, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:

@@ -24,6 +24,8 @@ SWITCH = "UNSHADE_RENDER_CACHE"
 
 LIMIT_BYTES = 4 << 30
 
+_PARTS = tuple(field.name for field in fields(Layers))
+
 
 class PictureStore:
     """``folder`` None keeps nothing."""
@@ -47,7 +49,7 @@ class PictureStore:
         path = self._path(key)
         try:
             with np.load(path, allow_pickle=False) as stored:
-                layers = Layers(**{field.name: stored[field.name] for field in fields(Layers)})
+                layers = Layers(**{name: stored[name] for name in _PARTS if name != "half" or name in stored})
             os.utime(path)
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
             return None
@@ -62,7 +64,8 @@ class PictureStore:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             with partial.open("wb") as file:
-                np.savez(file, **{field.name: getattr(layers, field.name) for field in fields(Layers)})
+                parts = {name: getattr(layers, name) for name in _PARTS}
+                np.savez(file, **{name: part for name, part in parts.items() if part is not None})
             os.replace(partial, path)
             self._make_room()
         except OSError as error:

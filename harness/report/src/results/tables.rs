@@ -1,6 +1,9 @@
 //! The Markdown tables: means over faces, single faces, and what the figures are.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use scoring::metrics::Metric;
+use scoring::study::interval;
 
 use super::figures::{Figure, Found, RelitIn, TABLES, mean, others};
 use super::finished::Finished;
@@ -52,6 +55,8 @@ struct Line<'a> {
     /// Whether it is marked where it is best.
     ranked: bool,
     columns: Vec<Column<'a>>,
+    /// The face of each.
+    faces: Vec<&'a str>,
 }
 
 /// The methods of a group, solvers first and the oracle last.
@@ -62,14 +67,18 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
         for column in page::columns(case, &run.scores[*index]) {
             let method = column.method;
             match lines.iter_mut().find(|(id, _)| *id == method.id) {
-                Some((_, line)) => line.columns.push(column),
+                Some((_, line)) => {
+                    line.columns.push(column);
+                    line.faces.push(&case.face);
+                }
                 None => {
                     let mut title = escape(method.title());
                     if !method.is_ranked() && method.kind != Kind::Oracle {
                         title = format!("{title} ({})", method.role());
                     }
                     let (kind, ranked) = (method.kind, method.is_ranked());
-                    let line = Line { title, kind, ranked, columns: vec![column] };
+                    let faces = vec![case.face.as_str()];
+                    let line = Line { title, kind, ranked, columns: vec![column], faces };
                     lines.push((&method.id, line));
                 }
             }
@@ -81,12 +90,12 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
 /// The means over the faces in one light.
 pub(super) fn means(run: &Finished, group: &Group) -> String {
     let lines = lines(run, group);
+    let faces = group.cases.iter().map(|index| &run.manifest.cases[*index].face);
+    let faces = faces.collect::<BTreeSet<_>>().len();
     let mut text = format!("\n### {}\n", escape(&group.title()));
     for (title, figures) in TABLES {
         // A figure that no method has (confidence of a baseline's run) is no column.
-        let found = |figure: &Figure, line: &Line| -> Vec<Found> {
-            line.columns.iter().filter_map(|column| figure.find(column, &group.light)).collect()
-        };
+        let found = |figure: &Figure, line: &Line| by_face(figure, line, &group.light);
         let shown: Vec<&Figure> = figures
             .iter()
             .filter(|f| lines.iter().any(|line| !found(f, line).is_empty()))
@@ -105,13 +114,28 @@ pub(super) fn means(run: &Finished, group: &Group) -> String {
         for (line, values) in lines.iter().zip(&values) {
             let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
                 let best = best.as_deref().filter(|_| line.ranked);
-                cell(figure, values, group.cases.len(), best)
+                cell(figure, values, faces, best)
             });
             text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
         }
-        text.push_str(&floor(&shown, &lines, &values, group.cases.len()));
+        text.push_str(&floor(&shown, &lines, &values, faces));
     }
     text
+}
+
+/// A figure of every face that has it, of several seeds the mean.
+fn by_face(figure: &Figure, line: &Line, light: &str) -> Vec<Found> {
+    let mut faces: BTreeMap<&str, Vec<Found>> = BTreeMap::new();
+    for (column, face) in line.columns.iter().zip(&line.faces) {
+        faces.entry(face).or_default().extend(figure.find(column, light));
+    }
+    faces.retain(|_, found| !found.is_empty());
+    let of_face = |seeds: &Vec<Found>| Found {
+        value: mean(seeds.iter().map(|found| found.value)).unwrap_or(f64::NAN),
+        against: mean(seeds.iter().filter_map(|found| found.against)),
+        floor: mean(seeds.iter().filter_map(|found| found.floor)),
+    };
+    faces.values().map(of_face).collect()
 }
 
 /// The name of a column; that of the other lights says which they are.
@@ -143,7 +167,8 @@ fn best<'a>(
     (means.len() > 1).then(|| table::shown(Some(best), figure.decimals))
 }
 
-/// Mean and range over the faces; beside a trivial answer also that, and the ratio of the two.
+/// Mean, half of its 95 % interval, and range over the faces; beside a trivial answer also that, and
+/// the ratio of the two.
 fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> String {
     let Some(value) = mean(values.iter().map(|found| found.value)) else {
         return table::EMPTY.to_owned();
@@ -172,6 +197,9 @@ fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> 
         ranged.iter().copied().max_by(f64::total_cmp),
     ) {
         let decimals = if figure.against.is_some() && pairs.is_some() { 0 } else { decimals };
+        if let Some([below, above]) = interval(&ranged) {
+            text.push_str(&format!(" ± {:.decimals$}", 0.5 * (above - below)));
+        }
         text.push_str(&format!(" ({low:.decimals$} … {high:.decimals$})"));
     }
     if missing > 0 {

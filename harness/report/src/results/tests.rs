@@ -64,26 +64,31 @@ fn means_and_ranges_are_over_the_faces() {
     two_faces(&root.path().join("run"), 1.0);
     let text = results(root.path(), &["run"]).unwrap();
     // The scores of the sample run: 32.04 dB after one factor, one less without, a dB more for eve.
+    // Student's t of two faces: 12.7 times .5 dB.
     let albedo = cells(&text, "flash light", "Diffuse albedo", UNSHADE);
-    assert_eq!(albedo, [UNSHADE, "**32.5** (32.0 … 33.0)", "**31.5** (31.0 … 32.0)"]);
+    assert_eq!(albedo, [UNSHADE, "**32.5** ± 6.4 (32.0 … 33.0)", "**31.5** ± 6.4 (31.0 … 32.0)"]);
     let pictures = cells(&text, "flash light", "Withheld views, PSNR in dB", UNSHADE);
     assert_eq!(
         pictures[1..],
-        ["36.5 (36.0 … 37.0)", "**32.5** (32.0 … 33.0)", "**33.5** (33.0 … 34.0)"]
+        [
+            "36.5 ± 6.4 (36.0 … 37.0)",
+            "**32.5** ± 6.4 (32.0 … 33.0)",
+            "**33.5** ± 6.4 (33.0 … 34.0)"
+        ]
     );
     // The oracle is better and wins nothing.
     let oracle = cells(&text, "flash light", "Diffuse albedo", ORACLE);
-    assert_eq!(oracle[1], "54.5 (54.0 … 55.0)");
+    assert_eq!(oracle[1], "54.5 ± 6.4 (54.0 … 55.0)");
     // 4 degrees where the mesh has 3.5, then 5 and 4.5.
     let normals = cells(&text, "uniform light", "Normals and specular parts", UNSHADE);
     assert!(normals[1].starts_with("4.50 / 4.00 = 11"), "{normals:?}");
-    assert!(normals[1].ends_with(" % (111 … 114)"), "{normals:?}");
+    assert!(normals[1].ends_with(" % ± 20 (111 … 114)"), "{normals:?}");
     let baseline = cells(&text, "uniform light", "Normals and specular parts", BASELINE);
     assert_eq!(baseline[1], "–");
     assert!(text.contains("maps relit, other lights (uniform)"));
     // The floors of the sample oracle are 1.3 times its values, alike for both faces.
     let floor = cells(&text, "flash light", "Withheld views, PSNR in dB", "noise floor");
-    assert_eq!(floor[2], "70.2 (70.2 … 70.2)");
+    assert_eq!(floor[2], "70.2 ± 0.0 (70.2 … 70.2)");
     assert_eq!(text.matches("\n### demo\n").count() + text.matches("\n### eve\n").count(), 2);
     assert!(text.contains("Maps are compared in texture space."), "the protocol");
 }

@@ -14,6 +14,8 @@
 //! ```
 
 mod colour;
+mod compatible;
+mod correlation;
 mod error;
 mod filter;
 mod neighbourhood;
@@ -27,6 +29,8 @@ mod scale;
 mod statistic;
 
 pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
+pub use compatible::Protocol;
+pub use correlation::block_side;
 pub use error::MetricError;
 pub(crate) use filter::gaussian;
 pub use pair::Pair;

@@ -60,6 +60,17 @@ pub(super) fn high_pass(pair: &Pair) -> Vec<f64> {
     (0..x.len()).flat_map(|i| [x[i] - low_x[i], y[i] - low_y[i]]).collect()
 }
 
+/// Log luminance of prediction and truth between Gaussian means of `sigma` and of twice that,
+/// interleaved.
+pub(super) fn band(pair: &Pair, sigma: f64) -> Vec<f64> {
+    let (x, y) = log_luminances(pair);
+    let between = |values: &[f64]| -> Vec<f64> {
+        let (fine, coarse) = (mean_of(pair, values, sigma), mean_of(pair, values, 2.0 * sigma));
+        fine.iter().zip(&coarse).map(|(fine, coarse)| fine - coarse).collect()
+    };
+    between(&x).into_iter().zip(between(&y)).flat_map(|(x, y)| [x, y]).collect()
+}
+
 /// Low-pass difference of the log luminances.
 pub(super) fn low_pass_error(pair: &Pair) -> Vec<f64> {
     let (x, y) = log_luminances(pair);
@@ -80,8 +91,11 @@ pub(super) fn log(luminance: f64) -> f64 {
 
 /// A Gaussian mean over the pixels of the region alone.
 fn low_pass(pair: &Pair, values: &[f64]) -> Vec<f64> {
+    mean_of(pair, values, SPLIT * pair.region.size().0 as f64)
+}
+
+fn mean_of(pair: &Pair, values: &[f64], sigma: f64) -> Vec<f64> {
     let (width, height) = pair.region.size();
-    let sigma = SPLIT * width as f64;
     let radius = (3.0 * sigma).ceil() as usize;
     let spread = |of: &dyn Fn(usize) -> f64| {
         let mut picture = vec![0.0; width * height];

@@ -15,6 +15,7 @@ pub struct Pair<'a> {
     pub(super) labels: Option<&'a GrayImage>,
     pub(super) cause: Option<&'a Picture>,
     pub(super) confidence: Option<&'a Picture>,
+    pub(super) halves: Option<[&'a Picture; 2]>,
 }
 
 impl<'a> Pair<'a> {
@@ -42,6 +43,7 @@ impl<'a> Pair<'a> {
             labels: None,
             cause: None,
             confidence: None,
+            halves: None,
         })
     }
 
@@ -58,7 +60,8 @@ impl<'a> Pair<'a> {
         Ok(self)
     }
 
-    /// What may have leaked into the prediction (`leakage_*`): the true shading or specular layer.
+    /// What may have leaked into the prediction (`leakage_*`), the true shading or specular layer; for
+    /// `relief_invented` the mesh's normals.
     pub fn with_cause(mut self, cause: &'a Picture) -> Result<Self, MetricError> {
         check_size("leaking layer", (cause.width, cause.height), self.truth)?;
         check_finite("leaking layer", cause, self.region)?;
@@ -78,6 +81,26 @@ impl<'a> Pair<'a> {
         Ok(self)
     }
 
+    /// The means of one half of the samples of prediction and truth, of pictures whose halves are
+    /// independent; a picture without noise is its own half.
+    pub fn with_halves(
+        mut self,
+        prediction: &'a Picture,
+        truth: &'a Picture,
+    ) -> Result<Self, MetricError> {
+        for (what, half) in [("half of the prediction", prediction), ("half of the truth", truth)] {
+            check_size(what, (half.width, half.height), self.truth)?;
+            let found = half.channels;
+            if found != self.truth.channels {
+                let expected = "as many as the truth's";
+                return Err(MetricError::Channels { metric: "a half", expected, found });
+            }
+            check_finite(what, half, self.region)?;
+        }
+        self.halves = Some([prediction, truth]);
+        Ok(self)
+    }
+
     /// The region.
     pub fn region(&self) -> &'a Region {
         self.region
@@ -85,8 +108,17 @@ impl<'a> Pair<'a> {
 
     /// The scaled prediction's channels at a row-major pixel index.
     pub(super) fn predicted(&self, index: usize) -> impl Iterator<Item = f64> {
+        self.scaled_channels(self.prediction, index)
+    }
+
+    /// Any picture's channels, scaled as the prediction's are.
+    pub(super) fn scaled_channels(
+        &self,
+        picture: &'a Picture,
+        index: usize,
+    ) -> impl Iterator<Item = f64> {
         let factors = self.factor.iter().cycle();
-        self.channels(self.prediction, index).zip(factors).map(|(value, factor)| value * factor)
+        self.channels(picture, index).zip(factors).map(|(value, factor)| value * factor)
     }
 
     /// The truth's channels at a row-major pixel index.
@@ -115,10 +147,21 @@ impl<'a> Pair<'a> {
         Some(self.region.pixels().iter().map(|i| f64::from(data[*i])).collect())
     }
 
-    fn channels(&self, picture: &'a Picture, index: usize) -> impl Iterator<Item = f64> + use<'a> {
+    pub(super) fn channels(
+        &self,
+        picture: &'a Picture,
+        index: usize,
+    ) -> impl Iterator<Item = f64> + use<'a> {
         let channels = picture.channels;
         picture.data[index * channels..(index + 1) * channels].iter().map(|v| f64::from(*v))
     }
+}
+
+/// The three channels of a colour or a vector.
+pub(super) fn triple(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let mut triple = [0.0; 3];
+    triple.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
+    triple
 }
 
 fn check_size(

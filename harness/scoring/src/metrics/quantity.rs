@@ -1,9 +1,10 @@
 //! What a metric measures at every pixel of a region.
 
 use super::colour::{ciede2000, lab, srgb, typology_angle};
-use super::neighbourhood::{flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::neighbourhood::{band, flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::pair::triple;
 use super::rank::{ranks, upper_half};
-use super::{MetricError, Pair};
+use super::{MetricError, Pair, Protocol};
 
 /// Keeps the relative squared error finite in the dark.
 pub const RELATIVE_OFFSET: f64 = 0.01;
@@ -48,7 +49,27 @@ pub enum Quantity {
     /// (Twice the size of the difference of the log luminances where the confidence is in its upper
     /// half, the same everywhere), whose ratio is that of their means.
     TrustedAndWholeError,
+    /// Mean over the channels of (a - b)(a' - b'), a and b being independent halves of the samples
+    /// of prediction and truth, a' and b' the others: the squared error without what noise adds.
+    CrossProduct,
+    /// The same of sRGB values in [0, 1], whose curve is bent by the noise of a half.
+    CrossProductSrgb,
+    /// Angle between two colours, degrees; 90 where one of them is black.
+    ColourAngle,
+    /// Difference of the log luminances.
+    LogError,
+    /// Its square.
+    SquaredLogError,
+    /// (Log luminance of p, of g), of what lies between Gaussians of so many texels and of twice that.
+    Band(u8),
+    /// (Angle between p and the mesh's normal where the truth has the mesh's, 1 there), else zeros.
+    InventedRelief,
+    /// The squared error of another benchmark's protocol.
+    Compatible(Protocol),
 }
+
+/// Where the truth is flat: within this of the mesh's normal, degrees.
+const FLAT_DEGREES: f64 = 0.5;
 
 impl Quantity {
     /// What it compares with beside prediction and truth; as an argument is named in Python.
@@ -58,6 +79,8 @@ impl Quantity {
             Self::LogErrorAndCause => Some("shading"),
             Self::ErrorAndCause => Some("specular"),
             Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
+            Self::CrossProduct | Self::CrossProductSrgb => Some("halves"),
+            Self::InventedRelief => Some("mesh_normal"),
             Self::SquaredError
             | Self::SquaredErrorSrgb
             | Self::RelativeSquaredError
@@ -70,6 +93,11 @@ impl Quantity {
             | Self::Ranks
             | Self::Projection
             | Self::HighPass
+            | Self::ColourAngle
+            | Self::LogError
+            | Self::SquaredLogError
+            | Self::Band(_)
+            | Self::Compatible(_)
             | Self::LowPassError => None,
         }
     }
@@ -77,18 +105,26 @@ impl Quantity {
     /// The colour space, or the unit, of the values that are compared; as reports show it.
     pub fn space(self) -> &'static str {
         match self {
-            Self::SquaredError | Self::RelativeSquaredError | Self::Ranks | Self::Projection => {
-                "linear"
-            }
-            Self::SquaredErrorSrgb => "sRGB clipped to [0, 1]",
+            Self::SquaredError
+            | Self::RelativeSquaredError
+            | Self::Ranks
+            | Self::Projection
+            | Self::CrossProduct
+            | Self::ColourAngle => "linear",
+            Self::Compatible(Protocol::OrbHdr | Protocol::OrbAlbedo) => "linear, as there",
+            Self::Compatible(_) => "gamma, as there",
+            Self::SquaredErrorSrgb | Self::CrossProductSrgb => "sRGB clipped to [0, 1]",
             Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
             Self::ColourDifference | Self::Typology => "L*a*b*, D65",
-            Self::Angle => "object space",
+            Self::Angle | Self::InventedRelief => "object space",
             Self::HighPass
             | Self::WithinLabel
             | Self::LowPassError
             | Self::LogErrorAndCause
             | Self::TrustAndErrorRanks
+            | Self::LogError
+            | Self::SquaredLogError
+            | Self::Band(_)
             | Self::TrustedAndWholeError => "log luminance",
             Self::Luminance | Self::ErrorAndCause => "linear luminance",
         }
@@ -111,7 +147,7 @@ impl Quantity {
             }
             Self::Ssim => ssim(pair),
             Self::Flip => flip(pair),
-            Self::Angle => triples(pair, angle_degrees),
+            Self::Angle | Self::ColourAngle => triples(pair, angle_degrees),
             Self::ColourDifference => triples(pair, |p, g| ciede2000(lab(p), lab(g))),
             Self::Typology => pixels(pair)
                 .flat_map(|i| {
@@ -159,6 +195,31 @@ impl Quantity {
                     pixels(pair).map(|i| pair.predicted_luminance(i) - pair.true_luminance(i));
                 errors.zip(cause).flat_map(|(error, cause)| [error, cause]).collect()
             }
+            Self::CrossProduct | Self::CrossProductSrgb => {
+                let curve: fn(f64) -> f64 =
+                    if self == Self::CrossProduct { |value| value } else { srgb };
+                cross_products(pair, curve)
+                    .ok_or_else(|| needs("halves of the samples of both pictures"))?
+            }
+            Self::Compatible(protocol) => protocol.errors(pair),
+            Self::LogError => signed_log_errors(pair).collect(),
+            Self::SquaredLogError => signed_log_errors(pair).map(|error| error * error).collect(),
+            Self::Band(texels) => {
+                let mut bands = band(pair, f64::from(texels));
+                bands.iter_mut().for_each(drop_rounding);
+                bands
+            }
+            Self::InventedRelief => {
+                let mesh = pair.cause.ok_or_else(|| needs("the mesh's normals"))?;
+                pixels(pair)
+                    .flat_map(|i| {
+                        let [p, g] = [triple(pair.predicted(i)), triple(pair.true_values(i))];
+                        let mesh = triple(pair.channels(mesh, i));
+                        let flat = f64::from(angle_degrees(g, mesh) < FLAT_DEGREES);
+                        [flat * angle_degrees(p, mesh), flat]
+                    })
+                    .collect()
+            }
             Self::TrustAndErrorRanks => {
                 let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
                 let errors = ranks(&log_errors(pair));
@@ -176,7 +237,13 @@ impl Quantity {
     fn check_channels(self, pair: &Pair, metric: &'static str) -> Result<(), MetricError> {
         let found = pair.truth.channels;
         let (expected, right) = match self {
-            Self::Flip | Self::Angle | Self::ColourDifference | Self::Typology => ("3", found == 3),
+            Self::Flip
+            | Self::Angle
+            | Self::ColourAngle
+            | Self::InventedRelief
+            | Self::Compatible(_)
+            | Self::ColourDifference
+            | Self::Typology => ("3", found == 3),
             Self::SquaredError
             | Self::SquaredErrorSrgb
             | Self::RelativeSquaredError
@@ -190,6 +257,11 @@ impl Quantity {
             | Self::LogErrorAndCause
             | Self::ErrorAndCause
             | Self::TrustAndErrorRanks
+            | Self::CrossProduct
+            | Self::CrossProductSrgb
+            | Self::LogError
+            | Self::SquaredLogError
+            | Self::Band(_)
             | Self::TrustedAndWholeError => ("1 or 3", found == 1 || found == 3),
         };
         if right { Ok(()) } else { Err(MetricError::Channels { metric, expected, found }) }
@@ -211,18 +283,31 @@ fn per_channel(pair: &Pair, error: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 }
 
 fn log_errors(pair: &Pair) -> Vec<f64> {
+    signed_log_errors(pair).map(f64::abs).collect()
+}
+
+fn signed_log_errors(pair: &Pair) -> impl Iterator<Item = f64> {
     let (x, y) = log_luminances(pair);
-    x.iter().zip(&y).map(|(x, y)| (x - y).abs()).collect()
+    x.into_iter().zip(y).map(|(x, y)| x - y)
+}
+
+/// None without halves. The other half of a picture is what its mean has beside the first.
+fn cross_products(pair: &Pair, curve: fn(f64) -> f64) -> Option<Vec<f64>> {
+    let [half_p, half_g] = pair.halves?;
+    let channels = pair.truth.channels;
+    let of_pixel = |i: usize| {
+        let both = pair.predicted(i).zip(pair.true_values(i));
+        let halves = pair.scaled_channels(half_p, i).zip(pair.channels(half_g, i));
+        let products = both.zip(halves).map(|((p, g), (a, b))| {
+            (curve(a) - curve(b)) * (curve(2.0 * p - a) - curve(2.0 * g - b))
+        });
+        products.sum::<f64>() / channels as f64
+    };
+    Some(pixels(pair).map(of_pixel).collect())
 }
 
 fn triples(pair: &Pair, compare: impl Fn([f64; 3], [f64; 3]) -> f64) -> Vec<f64> {
     pixels(pair).map(|i| compare(triple(pair.predicted(i)), triple(pair.true_values(i)))).collect()
-}
-
-fn triple(values: impl Iterator<Item = f64>) -> [f64; 3] {
-    let mut triple = [0.0; 3];
-    triple.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
-    triple
 }
 
 /// By the arc tangent: the arc cosine is flat where the angle is small.

@@ -1,5 +1,6 @@
 //! Every metric, stated once: the scores, the report, the comparison and Python read this list.
 
+use super::compatible::Protocol as P;
 use super::quantity::Quantity as Q;
 use super::statistic::Statistic as S;
 use super::{MetricError, Pair};
@@ -162,6 +163,48 @@ pub static METRICS: &[Metric] = metrics! {
     "sparsification", "Error of the trusted half", "", Lower, Q::TrustedAndWholeError, S::Ratio,
         "mean |difference of the log luminances| of the half with the highest confidence / that of all, luminances below .001 raised to it; equal confidences share the half's last places: 1 if confidence says nothing",
         "https://arxiv.org/abs/1802.07095";
+    "psnr_lin_unbiased", "PSNR without noise, linear", "dB", Higher, Q::CrossProduct, S::UnbiasedPsnr,
+        "-10 log10 of the mean over pixels and channels of (a-b)(a'-b') of linear values, a and b being the means of independent halves of the samples of p and g, a' and b' those of the others: what noise adds to (p-g)² has the mean 0 in it; peak 1; 100 where nothing is left",
+        "https://en.wikipedia.org/wiki/Mean_squared_error";
+    "psnr_srgb_unbiased", "PSNR without noise", "dB", Higher, Q::CrossProductSrgb, S::UnbiasedPsnr,
+        "-10 log10 of the mean over pixels and channels of (a-b)(a'-b') of sRGB values clipped to [0, 1], a and b being the means of independent halves of the samples of p and g, a' and b' those of the others; the curve of noisy values is bent, and unequal noise of p and g leaves a bias; peak 1; 100 where nothing is left",
+        "https://en.wikipedia.org/wiki/Mean_squared_error";
+    "chromaticity_deg", "Chromaticity error", "°", Lower, Q::ColourAngle, S::Mean,
+        "mean angle between the linear colours p and g, whatever their intensity; 90 where one is black",
+        "https://en.wikipedia.org/wiki/Color_constancy";
+    "log_rmse", "Log error after one factor", "", Lower, Q::LogError, S::Spread,
+        "standard deviation of the difference of the log luminances, which is their RMSE after the one factor that makes it least; luminances below .001 raised to it",
+        "https://arxiv.org/abs/1406.2283";
+    "log_ratio_rms", "Log ratio", "", Lower, Q::SquaredLogError, S::RootMean,
+        "square root of the mean of ln(p/g)²; values below .001 raised to it",
+        "https://en.wikipedia.org/wiki/Root_mean_square_deviation";
+    "detail_slope_1_2", "Detail at 1 to 2 texels", "", One, Q::Band(1), S::Slope,
+        "slope of the regression of p on g, both log luminances between Gaussian means over the region of sigma 1 and 2 texels, cut off at 3 sigma; luminances below .001 raised to it",
+        "https://en.wikipedia.org/wiki/Difference_of_Gaussians";
+    "detail_slope_2_4", "Detail at 2 to 4 texels", "", One, Q::Band(2), S::Slope,
+        "slope of the regression of p on g, both log luminances between Gaussian means over the region of sigma 2 and 4 texels, cut off at 3 sigma; luminances below .001 raised to it",
+        "https://en.wikipedia.org/wiki/Difference_of_Gaussians";
+    "relief_invented", "Invented relief", "°", Lower, Q::InventedRelief, S::Ratio,
+        "mean angle between p and the mesh's normal where g is within .5° of it; none where g is so nowhere",
+        "https://arxiv.org/abs/1411.4734";
+    "direction_mean_deg", "Direction error", "°", Lower, Q::Angle, S::Mean,
+        "mean angle between two directions",
+        "https://arxiv.org/abs/1411.4734";
+    "orb_psnr_h", "PSNR-H of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbHdr), S::PsnrOfPictures,
+        "as in Stanford-ORB: p after one factor per channel, both times mean(sRGB of g) / mean(g), clipped to [0, 4], linear; the squared error is divided by the whole frame, background included; no less than the PSNR of a picture of .5; mean over pictures",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "orb_psnr_l", "PSNR-L of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbLdr), S::PsnrOfPictures,
+        "as in Stanford-ORB: p after one factor per channel, sRGB values in [0, 1]; the squared error is divided by the whole frame, background included; no less than the PSNR of a picture of .5; mean over pictures",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "orb_albedo_psnr", "Albedo PSNR of Stanford-ORB", "dB", Higher, Q::Compatible(P::OrbAlbedo), S::PsnrOfPictures,
+        "as in Stanford-ORB, the frame being the texture: p after one factor per channel, linear values in [0, 1]; the squared error is divided by the whole frame; no less than the PSNR of a picture of .5",
+        "https://github.com/StanfordORB/Stanford-ORB";
+    "owl_psnr", "PSNR of objects-with-lighting", "dB", Higher, Q::Compatible(P::ObjectsWithLighting), S::PsnrOfPictures,
+        "as in objects-with-lighting: values to the power 1/2.2 in [0, 1], g of 8 bits; the exposure of p, then a factor from .5 to 2 for each channel, with the least mean absolute error where g is not overexposed; mean over pictures",
+        "https://github.com/isl-org/objects-with-lighting";
+    "nerfactor_albedo_psnr", "Albedo PSNR of NeRFactor", "dB", Higher, Q::Compatible(P::NerfactorAlbedo), S::PsnrOfPictures,
+        "as in NeRFactor, the frame being the texture: p after one factor per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared error is divided by the whole frame",
+        "https://github.com/google/nerfactor";
 };
 
 /// What is scored of what, in the order of the rows. A metric in none of these has no row, which
@@ -179,7 +222,28 @@ pub(crate) mod scored {
         "flip_p95",
     ];
     /// Of the diffuse albedo, blind to its scale.
-    pub(crate) const ALBEDO_UNSCALED: [&str; 4] = ["scale_global", "hc", "wcorr", "lp"];
+    pub(crate) const ALBEDO_UNSCALED: [&str; 6] =
+        ["scale_global", "hc", "wcorr", "lp", "chromaticity_deg", "log_rmse"];
+    /// Of the diffuse albedo's skin, blind to its scale.
+    pub(crate) const DETAIL: [&str; 2] = ["detail_slope_1_2", "detail_slope_2_4"];
+    /// Of a normal map, beside the mesh's.
+    pub(crate) const RELIEF: [&str; 1] = ["relief_invented"];
+    /// Of the roughness.
+    pub(crate) const ROUGHNESS: [&str; 1] = ["log_ratio_rms"];
+    /// Of a view or a relit picture, by independent halves of its samples.
+    pub(crate) const UNBIASED: [&str; 2] = ["psnr_lin_unbiased", "psnr_srgb_unbiased"];
+    /// Of a view or a relit picture as it is, on the eroded mask and on the whole mask: as others score.
+    pub(crate) const COMPATIBLE: [&str; 2] = ["orb_psnr_h", "orb_psnr_l"];
+    pub(crate) const COMPATIBLE_WHOLE: [&str; 1] = ["owl_psnr"];
+    /// Of the diffuse albedo, on the eroded and on the whole coverage: as others score.
+    pub(crate) const COMPATIBLE_ALBEDO: [&str; 1] = ["orb_albedo_psnr"];
+    pub(crate) const COMPATIBLE_ALBEDO_WHOLE: [&str; 1] = ["nerfactor_albedo_psnr"];
+    /// Of the light's brightest directions.
+    pub(crate) const PEAKS: [&str; 1] = ["direction_mean_deg"];
+    /// Of the light, in equal solid angles.
+    pub(crate) const LIGHT: [&str; 1] = ["log_rmse"];
+    /// Of a sphere in the light; the last of one that no place of which is black.
+    pub(crate) const SPHERE: [&str; 3] = ["psnr_srgb", "log_rmse", "chromaticity_deg"];
     /// Of the diffuse albedo, against the true diffuse shading and the true specular layer.
     pub(crate) const LEAKAGE: [&str; 2] = ["leakage_shading", "leakage_specular"];
     /// Of the diffuse albedo in one label region; the last of skin alone.

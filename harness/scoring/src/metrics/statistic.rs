@@ -23,6 +23,11 @@ pub enum Statistic {
     Mean,
     /// -10 log10 of the mean of x, peak 1.
     Psnr,
+    /// The same of products that may be negative: where their mean is not positive no error is left,
+    /// which is 100 dB.
+    UnbiasedPsnr,
+    /// Mean over the pictures of the PSNR of each; its interval is that of faces, not of pixels.
+    PsnrOfPictures,
     /// Square root of the mean of x.
     RootMean,
     /// Standard deviation of x.
@@ -39,6 +44,8 @@ pub enum Statistic {
     Correlation,
     /// Its square: the share of the variance of x that a line in y explains.
     Explained,
+    /// Slope of the line in y that fits x best: covariance of both over the variance of y.
+    Slope,
 }
 
 /// The values of one picture: `arity` (1: x, 2: x and y) of them per pixel of the region, and
@@ -55,9 +62,15 @@ impl Statistic {
     /// Values per pixel.
     pub fn arity(self) -> usize {
         match self {
-            Self::MeanDifference | Self::Ratio | Self::Correlation | Self::Explained => 2,
+            Self::MeanDifference
+            | Self::Ratio
+            | Self::Correlation
+            | Self::Explained
+            | Self::Slope => 2,
             Self::Mean
             | Self::Psnr
+            | Self::UnbiasedPsnr
+            | Self::PsnrOfPictures
             | Self::RootMean
             | Self::Spread
             | Self::Below(_)
@@ -73,6 +86,12 @@ impl Statistic {
             values.sort_unstable_by(f64::total_cmp);
             return quantile(&values, share);
         }
+        if self == Self::PsnrOfPictures {
+            let each: Option<Vec<f64>> =
+                samples.map(|values| Self::Psnr.value(std::iter::once(values))).collect();
+            let each = each.filter(|each| !each.is_empty())?;
+            return Some(each.iter().sum::<f64>() / each.len() as f64);
+        }
         let mut sums = Sums::default();
         samples.for_each(|values| {
             values.chunks_exact(self.arity()).for_each(|value| sums.add(self.terms(value)));
@@ -87,6 +106,9 @@ impl Statistic {
     pub fn interval(self, samples: &[Sample]) -> Option<[f64; 2]> {
         if let Self::Quantile(share) = self {
             return quantile_interval(samples, share);
+        }
+        if self == Self::PsnrOfPictures {
+            return None;
         }
         let mut blocks: Vec<Sums> = Vec::new();
         for sample in samples {
@@ -114,11 +136,16 @@ impl Statistic {
             Self::Below(limit) => [f64::from(x < limit), 0.0, 0.0, 0.0, 0.0],
             Self::Spread => [x, x * x, 0.0, 0.0, 0.0],
             Self::MeanDifference | Self::Ratio => [x, value[1], 0.0, 0.0, 0.0],
-            Self::Correlation | Self::Explained => {
+            Self::Correlation | Self::Explained | Self::Slope => {
                 let y = value[1];
                 [x, y, x * x, y * y, x * y]
             }
-            Self::Mean | Self::Psnr | Self::RootMean | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
+            Self::Mean
+            | Self::Psnr
+            | Self::UnbiasedPsnr
+            | Self::PsnrOfPictures
+            | Self::RootMean
+            | Self::Quantile(_) => [x, 0.0, 0.0, 0.0, 0.0],
         }
     }
 
@@ -129,7 +156,9 @@ impl Statistic {
         let [a, b, c, d, e] = sums.terms.map(|term| term / sums.count);
         let value = match self {
             Self::Mean | Self::Below(_) => Some(a),
-            Self::Psnr => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::Psnr | Self::PsnrOfPictures => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::UnbiasedPsnr if a > 0.0 => Some((-10.0 * a.log10()).min(MAX_PSNR)),
+            Self::UnbiasedPsnr => Some(MAX_PSNR),
             Self::RootMean => Some(a.sqrt()),
             Self::Spread => Some(variance(a, b).sqrt()),
             Self::MeanDifference => Some((a - b).abs()),
@@ -141,6 +170,10 @@ impl Statistic {
                 }
                 let r = ((e - a * b) / (x * y).sqrt()).clamp(-1.0, 1.0);
                 Some(if self == Self::Correlation { r } else { r * r })
+            }
+            Self::Slope => {
+                let y = variance(b, d);
+                (y > 0.0).then(|| (e - a * b) / y)
             }
             Self::Quantile(_) => None,
         };

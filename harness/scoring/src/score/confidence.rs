@@ -5,7 +5,6 @@ use std::path::Path;
 use formats::picture::{self, Content, Picture};
 
 use super::ScoreError;
-use super::protocol::MAP_BLOCK;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::Row;
 use super::truth::Truth;
@@ -34,8 +33,7 @@ pub(super) fn rows_of_confidence(
         .and_then(|pair| pair.with_confidence(&confidence))
         .map_err(wrong)?;
     let scale = ScaleMode::Global.id();
-    let heading =
-        Heading { subject: "confidence", light: None, scale, label: None, block: MAP_BLOCK };
+    let heading = Heading { subject: "confidence", light: None, scale, label: None };
     rows(heading, &scored::CONFIDENCE, &[Compared { frame: None, pair }], &Floors::new())
 }
 

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use capture::Capture;
 use capture::mean_texture::mean_texture;
+use capture::{Capture, Mesh};
 use formats::picture::Picture;
 
 use super::ScoreError;
@@ -22,6 +22,8 @@ pub(super) struct Geometry {
     pub shading: Picture,
     /// True specular layer.
     pub specular: Picture,
+    /// Side of a texel on the face, millimetres: the root of the mean area.
+    pub texel_mm: f64,
 }
 
 impl Geometry {
@@ -54,6 +56,19 @@ impl Geometry {
             *value /= albedo.max(DARKEST_ALBEDO);
         }
         let (specular, _) = reproject(specular)?;
-        Ok(Self { mesh_normal, shading, specular })
+        let texel_mm = texel_side(&capture.mesh) * 1000.0 / side as f64;
+        Ok(Self { mesh_normal, shading, specular, texel_mm })
     }
+}
+
+/// Side of the square on the surface that has as much area as the whole texture, if all of it were
+/// as the chart is, metres.
+fn texel_side(mesh: &Mesh) -> f64 {
+    let areas = mesh.triangles.iter().map(|corners| {
+        let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
+        let [p, q, r] = corners.map(|corner| mesh.uvs[corner as usize].as_dvec2());
+        ((b - a).cross(c - a).length(), (q - p).perp_dot(r - p).abs())
+    });
+    let (surface, chart) = areas.fold((0.0, 0.0), |(s, c), (area, uv)| (s + area, c + uv));
+    if chart > 0.0 { (surface / chart).sqrt() } else { 0.0 }
 }

@@ -5,10 +5,9 @@ use formats::picture::{GrayImage, Picture};
 
 use super::ScoreError;
 use super::geometry::Geometry;
-use super::protocol::MAP_BLOCK;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
-use super::truth::{LABELS, Truth};
+use super::truth::{LABELS, Truth, mean_alpha};
 use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample, scored};
 
 /// The rows of every map that `maps` has, and of the trivial answers.
@@ -40,19 +39,32 @@ pub(super) fn rows_of_maps(
         &truth.specular_albedo,
         truth,
     )?);
+    if let Some(roughness) = &maps.roughness {
+        let alpha = fit_to(&mean_alpha(roughness), truth);
+        all.extend(map_rows("roughness", &scored::ROUGHNESS, &alpha, &truth.roughness, truth)?);
+    }
+    let constant = constant_ratio(&truth.roughness, &truth.region);
+    all.extend(map_rows(
+        "constant_roughness",
+        &scored::ROUGHNESS,
+        &constant,
+        &truth.roughness,
+        truth,
+    )?);
     for (subject, trivial, map, true_normal) in [
         ("specular_normal", "mesh_specular_normal", &maps.specular_normal, &truth.specular_normal),
         ("diffuse_normal", "mesh_diffuse_normal", &maps.diffuse_normal, &truth.diffuse_normal),
     ] {
         if let Some(normal) = map {
             // Angles do not depend on length, so nothing is left to renormalise.
-            all.extend(map_rows(
-                subject,
-                &scored::NORMAL,
-                &fit_to(normal, truth),
-                true_normal,
-                truth,
-            )?);
+            let normal = fit_to(normal, truth);
+            all.extend(map_rows(subject, &scored::NORMAL, &normal, true_normal, truth)?);
+            let pair = Pair::new(&normal, true_normal, &truth.region)
+                .and_then(|pair| pair.with_cause(&geometry.mesh_normal))
+                .map_err(ScoreError::of(subject))?;
+            let compared = [Compared { frame: None, pair }];
+            let heading = heading(subject, ScaleMode::None);
+            all.extend(rows(heading, &scored::RELIEF, &compared, &Floors::new())?);
         }
         all.extend(map_rows(trivial, &scored::NORMAL, &geometry.mesh_normal, true_normal, truth)?);
     }
@@ -116,6 +128,12 @@ fn albedo_rows(
         None,
         pair(&truth.region, ScaleMode::None).map_err(&wrong)?,
     )?;
+    let whole = Region::of_mask("coverage", &truth.coverage).map_err(&wrong)?;
+    for (metrics, region) in
+        [(&scored::COMPATIBLE_ALBEDO, &truth.region), (&scored::COMPATIBLE_ALBEDO_WHOLE, &whole)]
+    {
+        add(metrics, ScaleMode::None, None, pair(region, ScaleMode::None).map_err(&wrong)?)?;
+    }
     for (metric, cause) in scored::LEAKAGE.iter().zip([&geometry.shading, &geometry.specular]) {
         let aligned = pair(&truth.region, ScaleMode::Global);
         let pair = aligned.and_then(|pair| pair.with_cause(cause)).map_err(&wrong)?;
@@ -126,6 +144,10 @@ fn albedo_rows(
             let metrics: &[&str] =
                 if *label == Some("skin") { &scored::PART } else { &scored::PART[..2] };
             add(metrics, mode, *label, pair(region, mode).map_err(&wrong)?)?;
+        }
+        if *label == Some("skin") {
+            let pair = pair(region, ScaleMode::None).map_err(&wrong)?;
+            add(&scored::DETAIL, ScaleMode::None, *label, pair)?;
         }
     }
     Ok(all)
@@ -154,7 +176,7 @@ fn map_rows(
 }
 
 fn heading(subject: &str, mode: ScaleMode) -> Heading<'_> {
-    Heading { subject, light: None, scale: mode.id(), label: None, block: MAP_BLOCK }
+    Heading { subject, light: None, scale: mode.id(), label: None }
 }
 
 fn fit_to(map: &Picture, truth: &Truth) -> Picture {
@@ -166,5 +188,12 @@ fn fit_to(map: &Picture, truth: &Truth) -> Picture {
 fn constant(map: &Picture, region: &Region) -> Picture {
     let sum: f64 = region.pixels().iter().map(|i| f64::from(map.data[*i])).sum();
     let mean = (sum / region.pixels().len() as f64) as f32;
+    Picture { data: vec![mean; map.data.len()], ..map.clone() }
+}
+
+/// The constant map with the smallest squared log ratio: the geometric mean of the truth.
+fn constant_ratio(map: &Picture, region: &Region) -> Picture {
+    let logs = region.pixels().iter().map(|i| f64::from(map.data[*i]).max(1e-3).ln());
+    let mean = (logs.sum::<f64>() / region.pixels().len() as f64).exp() as f32;
     Picture { data: vec![mean; map.data.len()], ..map.clone() }
 }

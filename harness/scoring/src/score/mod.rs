@@ -4,6 +4,9 @@ mod confidence;
 mod error;
 mod geometry;
 mod label_means;
+mod light;
+mod light_cells;
+mod light_spheres;
 mod maps;
 mod names;
 mod noise_floor;
@@ -72,17 +75,20 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
     if let Some((albedo, scale)) = found.diffuse_albedo.as_ref().zip(scale.as_ref()) {
         rows.extend(confidence::rows_of_confidence(maps, albedo, &truth, scale)?);
     }
+    rows.extend(light::rows_of_light(capture, maps)?);
     rows.extend(views);
     rows.extend(relit_rows);
     let hash = |path: &Path| hash_path(path).map_err(|error| ScoreError::io(path, error));
     let inputs =
         Inputs { capture: hash(capture)?, maps: hash(maps)?, relit: relit.map(hash).transpose()? };
-    let mut regions = vec![maps::region_size(&truth, found.coverage.as_ref())];
+    let of_maps = maps::region_size(&truth, found.coverage.as_ref());
+    let mut regions = vec![RegionSize { texel_mm: Some(geometry.texel_mm), ..of_maps }];
     regions.extend(frames.iter().map(Frame::region_size));
     Ok(Scores {
         format: Scores::FORMAT,
         capture: name_of(capture),
         face,
+        skin_tone: truth.skin_tone(),
         light,
         solver: solver_name(maps)?,
         protocol,

@@ -45,6 +45,7 @@ pub(super) fn score(
         format: Scores::FORMAT,
         capture: name_of(capture),
         face: name_of(capture),
+        skin_tone: None,
         light: FOUND_LIGHT.to_owned(),
         solver: solver_name(maps)?,
         protocol: Protocol::of_photographs(),

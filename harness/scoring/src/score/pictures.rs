@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::ScoreError;
 use super::noise_floor;
-use super::protocol::PICTURE_BLOCK;
 use super::render::Render;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
@@ -74,8 +73,7 @@ pub(super) fn view_rows(
     }
     let truth = true_folder(capture, light)?;
     let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
-    let heading =
-        Heading { subject: "view", light: None, scale: "none", label: None, block: PICTURE_BLOCK };
+    let heading = Heading { subject: "view", light: None, scale: "none", label: None };
     compare(frames, &views, &truth, heading, subjects)
 }
 
@@ -95,7 +93,7 @@ pub(super) fn relit_rows(
         let subjects = ["relit", "relit_diffuse_layer", "relit_specular_layer"];
         let truth = true_folder(capture, light)?;
         let light = Some(light.as_str());
-        let heading = Heading { subject: "relit", light, scale, label: None, block: PICTURE_BLOCK };
+        let heading = Heading { subject: "relit", light, scale, label: None };
         compare(frames, &folder, &truth, heading, subjects)
     };
     let jobs: Vec<_> =
@@ -116,7 +114,7 @@ pub(super) fn photograph_rows(
         return Ok(Vec::new());
     }
     let subject = if light.is_some() { "relit" } else { "view" };
-    let heading = Heading { subject, light, scale: "none", label: None, block: PICTURE_BLOCK };
+    let heading = Heading { subject, light, scale: "none", label: None };
     compare(frames, folder, photographs, heading, [subject, "", ""])
 }
 
@@ -174,5 +172,74 @@ fn compare(
         let floors = if subject == heading.subject { &floors } else { &none };
         all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
     }
+    all.extend(unbiased_rows(frames, &found, &truths, heading)?);
+    if heading.scale == "none" {
+        all.extend(compatible_rows(frames, &found, &truths, heading)?);
+    }
     Ok(all)
+}
+
+/// Rows as other benchmarks score, which scale pictures themselves.
+fn compatible_rows(
+    frames: &[Frame],
+    found: &[Render],
+    truths: &[Render],
+    heading: Heading,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of(heading.subject);
+    let whole = frames.iter().map(|frame| Region::of_mask("mask", &frame.mask));
+    let whole: Vec<Region> = whole.collect::<Result<_, _>>().map_err(&wrong)?;
+    let eroded: Vec<&Region> = frames.iter().map(|frame| &frame.region).collect();
+    let mut all = Vec::new();
+    for (metrics, regions) in [
+        (&scored::COMPATIBLE[..], eroded),
+        (&scored::COMPATIBLE_WHOLE[..], whole.iter().collect::<Vec<_>>()),
+    ] {
+        let pictures = found
+            .iter()
+            .zip(truths)
+            .filter_map(|(found, truth)| Some((found.total.as_ref()?, truth.total.as_ref()?)));
+        let compared: Vec<Compared> = frames
+            .iter()
+            .zip(regions)
+            .zip(pictures)
+            .map(|((frame, region), (found, truth))| {
+                Ok(Compared { frame: Some(&frame.name), pair: Pair::new(found, truth, region)? })
+            })
+            .collect::<Result<_, _>>()
+            .map_err(&wrong)?;
+        if compared.len() == frames.len() && !compared.is_empty() {
+            all.extend(rows(heading, metrics, &compared, &Floors::new())?);
+        }
+    }
+    Ok(all)
+}
+
+/// Rows without what noise adds, where truth and relit pictures come in independent halves. A view
+/// of a solver has no noise and is its own half; a relit picture without a half has noise that
+/// nothing is known of.
+fn unbiased_rows(
+    frames: &[Frame],
+    found: &[Render],
+    truths: &[Render],
+    heading: Heading,
+) -> Result<Vec<Row>, ScoreError> {
+    let wrong = ScoreError::of(heading.subject);
+    let mut compared = Vec::new();
+    for ((frame, found), truth) in frames.iter().zip(found).zip(truths) {
+        let half = if heading.subject == "view" { &found.total } else { &found.half };
+        let (Some(total), Some(half), Some(true_total), Some(true_half)) =
+            (&found.total, half, &truth.total, &truth.half)
+        else {
+            return Ok(Vec::new());
+        };
+        let pair = Pair::new(total, true_total, &frame.region)
+            .and_then(|pair| pair.with_halves(half, true_half))
+            .map_err(&wrong)?;
+        compared.push(Compared { frame: Some(&frame.name), pair });
+    }
+    if compared.is_empty() {
+        return Ok(Vec::new());
+    }
+    rows(heading, &scored::UNBIASED, &compared, &Floors::new())
 }

@@ -5,12 +5,6 @@ use serde::{Deserialize, Serialize};
 /// What `relit.json` calls the renderer of pictures that a method relit itself.
 pub(super) const OWN: &str = "own";
 
-/// Side of the blocks of the bootstrap in pictures, pixels.
-pub(super) const PICTURE_BLOCK: usize = 16;
-
-/// Side of the blocks of the bootstrap in maps, texels.
-pub(super) const MAP_BLOCK: usize = 32;
-
 /// How numbers were made; changes of meaning get another id.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Protocol {
@@ -71,18 +65,20 @@ const PHOTOGRAPHS: [&str; 5] = [
     "Pictures are compared on the mask eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask, which is a file's, or the mesh's silhouette where there was none.",
     "view: the method's own synthesis of a withheld view. relit: its maps path-traced in the light that it found, on the capture's mesh alone, which nothing else shadows. Both share the light, so a light that is wrong with an albedo that is wrong can still fit.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames; per_frame has each frame alone. No picture and no map is scaled.",
-    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of 16x16 pixels, pooled over frames, fixed seed.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation has fallen to 1/e.",
 ];
 
-const STATEMENTS: [&str; 11] = [
+const STATEMENTS: [&str; 13] = [
     "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
     "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
     "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered anew with the scaled albedo; no picture is ever scaled.",
     "A metric that is not defined (the correlation with a constant) is null. A subject whose map, view or picture a solver did not write has no rows.",
-    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks (32x32 texels, 16x16 pixels, pooled over frames), fixed seed. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of square blocks, pooled over frames, fixed seed; block is their side in texels or pixels, four times the distance at which the errors' correlation has fallen to 1/e, from 4 to a fifth of the region; texel_mm of a region says what a texel is on the face. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
     "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
+    "*_unbiased: pictures come in two independent halves of their samples, and the products of the errors of both have no noise in their mean: exact for linear values. Of sRGB values, whose curve bends what is noisy, a bias is left where truth and picture are not equally noisy or bright; docs/statistics.md has its size. Absent where a picture has no halves (an odd number of passes, a denoiser, another renderer).",
+    "orb_*, owl_*, nerfactor_*: protocols of other benchmarks, of pictures and maps as they are, with their own factors, masks, floors and means over pictures. None of their numbers is one of ours.",
     "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
     "confidence: the solver's own trust in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. It is no part of any other score.",
     "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",

@@ -9,7 +9,7 @@ use super::truth::{check_size, size};
 use crate::metrics::black_outside;
 
 /// What the channel names of the parts begin with.
-const PARTS: [&str; 4] = ["", "diffuse.", "specular.", "variance."];
+const PARTS: [&str; 5] = ["", "diffuse.", "specular.", "variance.", "half."];
 
 /// A picture; layers and variance where the file has them.
 pub(super) struct Render {
@@ -18,11 +18,13 @@ pub(super) struct Render {
     pub specular: Option<Picture>,
     /// Variance of the mean of the total.
     pub variance: Option<Picture>,
+    /// The total of one half of the samples, independent of the other.
+    pub half: Option<Picture>,
 }
 
 impl Render {
-    /// Reads `R, G, B` and the same below `diffuse.`, `specular.` and `variance.`; a part counts
-    /// as present if its red channel is, and must then be complete.
+    /// Reads `R, G, B` and the same below `diffuse.`, `specular.`, `variance.` and `half.`; a part
+    /// counts as present if its red channel is, and must then be complete.
     pub fn read(path: &Path) -> Result<Self, ScoreError> {
         let mut render = Self::decode(path)?;
         render.require_finite(path)?;
@@ -46,8 +48,8 @@ impl Render {
             let data = pixels.flat_map(|pixel| &pixel[first..first + 3]).copied().collect();
             Some(Picture { width: all.width, height: all.height, channels: 3, data })
         };
-        let [total, diffuse, specular, variance] = PARTS.map(part);
-        Ok(Self { total, diffuse, specular, variance })
+        let [total, diffuse, specular, variance, half] = PARTS.map(part);
+        Ok(Self { total, diffuse, specular, variance, half })
     }
 
     /// Reads a picture of the mask's size and blackens it outside, where it may hold anything.
@@ -69,7 +71,7 @@ impl Render {
     }
 
     fn parts(&mut self) -> impl Iterator<Item = &mut Picture> {
-        let Self { total, diffuse, specular, variance } = self;
-        [total, diffuse, specular, variance].into_iter().flatten()
+        let Self { total, diffuse, specular, variance, half } = self;
+        [total, diffuse, specular, variance, half].into_iter().flatten()
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::ScoreError;
 use super::scores::Row;
-use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample};
+use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample, block_side};
 
 /// What the rows of one comparison have in common.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,6 @@ pub(super) struct Heading<'a> {
     pub light: Option<&'a str>,
     pub scale: &'a str,
     pub label: Option<&'a str>,
-    /// Side of the blocks of the bootstrap.
-    pub block: usize,
 }
 
 /// A pair, and the frame that it shows (none for maps).
@@ -44,10 +42,11 @@ pub(super) fn rows(
     };
     let quantities: Vec<&Metric> =
         metrics.iter().enumerate().filter(first).map(|(_, metric)| *metric).collect();
-    let measured = quantities.par_iter().map(|metric| {
-        Ok((metric.quantity, sample(metric, compared, heading.block).map_err(&wrong)?))
-    });
-    let measured: HashMap<Quantity, Vec<Sample>> = measured.collect::<Result<_, ScoreError>>()?;
+    let measured = quantities
+        .par_iter()
+        .map(|metric| Ok((metric.quantity, sample(metric, compared).map_err(&wrong)?)));
+    let measured: HashMap<Quantity, (usize, Vec<Sample>)> =
+        measured.collect::<Result<_, ScoreError>>()?;
     let row = |metric: &&Metric| {
         let floor = floors.get(&metric.quantity);
         row(heading, metric, compared, &measured[&metric.quantity], floor.map(Vec::as_slice))
@@ -55,23 +54,27 @@ pub(super) fn rows(
     Ok(metrics.par_iter().map(row).collect())
 }
 
-fn sample(
-    metric: &Metric,
-    compared: &[Compared],
-    block: usize,
-) -> Result<Vec<Sample>, MetricError> {
-    let of_pair = |Compared { pair, .. }: &Compared| {
-        let blocks = pair.region().blocks(block).collect();
-        Ok(Sample { values: metric.measure(pair)?, blocks })
+/// The values of every pair in blocks of one side, the largest that one of them asks for.
+fn sample(metric: &Metric, compared: &[Compared]) -> Result<(usize, Vec<Sample>), MetricError> {
+    let values: Vec<Vec<f64>> =
+        compared.iter().map(|compared| metric.measure(&compared.pair)).collect::<Result<_, _>>()?;
+    let arity = metric.statistic.arity();
+    let regions = compared.iter().map(|compared| compared.pair.region());
+    let sides =
+        values.iter().zip(regions).map(|(values, region)| block_side(values, arity, region));
+    let side = sides.max().unwrap_or(1);
+    let in_blocks = |(compared, values): (&Compared, Vec<f64>)| Sample {
+        values,
+        blocks: compared.pair.region().blocks(side).collect(),
     };
-    compared.iter().map(of_pair).collect()
+    Ok((side, compared.iter().zip(values).map(in_blocks).collect()))
 }
 
 fn row(
     heading: Heading,
     metric: &Metric,
     compared: &[Compared],
-    samples: &[Sample],
+    (block, samples): &(usize, Vec<Sample>),
     floor: Option<&[f64]>,
 ) -> Row {
     let statistic = metric.statistic;
@@ -92,6 +95,7 @@ fn row(
         light: owned(heading.light),
         value: statistic.value(samples.iter().map(|sample| sample.values.as_slice())),
         ci95: statistic.interval(samples),
+        block: Some(*block),
         n: samples.iter().map(|sample| sample.blocks.len() as u64).sum(),
         floor: floor.and_then(|floor| statistic.value([floor])),
         per_frame,

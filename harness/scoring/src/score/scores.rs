@@ -24,6 +24,10 @@ pub struct Scores {
     pub capture: String,
     /// Name of the face.
     pub face: String,
+    /// Individual typology angle of the face's mean true skin colour, degrees; absent where no truth
+    /// or no skin is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skin_tone: Option<f64>,
     /// Name of the light of the capture.
     pub light: String,
     /// Name of the solver.
@@ -65,13 +69,22 @@ pub struct RegionSize {
     pub share: f64,
     /// Share of it for which the solver says that it had data; none if it does not say.
     pub solved: Option<f64>,
+    /// Of a region of texels: the side of a texel on the face, millimetres, in the mean.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texel_mm: Option<f64>,
 }
 
 impl RegionSize {
     pub(super) fn new(region: &Region, name: &str, mask: &GrayImage, solved: Option<f64>) -> Self {
         let pixels = region.pixels().len();
         let foreground = mask.data.iter().filter(|value| **value > 127).count();
-        Self { region: name.to_owned(), pixels, share: pixels as f64 / foreground as f64, solved }
+        Self {
+            region: name.to_owned(),
+            pixels,
+            share: pixels as f64 / foreground as f64,
+            solved,
+            texel_mm: None,
+        }
     }
 }
 
@@ -94,6 +107,9 @@ pub struct Row {
     pub value: Option<f64>,
     /// 95 % confidence interval.
     pub ci95: Option<[f64; 2]>,
+    /// Side of the blocks of its bootstrap, texels or pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block: Option<usize>,
     /// Pixels or texels.
     pub n: u64,
     /// The value that rendering noise alone would allow.

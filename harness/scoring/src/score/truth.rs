@@ -7,7 +7,7 @@ use formats::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
 use super::protocol::Protocol;
-use crate::metrics::Region;
+use crate::metrics::{Region, lab, typology_angle};
 
 /// The mend for a truth that lacks something.
 pub(super) const AGAIN: &str = "render the capture again with `unshade synth`";
@@ -16,12 +16,17 @@ pub(super) const AGAIN: &str = "render the capture again with `unshade synth`";
 pub(super) const LABELS: [(u8, &str); 7] =
     [(1, "skin"), (2, "lips"), (3, "brow"), (4, "eyelid"), (5, "ear"), (6, "nose"), (7, "scalp")];
 
+/// The id of skin.
+pub(super) const SKIN: u8 = LABELS[0].0;
+
 /// What the truth says in texture space.
 pub(super) struct Truth {
     pub diffuse_albedo: Picture,
     pub specular_albedo: Picture,
     pub diffuse_normal: Picture,
     pub specular_normal: Picture,
+    /// Mean GGX alpha of the two lobes.
+    pub roughness: Picture,
     pub labels: GrayImage,
     pub coverage: GrayImage,
     /// Training views that see each texel.
@@ -48,6 +53,7 @@ impl Truth {
             specular_albedo: map("specular_albedo.exr", &["Y"])?,
             diffuse_normal: map("diffuse_normal.exr", &rgb)?,
             specular_normal: map("specular_normal.exr", &rgb)?,
+            roughness: mean_alpha(&map("roughness.exr", &["alpha1", "alpha2", "share1"])?),
             labels: gray("labels.png")?,
             views: gray("views.png")?,
             coverage,
@@ -58,6 +64,7 @@ impl Truth {
             ("specular_albedo.exr", size(&truth.specular_albedo)),
             ("diffuse_normal.exr", size(&truth.diffuse_normal)),
             ("specular_normal.exr", size(&truth.specular_normal)),
+            ("roughness.exr", size(&truth.roughness)),
             ("labels.png", (truth.labels.width, truth.labels.height)),
             ("views.png", (truth.views.width, truth.views.height)),
         ] {
@@ -65,6 +72,25 @@ impl Truth {
         }
         Ok(truth)
     }
+
+    /// Individual typology angle of the mean colour of its skin, degrees; as with a colorimeter,
+    /// light is averaged first.
+    pub fn skin_tone(&self) -> Option<f64> {
+        let skin = self.region.part("skin", |i| self.labels.data[i] == SKIN).ok()?;
+        let mut sum = [0.0; 3];
+        for i in skin.pixels() {
+            let texel = &self.diffuse_albedo.data[3 * i..3 * i + 3];
+            sum.iter_mut().zip(texel).for_each(|(sum, value)| *sum += f64::from(*value));
+        }
+        Some(typology_angle(lab(sum.map(|sum| sum / skin.pixels().len() as f64))))
+    }
+}
+
+/// Mean GGX alpha of the two lobes of a roughness map, weighted by their shares.
+pub(super) fn mean_alpha(map: &Picture) -> Picture {
+    let texels = map.data.chunks_exact(map.channels);
+    let data = texels.map(|t| t[2] * t[0] + (1.0 - t[2]) * t[1]).collect();
+    Picture { channels: 1, data, ..*map }
 }
 
 /// What a truth says of itself.

@@ -1,5 +1,7 @@
 //! A capture that needs no renderer: a textured plane whose pictures, layers and maps are
-//! formulas of its texture coordinates.
+//! formulas of its texture coordinates. Not every file of tests uses all of it.
+
+#![allow(dead_code)]
 
 use std::fs;
 use std::path::Path;
@@ -31,6 +33,8 @@ const LAYERS: [&str; 12] = [
     "variance.G",
     "variance.B",
 ];
+
+const HALVES: [&str; 3] = ["half.R", "half.G", "half.B"];
 
 pub fn albedo(u: f64, v: f64) -> [f64; 3] {
     let tone = 0.3 + 0.12 * (9.0 * u).sin() * (7.0 * v).cos() + 0.05 * (60.0 * u + 40.0 * v).sin();
@@ -109,6 +113,31 @@ pub fn write_render(
     }
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     write_exr(path, &layers, &LAYERS).unwrap();
+}
+
+/// A rendering of two halves of noise, each of twice the `variance` of their mean.
+pub fn write_halves(
+    path: &Path,
+    frame: usize,
+    variance: f64,
+    noise: &mut dyn FnMut() -> f64,
+    gain: f64,
+) {
+    write_render(path, frame, 0.0, &mut || 0.0, gain);
+    let clean = formats::picture::read_exr(path, &LAYERS).unwrap();
+    let (layers, channels) = (LAYERS.len(), LAYERS.len() + HALVES.len());
+    let mut both = Picture::new(SIDE, SIDE, channels);
+    for (pixel, clean) in both.data.chunks_exact_mut(channels).zip(clean.data.chunks_exact(layers))
+    {
+        pixel[..layers].copy_from_slice(clean);
+        for c in 0..3 {
+            let half = |n: f64| f64::from(clean[c]) + (2.0 * variance).sqrt() * n;
+            let [a, b] = [noise(), noise()].map(half);
+            (pixel[c], pixel[layers + c]) = ((0.5 * (a + b)) as f32, a as f32);
+        }
+    }
+    let names: Vec<&str> = LAYERS.into_iter().chain(HALVES).collect();
+    write_exr(path, &both, &names).unwrap();
 }
 
 /// A complete capture with its truth, lit by `own` and `other`, the pictures with noise.

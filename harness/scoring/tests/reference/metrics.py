@@ -12,7 +12,7 @@ from pathlib import Path
 import colour
 import flip_evaluator
 import numpy as np
-from scipy import ndimage, stats
+from scipy import ndimage, optimize, stats
 from skimage.metrics import peak_signal_noise_ratio, structural_similarity
 
 WIDTH, HEIGHT = 96, 64
@@ -56,6 +56,19 @@ def normals():
     truth = np.stack([triangle(x, 37) - 0.5, triangle(y, 29) - 0.5, 1.0 + 0.0 * x], axis=-1).astype(np.float32)
     bend = np.stack([noise(x, y, c) - 0.5 for c in (1, 2, 3)], axis=-1)
     return truth, (truth * 2.0 + 1.8 * bend).astype(np.float32)
+
+
+def halves(prediction, truth):
+    """Means of half of the samples: the pictures with noise of one size, opposite in the other half; float32."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
+    shake = lambda seed: np.stack([0.02 * (noise(x, y, seed + c) - 0.5) for c in range(3)], -1)
+    return (prediction + shake(21)).astype(np.float32), (truth + shake(31)).astype(np.float32)
+
+
+def mesh_normals():
+    """The true normals in every other pixel, +Z in the others, float32."""
+    y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
+    return np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0], np.float32))
 
 
 def references():
@@ -138,12 +151,84 @@ def references():
         "confidence_rank": stats.spearmanr(trust, error).statistic,
         "sparsification": np.average(error, weights=trusted) / error.mean(),
     }
+    half_p, half_t = (half.astype(np.float64) for half in halves(prediction, truth))
+    crossed = lambda f: np.mean(((f(half_p) - f(half_t)) * (f(2 * p - half_p) - f(2 * t - half_t)))[inside])
+    dot = (pm * tm).sum(-1) / np.linalg.norm(pm, axis=-1) / np.linalg.norm(tm, axis=-1)
+
+    def band(values, sigma):
+        picture, weight = np.zeros(inside.shape), inside.astype(np.float64)
+        picture[inside] = values
+        blur = lambda v, s: ndimage.gaussian_filter(v, s, truncate=3.0)
+        mean = lambda s: blur(picture, s)[inside] / blur(weight, s)[inside]
+        return mean(sigma) - mean(2 * sigma)
+
+    slope = lambda sigma: stats.linregress(band(log(tm), sigma), band(log(pm), sigma)).slope
+    mesh = mesh_normals().astype(np.float64)[inside]
+    tilt = lambda v: np.degrees(np.arctan2(np.linalg.norm(np.cross(v, mesh), axis=-1), (v * mesh).sum(-1)))
+    flat = tilt(n) < 0.5
+    ratio = np.log(np.maximum(specular_p, 1e-3) / np.maximum(specular_t, 1e-3))
+    values |= {
+        "psnr_lin_unbiased": -10 * np.log10(crossed(lambda v: v)),
+        "psnr_srgb_unbiased": -10 * np.log10(crossed(srgb)),
+        "chromaticity_deg": np.degrees(np.arccos(np.minimum(dot, 1))).mean(),
+        "log_rmse": np.std(log(pm) - log(tm)),
+        "log_ratio_rms": np.sqrt(np.mean(ratio**2)),
+        "detail_slope_1_2": slope(1),
+        "detail_slope_2_4": slope(2),
+        "relief_invented": tilt(m)[flat].mean(),
+        "direction_mean_deg": degrees.mean(),
+    }
+    values |= compatible(truth, prediction, mask > 127, inside, srgb)
     channel = [np.linalg.lstsq(pm[:, [c]], tm[:, c], rcond=None)[0][0] for c in range(3)]
     median = [np.median((tm[:, c] / pm[:, c])[pm[:, c] > 0]) for c in range(3)]
     return {
         "pixels": int(inside.sum()),
         "values": {name: float(value) for name, value in values.items()},
         "scale": {"channel": [float(k) for k in channel], "median": [float(k) for k in median]},
+    }
+
+
+def compatible(truth, prediction, mask, eroded, srgb):
+    """Scores by the protocols of other benchmarks, written from their published definitions."""
+    decibels = lambda mse: -10 * np.log10(mse)
+
+    def orb(most, expose, curve):
+        p, g = (np.where(eroded[..., None], v.astype(np.float64), 0) for v in (prediction, truth))
+        g = np.maximum(g, 0)
+        if expose:
+            p, g = (v * srgb(g.clip(0, 1)).mean() / g.clip(0, 1).mean() for v in (p, g))
+        p = p * (p * g).sum((0, 1)) / (p * p).sum((0, 1))
+        p, g = curve(p.clip(0, most)), curve(g.clip(0, most))
+        grey = np.where(eroded[..., None], 0.5, 0)
+        return max(decibels(((p - g) ** 2).mean()), decibels(((grey - g) ** 2).mean()))
+
+    def objects_with_lighting():
+        curve = lambda v: np.clip(np.clip(v, 0, None) ** (1 / 2.2), 0, 1)
+        g, p = np.round(255 * curve(truth[mask].astype(np.float64))) / 255, prediction[mask].astype(np.float64)
+        fitted = g.max(-1) < 1
+        least = p[fitted].min(-1)
+        top = np.log2(0.95**2.2 / least[least > 0].min())
+        off = lambda q: np.abs(curve(q[fitted]) - g[fitted]).mean()
+        p = p * 2 ** optimize.minimize_scalar(lambda x: off(p * 2**x), (-10, top)).x
+        start = np.ones(3)
+        p = p * optimize.minimize(lambda x: off(p * x), start, bounds=3 * [(0.5, 2.0)], method="Nelder-Mead",
+                                  options={"xatol": 1e-9, "fatol": 1e-12, "maxiter": 4000}).x  # fmt: skip
+        return peak_signal_noise_ratio(g, curve(p), data_range=1.0)
+
+    def nerfactor():
+        g, p = (np.where(mask[..., None], v.astype(np.float64), 1) for v in (truth, prediction))
+        factor = [np.linalg.lstsq(p[mask][:, [c]], g[mask][:, c], rcond=None)[0][0] for c in range(3)]
+        p = np.where(mask[..., None], p * factor, g).clip(g.min(), g.max())
+        luma = lambda v: np.maximum(v, 0) ** (1 / 2.2) @ np.array([0.2126, 0.7152, 0.0722])
+        return decibels(((luma(p) - luma(g)) ** 2).mean())
+
+    same = lambda v: v
+    return {
+        "orb_psnr_h": orb(4, True, same),
+        "orb_psnr_l": orb(1, False, srgb),
+        "orb_albedo_psnr": orb(1, False, same),
+        "owl_psnr": objects_with_lighting(),
+        "nerfactor_albedo_psnr": nerfactor(),
     }
 
 
