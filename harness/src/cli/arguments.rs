@@ -71,15 +71,15 @@ pub(super) enum Verb {
         folder: PathBuf,
     },
     /// Everything above for every case of a suite; resumes where it stopped.
-    Run {
-        /// The suite: a file, or the name of one that comes with unshade, such as demo.
-        suite: PathBuf,
+    Run(RunArgs),
+    /// Remove what a run can make again, and say what each kind of stage takes.
+    Clean {
         /// The run's folder.
-        #[arg(short, long)]
-        out: PathBuf,
-        /// Make the maps of this method anew, whatever was kept; may be given again.
-        #[arg(long, value_name = "NAME")]
-        redo: Vec<String>,
+        run: PathBuf,
+        /// What stays, with commas: captures, lights, maps, relit, logs, scores, report. Without it nothing
+        /// is removed.
+        #[arg(long, value_delimiter = ',', value_name = "KINDS")]
+        keep: Vec<String>,
     },
     /// Write a run's report: one folder that opens offline.
     Report {
@@ -155,6 +155,37 @@ pub(super) struct SolveArgs {
     #[arg(long, value_name = "PLACE", num_args = 0..=1,
           default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub rerun: Option<String>,
+}
+
+#[derive(Args)]
+pub(super) struct RunArgs {
+    /// The suite: a file, or the name of one that comes with unshade, such as demo.
+    pub suite: PathBuf,
+    /// The run's folder.
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Make the maps of this method anew, whatever was kept; may be given again.
+    #[arg(long, value_name = "NAME")]
+    pub redo: Vec<String>,
+    /// Do so many stages at once, each with its share of the processors, as long as there is memory.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: u16,
+    /// Do the stages on Dask's workers: the scheduler's address, or `local` for --jobs workers that are
+    /// started here (needs unshade[cluster]).
+    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["redo", "dry_run"])]
+    pub cluster: Option<String>,
+    /// What all machines of the cluster read and write: a shared folder, or a URL of fsspec. By default
+    /// `store` in the run's folder.
+    #[arg(long, value_name = "URL", requires = "cluster")]
+    pub store: Option<String>,
+    /// Run nothing; say what is cached, and what time and disc the rest takes.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// A run whose measured costs the estimate starts from, beside those of the run's own folder; may be
+    /// given again.
+    #[arg(long, value_name = "RUN", requires = "dry_run")]
+    pub costs: Vec<PathBuf>,
 }
 
 #[derive(Args)]

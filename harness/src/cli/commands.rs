@@ -1,8 +1,6 @@
 //! What each verb does.
 
 use std::fs;
-use std::path::Path;
-use std::time::Instant;
 
 use formats::atomic;
 use scoring::compare::{Baseline, Tolerances, compare};
@@ -14,10 +12,10 @@ use super::arguments::{
     BackendName, CompareArgs, RendererName, SolveArgs, SolverName, SynthArgs, Verb,
 };
 use super::exit::{CHECK_FAILED, DONE};
-use super::progress::Progress;
-use super::{bench, check, doctor, export, start};
+use super::run::run_suite;
+use super::{bench, check, clean, doctor, export, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
+use crate::suite::{self, BaselineMethod, RunError};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
@@ -49,7 +47,8 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
                 folder.join("run").display()
             );
         }
-        Verb::Run { suite, out, redo } => return run_suite(&suite, &out, RunOptions { redo }),
+        Verb::Run(arguments) => return run_suite(arguments),
+        Verb::Clean { run, keep } => clean::clean(&run, &keep)?,
         Verb::Report { run, out } => {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             say!("{}", out.join("index.html").display());
@@ -133,23 +132,6 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
 
 fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunError> {
     method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
-}
-
-fn run_suite(suite: &Path, out: &Path, options: RunOptions) -> Result<u8, RunError> {
-    let suite = Suite::open(suite)?;
-    let mut progress = Progress::new();
-    let start = Instant::now();
-    let summary = suite::run(&suite, out, &options, &tools(), &mut progress);
-    progress.finish();
-    let summary = summary?;
-    let seconds = start.elapsed().as_secs_f64();
-    let (ran, skipped) = (summary.ran, summary.skipped);
-    eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
-    say!("{}", summary.report.display());
-    for (name, reason) in &summary.failed {
-        eprintln!("unshade: {name} failed: {reason}");
-    }
-    Ok(if summary.failed.is_empty() { DONE } else { CHECK_FAILED })
 }
 
 fn compare_run(arguments: &CompareArgs) -> Result<u8, RunError> {

@@ -14,11 +14,13 @@ mod alone;
 mod arguments;
 mod bench;
 mod check;
+mod clean;
 mod commands;
 mod doctor;
 mod exit;
 mod export;
 mod progress;
+mod run;
 mod start;
 
 use std::ffi::OsString;

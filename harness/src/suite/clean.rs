@@ -1,0 +1,133 @@
+//! Removes of a run what it can make again.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use formats::atomic::{Folder, MARK, remove_folder};
+
+use super::error::RunError;
+use super::plan::Kind;
+use super::run::lock;
+use super::size::size_of;
+
+/// The folders of a run, beside its records.
+const PARTS: [&str; 7] = ["captures", "lights", "maps", "relit", "scores", "logs", "report"];
+
+/// What became of a folder of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The folder.
+    pub name: &'static str,
+    /// Whether it was to stay.
+    pub kept: bool,
+    /// Bytes that stay, without what is no content.
+    pub bytes: u64,
+    /// Bytes that were removed.
+    pub removed: u64,
+}
+
+/// What became of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cleaned {
+    /// Each folder of it that there is.
+    pub parts: Vec<Part>,
+    /// What stays because unshade did not write it.
+    pub foreign: Vec<PathBuf>,
+}
+
+/// Removes every folder of `run` but those that `keep` names; of an empty `keep`, nothing. Only what stages
+/// of the run left is removed, and nothing that holds a file of somebody else.
+pub fn clean(run: &Path, keep: &[String]) -> Result<Cleaned, RunError> {
+    if let Some(unknown) = keep.iter().find(|name| !PARTS.contains(&name.as_str())) {
+        return Err(RunError::Keep { name: unknown.clone(), known: PARTS.join(", ") });
+    }
+    let mark = run.join(MARK);
+    if !mark.is_file() || !run.join("stages").is_dir() {
+        return Err(RunError::NoRun(run.to_path_buf()));
+    }
+    let _lock = lock(run)?;
+    let mut cleaned = Cleaned::default();
+    for name in PARTS.into_iter().filter(|name| run.join(name).is_dir()) {
+        let kept = keep.is_empty() || keep.iter().any(|other| other == name);
+        let before = size_of(&run.join(name))?;
+        if !kept {
+            remove_part(run, name, &mut cleaned.foreign)?;
+        }
+        let bytes = size_of(&run.join(name))?;
+        cleaned.parts.push(Part { name, kept, bytes, removed: before.saturating_sub(bytes) });
+    }
+    Ok(cleaned)
+}
+
+/// Removes one folder of a run, as far as it is ours.
+fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    let part = run.join(name);
+    if name == "report" {
+        return remove_ours(&part, foreign);
+    }
+    let kind = Kind::ALL.into_iter().find(|kind| kind.folder() == name);
+    for id in ids(run)? {
+        let Some((word, place)) = id.split_once('.') else { continue };
+        // Cases and methods have no dots in their names.
+        let place = part.join(place.replace('.', "/"));
+        match kind {
+            None if word == Kind::Maps.word() => remove_file(&place.with_extension("txt"))?,
+            Some(kind) if kind.word() != word => continue,
+            Some(Kind::Scores) => remove_file(&place.with_extension("json"))?,
+            Some(Kind::Capture) => {
+                remove_ours(&place, foreign)?;
+                remove_file(&place.with_extension("toml"))?;
+            }
+            Some(_) => remove_ours(&place, foreign)?,
+            None => continue,
+        }
+        // The case's folder, once it is empty, and nothing else.
+        if let Some(case) = place.parent().filter(|case| *case != part) {
+            let _ = fs::remove_dir(case);
+        }
+    }
+    let _ = fs::remove_dir(&part);
+    if part.exists() {
+        let left = fs::read_dir(&part)?.collect::<Result<Vec<_>, _>>()?;
+        let left = left.into_iter().map(|entry| entry.path());
+        foreign.extend(left.filter(|path| !foreign.iter().any(|known| known.starts_with(path))).collect::<Vec<_>>());
+    }
+    Ok(())
+}
+
+/// Ids of the finished stages of a run, with dots, sorted.
+fn ids(run: &Path) -> io::Result<Vec<String>> {
+    let mut ids = Vec::new();
+    for entry in fs::read_dir(run.join("stages"))? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        ids.extend(name.strip_suffix(".json").map(str::to_owned));
+    }
+    ids.sort();
+    Ok(ids)
+}
+
+/// Removes a folder that unshade would replace.
+fn remove_ours(path: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    if !path.exists() {
+        return Ok(());
+    }
+    match Folder::begin(path) {
+        Ok(folder) => {
+            folder.abandon();
+            Ok(remove_folder(path)?)
+        }
+        Err(formats::atomic::FolderError::Foreign { .. } | formats::atomic::FolderError::NotOurs(_)) => {
+            foreign.push(path.to_path_buf());
+            Ok(())
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn remove_file(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        result => result,
+    }
+}
