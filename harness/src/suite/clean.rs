@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::{Folder, MARK, remove_folder};
 
+use serde_json::Value;
+
 use super::error::RunError;
 use super::plan::Kind;
 use super::run::lock;
@@ -96,14 +98,22 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// Ids of the finished stages of a run, with dots, sorted.
+/// Ids of a run's finished stages and of its captures, with dots, sorted.
 fn ids(run: &Path) -> io::Result<Vec<String>> {
-    let mut ids = Vec::new();
+    let manifest: Value = fs::read(run.join("run.json"))
+        .ok()
+        .and_then(|bytes| serde_json::from_slice(&bytes).ok())
+        .unwrap_or_default();
+    let cases = manifest["cases"].as_array().into_iter().flatten();
+    let mut ids: Vec<String> = cases
+        .filter_map(|case| Some(format!("{}.{}", Kind::Capture.word(), case["id"].as_str()?)))
+        .collect();
     for entry in fs::read_dir(run.join("stages"))? {
         let name = entry?.file_name().to_string_lossy().into_owned();
         ids.extend(name.strip_suffix(".json").map(str::to_owned));
     }
     ids.sort();
+    ids.dedup();
     Ok(ids)
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::Path;
+use std::time::Instant;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -69,6 +70,7 @@ pub(super) fn run(
         ("--store", OsStr::new(&store)),
         ("--workers", OsStr::new(&workers)),
     ]);
+    let start = Instant::now();
     observer.stage_begins("cluster", 0, plan.len() + 1);
     let said = run_stage(&tools.interpreter, "cluster", &arguments, &tools.interrupt, &mut |done, total, what| {
         match serde_json::from_str::<Ended>(what) {
@@ -79,8 +81,8 @@ pub(super) fn run(
             Err(_) => observer.step("cluster", done, total, what),
         }
     });
-    observer.stage_ends("cluster", None);
     let said = said.map_err(|error| super::place::blamed(error, file.path(), &suite.path))?;
+    observer.stage_ends("cluster", Some(start.elapsed().as_secs_f64()));
     Ok(serde_json::from_value(said).map_err(io::Error::from)?)
 }
 

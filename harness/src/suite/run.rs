@@ -86,6 +86,7 @@ pub fn run(
         Some(cluster) => cluster::run(&workshop, &plan, cluster, &records, observer)?,
         None => Elsewhere::default(),
     };
+    let made_elsewhere = elsewhere.records.len();
     let records = records.with(elsewhere.records);
     let total = plan.len() + 1;
     let mut counted = Counted { observer, total };
@@ -93,6 +94,7 @@ pub fn run(
     let done = pool::run(&workshop, work, &records, &mut times, &mut counted);
     times.write()?;
     let pool::Outcome { ran, skipped, failed, .. } = done?;
+    let (ran, skipped) = (ran + made_elsewhere, skipped.saturating_sub(made_elsewhere));
     let made = Made { failed: &failed, sizes: sizes(&plan, &times) };
     write_manifest(&workshop, &made)?;
     let folder = out.join("report");
