@@ -19,6 +19,7 @@ mod metric;
 mod page;
 mod results;
 mod run;
+mod site;
 mod solve;
 mod summary;
 mod table;
@@ -40,6 +41,7 @@ use page::Page;
 pub use page::ProgressCallback;
 pub use results::write_results;
 use run::RunFile;
+pub use site::{SiteSummary, write_site};
 
 use scoring::compare::Baseline;
 

@@ -99,6 +99,15 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Write finished runs, of whomever, as one leaderboard that opens offline: ranks, intervals, filters.
+    Site {
+        /// The runs' folders; captures are the same where their hashes are.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The leaderboard's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
     /// Time the solver's kernels and steps against what this machine reaches.

@@ -59,6 +59,9 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             words.push(format!("-o {}", out.display()));
             report::write_results(&runs, &out, &words.join(" "))?;
         }
+        Verb::Site { runs, out } => {
+            say!("{}", report::write_site(&runs, &out)?.index.display());
+        }
         Verb::Compare(arguments) => return compare_run(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),

@@ -55,7 +55,7 @@ pub(super) fn run(
     records: &Records,
     observer: &mut dyn Observer,
 ) -> Result<Elsewhere, RunError> {
-    let (suite, tools) = (workshop.suite, workshop.tools);
+    let tools = workshop.tools;
     let order = order(workshop, plan, records)?;
     let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".json").tempfile()?;
     file.write_all(&serde_json::to_vec(&order).map_err(io::Error::from)?)?;
@@ -81,7 +81,7 @@ pub(super) fn run(
             Err(_) => observer.step("cluster", done, total, what),
         }
     });
-    let said = said.map_err(|error| super::place::blamed(error, file.path(), &suite.path))?;
+    let said = said?;
     observer.stage_ends("cluster", Some(start.elapsed().as_secs_f64()));
     Ok(serde_json::from_value(said).map_err(io::Error::from)?)
 }

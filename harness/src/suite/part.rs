@@ -65,10 +65,11 @@ pub fn run_part(
     let renderer = tools.interpreter.fingerprint()?;
     let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo: &[] };
     let key = workshop.key(task, contents)?.hash;
+    // Before what it reads is put there.
+    atomic::claim(out)?;
     if key_only {
         return Ok(PartDone { key, ..PartDone::default() });
     }
-    atomic::claim(out)?;
     let records = Records::open(out)?;
     program::clear_scratch(&program::scratch_prefix(out));
     if task.kind == Kind::Capture {
