@@ -7,9 +7,6 @@ mod figures;
 mod files;
 mod gather;
 
-#[cfg(test)]
-mod tests;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -170,5 +170,7 @@ byId("runs").append(...board.runs.map((run) => {
 if (new Set(board.runs.map((run) => run.scoring)).size > 1) {
   byId("warning").textContent = "These runs were scored by different versions; their figures may differ for that alone.";
 }
-byId("counts").textContent = `${board.entries.length} methods, ${total} captures, ${new Set(captures.face).size} faces, ${board.runs.length} runs`;
+const counted = (number, word) => `${number} ${word}${number === 1 ? "" : "s"}`;
+byId("counts").textContent = [counted(board.entries.length, "method"), counted(total, "capture"),
+  counted(new Set(captures.face).size, "face"), counted(board.runs.length, "run")].join(", ");
 draw();
