@@ -9,6 +9,7 @@ import shutil
 import subprocess
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ FIGURE = "relit, other lights"
 
 ERRORS = "<script>var faults = []; addEventListener('error', (e) => faults.push(String(e.message || e.target.src)), true);</script>"
 DRIVER = """<script>
+document.body.offsetHeight;
 const times = [...document.querySelectorAll("thead button")].map((_, at) => {
   const start = performance.now();
   document.querySelectorAll("thead button")[at].click();
@@ -152,9 +154,9 @@ def test_runs_of_others_meet_on_the_same_captures(tiny_run: Path, tmp_path: Path
     assert names == ["mean_texture", "oracle", "quick (somebody's run)", "quick (tiny)"]
     assert data["captures"]["case"] == ["tiny-studio"]
     assert [entry["ranked"] for entry in data["entries"] if entry["name"] == "oracle"] == [False]
-    from urllib.parse import unquote
-
     for link in [run["report"] for run in data["runs"]] + data["captures"]["picture"]:
         assert (tmp_path / "site" / unquote(link)).resolve().is_file(), link
-    bad = unshade("site", tmp_path, "-o", tmp_path / "other", check=False)
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    bad = unshade("site", empty, "-o", tmp_path / "other", check=False)
     assert bad.returncode == 2 and "run.json: cannot be read" in bad.stderr and not (tmp_path / "other").exists()

@@ -87,7 +87,12 @@ impl Named for RunError {
             Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
             Self::Worker(_) => "ClusterError",
             Self::Interrupted | Self::Stopped { .. } => "Stopped",
-            Self::Bench(_) | Self::Viewer(_) | Self::Redo { .. } | Self::Keep { .. } | Self::NoRun(_) => "UnshadeError",
+            Self::Bench(_)
+            | Self::Viewer(_)
+            | Self::Redo { .. }
+            | Self::Keep { .. }
+            | Self::NoRun(_) => "UnshadeError",
+            Self::Seal(_) | Self::Submission(_) => "UnshadeError",
         }
     }
 }

@@ -38,7 +38,9 @@ pub enum SealError {
     #[error("{0}: the signature does not fit; the statement was changed after it was signed")]
     Signature(PathBuf),
     /// Another key signed it.
-    #[error("{path}: is signed by {found}, not by {wanted}; trust the key of who sealed the suite alone")]
+    #[error(
+        "{path}: is signed by {found}, not by {wanted}; trust the key of who sealed the suite alone"
+    )]
     Key {
         /// The folder.
         path: PathBuf,

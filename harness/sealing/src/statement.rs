@@ -64,7 +64,11 @@ fn signed(text: &[u8]) -> Vec<u8> {
 }
 
 /// Writes a statement and its signature into `folder`, which holds its files.
-pub fn write_signed(folder: &Path, statement: &Statement, secret: &Secret) -> Result<(), SealError> {
+pub fn write_signed(
+    folder: &Path,
+    statement: &Statement,
+    secret: &Secret,
+) -> Result<(), SealError> {
     let path = folder.join(STATEMENT);
     let mut text = serde_json::to_vec_pretty(statement).map_err(|e| SealError::format(&path, e))?;
     text.push(b'\n');
@@ -100,7 +104,8 @@ pub fn verify(folder: &Path, key: Option<&str>) -> Result<Verified, SealError> {
         let (found, wanted) = (file.public_key, wanted.trim().to_owned());
         return Err(SealError::Key { path: folder.to_path_buf(), found, wanted });
     }
-    let public = unhex::<32>(&file.public_key).and_then(|bytes| VerifyingKey::from_bytes(&bytes).ok());
+    let public =
+        unhex::<32>(&file.public_key).and_then(|bytes| VerifyingKey::from_bytes(&bytes).ok());
     let public = public.ok_or_else(|| SealError::format(&path, "has no public key"))?;
     let signature = unhex::<64>(&file.signature).map(|bytes| Signature::from_bytes(&bytes));
     let signature = signature.ok_or_else(|| SealError::format(&path, "has no signature"))?;
@@ -168,7 +173,8 @@ mod tests {
                 fs::write(&path, &changed).unwrap();
                 let result = verify(&folder, Some(&secret.public_key()));
                 // White space of the signature's file, and the case of its digits, sign nothing.
-                let same = name == SIGNATURE && result.as_ref().is_ok_and(|v| v.statement == statement);
+                let same =
+                    name == SIGNATURE && result.as_ref().is_ok_and(|v| v.statement == statement);
                 assert!(result.is_err() || same, "{name} byte {at}");
             }
             fs::write(&path, &bytes).unwrap();
@@ -207,7 +213,8 @@ mod tests {
     #[test]
     fn signatures_are_those_of_rfc_8032() {
         // Test 3 of its section 7.1, through the library's own key.
-        let seed = unhex::<32>("c5aa8df43f9f837bedb7442f31dcb7b166d38535076f094b85ce3a2e0b4458f7").unwrap();
+        let seed = unhex::<32>("c5aa8df43f9f837bedb7442f31dcb7b166d38535076f094b85ce3a2e0b4458f7")
+            .unwrap();
         let key = ed25519_dalek::SigningKey::from_bytes(&seed);
         let public = "fc51cd8e6218a1a38da47ed00230f0580816ed13ba3303ac5deb911548908025";
         assert_eq!(hex(key.verifying_key().as_bytes()), public);

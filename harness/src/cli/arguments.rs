@@ -47,10 +47,17 @@ pub(super) enum Verb {
     /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
     Check {
         /// The maps' folder.
-        maps: PathBuf,
+        #[arg(required_unless_present = "submission")]
+        maps: Option<PathBuf>,
         /// The capture that they were made from; its `truth/` is never opened.
         #[arg(long)]
         capture: Option<PathBuf>,
+        /// A submission instead: submission.toml and maps/<case>/, or a run's folder with its scores.
+        #[arg(long, value_name = "FOLDER", conflicts_with_all = ["maps", "capture"])]
+        submission: Option<PathBuf>,
+        /// The public folder of the round that the submission is for.
+        #[arg(long, value_name = "PUBLIC", requires = "submission")]
+        captures: Option<PathBuf>,
     },
     /// Score maps and relit pictures against the truth.
     Score {
@@ -107,6 +114,16 @@ pub(super) enum Verb {
         /// The leaderboard's folder.
         #[arg(short, long)]
         out: PathBuf,
+    },
+    /// Render faces that nobody knows: captures for others, the truth for who scores them.
+    Seal(SealArgs),
+    /// Check the signature of scores that `unshade seal --score` wrote; exit code 2 if it does not fit.
+    Verify {
+        /// The scores' folder.
+        folder: PathBuf,
+        /// Who should have signed: the `public_key` of the round's round.json.
+        #[arg(long, value_name = "HEX")]
+        key: Option<String>,
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
@@ -195,6 +212,32 @@ pub(super) struct RunArgs {
     /// given again.
     #[arg(long, value_name = "RUN", requires = "dry_run")]
     pub costs: Vec<PathBuf>,
+}
+
+#[derive(Args)]
+pub(super) struct SealArgs {
+    /// The suite: its faces get the seeds of the secret. Its methods play no part.
+    #[arg(required_unless_present = "score")]
+    pub suite: Option<PathBuf>,
+    /// A file of 32 random bytes or more, which nobody else has.
+    #[arg(long, value_name = "SECRET")]
+    pub seeds_from: PathBuf,
+    /// A folder for `public` and `private`; with --score, for the signed scores.
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Another round has other faces.
+    #[arg(long, default_value = "1", conflicts_with = "score")]
+    pub round: String,
+    /// Render so many captures at once.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: u16,
+    /// Score this submission, and sign the scores.
+    #[arg(long, value_name = "SUBMISSION", requires = "private", conflicts_with = "suite")]
+    pub score: Option<PathBuf>,
+    /// The private folder of the round.
+    #[arg(long, value_name = "FOLDER", requires = "score")]
+    pub private: Option<PathBuf>,
 }
 
 #[derive(Args)]

@@ -15,7 +15,10 @@ pub(super) fn clean(run: &Path, keep: &[String]) -> Result<(), RunError> {
         say!("{:<9} {what}", part.name);
     }
     for path in &cleaned.foreign {
-        eprintln!("unshade: {}: was not written by unshade, or holds what was not; it stays", path.display());
+        eprintln!(
+            "unshade: {}: was not written by unshade, or holds what was not; it stays",
+            path.display()
+        );
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use super::arguments::{
 };
 use super::exit::{CHECK_FAILED, DONE};
 use super::run::run_suite;
-use super::{bench, check, clean, doctor, export, start};
+use super::{bench, check, clean, doctor, export, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
 use crate::suite::{self, BaselineMethod, RunError};
 
@@ -31,7 +31,14 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             })?;
         }
         Verb::Export(arguments) => export::export(&arguments)?,
-        Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
+        Verb::Check { submission: Some(folder), captures, .. } => {
+            return check::submission(&folder, captures.as_deref());
+        }
+        Verb::Check { maps, capture, .. } => {
+            return Ok(check::check(&maps.unwrap_or_default(), capture.as_deref())?);
+        }
+        Verb::Seal(arguments) => return seal::seal(&arguments),
+        Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref())?,
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;

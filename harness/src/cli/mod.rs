@@ -21,6 +21,7 @@ mod exit;
 mod export;
 mod progress;
 mod run;
+mod seal;
 mod start;
 
 use std::ffi::OsString;

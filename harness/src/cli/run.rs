@@ -18,7 +18,11 @@ pub(super) fn run_suite(arguments: RunArgs) -> Result<u8, RunError> {
     let store = arguments.store;
     let cluster = arguments.cluster.map(|address| Cluster { address, store, workers: jobs });
     // What comes back is only read here.
-    let options = RunOptions { redo: arguments.redo, jobs: if cluster.is_some() { 1 } else { jobs }, cluster };
+    let options = RunOptions {
+        redo: arguments.redo,
+        jobs: if cluster.is_some() { 1 } else { jobs },
+        cluster,
+    };
     let mut progress = Progress::new();
     let start = Instant::now();
     let summary = suite::run(&suite, &arguments.out, &options, &tools(), &mut progress);

@@ -93,7 +93,10 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     if part.exists() {
         let left = fs::read_dir(&part)?.collect::<Result<Vec<_>, _>>()?;
         let left = left.into_iter().map(|entry| entry.path());
-        foreign.extend(left.filter(|path| !foreign.iter().any(|known| known.starts_with(path))).collect::<Vec<_>>());
+        foreign.extend(
+            left.filter(|path| !foreign.iter().any(|known| known.starts_with(path)))
+                .collect::<Vec<_>>(),
+        );
     }
     Ok(())
 }
@@ -127,7 +130,9 @@ fn remove_ours(path: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> 
             folder.abandon();
             Ok(remove_folder(path)?)
         }
-        Err(formats::atomic::FolderError::Foreign { .. } | formats::atomic::FolderError::NotOurs(_)) => {
+        Err(
+            formats::atomic::FolderError::Foreign { .. } | formats::atomic::FolderError::NotOurs(_),
+        ) => {
             foreign.push(path.to_path_buf());
             Ok(())
         }

@@ -72,15 +72,19 @@ pub(super) fn run(
     ]);
     let start = Instant::now();
     observer.stage_begins("cluster", 0, plan.len() + 1);
-    let said = run_stage(&tools.interpreter, "cluster", &arguments, &tools.interrupt, &mut |done, total, what| {
-        match serde_json::from_str::<Ended>(what) {
+    let said = run_stage(
+        &tools.interpreter,
+        "cluster",
+        &arguments,
+        &tools.interrupt,
+        &mut |done, total, what| match serde_json::from_str::<Ended>(what) {
             Ok(Ended { stage, seconds }) => {
                 observer.step("cluster", done, total, &stage);
                 observer.stage_ends(&stage, Some(seconds));
             }
             Err(_) => observer.step("cluster", done, total, what),
-        }
-    });
+        },
+    );
     let said = said?;
     observer.stage_ends("cluster", Some(start.elapsed().as_secs_f64()));
     Ok(serde_json::from_value(said).map_err(io::Error::from)?)

@@ -87,9 +87,7 @@ pub(super) fn frame(suite: &Suite, task: &Task) -> u64 {
 pub(super) fn raw(suite: &Suite, task: &Task) -> f64 {
     let Size { pixels, train, test, lights, texels, .. } = Size::of(&suite.cases[task.case]);
     4.0 * match task.kind {
-        Kind::Capture => {
-            pixels * ((train + test) * 25.0 + test * lights * 9.0) + texels * 13.0
-        }
+        Kind::Capture => pixels * ((train + test) * 25.0 + test * lights * 9.0) + texels * 13.0,
         Kind::Lights => 0.0,
         Kind::Maps => texels * 13.0,
         Kind::Relit => pixels * test * lights * suite.scales.len() as f64 * 9.0,

@@ -58,6 +58,10 @@ pub enum RunError {
     Folder(#[from] io::Error),
     #[error("--redo: the suite has no method {name:?}; there are {known}")]
     Redo { name: String, known: String },
+    #[error(transparent)]
+    Seal(#[from] sealing::SealError),
+    #[error("{0}")]
+    Submission(String),
     #[error("worker: {0}")]
     Worker(String),
     #[error("--keep: a run has no {name:?}; there are {known}")]

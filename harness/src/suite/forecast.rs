@@ -81,7 +81,8 @@ pub fn forecast(
     let mut ends = Vec::new();
     for task in plan(suite) {
         let key = workshop.key(&task, &contents).ok();
-        let kept = key.and_then(|key| records.seems_finished(&task.id, &key.hash, &workshop.path(&task)));
+        let kept =
+            key.and_then(|key| records.seems_finished(&task.id, &key.hash, &workshop.path(&task)));
         let before = task.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
         let share = forecast.kinds.entry(task.kind.word()).or_default();
         let seconds = match kept {
@@ -142,7 +143,11 @@ impl fmt::Display for Forecast {
         if self.jobs > 1 {
             let least = ((total - self.around) / self.jobs as f64).max(self.longest) + self.around;
             let jobs = self.jobs;
-            write!(f, "\nwith --jobs {jobs}: from {} if one leaves the other processors idle", seconds(least))?;
+            write!(
+                f,
+                "\nwith --jobs {jobs}: from {} if one leaves the other processors idle",
+                seconds(least)
+            )?;
         }
         let guessed: usize = self.pending().map(|share| share.pending - share.measured).sum();
         if guessed > 0 {

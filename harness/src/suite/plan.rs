@@ -23,8 +23,7 @@ pub enum Kind {
 
 impl Kind {
     /// All, in the order of a case.
-    pub const ALL: [Self; 5] =
-        [Self::Capture, Self::Lights, Self::Maps, Self::Relit, Self::Scores];
+    pub const ALL: [Self; 5] = [Self::Capture, Self::Lights, Self::Maps, Self::Relit, Self::Scores];
 
     /// As ids of stages begin.
     pub fn word(self) -> &'static str {

@@ -202,7 +202,8 @@ impl Times {
 
     pub fn write(&mut self) -> io::Result<()> {
         self.written = Some(Instant::now());
-        let file = TimesFile { stages: self.stages.values().cloned().collect(), around: self.around };
+        let file =
+            TimesFile { stages: self.stages.values().cloned().collect(), around: self.around };
         atomic::write_file(&self.file, &serde_json::to_vec_pretty(&file)?)
     }
 

@@ -65,17 +65,38 @@ pub fn run(
     tools: &Tools,
     observer: &mut dyn Observer,
 ) -> Result<RunSummary, RunError> {
+    let (_lock, mut times, done) = stages(suite, out, options, tools, observer)?;
+    let pool::Outcome { ran, skipped, failed, .. } = done;
+    let folder = out.join("report");
+    let start = Instant::now();
+    observer.stage_begins(REPORT, ran + skipped, plan(suite).len() + 1);
+    report(out, &folder, tools, &mut |done, total, what| observer.step(REPORT, done, total, what))?;
+    observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
+    times.around.report = start.elapsed().as_secs_f64() / suite.cases.len().max(1) as f64;
+    times.write()?;
+    Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
+}
+
+/// Everything but the report.
+pub(super) fn stages(
+    suite: &Suite,
+    out: &Path,
+    options: &RunOptions,
+    tools: &Tools,
+    observer: &mut dyn Observer,
+) -> Result<(File, Times, pool::Outcome), RunError> {
     let start = Instant::now();
     check_redo(suite, options)?;
     preflight::files(suite)?;
     let ready = preflight::methods(suite, tools)?;
-    let _lock = claim(suite, out)?;
+    let lock = claim(suite, out)?;
     program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprint()?;
     let plan = plan(suite);
     let records = Records::open(out)?;
     let mut times = Times::new(out, &plan);
-    let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo: &options.redo };
+    let redo = &options.redo;
+    let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo };
     write_manifest(&workshop, &Made::default())?;
     times.around.start = start.elapsed().as_secs_f64();
     let reading = Instant::now();
@@ -88,23 +109,16 @@ pub fn run(
     };
     let made_elsewhere = elsewhere.records.len();
     let records = records.with(elsewhere.records);
-    let total = plan.len() + 1;
-    let mut counted = Counted { observer, total };
+    let mut counted = Counted { observer, total: plan.len() + 1 };
     let work = Work { plan: &plan, jobs: options.jobs, failed: elsewhere.failed };
     let done = pool::run(&workshop, work, &records, &mut times, &mut counted);
     times.write()?;
-    let pool::Outcome { ran, skipped, failed, .. } = done?;
-    let (ran, skipped) = (ran + made_elsewhere, skipped.saturating_sub(made_elsewhere));
-    let made = Made { failed: &failed, sizes: sizes(&plan, &times) };
+    let mut done = done?;
+    done.ran += made_elsewhere;
+    done.skipped = done.skipped.saturating_sub(made_elsewhere);
+    let made = Made { failed: &done.failed, sizes: sizes(&plan, &times) };
     write_manifest(&workshop, &made)?;
-    let folder = out.join("report");
-    let start = Instant::now();
-    observer.stage_begins(REPORT, ran + skipped, total);
-    report(out, &folder, tools, &mut |done, total, what| observer.step(REPORT, done, total, what))?;
-    observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
-    times.around.report = start.elapsed().as_secs_f64() / suite.cases.len().max(1) as f64;
-    times.write()?;
-    Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
+    Ok((lock, times, done))
 }
 
 /// Takes the folder `out` for a run of `suite`, for as long as the result is kept.
@@ -177,7 +191,8 @@ fn write_manifest(workshop: &Workshop, made: &Made) -> Result<(), RunError> {
 
 /// Bytes that the stages of each kind left.
 fn sizes(plan: &[Task], times: &Times) -> BTreeMap<&'static str, u64> {
-    let kinds: BTreeMap<&str, Kind> = plan.iter().map(|task| (task.id.as_str(), task.kind)).collect();
+    let kinds: BTreeMap<&str, Kind> =
+        plan.iter().map(|task| (task.id.as_str(), task.kind)).collect();
     let mut sizes = BTreeMap::new();
     for record in times.records() {
         if let Some(kind) = kinds.get(record.id.as_str()) {

@@ -22,7 +22,8 @@ pub(super) fn size_of(path: &Path) -> io::Result<u64> {
             for entry in fs::read_dir(&path)? {
                 found.push(entry?.path());
             }
-        } else if path.file_name().is_none_or(|name| NOT_CONTENT.iter().all(|known| name != *known)) {
+        } else if path.file_name().is_none_or(|name| NOT_CONTENT.iter().all(|known| name != *known))
+        {
             bytes += kind.len();
         }
     }

@@ -19,8 +19,8 @@ use super::preflight::Ready;
 use super::program::{self, Place};
 use super::record::{Made, Record, Records, now};
 use super::relit::{lights, relit};
-use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::size::size_of;
+use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::stages::words;
 use super::tools::Tools;
 use crate::synth::run_stage;
@@ -79,7 +79,8 @@ impl<'a> Workshop<'a> {
             let name = if matches!(kind, Kind::Capture | Kind::Lights) { &case.id } else { name };
             contents.get(&format!("{}/{name}", kind.word())).map(String::as_str)
         };
-        let missing = || RunError::Folder(io::Error::other(format!("{}: comes too early", task.id)));
+        let missing =
+            || RunError::Folder(io::Error::other(format!("{}: comes too early", task.id)));
         let photographed = case.photographed.as_ref().map(|path| hash_path(path)).transpose()?;
         let capture = || photographed.as_deref().or(of(Kind::Capture)).ok_or_else(missing);
         let plain = |inputs: &[&str]| Key { hash: hash_parts(inputs), made_from: String::new() };

@@ -12,13 +12,16 @@ use super::gather::{Board, Cell};
 pub(super) fn data(board: &Board, out: &Path) -> Value {
     let figures: Vec<Value> = FIGURES
         .iter()
-        .map(|f| json!({"name": f.name, "unit": f.unit, "higher": f.higher, "decimals": f.decimals}))
+        .map(
+            |f| json!({"name": f.name, "unit": f.unit, "higher": f.higher, "decimals": f.decimals}),
+        )
         .collect();
     let runs: Vec<Value> = board
         .runs
         .iter()
         .map(|run| {
-            let report = run.has_report.then(|| relative(&run.folder.join("report/index.html"), out));
+            let report =
+                run.has_report.then(|| relative(&run.folder.join("report/index.html"), out));
             json!({"name": run.name, "suite": run.suite, "scoring": run.scoring, "report": report})
         })
         .collect();
@@ -62,7 +65,9 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
 /// A line for each method on each capture, RFC 4180.
 pub(super) fn csv(board: &Board) -> String {
     let mut head: Vec<String> =
-        ["capture", "case", "face", "light", "variant", "method", "role", "run"].map(String::from).into();
+        ["capture", "case", "face", "light", "variant", "method", "role", "run"]
+            .map(String::from)
+            .into();
     head.extend(FIGURES.iter().map(|figure| format!("{} ({})", figure.name, figure.unit)));
     let mut lines = vec![head];
     for entry in &board.entries {
@@ -71,7 +76,8 @@ pub(super) fn csv(board: &Board) -> String {
             let texts = [&c.hash, &c.case, &c.face, &c.light, &c.variant, &entry.name];
             let mut line: Vec<String> = texts.map(Clone::clone).into();
             line.extend([entry.role.to_owned(), board.runs[cell.run].name.clone()]);
-            let number = |value: &Option<f64>| value.map_or(String::new(), |value| value.to_string());
+            let number =
+                |value: &Option<f64>| value.map_or(String::new(), |value| value.to_string());
             line.extend(cell.values.iter().map(number));
             lines.push(line);
         }
@@ -80,7 +86,10 @@ pub(super) fn csv(board: &Board) -> String {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.clone(),
     };
-    lines.iter().map(|line| line.iter().map(quoted).collect::<Vec<_>>().join(",") + "\r\n").collect()
+    lines
+        .iter()
+        .map(|line| line.iter().map(quoted).collect::<Vec<_>>().join(",") + "\r\n")
+        .collect()
 }
 
 /// The way from a folder to a file, as a URL has it.
@@ -94,10 +103,13 @@ fn relative(file: &Path, folder: &Path) -> String {
     let (to, from) = (parts(&file), parts(&folder));
     let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
     let up = std::iter::repeat_n("..".to_owned(), from.len() - shared);
-    let down = Path::new("").components().chain(file.components().skip(shared)).filter_map(|part| match part {
-        Component::Normal(name) => Some(encoded(&name.to_string_lossy())),
-        _ => None,
-    });
+    let down =
+        Path::new("").components().chain(file.components().skip(shared)).filter_map(|part| {
+            match part {
+                Component::Normal(name) => Some(encoded(&name.to_string_lossy())),
+                _ => None,
+            }
+        });
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 

@@ -146,7 +146,8 @@ impl Board {
                 name: method.id.clone(),
                 title: method.title().to_owned(),
                 role: method.role(),
-                ranked: method.is_ranked() && matches!(method.kind, Kind::Solver | Kind::Baseline)
+                ranked: method.is_ranked()
+                    && matches!(method.kind, Kind::Solver | Kind::Baseline)
                     && method.class == Class::Passive,
                 run,
                 id: method.id.clone(),

@@ -47,6 +47,17 @@ function standing(figure, list) {
   return { rows, common };
 }
 
+// Sorting changes nothing of it.
+let standings = { of: null, list: [], figures: [] };
+function chosenStandings() {
+  const of = JSON.stringify([state.light, state.face, state.variant, state.run]);
+  if (standings.of !== of) {
+    const list = chosen();
+    standings = { of, list, figures: board.figures.map((_, figure) => standing(figure, list)) };
+  }
+  return standings;
+}
+
 function choices(key, label) {
   const names = [...new Set(key === "run" ? board.runs.map((run) => run.name) : captures[key])].filter(Boolean).sort();
   if (names.length < 2) return;
@@ -68,8 +79,7 @@ function heading(text, unit, sorted, act) {
   return cell;
 }
 
-function drawMethods(list) {
-  const figures = board.figures.map((_, figure) => standing(figure, list));
+function drawMethods({ list, figures }) {
   const head = element("tr");
   head.append(element("th", "rank"), element("th", "method"));
   board.figures.forEach((figure, at) => head.append(
@@ -151,9 +161,9 @@ function drawCases(list) {
 }
 
 function draw() {
-  const list = chosen();
-  drawMethods(list);
-  drawCases(list);
+  const standings = chosenStandings();
+  drawMethods(standings);
+  drawCases(standings.list);
 }
 
 choices("light", "light");
