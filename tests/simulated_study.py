@@ -44,7 +44,14 @@ def simulate(scores: Path, out: Path, faces: int, lights: tuple[str, ...] = LIGH
                 kind = "baseline" if method == "mean_texture" else "solver"
                 solvers.append({"id": method, "kind": kind, "scores": str(file.relative_to(out))})
             cases.append(
-                {"id": case, "face": f"face{face:04d}", "light": light, "capture": case, "solvers": solvers, "variant": None}
+                {
+                    "id": case,
+                    "face": f"face{face:04d}",
+                    "light": light,
+                    "capture": case,
+                    "solvers": solvers,
+                    "variant": None,
+                }
             )
     versions = {"scoring sources": "simulated"}
     run = {"format": 1, "suite": "study", "title": "A simulated study", "cases": cases, "versions": versions}

@@ -13,25 +13,23 @@ import time
 from pathlib import Path
 
 import pytest
+from test_run import digest
 
 from conftest import HERE, TINY, unshade
-from test_run import digest
 
 CASE = "tiny-studio"
 
 
 @pytest.fixture(scope="module")
 def wide(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A suite of two lights with a method that fails in one of them."""
+    """A suite of two lights with a method that fails."""
     suite = tmp_path_factory.mktemp("wide") / "wide.toml"
     scene, lights = HERE / "scenes" / "tiny-scene.toml", HERE.parent / "scenes" / "lights"
     program = suite.with_name("picky.py")
     program.write_text(
-        "import sys, json, pathlib, unshade\n"
-        "capture, maps = sys.argv[1:]\n"
-        "views = pathlib.Path(capture, 'images').glob('*.exr')\n"
-        "names = sorted(view.stat().st_size for view in views)\n"
-        "raise SystemExit(f'no light for {len(names)} views')\n"
+        "import pathlib, sys\n"
+        "views = list(pathlib.Path(sys.argv[1], 'images').glob('*.exr'))\n"
+        "raise SystemExit(f'no light for {len(views)} views')\n"
     )
     suite.write_text(
         f'format = 1\nname = "wide"\nscene = "{scene}"\nscales = ["global"]\n'
@@ -51,12 +49,20 @@ def test_three_jobs_give_the_bytes_of_one(tiny_run: Path, tmp_path: Path) -> Non
     assert stages == known, "times stand in the order of the plan"
 
 
-def test_a_method_that_fails_keeps_no_other_job_waiting(wide: Path, tmp_path: Path) -> None:
-    done = unshade("run", wide, "-o", tmp_path / "run", "--jobs", 2, check=False)
+def test_a_method_that_fails_keeps_no_other_job_waiting(wide: Path, tiny_run: Path, tmp_path: Path) -> None:
+    """On the capture of another run, which is still valid."""
+    run = shutil.copytree(tiny_run, tmp_path / "run")
+    suite = wide.with_name("narrow.toml")
+    suite.write_text("".join(line for line in wide.read_text().splitlines(True) if not line.startswith("lights")))
+    done = unshade("run", suite, "-o", run, "--jobs", 2, check=False)
     assert done.returncode == 1, done.stderr
-    assert done.stderr.count("no light for 4 views") >= 2
-    scores = sorted(path.relative_to(tmp_path / "run" / "scores") for path in (tmp_path / "run" / "scores").rglob("*.json"))
-    assert [str(path) for path in scores] == ["tiny-studio/mean_texture.json", "tiny-uniform/mean_texture.json"]
+    assert f"capture/{CASE}: still valid" in done.stderr
+    assert f"{CASE}/picky failed" in done.stderr and "no light for 4 views" in done.stderr
+    solvers = json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
+    assert [("scores" in solver, "failed" in solver) for solver in solvers] == [(True, False), (False, True)]
+    assert (run / "scores" / CASE / "mean_texture.json").is_file() and not (
+        run / "scores" / CASE / "picky.json"
+    ).exists()
 
 
 def test_an_interrupt_ends_all_jobs(wide: Path, tmp_path: Path) -> None:
@@ -107,7 +113,11 @@ def test_the_manifest_says_what_each_kind_takes(tiny_run: Path) -> None:
     said = json.loads((tiny_run / "run.json").read_text())["bytes"]
     assert list(said) == ["captures", "maps", "relit", "scores"]
     for kind, size in said.items():
-        files = [path for path in (tiny_run / kind).rglob("*") if path.is_file() and path.name not in ("timing.json", ".unshade")]
+        files = [
+            path
+            for path in (tiny_run / kind).rglob("*")
+            if path.is_file() and path.name not in ("timing.json", ".unshade")
+        ]
         scenes = [path for path in files if path.parent.name == "captures"]
         assert size == sum(path.stat().st_size for path in files) - sum(path.stat().st_size for path in scenes), kind
 

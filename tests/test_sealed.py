@@ -88,7 +88,9 @@ def test_a_stranger_finds_no_truth(place: Path) -> None:
 def test_the_faces_are_the_secrets_own(place: Path, tiny_run: Path) -> None:
     """Not those of the suite's file, whose seeds everybody knows."""
     name = Path("captures") / "tiny-studio" / "truth" / "diffuse_albedo.exr"
-    known, sealed = (package.Capture(root / name.parent.parent).truth() for root in (tiny_run, place / "out" / "private"))
+    known, sealed = (
+        package.Capture(root / name.parent.parent).truth() for root in (tiny_run, place / "out" / "private")
+    )
     assert np.abs(known.diffuse_albedo - sealed.diffuse_albedo).max() > 0.05
 
 
@@ -129,7 +131,9 @@ def test_another_key_or_secret_is_refused(place: Path, submission: Path, scored:
     done = unshade("seal", *words, "-o", tmp_path / "scored", check=False)
     assert done.returncode == 2 and "another secret" in done.stderr and not (tmp_path / "scored").exists()
     (tmp_path / "secret").write_bytes(b"password")
-    done = unshade("seal", place / "suite.toml", "--seeds-from", tmp_path / "secret", "-o", tmp_path / "out", check=False)
+    done = unshade(
+        "seal", place / "suite.toml", "--seeds-from", tmp_path / "secret", "-o", tmp_path / "out", check=False
+    )
     assert done.returncode == 2 and "32 bytes" in done.stderr
 
 

@@ -14,9 +14,9 @@ from urllib.parse import unquote
 import numpy as np
 import pytest
 from scipy import stats
+from simulated_study import METHODS, simulate
 
 from conftest import unshade
-from simulated_study import METHODS, simulate
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FIGURE = "relit, other lights"

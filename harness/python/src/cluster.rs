@@ -29,19 +29,19 @@ pub(super) fn run_part(
     py: Python<'_>,
     suite: PathBuf,
     out: PathBuf,
-    id: String,
+    stage: String,
     contents: BTreeMap<String, String>,
     key_only: bool,
 ) -> PyResult<String> {
     let done = watched(py, None, |tools, said| {
         let step = &mut |done, total, what: &str| said.say(done, total, what);
-        suite::run_part(&Suite::open(&suite)?, &out, &id, &contents, key_only, tools, step)
+        suite::run_part(&Suite::open(&suite)?, &out, &stage, &contents, key_only, tools, step)
     })?;
     serde_json::to_string(&done).map_err(|error| named_error("UnshadeError", &error.to_string()))
 }
 
 /// Takes the output of a stage, which lies in the run's folder, for finished.
 #[pyfunction]
-pub(super) fn adopt(run: PathBuf, key: &str, id: &str, content: &str) -> PyResult<()> {
-    suite::adopt(&run, key, id, content).map_err(raise)
+pub(super) fn adopt(run: PathBuf, key: &str, stage: &str, content: &str) -> PyResult<()> {
+    suite::adopt(&run, key, stage, content).map_err(raise)
 }

@@ -159,3 +159,57 @@ impl Costs {
         Cost { seconds, bytes, measured: true }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::plan::plan;
+    use super::*;
+
+    fn tiny(side: usize) -> Suite {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/scenes/tiny.toml");
+        let mut suite = Suite::open(&file).unwrap();
+        let render = toml::Table::from_iter(
+            ["width", "height"].map(|key| (key.to_owned(), (side as i64).into())),
+        );
+        let changes = toml::Table::from_iter([("render".to_owned(), render.into())]);
+        suite.cases[0].scene = suite.cases[0].scene.clone().with_changes(&changes);
+        suite
+    }
+
+    fn record(suite: &Suite, task: &Task, seconds: f64, bytes: u64) -> Record {
+        Record {
+            id: task.id.clone(),
+            seconds,
+            bytes,
+            work: work(suite, task),
+            raw: raw(suite, task),
+            what: what(suite, task),
+            ..Record::default()
+        }
+    }
+
+    #[test]
+    fn what_was_measured_is_what_is_expected_and_it_grows_with_the_pictures() {
+        let (small, large) = (tiny(96), tiny(192));
+        let of = |suite: &Suite, id: &str| {
+            plan(suite).into_iter().find(|task| task.id.starts_with(id)).unwrap()
+        };
+        let relit = of(&small, "relit/");
+        let mut costs = Costs::default();
+        costs.add(BTreeMap::from([(relit.id.clone(), record(&small, &relit, 5.0, 1000))]));
+        let same = costs.estimate(&small, &relit);
+        assert!(same.measured && (same.seconds - 5.0).abs() < 1e-9 && same.bytes == 1000.0);
+        // Four times the rays: the fixed part stays, pixels are all that there is.
+        let grown = costs.estimate(&large, &of(&large, "relit/"));
+        assert!(grown.seconds > 5.0 && grown.seconds < 20.0, "{grown:?}");
+        assert_eq!(grown.bytes, 4000.0);
+        // Nobody has measured a capture; other methods' maps cost something else.
+        assert!(!costs.estimate(&small, &of(&small, "capture/")).measured);
+        assert_ne!(
+            what(&small, &of(&small, "maps/tiny-studio/quick")),
+            what(&small, &of(&small, "maps/tiny-studio/oracle"))
+        );
+    }
+}

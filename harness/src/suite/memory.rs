@@ -25,34 +25,36 @@ const SHARE: f64 = 0.9;
 pub(super) struct Memory {
     /// None if one worker runs alone, who takes what it takes, or where the system does not say.
     limit: Option<u64>,
-    taken: BTreeMap<String, u64>,
+    /// Estimates of stages that were asked for, by their place in the plan.
+    known: BTreeMap<usize, u64>,
+    taken: BTreeMap<usize, u64>,
 }
 
 impl Memory {
+    /// For so many workers.
     pub fn new(workers: usize) -> Self {
         let limit = available().filter(|_| workers > 1);
-        Self { limit: limit.map(|bytes| (SHARE * bytes as f64) as u64), taken: BTreeMap::new() }
+        Self::limited(limit.map(|bytes| (SHARE * bytes as f64) as u64))
     }
 
-    #[cfg(test)]
-    pub fn limited(limit: u64) -> Self {
-        Self { limit: Some(limit), taken: BTreeMap::new() }
+    fn limited(limit: Option<u64>) -> Self {
+        Self { limit, known: BTreeMap::new(), taken: BTreeMap::new() }
     }
 
-    /// Whether a stage fits beside what runs; `alone` it always does.
-    pub fn allows(&self, workshop: &Workshop, task: &Task, alone: bool) -> bool {
-        let taken = self.taken.values().sum::<u64>();
-        alone || self.limit.is_none_or(|limit| taken + estimate(workshop, task) <= limit)
-    }
-
-    pub fn take(&mut self, workshop: &Workshop, task: &Task) {
-        if self.limit.is_some() {
-            self.taken.insert(task.id.clone(), estimate(workshop, task));
+    /// Takes the memory of the stage `at`, if it fits beside what runs; `alone` it always does.
+    pub fn take(&mut self, at: usize, alone: bool, estimate: impl FnOnce() -> u64) -> bool {
+        let Some(limit) = self.limit else { return true };
+        let bytes = *self.known.entry(at).or_insert_with(estimate);
+        let fits = alone || self.taken.values().sum::<u64>() + bytes <= limit;
+        if fits {
+            self.taken.insert(at, bytes);
         }
+        fits
     }
 
-    pub fn give_back(&mut self, task: &Task) {
-        self.taken.remove(&task.id);
+    /// The stage `at` is over.
+    pub fn give_back(&mut self, at: usize) {
+        self.taken.remove(&at);
     }
 }
 
@@ -79,5 +81,24 @@ pub(super) fn estimate(workshop: &Workshop, task: &Task) -> u64 {
         }
         (Kind::Lights, _) => RENDERER,
         (Kind::Maps | Kind::Scores, _) => SMALL,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_runs_at_once_than_there_is_memory_for() {
+        let mut memory = Memory::limited(Some(10));
+        assert!(memory.take(0, true, || 6));
+        assert!(!memory.take(1, false, || 5));
+        assert!(memory.take(2, false, || 4), "a smaller one fits beside it");
+        memory.give_back(0);
+        assert!(memory.take(1, false, || panic!("it was asked for before")));
+        memory.give_back(1);
+        memory.give_back(2);
+        assert!(memory.take(3, true, || 1000), "what fits nowhere runs alone");
+        assert!(!memory.take(4, false, || 1));
     }
 }

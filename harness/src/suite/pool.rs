@@ -13,7 +13,7 @@ use std::sync::mpsc::{self, Receiver, Sender, SyncSender};
 use std::thread;
 
 use super::error::RunError;
-use super::memory::Memory;
+use super::memory::{Memory, estimate};
 use super::plan::Task;
 use super::processors;
 use super::record::{Records, Times};
@@ -150,8 +150,8 @@ impl<'a> Schedule<'a> {
         times: &mut Times,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, RunError> {
+        self.start();
         loop {
-            self.start();
             if self.running.is_empty() {
                 return match self.fault {
                     Some(fault) => Err(fault),
@@ -166,7 +166,10 @@ impl<'a> Schedule<'a> {
                 Event::Step(at, done, total, what) => {
                     observer.step(&self.plan[at].id, done, total, &what);
                 }
-                Event::Ends(at, done) => self.ends(at, *done, times, observer),
+                Event::Ends(at, done) => {
+                    self.ends(at, *done, times, observer);
+                    self.start();
+                }
             }
             let _ = heard.send(());
         }
@@ -178,26 +181,29 @@ impl<'a> Schedule<'a> {
 
     /// Gives every idle worker the first stage that waits for nothing and has the memory that it needs.
     fn start(&mut self) {
-        while self.fault.is_none() && !self.idle.is_empty() {
-            let ready = |at: &usize| {
-                let task = &self.plan[*at];
-                task.after.iter().all(|before| self.finished.contains(before))
-                    && self.memory.allows(self.workshop, task, self.running.is_empty())
-            };
-            let Some(at) = self.waiting.iter().copied().find(ready) else { return };
-            let Some(worker) = self.idle.pop() else { return };
-            let task = &self.plan[at];
+        while self.fault.is_none()
+            && let Some(worker) = self.idle.last().copied()
+            && let Some(at) = self.next()
+        {
+            self.idle.pop();
             self.waiting.remove(&at);
             self.running.insert(at, worker);
-            self.memory.take(self.workshop, task);
             let of = |before: &usize| {
                 let id = self.plan[*before].id.clone();
                 Some((id.clone(), self.outcome.contents.get(&id)?.clone()))
             };
-            let contents = task.after.iter().filter_map(of).collect();
+            let contents = self.plan[at].after.iter().filter_map(of).collect();
             // A worker ends with its line alone.
             let _ = self.lines[worker].send((at, contents));
         }
+    }
+
+    fn next(&mut self) -> Option<usize> {
+        let Self { plan, workshop, finished, memory, running, .. } = self;
+        let alone = running.is_empty();
+        let ready = |at: &usize| plan[*at].after.iter().all(|before| finished.contains(before));
+        let mut ready = self.waiting.iter().copied().filter(ready);
+        ready.find(|at| memory.take(*at, alone, || estimate(workshop, &plan[*at])))
     }
 
     fn ends(
@@ -209,7 +215,7 @@ impl<'a> Schedule<'a> {
     ) {
         let task = &self.plan[at];
         self.idle.extend(self.running.remove(&at));
-        self.memory.give_back(task);
+        self.memory.give_back(at);
         let noted = match done {
             Ok(Done { record, kept }) => {
                 *(if kept { &mut self.outcome.skipped } else { &mut self.outcome.ran }) += 1;

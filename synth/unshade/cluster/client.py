@@ -78,7 +78,7 @@ def _round(
     for at, task in enumerate(order.tasks):
         if task.id in done:
             continue
-        before = [done.get(id) or futures[id] for id in task.after]
+        before = [done.get(stage) or futures[stage] for stage in task.after]
         futures[task.id] = client.submit(
             do, _job(order, task, tasks, store, shares), *before,
             key=f"{task.id}-{suffix}",
@@ -127,7 +127,7 @@ def _result(future: Future) -> Done:
 def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, shares: list[list[int]]) -> Job:
     return {
         "id": task.id, "case": task.case, "name": task.name, "path": task.path,
-        "inputs": {id: tasks[id].path for id in task.after},
+        "inputs": {stage: tasks[stage].path for stage in task.after},
         "suite": str(order.suite), "suite_content": order.suite_content, "versions": order.versions,
         "store": store.url, "shares": shares,
     }  # fmt: skip

@@ -67,8 +67,8 @@ def do(job: Job, *before: Done) -> Done:
         if known is not None:
             return _done(job, key, record=known["record"])
         _forget_other_cases(place, job["case"])
-        for id, content in contents.items():
-            _bring(store, place, job["inputs"][id], content)
+        for stage, content in contents.items():
+            _bring(store, place, job["inputs"][stage], content)
         said = json.loads(_native.run_part(job["suite"], place, job["id"], contents, False))
         if said["failed"] is not None:
             return _done(job, key, failed=said["failed"])
