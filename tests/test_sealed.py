@@ -36,11 +36,11 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def submission(place: Path) -> Path:
-    """What a stranger makes of the public folder: grey skin, the mesh's normals."""
+    """What a stranger makes of the public folder alone."""
     folder = place / "submission"
     capture = package.Capture(place / "out" / "public" / "captures" / "tiny-studio")
     folder.mkdir()
-    (folder / "submission.toml").write_text('format = 1\nname = "grey"\nby = "a stranger"\n')
+    (folder / "submission.toml").write_text('format = 1\nname = "theirs"\nby = "a stranger"\n')
     (folder / "maps").mkdir()
     package.solve(capture, config=_quick(), out=folder / "maps" / "tiny-studio")
     return folder
@@ -98,20 +98,20 @@ def test_a_submission_is_accepted_scored_and_signed(place: Path, submission: Pat
     public = place / "out" / "public"
     assert "accepted, 1 of 1" in unshade("check", "--submission", submission, "--captures", public).stdout
     assert "accepted, 1 of 1" in unshade("check", "--submission", scored).stdout
-    scores = json.loads((scored / "scores" / "tiny-studio" / "grey.json").read_text())
+    scores = json.loads((scored / "scores" / "tiny-studio" / "theirs.json").read_text())
     relit = [row for row in scores["rows"] if row["subject"] == "relit" and row["metric"] == "psnr_srgb"]
-    assert scores["solver"] == "grey" and relit and all(row["value"] > 15 for row in relit)
+    assert scores["solver"] == "theirs" and relit and all(row["value"] > 15 for row in relit)
     key = json.loads((public / "round.json").read_text())["public_key"]
-    assert "grey by a stranger" in unshade("verify", scored, "--key", key).stdout
+    assert "theirs by a stranger" in unshade("verify", scored, "--key", key).stdout
     statement = json.loads((scored / "statement.json").read_text())
     assert statement["maps"] == {"tiny-studio": blake3_of_folder(submission / "maps" / "tiny-studio")}
     assert statement["captures"] == {"tiny-studio": blake3_of_folder(public / "captures" / "tiny-studio")}
     # And stands in a leaderboard.
     unshade("site", scored, "-o", place / "site")
-    assert '"name":"grey"' in (place / "site" / "leaderboard.json").read_text()
+    assert '"name":"theirs"' in (place / "site" / "leaderboard.json").read_text()
 
 
-@pytest.mark.parametrize("name", ["scores/tiny-studio/grey.json", "run.json", "statement.json", "signature.json"])
+@pytest.mark.parametrize("name", ["scores/tiny-studio/theirs.json", "run.json", "statement.json", "signature.json"])
 def test_a_changed_byte_breaks_the_signature(scored: Path, tmp_path: Path, name: str) -> None:
     forged = shutil.copytree(scored, tmp_path / "forged")
     text = (forged / name).read_text()
@@ -145,6 +145,16 @@ def test_what_is_wrong_with_a_submission_is_said(place: Path, submission: Path, 
     done = unshade("check", "--submission", broken, "--captures", public, check=False)
     assert done.returncode == 1
     assert "is missing" in done.stdout and "cannot name a folder" in done.stdout
+    # Whoever guesses where the truth lies gets nothing by a link to it.
+    linked = shutil.copytree(submission, tmp_path / "linked")
+    albedo = linked / "maps" / "tiny-studio" / "diffuse_albedo.exr"
+    albedo.unlink()
+    albedo.symlink_to(place / "out" / "private" / "captures" / "tiny-studio" / "truth" / "diffuse_albedo.exr")
+    done = unshade("check", "--submission", linked, "--captures", public, check=False)
+    assert done.returncode == 1 and "diffuse_albedo.exr: is a link" in done.stdout
+    words = ["--score", linked, "--private", place / "out" / "private", "--seeds-from", place / "secret"]
+    done = unshade("seal", *words, "-o", tmp_path / "scored", check=False)
+    assert done.returncode == 2 and "is a link" in done.stderr
     other = shutil.copytree(public, tmp_path / "public")
     mask = next((other / "captures" / "tiny-studio" / "masks").iterdir())
     mask.write_bytes(mask.read_bytes() + b"x")

@@ -4,8 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use formats::atomic::{Folder, MARK, remove_folder};
-
+use formats::atomic::{Folder, FolderError, MARK, remove_folder};
 use serde_json::Value;
 
 use super::error::RunError;
@@ -71,7 +70,6 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     let kind = Kind::ALL.into_iter().find(|kind| kind.folder() == name);
     for id in ids(run)? {
         let Some((word, place)) = id.split_once('.') else { continue };
-        // Cases and methods have no dots in their names.
         let place = part.join(place.replace('.', "/"));
         match kind {
             None if word == Kind::Maps.word() => remove_file(&place.with_extension("txt"))?,
@@ -101,23 +99,36 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// Ids of a run's finished stages and of its captures, with dots, sorted.
+/// Ids of a run's stages, with dots, sorted: those of its suite, and those that were finished for an earlier
+/// state of it.
 fn ids(run: &Path) -> io::Result<Vec<String>> {
     let manifest: Value = fs::read(run.join("run.json"))
         .ok()
         .and_then(|bytes| serde_json::from_slice(&bytes).ok())
         .unwrap_or_default();
-    let cases = manifest["cases"].as_array().into_iter().flatten();
-    let mut ids: Vec<String> = cases
-        .filter_map(|case| Some(format!("{}.{}", Kind::Capture.word(), case["id"].as_str()?)))
-        .collect();
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let name = |value: &Value| value["id"].as_str().unwrap_or_default().to_owned();
+    let mut ids = Vec::new();
+    for case in list(&manifest["cases"]) {
+        ids.push(format!("{}.{}", Kind::Capture.word(), name(&case)));
+        for method in list(&case["solvers"]) {
+            ids.push(format!("{}.{}.{}", Kind::Maps.word(), name(&case), name(&method)));
+        }
+    }
     for entry in fs::read_dir(run.join("stages"))? {
         let name = entry?.file_name().to_string_lossy().into_owned();
         ids.extend(name.strip_suffix(".json").map(str::to_owned));
     }
+    ids.retain(|id| is_plain(id));
     ids.sort();
     ids.dedup();
     Ok(ids)
+}
+
+/// Names of cases and methods between single dots: whatever a file says, nothing beside the run is meant.
+fn is_plain(id: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    id.split('.').all(|part| !part.is_empty() && part.chars().all(plain))
 }
 
 /// Removes a folder that unshade would replace.
@@ -130,9 +141,7 @@ fn remove_ours(path: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> 
             folder.abandon();
             Ok(remove_folder(path)?)
         }
-        Err(
-            formats::atomic::FolderError::Foreign { .. } | formats::atomic::FolderError::NotOurs(_),
-        ) => {
+        Err(FolderError::Foreign { .. } | FolderError::NotOurs(_)) => {
             foreign.push(path.to_path_buf());
             Ok(())
         }
@@ -144,5 +153,20 @@ fn remove_file(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         result => result,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_never_leads_out_of_the_run() {
+        for id in ["capture.ada-studio", "maps.ada-studio.mean_texture"] {
+            assert!(is_plain(id), "{id}");
+        }
+        for id in ["capture..", "capture./etc/x", "maps.a.../b", "capture.a/b", "", "capture."] {
+            assert!(!is_plain(id), "{id}");
+        }
     }
 }

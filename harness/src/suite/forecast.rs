@@ -61,7 +61,7 @@ pub fn forecast(
     preflight::files(suite)?;
     let ready = preflight::methods(suite, tools)?;
     let renderer = tools.interpreter.fingerprint()?;
-    let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo: &[] };
+    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
     let mut known = Costs::default();
     let mut around = None;
     for run in [out].into_iter().chain(costs.iter().map(PathBuf::as_path)) {

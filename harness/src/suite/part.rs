@@ -63,7 +63,7 @@ pub fn run_part(
     let task = tasks.iter().find(|task| task.id == id).ok_or_else(unknown)?;
     let ready = preflight::methods(suite, tools)?;
     let renderer = tools.interpreter.fingerprint()?;
-    let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo: &[] };
+    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
     let key = workshop.key(task, contents)?.hash;
     // Before what it reads is put there.
     atomic::claim(out)?;

@@ -96,7 +96,7 @@ pub(super) fn stages(
     let records = Records::open(out)?;
     let mut times = Times::new(out, &plan);
     let redo = &options.redo;
-    let workshop = Workshop { suite, out, tools, renderer: &renderer, ready: &ready, redo };
+    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, redo);
     write_manifest(&workshop, &Made::default())?;
     times.around.start = start.elapsed().as_secs_f64();
     let reading = Instant::now();

@@ -62,12 +62,27 @@ impl Submission {
                 path.display()
             ));
         }
-        Ok(submission)
+        // A link could lead to the truth that the maps are scored against.
+        match link_below(folder) {
+            Some(link) => Err(format!("{}: is a link; put the file itself there", link.display())),
+            None => Ok(submission),
+        }
     }
 
     fn maps(folder: &Path, case: &str) -> PathBuf {
         folder.join(Kind::Maps.folder()).join(case)
     }
+}
+
+/// The first link below a folder, if there is one.
+fn link_below(folder: &Path) -> Option<PathBuf> {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    paths.into_iter().find_map(|path| match path.is_symlink() {
+        true => Some(path),
+        false => path.is_dir().then(|| link_below(&path)).flatten(),
+    })
 }
 
 /// What was found of a submission.
@@ -112,13 +127,14 @@ pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked,
                 .map(|case| (case.id.clone(), Some(captures.join(&case.id))))
                 .collect()
         }
-        None => fs::read_dir(folder.join(Kind::Maps.folder()))
-            .into_iter()
-            .flatten()
-            .flatten()
-            .filter(|entry| entry.path().is_dir())
-            .map(|entry| (entry.file_name().to_string_lossy().into_owned(), None))
-            .collect(),
+        None => {
+            let listed = fs::read_dir(folder.join(Kind::Maps.folder())).into_iter().flatten();
+            let folders = listed.flatten().filter(|entry| entry.path().is_dir());
+            let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
+            let mut names: Vec<String> = names.collect();
+            names.sort();
+            names.into_iter().map(|name| (name, None)).collect()
+        }
     };
     checked.of = cases.len();
     for (case, capture) in cases {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use formats::content_hash::{hash_parts, hash_path};
@@ -36,6 +37,8 @@ pub(super) struct Workshop<'a> {
     pub ready: &'a [Ready<'a>],
     /// Methods whose maps are made anew.
     pub redo: &'a [String],
+    /// Hashes of photographed captures, by case: gigabytes, read once.
+    photographed: Mutex<BTreeMap<usize, String>>,
 }
 
 /// Content hashes of finished stages, by their ids.
@@ -55,6 +58,29 @@ pub(super) struct Done {
 }
 
 impl<'a> Workshop<'a> {
+    pub fn new(
+        suite: &'a Suite,
+        out: &'a Path,
+        tools: &'a Tools,
+        renderer: &'a str,
+        ready: &'a [Ready<'a>],
+        redo: &'a [String],
+    ) -> Self {
+        Self { suite, out, tools, renderer, ready, redo, photographed: Mutex::default() }
+    }
+
+    /// The hash of a case's photographed capture; none of a rendered one.
+    fn photographed(&self, case: usize) -> io::Result<Option<String>> {
+        let Some(path) = &self.suite.cases[case].photographed else { return Ok(None) };
+        let mut known = self.photographed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(hash) = known.get(&case) {
+            return Ok(Some(hash.clone()));
+        }
+        let hash = hash_path(path)?;
+        known.insert(case, hash.clone());
+        Ok(Some(hash))
+    }
+
     /// Where the output of a stage lies.
     pub fn path(&self, task: &Task) -> PathBuf {
         self.out.join(&task.path)
@@ -81,7 +107,7 @@ impl<'a> Workshop<'a> {
         };
         let missing =
             || RunError::Folder(io::Error::other(format!("{}: comes too early", task.id)));
-        let photographed = case.photographed.as_ref().map(|path| hash_path(path)).transpose()?;
+        let photographed = self.photographed(task.case)?;
         let capture = || photographed.as_deref().or(of(Kind::Capture)).ok_or_else(missing);
         let plain = |inputs: &[&str]| Key { hash: hash_parts(inputs), made_from: String::new() };
         let renderer = self.renderer;
