@@ -127,6 +127,8 @@ def test_cleaning_removes_what_can_be_made_again_and_nothing_else(tiny_run: Path
     (run / "maps" / CASE / "oracle" / "notes.txt").write_text("mine")
     (run / "captures" / "thesis").mkdir()
     (run / "captures" / "thesis" / "a.tex").write_text("years")
+    (run / "store" / "keys").mkdir(parents=True)
+    (run / "store" / "keys" / f"{'a' * 64}.json").write_text("{}")
     before = digest(run)
     assert "stay" in unshade("clean", run).stdout and digest(run) == before
     done = unshade("clean", run, "--keep", "scores,report")
@@ -134,6 +136,7 @@ def test_cleaning_removes_what_can_be_made_again_and_nothing_else(tiny_run: Path
     assert (run / "captures" / "thesis" / "a.tex").read_text() == "years"
     assert (run / "maps" / CASE / "oracle" / "notes.txt").read_text() == "mine"
     assert (run / "report" / "index.html").is_file() and not (run / "relit").exists()
+    assert not (run / "store").exists()
     left = sorted(path.name for path in (run / "maps" / CASE).iterdir())
     assert left == ["oracle"] and not (run / "captures" / CASE).exists()
     # The scores still serve.

@@ -83,8 +83,8 @@ pub(super) enum Verb {
     Clean {
         /// The run's folder.
         run: PathBuf,
-        /// What stays, with commas: captures, lights, maps, relit, logs, scores, report. Without it nothing
-        /// is removed.
+        /// What stays, with commas: captures, lights, maps, relit, logs, scores, report, store. Without it
+        /// nothing is removed.
         #[arg(long, value_delimiter = ',', value_name = "KINDS")]
         keep: Vec<String>,
     },

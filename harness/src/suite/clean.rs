@@ -13,7 +13,9 @@ use super::run::lock;
 use super::size::size_of;
 
 /// The folders of a run, beside its records.
-const PARTS: [&str; 7] = ["captures", "lights", "maps", "relit", "scores", "logs", "report"];
+const PARTS: [&str; 8] = ["captures", "lights", "maps", "relit", "scores", "logs", "report", STORE];
+/// What an interrupted run on a cluster leaves: outputs by their content.
+const STORE: &str = "store";
 
 /// What became of a folder of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +68,9 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     let part = run.join(name);
     if name == "report" {
         return remove_ours(&part, foreign);
+    }
+    if name == STORE {
+        return remove_store(&part, foreign);
     }
     let kind = Kind::ALL.into_iter().find(|kind| kind.folder() == name);
     for id in ids(run)? {
@@ -147,6 +152,25 @@ fn remove_ours(path: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> 
         }
         Err(error) => Err(error.into()),
     }
+}
+
+/// Removes what `synth/unshade/cluster/store.py` writes: files that are named by hashes.
+fn remove_store(store: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    for (folder, ending) in [("objects", "tar"), ("keys", "json")] {
+        let folder = store.join(folder);
+        for entry in fs::read_dir(&folder).into_iter().flatten() {
+            let path = entry?.path();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let hash = stem.len() == 64 && stem.chars().all(|c| c.is_ascii_hexdigit());
+            if hash && path.is_file() && path.extension().is_some_and(|found| found == ending) {
+                remove_file(&path)?;
+            }
+        }
+        let _ = fs::remove_dir(&folder);
+    }
+    let _ = fs::remove_dir(store);
+    foreign.extend(store.exists().then(|| store.to_path_buf()));
+    Ok(())
 }
 
 fn remove_file(path: &Path) -> io::Result<()> {

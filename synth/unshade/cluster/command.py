@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -30,9 +31,14 @@ def on_cluster(
     if address != "local":
         result = collect(order, address, store, [], progress)
     else:
-        with distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0, scheduler_port=0
-        ) as cluster:
+        # Beside the run there is room for what it holds.
+        with (
+            tempfile.TemporaryDirectory(prefix="workers.", dir=order.run, ignore_cleanup_errors=True) as place,
+            distributed.LocalCluster(
+                n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0, scheduler_port=0,
+                local_directory=place,
+            ) as cluster,
+        ):  # fmt: skip
             result = collect(order, cluster.scheduler_address, store, divided(processors(), workers), progress)
     if own:
         # All of it is in the run now.
