@@ -3,9 +3,6 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-
-use indicatif::HumanDuration;
 
 use super::cost::Costs;
 use super::error::RunError;
@@ -128,15 +125,15 @@ impl Forecast {
 
 impl fmt::Display for Forecast {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        writeln!(f, "{:<9}{:>8}{:>8}{:>16}{:>12}", "stage", "cached", "to do", "time", "disc")?;
+        writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "stage", "cached", "to do", "time", "disc")?;
         for name in &self.order {
             let Some(share) = self.kinds.get(name) else { continue };
             let (time, bytes) = (seconds(share.seconds), in_words(share.bytes as u64));
-            writeln!(f, "{name:<9}{:>8}{:>8}{time:>16}{bytes:>12}", share.cached, share.pending)?;
+            writeln!(f, "{name:<9}{:>8}{:>8}{time:>10}{bytes:>12}", share.cached, share.pending)?;
         }
-        writeln!(f, "{:<9}{:>8}{:>8}{:>16}{:>12}", "rest", "", "", seconds(self.around), "")?;
+        writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "rest", "", "", seconds(self.around), "")?;
         let (total, bytes) = (self.seconds(), self.bytes() as u64);
-        write!(f, "in all: {} ({total:.0} s), {} of disc", seconds(total), in_words(bytes))?;
+        write!(f, "in all: {}, {} of disc", seconds(total), in_words(bytes))?;
         if let Some(free) = self.free {
             write!(f, " of {} that are free", in_words(free))?;
         }
@@ -161,6 +158,11 @@ impl fmt::Display for Forecast {
     }
 }
 
+/// To two digits or so, which is what an estimate is worth.
 fn seconds(seconds: f64) -> String {
-    HumanDuration(Duration::from_secs_f64(seconds.max(0.0))).to_string()
+    match seconds {
+        ..120.0 => format!("{:.0} s", seconds.max(0.0)),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.1} h", seconds / 3600.0),
+    }
 }
