@@ -5,7 +5,7 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
-.PHONY: build wheel demo emily cycles validators results test fuzz software-gpu bench lint miri neon clean
+.PHONY: build wheel demo emily cycles validators results test fuzz heavy-cluster software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -30,7 +30,7 @@ $(UV):
 # The exact pins of pyproject.toml; the mark is written last, so an interrupted set-up is done again.
 .venv/complete: pyproject.toml | $(UV)
 	$(UV) venv --quiet --clear --python "$(PYTHON)" .venv
-	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --group build
+	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --extra cluster --group build
 	@touch $@
 
 demo: build
@@ -71,6 +71,10 @@ FUZZ = UNSHADE_FUZZ_INPUTS=$${UNSHADE_FUZZ_INPUTS:-1000000}
 fuzz: build
 	$(FUZZ) cargo test --release --workspace --test fuzz -- --nocapture
 	$(FUZZ) $(BIN)/python -m pytest -q -s synth/tests/test_own_head_fuzz.py
+
+# A study of 24 cases on three local workers, one of them killed, beside one process: minutes.
+heavy-cluster: build
+	$(BIN)/python tests/heavy_cluster.py runs/heavy-cluster
 
 # A Vulkan driver in software, for the GPU's tests: Debian's mesa-vulkan-drivers, where root and apt allow.
 software-gpu:

@@ -12,8 +12,10 @@ __all__ = [
     "Capture",
     "Maps",
     "__version__",
+    "adopt",
     "begin_folder",
     "check_json",
+    "check_worker",
     "commit_folder",
     "compare",
     "depth_of",
@@ -37,6 +39,7 @@ __all__ = [
     "run",
     "run_command_line",
     "budget",
+    "run_part",
     "score_json",
     "study_json",
     "skin_reflected",
@@ -232,7 +235,10 @@ def export(
     mesh: _Path | None = None,
     progress: _Progress | None = None,
 ) -> str: ...
-def run(suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None) -> Path: ...
+def run(suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None, jobs: int = 1) -> Path: ...
+def run_part(suite: _Path, out: _Path, stage: str, contents: dict[str, str], key_only: bool) -> str: ...
+def check_worker(suite: _Path, content: str, versions: str) -> None: ...
+def adopt(run: _Path, key: str, stage: str, content: str) -> None: ...
 def begin_folder(target: _Path, key: str) -> Path: ...
 def commit_folder(target: _Path, key: str) -> None: ...
 def report(run: _Path, out: _Path, progress: _Progress | None = None) -> None: ...

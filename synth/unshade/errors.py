@@ -41,6 +41,10 @@ class RendererError(UnshadeError):
     """The renderer's process cannot be started, or died without saying why."""
 
 
+class ClusterError(UnshadeError):
+    """A cluster's scheduler, store or workers cannot be used."""
+
+
 class Stopped(UnshadeError):
     """A stage was stopped by its ``progress``, which returned False; the same call goes on from there."""
 

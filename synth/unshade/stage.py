@@ -97,6 +97,13 @@ def _parser() -> argparse.ArgumentParser:
     method.add_argument("--settings", type=json.loads, default={})
     method.set_defaults(stage=_method)
 
+    cluster = verbs.add_parser("cluster", help="do the stages of a suite on a cluster of Dask")
+    cluster.add_argument("--order", type=Path, required=True)
+    cluster.add_argument("--address", required=True)
+    cluster.add_argument("--store", required=True)
+    cluster.add_argument("--workers", type=int, default=1)
+    cluster.set_defaults(stage=_cluster)
+
     check = verbs.add_parser("check", help="read a scene and render nothing")
     check.add_argument("--scene", type=Path, required=True)
     check.set_defaults(stage=_check)
@@ -120,7 +127,9 @@ def _parser() -> argparse.ArgumentParser:
     doctor.set_defaults(stage=_doctor)
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
-    for verb in (synth, relight, budget, lights, export, method, check, describe, sheet, history, doctor, physics):
+    for verb in (
+        synth, relight, budget, lights, export, method, cluster, check, describe, sheet, history, doctor, physics,
+    ):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
 
@@ -237,6 +246,12 @@ def _method(options: argparse.Namespace) -> dict[str, Any]:
         given.append(Laboratory(scene, _progress))
     recover(*given, **options.settings).write(options.out)
     return {"maps": str(options.out)}
+
+
+def _cluster(options: argparse.Namespace) -> dict[str, Any]:
+    from .cluster.command import on_cluster
+
+    return on_cluster(options.order, options.address, options.store, options.workers, _progress)
 
 
 def _check(options: argparse.Namespace) -> dict[str, Any]:

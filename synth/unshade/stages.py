@@ -136,15 +136,17 @@ def budget(
     return rows
 
 
-def run(suite: _Path, out: _Path, *, redo: Sequence[str] = (), progress: _Progress | None = None) -> Path:
+def run(
+    suite: _Path, out: _Path, *, redo: Sequence[str] = (), jobs: int = 1, progress: _Progress | None = None
+) -> Path:
     """Run a suite in the folder ``out``, resuming it; returns its report's page.
 
-    ``redo`` names methods whose maps are made anew. Raises `SolveError` at the end if a method
-    failed; the others are scored all the same.
+    ``jobs`` stages are done at once, each with its share of the processors. ``redo`` names methods whose
+    maps are made anew. Raises `SolveError` at the end if a method failed; the others are scored all the same.
 
     ``progress`` counts the suite's stages; ``what`` says how far the present one is.
     """
-    return _native.run(suite, out, list(redo), progress)
+    return _native.run(suite, out, list(redo), progress, jobs)
 
 
 class Finding(TypedDict):

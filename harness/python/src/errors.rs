@@ -87,8 +87,14 @@ impl Named for RunError {
             Self::Study(error) => error.class(),
             Self::Program { .. } | Self::Methods { .. } => "SolveError",
             Self::Output(_) | Self::File { .. } | Self::Busy(_) | Self::Folder(_) => "StorageError",
+            Self::Worker(_) => "ClusterError",
             Self::Interrupted | Self::Stopped { .. } => "Stopped",
-            Self::Bench(_) | Self::Viewer(_) | Self::Redo { .. } => "UnshadeError",
+            Self::Bench(_)
+            | Self::Viewer(_)
+            | Self::Redo { .. }
+            | Self::Keep { .. }
+            | Self::NoRun(_) => "UnshadeError",
+            Self::Seal(_) | Self::Submission(_) => "UnshadeError",
         }
     }
 }

@@ -3,6 +3,7 @@
 mod arrays;
 mod calls;
 mod capture;
+mod cluster;
 mod errors;
 mod folders;
 mod maps;
@@ -55,5 +56,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(skin::skin_reflected, module)?)?;
     module.add_function(wrap_pyfunction!(stages::export, module)?)?;
     module.add_function(wrap_pyfunction!(tangents::mikktspace, module)?)?;
+    module.add_function(wrap_pyfunction!(cluster::check_worker, module)?)?;
+    module.add_function(wrap_pyfunction!(cluster::run_part, module)?)?;
+    module.add_function(wrap_pyfunction!(cluster::adopt, module)?)?;
     Ok(())
 }

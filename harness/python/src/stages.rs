@@ -95,17 +95,18 @@ pub(super) fn export(
 
 /// Runs a suite, resuming it, and returns its report's page.
 #[pyfunction]
-#[pyo3(signature = (suite, out, redo=Vec::new(), progress=None))]
+#[pyo3(signature = (suite, out, redo=Vec::new(), progress=None, jobs=1))]
 pub(super) fn run(
     py: Python<'_>,
     suite: PathBuf,
     out: PathBuf,
     redo: Vec<String>,
     progress: Heard,
+    jobs: usize,
 ) -> PyResult<PathBuf> {
     watched(py, progress, |tools, said| {
-        let mut teller = Teller { said, id: String::new(), done: 0, total: 0 };
-        let options = RunOptions { redo };
+        let mut teller = Teller { said, done: 0, total: 0 };
+        let options = RunOptions { redo, jobs, cluster: None };
         let summary = suite::run(&Suite::open(&suite)?, &out, &options, tools, &mut teller)?;
         match summary.failed.into_iter().next() {
             None => Ok(summary.report),
@@ -127,11 +128,11 @@ pub(super) fn report(py: Python<'_>, run: PathBuf, out: PathBuf, progress: Heard
 type Step = (u64, u64, String);
 
 /// The worker's end of the line to the callback.
-struct Said(Option<(SyncSender<Step>, Receiver<()>)>);
+pub(super) struct Said(Option<(SyncSender<Step>, Receiver<()>)>);
 
 impl Said {
     /// Returns when it was heard, so that no more is done once the callback asks to stop.
-    fn say(&self, done: u64, total: u64, what: &str) {
+    pub(super) fn say(&self, done: u64, total: u64, what: &str) {
         if let Some((steps, heard)) = &self.0 {
             // After a stop nobody listens any more.
             let _ = steps.send((done, total, what.to_owned())).map(|()| heard.recv());
@@ -142,19 +143,18 @@ impl Said {
 /// Counts the stages of a run, and says in words how far the stage is.
 struct Teller<'a> {
     said: &'a Said,
-    id: String,
     done: u64,
     total: u64,
 }
 
 impl Observer for Teller<'_> {
     fn stage_begins(&mut self, id: &str, done: usize, total: usize) {
-        (self.id, self.done, self.total) = (id.to_owned(), done as u64, total as u64);
+        (self.done, self.total) = (done as u64, total as u64);
         self.said.say(self.done, self.total, id);
     }
 
-    fn step(&mut self, done: u64, total: u64, what: &str) {
-        let what = format!("{}: {done} of {total}, {what}", self.id);
+    fn step(&mut self, id: &str, done: u64, total: u64, what: &str) {
+        let what = format!("{id}: {done} of {total}, {what}");
         self.said.say(self.done, self.total, &what);
     }
 
@@ -166,7 +166,7 @@ impl Observer for Teller<'_> {
 
 /// Does `work` on another thread while this one, the caller's, hears its progress and looks out for
 /// Ctrl-C.
-fn watched<T: Send>(
+pub(super) fn watched<T: Send>(
     py: Python<'_>,
     progress: Heard,
     work: impl FnOnce(&Tools, &Said) -> Result<T, RunError> + Send,

@@ -20,6 +20,7 @@ mod metric;
 mod page;
 mod results;
 mod run;
+mod site;
 mod solve;
 mod summary;
 mod table;
@@ -42,6 +43,7 @@ use page::Page;
 pub use page::ProgressCallback;
 pub use results::write_results;
 use run::RunFile;
+pub use site::{SiteSummary, write_site};
 
 use scoring::compare::Baseline;
 

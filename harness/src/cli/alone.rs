@@ -25,7 +25,7 @@ pub(super) fn alone(
     let mut progress = Progress::new();
     let start = Instant::now();
     progress.stage_begins(id, 0, 1);
-    let result = work(&tools(), &mut |done, total, what| progress.step(done, total, what));
+    let result = work(&tools(), &mut |done, total, what| progress.step(id, done, total, what));
     if result.is_ok() {
         progress.stage_ends(id, Some(start.elapsed().as_secs_f64()));
     }

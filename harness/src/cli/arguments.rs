@@ -65,10 +65,17 @@ pub(super) enum Verb {
     /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
     Check {
         /// The maps' folder.
-        maps: PathBuf,
+        #[arg(required_unless_present = "submission")]
+        maps: Option<PathBuf>,
         /// The capture that they were made from; its `truth/` is never opened.
         #[arg(long)]
         capture: Option<PathBuf>,
+        /// A submission instead: submission.toml and maps/<case>/, or a run's folder with its scores.
+        #[arg(long, value_name = "FOLDER", conflicts_with_all = ["maps", "capture"])]
+        submission: Option<PathBuf>,
+        /// The public folder of the round that the submission is for.
+        #[arg(long, value_name = "PUBLIC", requires = "submission")]
+        captures: Option<PathBuf>,
     },
     /// Score maps and relit pictures against the truth.
     Score {
@@ -89,15 +96,15 @@ pub(super) enum Verb {
         folder: PathBuf,
     },
     /// Everything above for every case of a suite; resumes where it stopped.
-    Run {
-        /// The suite: a file, or the name of one that comes with unshade, such as demo.
-        suite: PathBuf,
+    Run(RunArgs),
+    /// Remove what a run can make again, and say what each kind of stage takes.
+    Clean {
         /// The run's folder.
-        #[arg(short, long)]
-        out: PathBuf,
-        /// Make the maps of this method anew, whatever was kept; may be given again.
-        #[arg(long, value_name = "NAME")]
-        redo: Vec<String>,
+        run: PathBuf,
+        /// What stays, with commas: captures, lights, maps, relit, logs, scores, report, store. Without it
+        /// nothing is removed.
+        #[arg(long, value_delimiter = ',', value_name = "KINDS")]
+        keep: Vec<String>,
     },
     /// Write a run's report: one folder that opens offline.
     Report {
@@ -126,6 +133,24 @@ pub(super) enum Verb {
         /// The study's folder (Markdown, JSON, CSV); without it the Markdown is printed.
         #[arg(short, long)]
         out: Option<PathBuf>,
+    /// Write finished runs, of whomever, as one leaderboard that opens offline: ranks, intervals, filters.
+    Site {
+        /// The runs' folders; captures are the same where their hashes are.
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// The leaderboard's folder.
+        #[arg(short, long)]
+        out: PathBuf,
+    },
+    /// Render faces that nobody knows: captures for others, the truth for who scores them.
+    Seal(SealArgs),
+    /// Check the signature of scores that `unshade seal --score` wrote; exit code 2 if it does not fit.
+    Verify {
+        /// The scores' folder.
+        folder: PathBuf,
+        /// Who should have signed: the `public_key` of the round's round.json.
+        #[arg(long, value_name = "HEX")]
+        key: Option<String>,
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
     Compare(CompareArgs),
@@ -186,6 +211,63 @@ pub(super) struct SolveArgs {
     #[arg(long, value_name = "PLACE", num_args = 0..=1,
           default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub rerun: Option<String>,
+}
+
+#[derive(Args)]
+pub(super) struct RunArgs {
+    /// The suite: a file, or the name of one that comes with unshade, such as demo.
+    pub suite: PathBuf,
+    /// The run's folder.
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Make the maps of this method anew, whatever was kept; may be given again.
+    #[arg(long, value_name = "NAME")]
+    pub redo: Vec<String>,
+    /// Do so many stages at once, each with its share of the processors, as long as there is memory.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: u16,
+    /// Do the stages on Dask's workers: the scheduler's address, or `local` for --jobs workers that are
+    /// started here (needs unshade[cluster]).
+    #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["redo", "dry_run"])]
+    pub cluster: Option<String>,
+    /// What all machines of the cluster read and write: a shared folder, or a URL of fsspec. By default
+    /// `store` in the run's folder.
+    #[arg(long, value_name = "URL", requires = "cluster")]
+    pub store: Option<String>,
+    /// Run nothing; say what is cached, and what time and disc the rest takes.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// A run whose measured costs the estimate starts from, beside those of the run's own folder; may be
+    /// given again.
+    #[arg(long, value_name = "RUN", requires = "dry_run")]
+    pub costs: Vec<PathBuf>,
+}
+
+#[derive(Args)]
+pub(super) struct SealArgs {
+    /// The suite: its faces get the seeds of the secret. Its methods play no part.
+    #[arg(required_unless_present = "score")]
+    pub suite: Option<PathBuf>,
+    /// A file of 32 random bytes or more, which nobody else has.
+    #[arg(long, value_name = "SECRET")]
+    pub seeds_from: PathBuf,
+    /// A folder for `public` and `private`; with --score, for the signed scores.
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Another round has other faces.
+    #[arg(long, default_value = "1", conflicts_with = "score")]
+    pub round: String,
+    /// Render so many captures at once.
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: u16,
+    /// Score this submission, and sign the scores.
+    #[arg(long, value_name = "SUBMISSION", requires = "private", conflicts_with = "suite")]
+    pub score: Option<PathBuf>,
+    /// The private folder of the round.
+    #[arg(long, value_name = "FOLDER", requires = "score")]
+    pub private: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

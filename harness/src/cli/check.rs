@@ -5,6 +5,7 @@ use std::path::Path;
 use scoring::check::{self, CheckError};
 
 use super::exit::{CHECK_FAILED, DONE};
+use crate::suite::{self, RunError};
 
 /// Prints each finding on a line of its own; the exit code says whether there is any.
 pub(super) fn check(maps: &Path, capture: Option<&Path>) -> Result<u8, CheckError> {
@@ -21,5 +22,21 @@ pub(super) fn check(maps: &Path, capture: Option<&Path>) -> Result<u8, CheckErro
         " (with --capture, maps are also compared with its photographs and mesh)"
     };
     say!("{}: nothing found{without}", maps.display());
+    Ok(DONE)
+}
+
+/// Prints what keeps a submission from being accepted, and what is likely wrong with it.
+pub(super) fn submission(folder: &Path, captures: Option<&Path>) -> Result<u8, RunError> {
+    let checked = suite::check_submission(folder, captures)?;
+    for (case, finding) in &checked.findings {
+        eprintln!("{case}: {finding}");
+    }
+    for fault in &checked.faults {
+        say!("{fault}");
+    }
+    if !checked.faults.is_empty() {
+        return Ok(CHECK_FAILED);
+    }
+    say!("{}: accepted, {} of {}", folder.display(), checked.cases, checked.of);
     Ok(DONE)
 }

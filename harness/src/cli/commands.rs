@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use formats::atomic;
 use scoring::score;
@@ -12,10 +11,10 @@ use solver::Choice;
 use super::alone::{alone, tools};
 use super::arguments::{BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb};
 use super::exit::{CHECK_FAILED, DONE};
-use super::progress::Progress;
-use super::{bench, calibrate, check, compare, doctor, export, start};
+use super::run::run_suite;
+use super::{bench, calibrate, check, clean, compare, doctor, export, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, Budget, RunError, RunOptions, Suite};
+use crate::suite::{self, BaselineMethod, Budget, RunError};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
@@ -37,7 +36,14 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             say!("{}", out.join("budget.md").display());
         }
         Verb::Export(arguments) => export::export(&arguments)?,
-        Verb::Check { maps, capture } => return Ok(check::check(&maps, capture.as_deref())?),
+        Verb::Check { submission: Some(folder), captures, .. } => {
+            return check::submission(&folder, captures.as_deref());
+        }
+        Verb::Check { maps, capture, .. } => {
+            return Ok(check::check(&maps.unwrap_or_default(), capture.as_deref())?);
+        }
+        Verb::Seal(arguments) => return seal::seal(&arguments),
+        Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref())?,
         Verb::Score { capture, maps, relit, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
@@ -53,7 +59,8 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
                 folder.join("run").display()
             );
         }
-        Verb::Run { suite, out, redo } => return run_suite(&suite, &out, RunOptions { redo }),
+        Verb::Run(arguments) => return run_suite(arguments),
+        Verb::Clean { run, keep } => clean::clean(&run, &keep)?,
         Verb::Report { run, out } => {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             say!("{}", out.join("index.html").display());
@@ -67,6 +74,9 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         Verb::Compare(arguments) => return compare::compare(&arguments),
         Verb::Calibrate(arguments) => return calibrate::calibrate(&arguments),
         Verb::Study { runs, out } => study(&runs, out.as_deref())?,
+        Verb::Site { runs, out } => {
+            say!("{}", report::write_site(&runs, &out)?.index.display());
+        }
         Verb::Bench(arguments) => bench::bench(&arguments)?,
         Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
     }
@@ -156,21 +166,4 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
 
 fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunError> {
     method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
-}
-
-fn run_suite(suite: &Path, out: &Path, options: RunOptions) -> Result<u8, RunError> {
-    let suite = Suite::open(suite)?;
-    let mut progress = Progress::new();
-    let start = Instant::now();
-    let summary = suite::run(&suite, out, &options, &tools(), &mut progress);
-    progress.finish();
-    let summary = summary?;
-    let seconds = start.elapsed().as_secs_f64();
-    let (ran, skipped) = (summary.ran, summary.skipped);
-    eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
-    say!("{}", summary.report.display());
-    for (name, reason) in &summary.failed {
-        eprintln!("unshade: {name} failed: {reason}");
-    }
-    Ok(if summary.failed.is_empty() { DONE } else { CHECK_FAILED })
 }

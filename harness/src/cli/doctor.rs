@@ -31,7 +31,7 @@ pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
         let mut progress = Progress::new();
         progress.stage_begins("physics", 0, 1);
         let held = checks(tools, "physics", &mut |done, total, what| {
-            progress.step(done, total, what);
+            progress.step("physics", done, total, what);
         });
         progress.finish();
         complete = held?;

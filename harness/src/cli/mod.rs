@@ -16,12 +16,15 @@ mod baseline_branch;
 mod bench;
 mod calibrate;
 mod check;
+mod clean;
 mod commands;
 mod compare;
 mod doctor;
 mod exit;
 mod export;
 mod progress;
+mod run;
+mod seal;
 mod start;
 
 use std::ffi::OsString;

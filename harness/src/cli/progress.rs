@@ -1,6 +1,7 @@
 //! Progress on a terminal: one bar for the run, one for the stage; without a terminal, a line a
 //! stage.
 
+use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::time::Duration;
 
@@ -14,8 +15,10 @@ pub(super) struct Progress {
 }
 
 struct Bars {
+    all: MultiProgress,
     run: ProgressBar,
-    stage: ProgressBar,
+    /// Of the stages that are being done, by their ids.
+    stages: BTreeMap<String, ProgressBar>,
 }
 
 fn style(template: &str) -> ProgressStyle {
@@ -29,10 +32,8 @@ impl Progress {
             let all = MultiProgress::new();
             let run = all.add(ProgressBar::new(0));
             run.set_style(style("{bar:30} {pos}/{len} stages  {elapsed}"));
-            let stage = all.add(ProgressBar::new(0));
-            stage.set_style(style("{bar:30} {percent:>3}% {prefix}: {msg}"));
             run.enable_steady_tick(Duration::from_millis(500));
-            Bars { run, stage }
+            Bars { all, run, stages: BTreeMap::new() }
         });
         Self { bars }
     }
@@ -40,7 +41,7 @@ impl Progress {
     /// Takes the bars away, so that what is printed next stands alone.
     pub(super) fn finish(&self) {
         if let Some(bars) = &self.bars {
-            bars.stage.finish_and_clear();
+            bars.stages.values().for_each(ProgressBar::finish_and_clear);
             bars.run.finish_and_clear();
         }
     }
@@ -48,24 +49,24 @@ impl Progress {
 
 impl Observer for Progress {
     fn stage_begins(&mut self, id: &str, done: usize, total: usize) {
-        if let Some(bars) = &self.bars {
+        if let Some(bars) = &mut self.bars {
             bars.run.set_length(total as u64);
             bars.run.set_position(done as u64);
-            bars.stage.reset();
-            bars.stage.set_length(0);
-            bars.stage.set_prefix(id.to_owned());
-            bars.stage.set_message("");
+            let stage = bars.all.add(ProgressBar::new(0));
+            stage.set_style(style("{bar:30} {percent:>3}% {prefix}: {msg}"));
+            stage.set_prefix(id.to_owned());
+            bars.stages.insert(id.to_owned(), stage);
         }
     }
 
-    fn step(&mut self, done: u64, total: u64, what: &str) {
-        if let Some(bars) = &self.bars {
-            bars.stage.set_length(total);
-            bars.stage.set_position(done);
+    fn step(&mut self, id: &str, done: u64, total: u64, what: &str) {
+        if let Some(stage) = self.bars.as_ref().and_then(|bars| bars.stages.get(id)) {
+            stage.set_length(total);
+            stage.set_position(done);
             // A bar's own estimate takes all steps for equal.
-            bars.stage.set_message(match what.ends_with(TIME_LEFT) {
+            stage.set_message(match what.ends_with(TIME_LEFT) {
                 true => what.to_owned(),
-                false => format!("{what}, {}{TIME_LEFT}", HumanDuration(bars.stage.eta())),
+                false => format!("{what}, {}{TIME_LEFT}", HumanDuration(stage.eta())),
             });
         }
     }
@@ -75,8 +76,11 @@ impl Observer for Progress {
             Some(seconds) => format!("{id}: {seconds:.1} s"),
             None => format!("{id}: still valid"),
         };
-        match &self.bars {
-            Some(bars) => bars.run.println(line),
+        match &mut self.bars {
+            Some(bars) => {
+                bars.stages.remove(id).iter().for_each(ProgressBar::finish_and_clear);
+                bars.run.println(line);
+            }
             None => eprintln!("{line}"),
         }
     }

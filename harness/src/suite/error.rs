@@ -60,6 +60,16 @@ pub enum RunError {
     Folder(#[from] io::Error),
     #[error("--redo: the suite has no method {name:?}; there are {known}")]
     Redo { name: String, known: String },
+    #[error(transparent)]
+    Seal(#[from] sealing::SealError),
+    #[error("{0}")]
+    Submission(String),
+    #[error("worker: {0}")]
+    Worker(String),
+    #[error("--keep: a run has no {name:?}; there are {known}")]
+    Keep { name: String, known: String },
+    #[error("{0}: is no run's folder; name one that `unshade run` wrote")]
+    NoRun(PathBuf),
     #[error("interrupted; the same command goes on from here")]
     Interrupted,
     #[error(
@@ -81,6 +91,7 @@ impl RunError {
         let storage = |kind: &str| kind == "StorageError";
         match self {
             Self::Interrupted | Self::Stopped { .. } | Self::Folder(_) | Self::Busy(_) => false,
+            Self::Worker(_) => false,
             Self::Output(FolderError::Io { .. } | FolderError::Space { .. }) => false,
             Self::Stage(StageError::Input { kind, .. }) => !storage(kind),
             Self::Stage(StageError::Interpreter(_)) | Self::Interpreter(_) => false,

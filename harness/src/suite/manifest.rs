@@ -7,9 +7,24 @@ use serde_json::{Value, json};
 use super::file::Suite;
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 
-/// The content of `run.json`. `failed` says why, by `<case>/<method>`: what an earlier run left of such
-/// a method is not named.
-pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, String>) -> Value {
+/// What is known of a run once it has ended.
+pub(super) struct Made<'a> {
+    /// Methods that failed: `<case>/<method>` and why. What an earlier run left of such a method is not
+    /// named.
+    pub failed: &'a BTreeMap<String, String>,
+    /// Bytes that the stages of each kind left, by their folders.
+    pub sizes: BTreeMap<&'static str, u64>,
+}
+
+impl Default for Made<'_> {
+    fn default() -> Self {
+        static NOTHING: BTreeMap<String, String> = BTreeMap::new();
+        Self { failed: &NOTHING, sizes: BTreeMap::new() }
+    }
+}
+
+/// The content of `run.json`.
+pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
     let cases: Vec<Value> = suite
         .cases
         .iter()
@@ -28,7 +43,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
                         solver["of"] = json!(name);
                         solver["seed"] = json!(seed);
                     }
-                    if let Some(reason) = failed.get(&name) {
+                    if let Some(reason) = made.failed.get(&name) {
                         solver["failed"] = json!(reason);
                     } else {
                         solver["maps"] = json!(below("maps"));
@@ -50,12 +65,16 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, failed: &BTreeMap<String, 
             })
         })
         .collect();
-    json!({
+    let mut manifest = json!({
         "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
         "versions": {
             "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
             "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
         },
         "suite_toml": suite.text,
-    })
+    });
+    if !made.sizes.is_empty() {
+        manifest["bytes"] = json!(made.sizes);
+    }
+    manifest
 }

@@ -93,6 +93,13 @@ pub(super) fn space(suite: &Suite, cases: &[&Case], out: &Path) -> Result<(), Ru
     Ok(atomic::require_space(out, bytes / 2)?)
 }
 
+/// Bytes that are free where `out` will lie, if the system says.
+pub(super) fn free(out: &Path) -> Option<u64> {
+    let absolute = std::path::absolute(out).ok()?;
+    let state = absolute.ancestors().find_map(|at| rustix::fs::statvfs(at).ok())?;
+    Some(state.f_bavail.saturating_mul(state.f_frsize))
+}
+
 /// Uncompressed: 25 floats for a view with its layers, nine for every relit one, and 13 for a texel.
 fn case_bytes(case: &Case, methods: u64) -> u64 {
     let number = |section: &str, key: &str, default: i64| -> u64 {

@@ -14,8 +14,8 @@ pub struct Tools {
 pub trait Observer {
     /// `done` of `total` stages are finished and `id` begins.
     fn stage_begins(&mut self, id: &str, done: usize, total: usize);
-    /// The stage has done `done` of `total` steps.
-    fn step(&mut self, done: u64, total: u64, what: &str);
+    /// The stage `id` has done `done` of `total` steps.
+    fn step(&mut self, id: &str, done: u64, total: u64, what: &str);
     /// The stage is finished; `seconds` is absent if its earlier result was still valid.
     fn stage_ends(&mut self, id: &str, seconds: Option<f64>);
 }

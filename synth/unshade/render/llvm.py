@@ -196,6 +196,9 @@ def activate(choice: Choice) -> None:
     if choice.llvm:
         import drjit as dr
 
+        # With one thread, as on a single processor, building a scene waits for itself for ever.
+        if dr.thread_count() < 2:
+            dr.set_thread_count(2)
         taken = ".".join(map(str, dr.detail.llvm_version()))
         if taken != choice.llvm.version:
             raise VariantError(

@@ -1,0 +1,47 @@
+//! Single stages of a suite, for the workers of a cluster.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use harness::suite::{self, Suite};
+use pyo3::prelude::*;
+
+use super::errors::{named_error, raise};
+use super::stages::watched;
+
+/// Raises where this machine has another version, or another suite, than what sends the work.
+#[pyfunction]
+pub(super) fn check_worker(
+    py: Python<'_>,
+    suite: PathBuf,
+    content: String,
+    versions: String,
+) -> PyResult<()> {
+    watched(py, None, |tools, _| {
+        suite::check_worker(&Suite::open(&suite)?, &content, &versions, tools)
+    })
+}
+
+/// Does a stage of a suite in a folder that holds what it reads (hashes by ids); JSON text of what became
+/// of it. With `key_only`, only what it is made from.
+#[pyfunction]
+pub(super) fn run_part(
+    py: Python<'_>,
+    suite: PathBuf,
+    out: PathBuf,
+    stage: String,
+    contents: BTreeMap<String, String>,
+    key_only: bool,
+) -> PyResult<String> {
+    let done = watched(py, None, |tools, said| {
+        let step = &mut |done, total, what: &str| said.say(done, total, what);
+        suite::run_part(&Suite::open(&suite)?, &out, &stage, &contents, key_only, tools, step)
+    })?;
+    serde_json::to_string(&done).map_err(|error| named_error("UnshadeError", &error.to_string()))
+}
+
+/// Takes the output of a stage, which lies in the run's folder, for finished.
+#[pyfunction]
+pub(super) fn adopt(run: PathBuf, key: &str, stage: &str, content: &str) -> PyResult<()> {
+    suite::adopt(&run, key, stage, content).map_err(raise)
+}

@@ -1,0 +1,211 @@
+//! What runs have measured, by capture: two runs are compared where the hashes of their captures are equal.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::Deserialize;
+
+use super::figures::{FIGURES, Row};
+use crate::error::ReportError;
+use crate::run::{Case, Class, Kind, Method, RunFile, read_json};
+
+/// A capture of any of the runs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Capture {
+    pub hash: String,
+    pub case: String,
+    pub face: String,
+    pub light: String,
+    pub variant: String,
+    /// A picture of it, below the folder of a run, and which run.
+    pub picture: Option<(usize, PathBuf)>,
+}
+
+/// A method as one of the runs has it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    /// The method's id; with the run's name where other runs have another of this id.
+    pub name: String,
+    pub title: String,
+    pub role: &'static str,
+    /// Whether it takes part in ranks.
+    pub ranked: bool,
+    /// The first run that has it.
+    pub run: usize,
+    id: String,
+    /// By capture: the hash of the maps, and the figures.
+    pub cells: BTreeMap<usize, Cell>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cell {
+    maps: String,
+    /// The run's folder that they lie in.
+    pub run: usize,
+    pub values: [Option<f64>; FIGURES.len()],
+}
+
+/// A run's folder.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Run {
+    pub folder: PathBuf,
+    pub name: String,
+    pub suite: String,
+    /// Of the scoring; others may measure otherwise.
+    pub scoring: String,
+    pub has_report: bool,
+}
+
+#[derive(Default)]
+pub(super) struct Board {
+    pub runs: Vec<Run>,
+    pub captures: Vec<Capture>,
+    pub entries: Vec<Entry>,
+}
+
+#[derive(Deserialize)]
+struct ScoresFile {
+    light: String,
+    inputs: Inputs,
+    rows: Vec<Row>,
+}
+
+#[derive(Deserialize)]
+struct Inputs {
+    capture: String,
+    maps: String,
+}
+
+/// Scores of a method on a case.
+struct Scored<'r> {
+    case: &'r Case,
+    method: &'r Method,
+    inputs: Inputs,
+    values: [Option<f64>; FIGURES.len()],
+}
+
+impl Board {
+    /// Reads the manifests and scores of finished runs; pictures and maps are not opened.
+    pub fn of(runs: &[PathBuf]) -> Result<Self, ReportError> {
+        let mut board = Self::default();
+        let mut captures = BTreeMap::new();
+        for (at, folder) in runs.iter().enumerate() {
+            let manifest = RunFile::open(folder)?;
+            let listed: Vec<(&Case, &Method)> = (manifest.cases.iter())
+                .flat_map(|case| case.methods.iter().map(move |method| (case, method)))
+                .collect();
+            // Each file is read and dropped: of thousands, only the figures stay.
+            let scored: Result<Vec<_>, ReportError> =
+                listed.into_par_iter().map(|(case, method)| scored(folder, case, method)).collect();
+            let scored: Vec<Scored> = scored?.into_iter().flatten().collect();
+            if scored.is_empty() {
+                return Err(ReportError::NoScores(folder.clone()));
+            }
+            for scored in scored {
+                let capture = *captures.entry(scored.inputs.capture.clone()).or_insert_with(|| {
+                    board.captures.push(capture(folder, at, &scored));
+                    board.captures.len() - 1
+                });
+                board.add(at, capture, scored);
+            }
+            let scoring = manifest.versions.get("scoring sources").and_then(|v| v.as_str());
+            board.runs.push(Run {
+                folder: folder.clone(),
+                name: name_of(folder),
+                suite: manifest.title.unwrap_or(manifest.suite),
+                scoring: scoring.unwrap_or_default().to_owned(),
+                has_report: folder.join("report/index.html").is_file(),
+            });
+        }
+        board.name_apart();
+        Ok(board)
+    }
+
+    /// Into the entry of the same method, if no capture tells them apart; a new one else.
+    fn add(&mut self, run: usize, capture: usize, scored: Scored) {
+        let Scored { method, inputs, values, .. } = scored;
+        let cell = Cell { maps: inputs.maps, run, values };
+        let same = |entry: &&mut Entry| {
+            entry.id == method.id
+                && (entry.run == run
+                    || entry.cells.get(&capture).is_none_or(|known| known.maps == cell.maps))
+        };
+        // Its own entry of this run first: maps that differ once are another method's.
+        let own = self.entries.iter().position(|entry| entry.id == method.id && entry.run == run);
+        let entry = match own {
+            Some(own) => self.entries.get_mut(own),
+            None => self.entries.iter_mut().find(same),
+        };
+        match entry {
+            Some(entry) => {
+                entry.cells.entry(capture).or_insert(cell);
+            }
+            None => self.entries.push(Entry {
+                name: method.id.clone(),
+                title: method.title().to_owned(),
+                role: method.role(),
+                ranked: method.is_ranked()
+                    && matches!(method.kind, Kind::Solver | Kind::Baseline)
+                    && method.class == Class::Passive,
+                run,
+                id: method.id.clone(),
+                cells: BTreeMap::from([(capture, cell)]),
+            }),
+        }
+    }
+
+    /// Adds the run's name to methods of the same id that are not the same.
+    fn name_apart(&mut self) {
+        let ids: Vec<String> = self.entries.iter().map(|entry| entry.id.clone()).collect();
+        for entry in &mut self.entries {
+            if ids.iter().filter(|id| **id == entry.id).count() > 1 {
+                entry.name = format!("{} ({})", entry.id, self.runs[entry.run].name);
+            }
+        }
+    }
+}
+
+fn scored<'r>(
+    folder: &Path,
+    case: &'r Case,
+    method: &'r Method,
+) -> Result<Option<Scored<'r>>, ReportError> {
+    let Some(path) = method.scores.as_ref().map(|path| folder.join(path)) else { return Ok(None) };
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let file: ScoresFile = read_json(&path)?;
+    let values = std::array::from_fn(|at| FIGURES[at].value(&file.rows, &file.light));
+    Ok(Some(Scored { case, method, inputs: file.inputs, values }))
+}
+
+fn capture(folder: &Path, run: usize, scored: &Scored) -> Capture {
+    let case = scored.case;
+    // The true face in the light of the capture, as the report shows it.
+    let pictures = Path::new("report/pictures").join(&case.id).join("truth");
+    let mut names: Vec<String> = fs::read_dir(folder.join(&pictures))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let own = format!("relit-{}-", case.light);
+    let chosen = names.iter().find(|name| name.starts_with(&own));
+    let chosen = chosen.or_else(|| names.iter().find(|name| name.starts_with("view-")));
+    Capture {
+        hash: scored.inputs.capture.clone(),
+        case: case.id.clone(),
+        face: case.face.clone(),
+        light: case.light.clone(),
+        variant: case.variant.clone().unwrap_or_default(),
+        picture: chosen.map(|name| (run, pictures.join(name))),
+    }
+}
+
+fn name_of(folder: &Path) -> String {
+    let real = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    real.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}

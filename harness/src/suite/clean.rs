@@ -1,0 +1,196 @@
+//! Removes of a run what it can make again.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use formats::atomic::{Folder, FolderError, MARK, remove_folder};
+use serde_json::Value;
+
+use super::error::RunError;
+use super::plan::Kind;
+use super::run::lock;
+use super::size::size_of;
+
+/// The folders of a run, beside its records.
+const PARTS: [&str; 8] = ["captures", "lights", "maps", "relit", "scores", "logs", "report", STORE];
+/// What an interrupted run on a cluster leaves: outputs by their content.
+const STORE: &str = "store";
+
+/// What became of a folder of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The folder.
+    pub name: &'static str,
+    /// Whether it was to stay.
+    pub kept: bool,
+    /// Bytes that stay, without what is no content.
+    pub bytes: u64,
+    /// Bytes that were removed.
+    pub removed: u64,
+}
+
+/// What became of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cleaned {
+    /// Each folder of it that there is.
+    pub parts: Vec<Part>,
+    /// What stays because unshade did not write it.
+    pub foreign: Vec<PathBuf>,
+}
+
+/// Removes every folder of `run` but those that `keep` names; of an empty `keep`, nothing. Only what stages
+/// of the run left is removed, and nothing that holds a file of somebody else.
+pub fn clean(run: &Path, keep: &[String]) -> Result<Cleaned, RunError> {
+    if let Some(unknown) = keep.iter().find(|name| !PARTS.contains(&name.as_str())) {
+        return Err(RunError::Keep { name: unknown.clone(), known: PARTS.join(", ") });
+    }
+    let mark = run.join(MARK);
+    if !mark.is_file() || !run.join("stages").is_dir() {
+        return Err(RunError::NoRun(run.to_path_buf()));
+    }
+    let _lock = lock(run)?;
+    let mut cleaned = Cleaned::default();
+    for name in PARTS.into_iter().filter(|name| run.join(name).is_dir()) {
+        let kept = keep.is_empty() || keep.iter().any(|other| other == name);
+        let before = size_of(&run.join(name))?;
+        if !kept {
+            remove_part(run, name, &mut cleaned.foreign)?;
+        }
+        let bytes = size_of(&run.join(name))?;
+        cleaned.parts.push(Part { name, kept, bytes, removed: before.saturating_sub(bytes) });
+    }
+    Ok(cleaned)
+}
+
+/// Removes one folder of a run, as far as it is ours.
+fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    let part = run.join(name);
+    if name == "report" {
+        return remove_ours(&part, foreign);
+    }
+    if name == STORE {
+        return remove_store(&part, foreign);
+    }
+    let kind = Kind::ALL.into_iter().find(|kind| kind.folder() == name);
+    for id in ids(run)? {
+        let Some((word, place)) = id.split_once('.') else { continue };
+        let place = part.join(place.replace('.', "/"));
+        match kind {
+            None if word == Kind::Maps.word() => remove_file(&place.with_extension("txt"))?,
+            Some(kind) if kind.word() != word => continue,
+            Some(Kind::Scores) => remove_file(&place.with_extension("json"))?,
+            Some(Kind::Capture) => {
+                remove_ours(&place, foreign)?;
+                remove_file(&place.with_extension("toml"))?;
+            }
+            Some(_) => remove_ours(&place, foreign)?,
+            None => continue,
+        }
+        // The case's folder, once it is empty, and nothing else.
+        if let Some(case) = place.parent().filter(|case| *case != part) {
+            let _ = fs::remove_dir(case);
+        }
+    }
+    let _ = fs::remove_dir(&part);
+    if part.exists() {
+        let left = fs::read_dir(&part)?.collect::<Result<Vec<_>, _>>()?;
+        let left = left.into_iter().map(|entry| entry.path());
+        foreign.extend(
+            left.filter(|path| !foreign.iter().any(|known| known.starts_with(path)))
+                .collect::<Vec<_>>(),
+        );
+    }
+    Ok(())
+}
+
+/// Ids of a run's stages, with dots, sorted: those of its suite, and those that were finished for an earlier
+/// state of it.
+fn ids(run: &Path) -> io::Result<Vec<String>> {
+    let manifest: Value = fs::read(run.join("run.json"))
+        .ok()
+        .and_then(|bytes| serde_json::from_slice(&bytes).ok())
+        .unwrap_or_default();
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let name = |value: &Value| value["id"].as_str().unwrap_or_default().to_owned();
+    let mut ids = Vec::new();
+    for case in list(&manifest["cases"]) {
+        ids.push(format!("{}.{}", Kind::Capture.word(), name(&case)));
+        for method in list(&case["solvers"]) {
+            ids.push(format!("{}.{}.{}", Kind::Maps.word(), name(&case), name(&method)));
+        }
+    }
+    for entry in fs::read_dir(run.join("stages"))? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        ids.extend(name.strip_suffix(".json").map(str::to_owned));
+    }
+    ids.retain(|id| is_plain(id));
+    ids.sort();
+    ids.dedup();
+    Ok(ids)
+}
+
+/// Names of cases and methods between single dots: whatever a file says, nothing beside the run is meant.
+fn is_plain(id: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    id.split('.').all(|part| !part.is_empty() && part.chars().all(plain))
+}
+
+/// Removes a folder that unshade would replace.
+fn remove_ours(path: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    if !path.exists() {
+        return Ok(());
+    }
+    match Folder::begin(path) {
+        Ok(folder) => {
+            folder.abandon();
+            Ok(remove_folder(path)?)
+        }
+        Err(FolderError::Foreign { .. } | FolderError::NotOurs(_)) => {
+            foreign.push(path.to_path_buf());
+            Ok(())
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Removes what `synth/unshade/cluster/store.py` writes: files that are named by hashes.
+fn remove_store(store: &Path, foreign: &mut Vec<PathBuf>) -> Result<(), RunError> {
+    for (folder, ending) in [("objects", "tar"), ("keys", "json")] {
+        let folder = store.join(folder);
+        for entry in fs::read_dir(&folder).into_iter().flatten() {
+            let path = entry?.path();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let hash = stem.len() == 64 && stem.chars().all(|c| c.is_ascii_hexdigit());
+            if hash && path.is_file() && path.extension().is_some_and(|found| found == ending) {
+                remove_file(&path)?;
+            }
+        }
+        let _ = fs::remove_dir(&folder);
+    }
+    let _ = fs::remove_dir(store);
+    foreign.extend(store.exists().then(|| store.to_path_buf()));
+    Ok(())
+}
+
+fn remove_file(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        result => result,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_never_leads_out_of_the_run() {
+        for id in ["capture.ada-studio", "maps.ada-studio.mean_texture"] {
+            assert!(is_plain(id), "{id}");
+        }
+        for id in ["capture..", "capture./etc/x", "maps.a.../b", "capture.a/b", "", "capture."] {
+            assert!(!is_plain(id), "{id}");
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! What a run will take, before it begins.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::cost::Costs;
+use super::error::RunError;
+use super::file::Suite;
+use super::plan::{Kind, plan};
+use super::preflight;
+use super::record::{Around, Records, costs_of};
+use super::size::in_words;
+use super::tools::Tools;
+use super::workshop::{Contents, Workshop};
+
+/// Of runs that nobody has measured, on two cores, seconds.
+const AROUND: Around = Around { start: 0.7, scene: 1.0, report: 0.5 };
+
+/// What the stages of one kind will take.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Share {
+    /// Stages of which earlier results are valid.
+    pub cached: usize,
+    /// Stages to be done.
+    pub pending: usize,
+    /// Of those, how many are estimated from what runs have measured.
+    pub measured: usize,
+    /// Seconds of those to be done, one after the other.
+    pub seconds: f64,
+    /// Bytes that they leave.
+    pub bytes: f64,
+}
+
+/// What a run will take.
+#[derive(Clone, Debug, Default)]
+pub struct Forecast {
+    /// By what stages do, in their order.
+    pub kinds: BTreeMap<&'static str, Share>,
+    order: Vec<&'static str>,
+    /// Seconds that are no stage's: programs and scenes that are read, the report.
+    pub around: f64,
+    /// Seconds of the longest line of stages that wait for one another.
+    longest: f64,
+    jobs: usize,
+    free: Option<u64>,
+}
+
+/// Estimates a run of `suite` in the folder `out` with `jobs` workers, from what `out` and the runs `costs`
+/// measured. Nothing is written.
+pub fn forecast(
+    suite: &Suite,
+    out: &Path,
+    costs: &[PathBuf],
+    jobs: usize,
+    tools: &Tools,
+) -> Result<Forecast, RunError> {
+    preflight::files(suite)?;
+    let ready = preflight::methods(suite, tools)?;
+    let renderer = tools.interpreter.fingerprint()?;
+    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
+    let mut known = Costs::default();
+    let mut around = None;
+    for run in [out].into_iter().chain(costs.iter().map(PathBuf::as_path)) {
+        let (records, measured) = costs_of(run);
+        if records.is_empty() && run != out {
+            return Err(RunError::NoRun(run.to_path_buf()));
+        }
+        if !records.is_empty() {
+            around.get_or_insert(measured);
+        }
+        known.add(records);
+    }
+    let around = around.unwrap_or(AROUND);
+    let records = Records::of(out);
+    let mut contents = Contents::new();
+    let mut forecast = Forecast { jobs, free: preflight::free(out), ..Forecast::default() };
+    let mut ends = Vec::new();
+    for task in plan(suite) {
+        let key = workshop.key(&task, &contents).ok();
+        let kept =
+            key.and_then(|key| records.seems_finished(&task.id, &key.hash, &workshop.path(&task)));
+        let before = task.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
+        let share = forecast.kinds.entry(task.kind.word()).or_default();
+        let seconds = match kept {
+            Some(content) => {
+                contents.insert(task.id.clone(), content);
+                share.cached += 1;
+                0.0
+            }
+            None => {
+                let cost = known.estimate(suite, &task);
+                share.pending += 1;
+                share.measured += usize::from(cost.measured);
+                share.seconds += cost.seconds;
+                share.bytes += cost.bytes;
+                cost.seconds
+            }
+        };
+        ends.push(before + seconds);
+    }
+    forecast.longest = ends.into_iter().fold(0.0, f64::max);
+    forecast.order = Kind::ALL.into_iter().map(Kind::word).collect();
+    let scenes = forecast.kinds.get(Kind::Capture.word()).map_or(0, |share| share.pending);
+    forecast.around =
+        around.start + around.scene * scenes as f64 + around.report * suite.cases.len() as f64;
+    Ok(forecast)
+}
+
+impl Forecast {
+    /// Everything, by one process.
+    pub fn seconds(&self) -> f64 {
+        self.kinds.values().map(|share| share.seconds).sum::<f64>() + self.around
+    }
+
+    /// Bytes that are added.
+    pub fn bytes(&self) -> f64 {
+        self.kinds.values().map(|share| share.bytes).sum()
+    }
+
+    fn pending(&self) -> impl Iterator<Item = &Share> {
+        self.kinds.values().filter(|share| share.pending > 0)
+    }
+}
+
+impl fmt::Display for Forecast {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "stage", "cached", "to do", "time", "disc")?;
+        for name in &self.order {
+            let Some(share) = self.kinds.get(name) else { continue };
+            let (time, bytes) = (seconds(share.seconds), in_words(share.bytes as u64));
+            writeln!(f, "{name:<9}{:>8}{:>8}{time:>10}{bytes:>12}", share.cached, share.pending)?;
+        }
+        writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "rest", "", "", seconds(self.around), "")?;
+        let (total, bytes) = (self.seconds(), self.bytes() as u64);
+        write!(f, "in all: {}, {} of disc", seconds(total), in_words(bytes))?;
+        if let Some(free) = self.free {
+            write!(f, " of {} that are free", in_words(free))?;
+        }
+        if self.jobs > 1 {
+            let least = ((total - self.around) / self.jobs as f64).max(self.longest) + self.around;
+            let jobs = self.jobs;
+            write!(
+                f,
+                "\nwith --jobs {jobs}: from {} if one leaves the other processors idle",
+                seconds(least)
+            )?;
+        }
+        let guessed: usize = self.pending().map(|share| share.pending - share.measured).sum();
+        if guessed > 0 {
+            write!(
+                f,
+                "\n{guessed} of the stages were never measured here; their times are those of two cores, and \
+                 --costs RUN takes those of a run"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// To two digits or so, which is what an estimate is worth.
+fn seconds(seconds: f64) -> String {
+    match seconds {
+        ..120.0 => format!("{:.0} s", seconds.max(0.0)),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.1} h", seconds / 3600.0),
+    }
+}

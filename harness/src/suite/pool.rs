@@ -1,0 +1,253 @@
+//! Does the stages of a plan, several at once where they do not wait for one another.
+//!
+//! Each worker is a thread with processors of its own, which what it starts keeps to: rendering and
+//! programs that it starts, and a pool of threads for what is computed here. Which stage is done when has no
+//! bearing on what it leaves.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{self, Receiver, Sender, SyncSender};
+use std::thread;
+
+use super::error::RunError;
+use super::memory::{Memory, estimate};
+use super::plan::Task;
+use super::processors;
+use super::record::{Records, Times};
+use super::tools::Observer;
+use super::workshop::{Contents, Done, Workshop};
+
+/// What became of a plan.
+#[derive(Default)]
+pub(super) struct Outcome {
+    /// Stages that ran, and stages whose earlier results were still valid.
+    pub ran: usize,
+    pub skipped: usize,
+    /// Methods that failed: `<case>/<method>` and why.
+    pub failed: BTreeMap<String, String>,
+    /// Of all finished stages.
+    pub contents: Contents,
+}
+
+/// What is to be done.
+pub(super) struct Work<'a> {
+    pub plan: &'a [Task],
+    /// How many workers there are.
+    pub jobs: usize,
+    /// Methods that are known to fail: `<case>/<method>` and why.
+    pub failed: BTreeMap<String, String>,
+}
+
+/// What a worker says; it goes on once that was heard.
+enum Event {
+    Begins(usize),
+    Step(usize, u64, u64, String),
+    Ends(usize, Box<Result<Done, RunError>>),
+}
+
+/// A line to the thread that schedules, and its answer.
+struct Line(Sender<(Event, SyncSender<()>)>);
+
+impl Line {
+    fn say(&self, event: Event) {
+        let (heard, answer) = mpsc::sync_channel(1);
+        // After an end nobody listens any more.
+        let _ = self.0.send((event, heard)).map(|()| answer.recv());
+    }
+}
+
+/// Does all of a plan. The first fault that is of no single method ends it.
+pub(super) fn run(
+    workshop: &Workshop,
+    Work { plan, jobs, failed }: Work,
+    records: &Records,
+    times: &mut Times,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
+    let jobs = jobs.clamp(1, plan.len().max(1));
+    let shares = processors::shares(jobs);
+    let (sender, events) = mpsc::channel();
+    let mut lines = Vec::new();
+    thread::scope(|scope| {
+        for share in shares {
+            let (orders, ordered) = mpsc::channel::<(usize, Contents)>();
+            let line = Line(sender.clone());
+            scope.spawn(move || {
+                let work = move || worker(workshop, plan, records, &ordered, &line);
+                processors::keep_to(&share, work)
+            });
+            lines.push(orders);
+        }
+        drop(sender);
+        // Its lines go with it, and with them the workers.
+        let mut schedule = Schedule::new(workshop, plan, lines);
+        for (name, reason) in failed {
+            schedule.fails(name, reason)?;
+        }
+        schedule.run(&events, times, observer)
+    })
+}
+
+fn worker(
+    workshop: &Workshop,
+    plan: &[Task],
+    records: &Records,
+    orders: &Receiver<(usize, Contents)>,
+    line: &Line,
+) {
+    while let Ok((at, contents)) = orders.recv() {
+        line.say(Event::Begins(at));
+        let mut step =
+            |done, total, what: &str| line.say(Event::Step(at, done, total, what.to_owned()));
+        let work = AssertUnwindSafe(|| workshop.run(&plan[at], &contents, records, &mut step));
+        let done = panic::catch_unwind(work).unwrap_or_else(|_| {
+            Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", plan[at].id))))
+        });
+        line.say(Event::Ends(at, Box::new(done)));
+    }
+}
+
+struct Schedule<'a> {
+    workshop: &'a Workshop<'a>,
+    plan: &'a [Task],
+    lines: Vec<Sender<(usize, Contents)>>,
+    idle: Vec<usize>,
+    /// Stages with the worker that does them.
+    running: BTreeMap<usize, usize>,
+    waiting: BTreeSet<usize>,
+    finished: BTreeSet<usize>,
+    memory: Memory,
+    outcome: Outcome,
+    fault: Option<RunError>,
+}
+
+impl<'a> Schedule<'a> {
+    fn new(
+        workshop: &'a Workshop<'a>,
+        plan: &'a [Task],
+        lines: Vec<Sender<(usize, Contents)>>,
+    ) -> Self {
+        Self {
+            workshop,
+            plan,
+            idle: (0..lines.len()).rev().collect(),
+            memory: Memory::new(lines.len()),
+            lines,
+            running: BTreeMap::new(),
+            waiting: (0..plan.len()).collect(),
+            finished: BTreeSet::new(),
+            outcome: Outcome::default(),
+            fault: None,
+        }
+    }
+
+    fn run(
+        mut self,
+        events: &Receiver<(Event, SyncSender<()>)>,
+        times: &mut Times,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        self.start();
+        loop {
+            if self.running.is_empty() {
+                return match self.fault {
+                    Some(fault) => Err(fault),
+                    None => Ok(self.outcome),
+                };
+            }
+            let Ok((event, heard)) = events.recv() else { return Ok(self.outcome) };
+            match event {
+                Event::Begins(at) => {
+                    observer.stage_begins(&self.plan[at].id, self.done(), self.plan.len());
+                }
+                Event::Step(at, done, total, what) => {
+                    observer.step(&self.plan[at].id, done, total, &what);
+                }
+                Event::Ends(at, done) => {
+                    self.ends(at, *done, times, observer);
+                    self.start();
+                }
+            }
+            let _ = heard.send(());
+        }
+    }
+
+    fn done(&self) -> usize {
+        self.outcome.ran + self.outcome.skipped
+    }
+
+    /// Gives every idle worker the first stage that waits for nothing and has the memory that it needs.
+    fn start(&mut self) {
+        while self.fault.is_none()
+            && let Some(worker) = self.idle.last().copied()
+            && let Some(at) = self.next()
+        {
+            self.idle.pop();
+            self.waiting.remove(&at);
+            self.running.insert(at, worker);
+            let of = |before: &usize| {
+                let id = self.plan[*before].id.clone();
+                Some((id.clone(), self.outcome.contents.get(&id)?.clone()))
+            };
+            let contents = self.plan[at].after.iter().filter_map(of).collect();
+            // A worker ends with its line alone.
+            let _ = self.lines[worker].send((at, contents));
+        }
+    }
+
+    fn next(&mut self) -> Option<usize> {
+        let Self { plan, workshop, finished, memory, running, .. } = self;
+        let alone = running.is_empty();
+        let ready = |at: &usize| plan[*at].after.iter().all(|before| finished.contains(before));
+        let mut ready = self.waiting.iter().copied().filter(ready);
+        ready.find(|at| memory.take(*at, alone, || estimate(workshop, &plan[*at])))
+    }
+
+    fn ends(
+        &mut self,
+        at: usize,
+        done: Result<Done, RunError>,
+        times: &mut Times,
+        observer: &mut dyn Observer,
+    ) {
+        let task = &self.plan[at];
+        self.idle.extend(self.running.remove(&at));
+        self.memory.give_back(at);
+        let noted = match done {
+            Ok(Done { record, kept }) => {
+                *(if kept { &mut self.outcome.skipped } else { &mut self.outcome.ran }) += 1;
+                self.finished.insert(at);
+                self.outcome.contents.insert(task.id.clone(), record.content.clone());
+                observer.stage_ends(&task.id, (!kept).then_some(record.seconds));
+                times.add(record, kept).map_err(RunError::from)
+            }
+            Err(error) => match task.name(self.workshop.suite) {
+                Some(name) if error.is_of_method() => self.fails(name, error.to_string()),
+                _ => Err(error),
+            },
+        };
+        if let Err(error) = noted {
+            // What else runs would go on for hours.
+            self.workshop.tools.interrupt.store(true, Ordering::Relaxed);
+            self.fault.get_or_insert(error);
+        }
+    }
+
+    /// A method that fails leaves its cells empty, and the others run.
+    fn fails(&mut self, name: String, reason: String) -> Result<(), RunError> {
+        tracing::warn!("{name}: failed: {reason}");
+        let suite = self.workshop.suite;
+        let of = |at: &usize| self.plan[*at].name(suite).is_some_and(|other| other == name);
+        self.waiting.retain(|at| !of(at));
+        // Scores of an earlier state of the method must not pass for this one's.
+        let scores = self.workshop.out.join("scores").join(format!("{name}.json"));
+        self.outcome.failed.insert(name, reason);
+        match fs::remove_file(scores) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+"""``python -m unshade.stage cluster``: an order on a cluster, or on workers of this machine."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..errors import ClusterError
+
+_MEND = 'install it: pip install "unshade[cluster]"'
+
+
+def on_cluster(
+    order_file: Path, address: str, store_url: str, workers: int, progress: Callable[[int, int, str], None]
+) -> dict[str, Any]:
+    """Do an order; returns what failed and what each stage cost."""
+    try:
+        import distributed
+    except ImportError as error:
+        raise ClusterError(f"--cluster needs Dask ({error.name} is missing); {_MEND}") from error
+    from .client import collect
+    from .order import read_order
+    from .store import Store
+
+    order = read_order(order_file)
+    own = store_url == str(order.run / "store")
+    store = Store(store_url)
+    if address != "local":
+        result = collect(order, address, store, [], progress)
+    else:
+        # Beside the run there is room for what it holds.
+        with (
+            tempfile.TemporaryDirectory(prefix="workers.", dir=order.run, ignore_cleanup_errors=True) as place,
+            distributed.LocalCluster(
+                n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0, scheduler_port=0,
+                local_directory=place,
+            ) as cluster,
+        ):  # fmt: skip
+            result = collect(order, cluster.scheduler_address, store, divided(processors(), workers), progress)
+    if own:
+        # All of it is in the run now.
+        store.remove()
+    return result
+
+
+def processors() -> list[int]:
+    """Those that this process may use."""
+    return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else list(range(os.cpu_count() or 1))
+
+
+def divided(processors: list[int], workers: int) -> list[list[int]]:
+    """As many equal parts as there are workers; single ones by turns where there are fewer processors."""
+    count = len(processors)
+    if count < workers:
+        return [[processors[worker % count]] for worker in range(workers)]
+    return [processors[worker * count // workers : (worker + 1) * count // workers] for worker in range(workers)]

@@ -1,0 +1,128 @@
+"""A suite on a real scheduler and real workers, which die, come late and start again."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import pytest
+from test_run import digest
+
+from conftest import TINY
+
+pytest.importorskip("distributed", reason="needs unshade[cluster]")
+
+BIN = Path(sys.executable).parent
+
+
+@contextmanager
+def process(*words: object, log: Path) -> Iterator[subprocess.Popen[bytes]]:
+    with log.open("ab") as said, subprocess.Popen([*map(str, words)], stdout=said, stderr=said) as started:
+        try:
+            yield started
+        finally:
+            started.kill()
+
+
+def free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return taken.getsockname()[1]
+
+
+def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_process(
+    tiny_run: Path, tmp_path: Path
+) -> None:
+    """Killed: the worker that rendered, as soon as it is done, and later the scheduler with all that is left."""
+    address = f"tcp://127.0.0.1:{(port := free_port())}"
+    run, log = tmp_path / "run", tmp_path / "log.txt"
+    with ExitStack() as running:
+
+        def scheduler() -> subprocess.Popen[bytes]:
+            words = ["scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard", "--no-jupyter"]
+            return running.enter_context(process(BIN / "dask", *words, log=log))
+
+        def worker(name: str) -> subprocess.Popen[bytes]:
+            place = tmp_path / name
+            words = ["worker", address, "--nthreads", 1, "--no-nanny", "--no-dashboard", "--name", name]
+            return running.enter_context(process(BIN / "dask", *words, "--local-directory", place, log=log))
+
+        first, workers = scheduler(), {name: worker(name) for name in ("one",)}
+        command = [BIN / "unshade", "run", TINY, "-o", run, "--cluster", address, "--store", tmp_path / "store"]
+        unshade = running.enter_context(
+            subprocess.Popen([*map(str, command)], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        )
+        assert unshade.stderr is not None
+        said: list[str] = []
+        for line in unshade.stderr:
+            said.append(line)
+            if line.startswith("capture/"):
+                # What it knows of the capture is gone with it; what it left is in the store.
+                workers["one"].send_signal(signal.SIGKILL)
+                workers |= {name: worker(name) for name in ("two", "three")}
+            elif line.startswith("scores/") and first.poll() is None:
+                first.send_signal(signal.SIGKILL)
+                for name in ("two", "three"):
+                    workers[name].send_signal(signal.SIGKILL)
+                scheduler()
+                worker("late")
+        assert unshade.wait(timeout=60) == 0, "".join(said) + log.read_text()[-2000:]
+    assert "10 stages run, 0 still valid" in "".join(said), said
+    assert said.count(next(line for line in said if line.startswith("capture/"))) == 1
+    assert digest(run) == digest(tiny_run)
+
+
+def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from unshade.cluster.client import collect
+    from unshade.cluster.order import Order, Task
+    from unshade.cluster.store import Store
+    from unshade.errors import ClusterError
+
+    task = Task("capture/a", (), "captures/a", "a", None, None)
+    order = Order(TINY, tmp_path, "", "", (task,))
+    start = time.monotonic()
+    with pytest.raises(ClusterError, match="no scheduler answers.*dask scheduler"):
+        collect(order, f"tcp://127.0.0.1:{free_port()}", Store(str(tmp_path)), [], lambda *_: None, patience=1.0)
+    assert time.monotonic() - start < 30
+
+
+def test_the_store_keeps_files_and_folders_by_content(tmp_path: Path) -> None:
+    from unshade.cluster.store import Store
+
+    folder = tmp_path / "maps"
+    (folder / "views").mkdir(parents=True)
+    (folder / "views" / "000.exr").write_bytes(b"picture")
+    (tmp_path / "scores.json").write_text("{}")
+    for url in (str(tmp_path / "store"), "memory://store"):
+        store = Store(url)
+        store.put("f" * 64, folder)
+        store.put("a" * 64, tmp_path / "scores.json")
+        for turn in range(2):
+            # A second time it is replaced, not mixed.
+            store.get("f" * 64, tmp_path / "back" / "maps")
+            assert [path.name for path in (tmp_path / "back" / "maps").rglob("*.exr")] == ["000.exr"], turn
+            (tmp_path / "back" / "maps" / "old.exr").touch()
+        store.get("a" * 64, tmp_path / "back" / "scores.json")
+        assert (tmp_path / "back" / "scores.json").read_text() == "{}"
+        done = {"id": "maps/a", "record": {"content": "f" * 64}}
+        store.note("k", done)
+        assert store.known("k") == done and store.known("other") is None
+        # A key whose output somebody removed is no key.
+        store.note("k", {"id": "maps/a", "record": {"content": "0" * 64}})
+        assert store.known("k") is None
+    assert not list(tmp_path.rglob("*.partial")) and sorted(os.listdir(tmp_path / "back")) == ["maps", "scores.json"]
+
+
+def test_workers_of_one_machine_divide_its_processors() -> None:
+    from unshade.cluster.command import divided
+
+    parts = divided(list(range(7)), 3)
+    assert [one for part in parts for one in part] == list(range(7)) and {len(part) for part in parts} == {2, 3}
+    assert divided([4, 6], 3) == [[4], [6], [4]]
