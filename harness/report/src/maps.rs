@@ -100,11 +100,16 @@ impl Studio<'_> {
             let path = maps.join(&file);
             let map =
                 comparison_figures::read_if_present(&path, kind.channels, kind.content())?;
-            let score = method.column.find(kind.subject, None, kind.metric, "none");
+            // After the factor, as the last error picture; a column without one has it as it is.
+            let find = |scale| method.column.find(kind.subject, None, kind.metric, scale);
+            let score = if subject.scaled { find("global") } else { None };
+            let words = if score.is_some() { " after one factor" } else { "" };
+            let score = score.or_else(|| find("none"));
             Ok(map.map(|map| {
                 let (width, height) = (subject.truth.width, subject.truth.height);
                 let picture = difference::resample(&map, width, height);
-                Made { picture, path, caption: comparison_figures::caption(score, None) }
+                let caption = comparison_figures::caption(score, None) + words;
+                Made { picture, path, caption }
             }))
         })?;
         let title = kind.title.to_owned();

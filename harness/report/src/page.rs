@@ -129,7 +129,7 @@ impl Page {
             heat: tone::heat_gradient(),
             mark: MARK,
             summary_export: exported(&summaries).write(root, "tables", "key-figures")?,
-            run: way.to(Path::new("")),
+            run: way.to(Path::new("")).trim_end_matches('/').to_owned(),
             summary: summaries,
             matrices,
             cases,

@@ -108,7 +108,9 @@
       exposure.value = 0;
       zoom = 1;
       await show(row.indexOf(button));
-      if (picture) scale(Math.max(0.25, Math.min(8, Math.floor(room.clientWidth / picture.width) || room.clientWidth / picture.width)));
+      if (!picture) return;
+      const fits = Math.min(room.clientWidth / picture.width, room.clientHeight / picture.height);
+      scale(Math.min(8, Math.floor(fits) || fits));
     });
   }
   exposure.addEventListener("input", redraw);
