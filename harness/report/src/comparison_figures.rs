@@ -223,13 +223,7 @@ impl Studio<'_> {
             });
         }
         let truth = self.tile("truth", subject, &subject.truth, &subject.path)?;
-        Ok(Strip {
-            title: subject.title.clone(),
-            input: subject.input,
-            truth,
-            errors,
-            entries,
-        })
+        Ok(Strip { title: subject.title.clone(), input: subject.input, truth, errors, entries })
     }
 
     fn entry(

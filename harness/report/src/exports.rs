@@ -42,7 +42,8 @@ impl Export {
         let (mut rows, mut shown) = (Vec::new(), Vec::new());
         for group in &table.groups {
             for line in &group.rows {
-                let words = [&line.id, &group.title, &line.name, line.unit, &line.region, line.space];
+                let words =
+                    [&line.id, &group.title, &line.name, line.unit, &line.region, line.space];
                 let mut row: Vec<Value> = words.into_iter().map(Value::from).collect();
                 row.push(Value::from(line.scale.as_str()));
                 for cell in &line.cells {
@@ -189,7 +190,10 @@ mod tests {
     fn csv_is_quoted_json_has_numbers_and_latex_is_escaped() {
         assert_eq!(export().csv(), "method,\"a, \"\"b\"\"\"\r\nx_y,0.1\r\nz,\r\n");
         let back: Value = serde_json::from_str(&export().json()).unwrap();
-        assert_eq!(back, json!([{"method": "x_y", "a, \"b\"": 0.1}, {"method": "z", "a, \"b\"": null}]));
+        assert_eq!(
+            back,
+            json!([{"method": "x_y", "a, \"b\"": 0.1}, {"method": "z", "a, \"b\"": null}])
+        );
         let latex = export().latex();
         assert!(latex.contains("\\begin{tabular}{lr}"), "{latex}");
         assert!(latex.contains("x\\_y & 0.10 \\\\\nz & -- \\\\"), "{latex}");

@@ -20,7 +20,9 @@ impl WayToRun {
         let path = self.0.join(below);
         let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_./~".contains(&byte);
         let bytes = path.to_string_lossy().replace('\\', "/").into_bytes().into_iter();
-        bytes.map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") }).collect()
+        bytes
+            .map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") })
+            .collect()
     }
 }
 

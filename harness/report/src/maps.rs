@@ -74,11 +74,8 @@ impl Studio<'_> {
         let file = format!("{}.exr", kind.subject);
         let folder = self.frames.root.join("truth");
         let path = folder.join(&file);
-        let Some(truth) = comparison_figures::read_if_present(
-            &path,
-            kind.channels,
-            kind.content(),
-        )?
+        let Some(truth) =
+            comparison_figures::read_if_present(&path, kind.channels, kind.content())?
         else {
             return Ok(None);
         };
@@ -98,8 +95,7 @@ impl Studio<'_> {
         let strip = self.strip(&subject, |method| {
             let Some(maps) = &method.maps else { return Ok(None) };
             let path = maps.join(&file);
-            let map =
-                comparison_figures::read_if_present(&path, kind.channels, kind.content())?;
+            let map = comparison_figures::read_if_present(&path, kind.channels, kind.content())?;
             // After the factor, as the last error picture; a column without one has it as it is.
             let find = |scale| method.column.find(kind.subject, None, kind.metric, scale);
             let score = if subject.scaled { find("global") } else { None };

@@ -146,7 +146,9 @@ impl Studio<'_> {
     /// is one.
     fn is_key(&self, source: &Source) -> Result<bool, ReportError> {
         let lights = self.lights()?;
-        Ok(source.light().is_some_and(|light| lights.get(1).or(lights.first()).is_some_and(|key| key == light)))
+        Ok(source
+            .light()
+            .is_some_and(|light| lights.get(1).or(lights.first()).is_some_and(|key| key == light)))
     }
 
     /// The lights with a true relit picture, the capture's own first.

@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::bench::BenchArgs;
 use super::export::ExportArgs;
+use super::figure::FigureArgs;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
@@ -89,6 +90,8 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Draw a figure of a paper from finished runs: PNG, PDF, LaTeX, and the CSV behind it.
+    Figure(FigureArgs),
     /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
     /// face.
     Table {

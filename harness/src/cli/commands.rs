@@ -15,7 +15,7 @@ use super::arguments::{
 };
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use super::{bench, check, doctor, export, start};
+use super::{bench, check, doctor, export, figure, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
 use crate::suite::{self, BaselineMethod, RunError, RunOptions, Suite};
 
@@ -54,6 +54,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             say!("{}", out.join("index.html").display());
         }
+        Verb::Figure(arguments) => figure::figure(&arguments)?,
         Verb::Table { runs, out } => {
             let mut words = vec!["unshade table".to_owned()];
             words.extend(runs.iter().map(|run| run.display().to_string()));

@@ -18,6 +18,7 @@ mod commands;
 mod doctor;
 mod exit;
 mod export;
+mod figure;
 mod progress;
 mod start;
 

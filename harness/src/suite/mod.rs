@@ -32,5 +32,5 @@ pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, report, run};
 pub use scene::{Scene, SceneError};
 pub use sources::{READER_SOURCES, SOLVER_SOURCES};
-pub use stages::{Export, contact_sheet, describe, export, relight, synth};
+pub use stages::{Export, contact_sheet, describe, export, figure, relight, synth};
 pub use tools::{Observer, Tools};
