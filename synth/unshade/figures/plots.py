@@ -16,6 +16,9 @@ COLUMNS = 3
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 """Okabe and Ito's, which the colour-blind tell apart."""
 
+LEVEL = 0.12
+"""Room for the name of a level, inches."""
+
 Block = dict[str, Any]
 
 
@@ -52,7 +55,7 @@ def heats(part: SubFigure, blocks: list[Block], folder: Path) -> None:
         shown = axes.imshow(values, origin="lower", cmap="viridis", vmin=low, vmax=high, aspect="auto")
         for (row, column), value in np.ndenumerate(values):
             light = value > (low + high) / 2
-            text = "–" if np.isnan(value) else f"{value:.1f}"
+            text = "n/a" if np.isnan(value) else f"{value:.1f}"
             axes.text(column, row, text, ha="center", va="center", color="black" if light else "white")
         axes.set_xticks(range(len(block["x"])), [f"{x:g}" for x in block["x"]])
         axes.set_yticks(range(len(block["y"])), [f"{y:g}" for y in block["y"]])
@@ -87,13 +90,13 @@ def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
 
 def bars_height(block: Block) -> float:
     """Inches of a plot of bars: one line each."""
-    return 0.85 + 0.2 * max(len(block["bars"]), 3)
+    return 0.85 + 0.2 * max(len(block["bars"]), 3) + LEVEL * len(block["levels"])
 
 
 def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
     """Bars from zero, or as steps from one to the next, with levels as lines across."""
     height = bars_height(blocks[0])
-    for first, (axes, block) in enumerate(zip(_axes_of_bars(part, len(blocks), height), blocks)):
+    for first, (axes, block) in enumerate(zip(_axes_of_bars(part, blocks, height), blocks)):
         names = [bar["name"] for bar in block["bars"]]
         values = [np.nan if bar["value"] is None else bar["value"] for bar in block["bars"]]
         known = [value for value in values if not np.isnan(value)]
@@ -107,27 +110,33 @@ def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
             axes.barh(at, value - start, left=start, height=0.62, color=COLOURS[1] if worse else COLOURS[0], alpha=0.85)
             if bar["interval"]:
                 axes.plot(bar["interval"], [at, at], color="black", linewidth=0.8)
-            text = "–" if np.isnan(value) else f"{value:+.2f}" if not block["steps"] else f"{value:.1f}"
-            beyond = max([value, start, *(bar["interval"] or [])]) if not np.isnan(value) else start
-            axes.annotate(text, (beyond, at), xytext=(2, 0), textcoords="offset points", va="center", size=6)
+            text = "n/a" if np.isnan(value) else f"{value:+.2f}" if not block["steps"] else f"{value:.1f}"
+            ends = [start, *([] if np.isnan(value) else [value]), *(bar["interval"] or [])]
+            # At the end that points away from where the bar begins.
+            left = value < 0 and not block["steps"]
+            place = {"xy": (min(ends) if left else max(ends), at), "xytext": (-2 if left else 2, 0)}
+            axes.annotate(text, **place, textcoords="offset points", va="center", ha="right" if left else "left", size=6)
             before = before if np.isnan(value) else value
         for (name, value), style in zip(block["levels"], ("--", ":", "-.") * len(block["levels"])):
             axes.axvline(value, color="0.3", linewidth=0.8, linestyle=style, label=name)
         if block["levels"]:
-            axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=5.5)
+            below = -0.28 / (height - 0.72 - LEVEL * len(block["levels"]))
+            axes.legend(frameon=False, loc="upper left", bbox_to_anchor=(0, below), fontsize=6, borderaxespad=0)
         axes.set_yticks(range(len(names)), names if first % COLUMNS == 0 else [])
         axes.invert_yaxis()
         if block["steps"]:
             axes.set_xlim(floor, max(reach) + 0.14 * (max(reach) - floor))
         else:
-            axes.margins(x=0.18)
+            axes.margins(x=0.25)
             axes.axvline(0, color="black", linewidth=0.6)
-        axes.set(xlabel=block["label"])
-        axes.set_title(block["title"].replace(" (", "\n("))
+        axes.set_title(block["label"] if block["steps"] else block["title"].replace(" (", "\n("))
+        if not block["steps"]:
+            axes.set(xlabel=block["label"])
 
 
-def _axes_of_bars(part: SubFigure, count: int, height: float) -> list[Axes]:
-    """Names at the left of the first alone, so with room for them."""
-    found = _axes(part, count)
-    part.subplots_adjust(left=0.2, right=0.98, top=1 - 0.36 / height, bottom=0.36 / height, wspace=0.12)
+def _axes_of_bars(part: SubFigure, blocks: list[Block], height: float) -> list[Axes]:
+    """Names at the left of the first alone, so with room for them; levels are named below."""
+    found = _axes(part, len(blocks))
+    below = 0.36 + LEVEL * max(len(block["levels"]) for block in blocks)
+    part.subplots_adjust(left=0.2, right=0.98, top=1 - 0.36 / height, bottom=below / height, wspace=0.12)
     return found

@@ -1,5 +1,5 @@
 //! Detail transfer: how much of the albedo's detail a method recovers, by its size. A band of the brightness is the
-//! difference of two Gaussian blurs, one octave apart, within the texels that are scored. What of the truth's band
+//! difference of two Gaussian blurs, one octave apart, within the scored texels of the skin. What of the truth's band
 //! is in the recovered one is the projection ⟨p, g⟩ / ⟨g, g⟩ (1: all of it, 0: nothing or something else); their
 //! amplitudes' ratio stands beside it in the CSV, which noise raises too.
 
@@ -51,6 +51,8 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         let path = source.truth(ALBEDO);
         let Some(truth) = read_if_present(&path, RGB, Content::Colour)? else { continue };
         let Some(mask) = read_mask_if_present(&source.truth("coverage.png"))? else { continue };
+        let labels = read_mask_if_present(&source.truth("labels.png"))?;
+        let mask = within_one_region(mask, labels.as_ref());
         let inside: Vec<bool> = mask.data.iter().map(|value| *value > 0).collect();
         let mesh = source.run.join(&source.case.capture).join("mesh.obj");
         let texel = texel_millimetres(&mesh, truth.width)?;
@@ -96,18 +98,36 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     let lines =
         methods.iter().enumerate().map(|(at, (_, title))| line(title, &found, at)).collect();
     drawing.blocks.push(Block::Lines(Lines {
-        title: "Detail of the diffuse albedo".to_owned(),
+        title: "Detail of the diffuse albedo within the skin".to_owned(),
         x_label: "spatial frequency, cycles per mm".to_owned(),
         y_label: "recovered amplitude".to_owned(),
         logarithmic: true,
         lines,
     }));
     drawing.blocks.extend(crops.map(Block::Panels));
-    drawing.caption = "Detail transfer: the share of the true albedo's detail that is in the recovered map, by its \
+    drawing.caption = "Detail transfer: the share of the true albedo's detail within the skin that is in the recovered map, by its \
                        spatial frequency (projection of octave bands of the brightness; 1 is all), mean over faces with \
                        the 95 % interval of Student's t; below, the crop with the most detail, after one factor."
         .to_owned();
     Ok(())
+}
+
+/// The part of the mask in its largest region, which is skin: the edges of brows and hair are larger than any detail,
+/// and a flat map with the right regions has them. All of it where no regions are known.
+fn within_one_region(mut mask: GrayImage, labels: Option<&GrayImage>) -> GrayImage {
+    let same = |labels: &&GrayImage| (labels.width, labels.height) == (mask.width, mask.height);
+    let Some(labels) = labels.filter(same) else { return mask };
+    let mut counts = [0_usize; 256];
+    for (label, inside) in labels.data.iter().zip(&mask.data) {
+        counts[usize::from(*label)] += usize::from(*inside > 0);
+    }
+    let largest = (0..256).max_by_key(|label| counts[*label]);
+    for (label, inside) in labels.data.iter().zip(&mut mask.data) {
+        if Some(usize::from(*label)) != largest {
+            *inside = 0;
+        }
+    }
+    mask
 }
 
 /// The mean over faces in every band.

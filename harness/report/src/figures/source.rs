@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use scoring::score::Scores;
 
-use super::FigureRequest;
+use super::request::FigureRequest;
 use crate::error::ReportError;
 use crate::page::{columns, read_scores};
 use crate::run::{Case, Class, Frames, Kind, RunFile};

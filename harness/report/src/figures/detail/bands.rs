@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 /// The narrower blur of the finest band, texels (standard deviation). Finer detail is less than two texels wide.
 const FINEST: f64 = 0.5;
-/// Bands, each an octave.
+/// Bands, each an octave, at most.
 const COUNT: usize = 6;
+/// A wider blur than this share of the side compares no detail but one end of the face with the other.
+const WIDEST: f64 = 1.0 / 24.0;
 
 /// The difference of two blurs.
 pub(super) struct Band {
@@ -33,8 +35,9 @@ pub(super) fn bands(values: &[f64], inside: &[bool], width: usize) -> Vec<Band> 
     };
     let mut narrow = blurred(FINEST);
     (0..COUNT)
-        .map(|at| {
-            let sigma = FINEST * 2f64.powi(at as i32);
+        .map(|at| FINEST * 2f64.powi(at as i32))
+        .take_while(|sigma| *sigma <= WIDEST * width as f64)
+        .map(|sigma| {
             let wide = blurred(2.0 * sigma);
             let values = narrow.iter().zip(&wide).map(|(narrow, wide)| narrow - wide).collect();
             narrow = wide;
@@ -93,7 +96,7 @@ mod tests {
             let frequency = bands(&wave(0.1), &everywhere, SIDE)[at].cycles_per_texel();
             let found = bands(&wave(frequency), &everywhere, SIDE);
             let strongest =
-                (0..COUNT).max_by(|a, b| energy(&found[*a]).total_cmp(&energy(&found[*b])));
+                (0..found.len()).max_by(|a, b| energy(&found[*a]).total_cmp(&energy(&found[*b])));
             assert_eq!(strongest, Some(at));
             let sigma = found[at].blur;
             let pass = |sigma: f64| (-2.0 * (PI * sigma * frequency).powi(2)).exp();
