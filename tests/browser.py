@@ -97,7 +97,9 @@ def browser(profile: Path) -> Iterator[Page]:
     # Without the sandbox, which root in a container does not have; it shows files of ours alone.
     options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--remote-debugging-port=0"]
     with (profile / "log.txt").open("w") as log:
-        child = subprocess.Popen([program, *options, f"--user-data-dir={profile}", "about:blank"], stderr=log, stdout=log)
+        child = subprocess.Popen(
+            [program, *options, f"--user-data-dir={profile}", "about:blank"], stderr=log, stdout=log
+        )
     try:
         # The first line is the port that it chose, the second the browser's own address.
         file = profile / "DevToolsActivePort"

@@ -12,6 +12,7 @@ import browser
 import mitsuba as mi
 import numpy as np
 import pytest
+
 from conftest import unshade
 
 pytestmark = pytest.mark.skipif(browser.find() is None, reason="no Chromium here (Debian: apt install chromium)")
@@ -66,9 +67,9 @@ def test_a_click_on_a_heading_sorts_and_dashes_stay_last(opened: browser.Page) -
 
 
 def test_a_word_shows_its_rows_alone(opened: browser.Page) -> None:
-    shown = "[...document.querySelectorAll('section.case .scores')[0].tBodies].flatMap(body => [...body.rows])" + (
-        ".filter(row => !row.hidden).map(row => row.textContent.toLowerCase())"
-    )
+    shown = """
+        [...document.querySelectorAll('section.case .scores')[0].tBodies].flatMap(body => [...body.rows])
+            .filter(row => !row.hidden).map(row => row.textContent.toLowerCase())"""
     everything = opened.run(shown)
     opened.run("""
         box = document.querySelector('section.case .filter');
@@ -151,7 +152,7 @@ def test_a_narrow_window_scrolls_down_only(page: browser.Page, report: Path) -> 
 def test_tables_are_beside_the_page_as_files(report: Path) -> None:
     with (report.parent / "tables" / "key-figures.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [row["method"] for row in rows][0] == "quick" and len(rows) == 3
+    assert rows[0]["method"] == "quick" and len(rows) == 3
     full = json.loads(next(report.parent.glob("tables/*/every-score.json")).read_text())
     scores = json.loads(next(report.parent.glob("data/*/quick.json")).read_text())["rows"]
     by_id = {row["id"]: row["quick"] for row in full}

@@ -64,11 +64,13 @@ def draw(folder: Path) -> list[Path]:
 
 
 def grouped(blocks: list[Block]) -> list[tuple[str, list[Block]]]:
-    """Plots of one kind that follow each other share a row; panels have one each."""
+    """Plots of one kind that follow each other share rows, maps of values with those of their quantity; panels have
+    a row each."""
     groups: list[tuple[str, list[Block]]] = []
     for block in blocks:
         kind = block["kind"]
-        if groups and groups[-1][0] == kind and kind != "panels":
+        joins = groups and groups[-1][0] == kind and kind != "panels"
+        if joins and (kind != "heat" or groups[-1][1][-1]["label"] == block["label"]):
             groups[-1][1].append(block)
         else:
             groups.append((kind, [block]))

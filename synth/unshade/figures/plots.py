@@ -27,7 +27,7 @@ def _axes(part: SubFigure, count: int, bottom: float = 0.2, between: float = 0.5
     rows = -(-count // columns)
     grid = part.subplots(rows, columns, squeeze=False)
     part.subplots_adjust(
-        left=0.09 if columns > 1 else 0.12, right=0.97, bottom=bottom / rows, top=1 - 0.16 / rows,
+        left=0.09 if columns > 1 else 0.12, right=0.97, bottom=bottom / rows, top=1 - 0.18 / rows,
         wspace=0.45, hspace=between,
     )  # fmt: skip
     found = list(grid.flat)
@@ -49,7 +49,7 @@ def heats(part: SubFigure, blocks: list[Block], folder: Path) -> None:
             v for block in blocks if block["label"] == label for row in block["values"] for v in row if v is not None
         ]
         ranges[label] = (min(values, default=0.0), max(values, default=1.0))
-    for axes, block in zip(_axes(part, len(blocks)), blocks):
+    for axes, block in zip(_axes(part, len(blocks), between=0.75), blocks):
         low, high = ranges[block["label"]]
         values = np.array([[np.nan if v is None else v for v in row] for row in block["values"]], dtype=float)
         shown = axes.imshow(values, origin="lower", cmap="viridis", vmin=low, vmax=high, aspect="auto")
@@ -115,7 +115,9 @@ def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
             # At the end that points away from where the bar begins.
             left = value < 0 and not block["steps"]
             place = {"xy": (min(ends) if left else max(ends), at), "xytext": (-2 if left else 2, 0)}
-            axes.annotate(text, **place, textcoords="offset points", va="center", ha="right" if left else "left", size=6)
+            axes.annotate(
+                text, **place, textcoords="offset points", va="center", ha="right" if left else "left", size=6
+            )
             before = before if np.isnan(value) else value
         for (name, value), style in zip(block["levels"], ("--", ":", "-.") * len(block["levels"])):
             axes.axvline(value, color="0.3", linewidth=0.8, linestyle=style, label=name)
