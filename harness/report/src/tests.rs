@@ -136,7 +136,7 @@ fn nothing_is_loaded_from_elsewhere_and_every_link_leads_somewhere() {
     {
         assert!(!made.html.contains(elsewhere), "{elsewhere}");
     }
-    let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\""]
+    let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\"", "data-values=\""]
         .into_iter()
         .flat_map(|kind| between(&made.html, kind, "\""));
     let mut pictures = 0;
