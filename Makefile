@@ -30,7 +30,7 @@ $(UV):
 # The exact pins of pyproject.toml; the mark is written last, so an interrupted set-up is done again.
 .venv/complete: pyproject.toml | $(UV)
 	$(UV) venv --quiet --clear --python "$(PYTHON)" .venv
-	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --extra cluster --group build
+	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --extra cluster --extra figures --group build
 	@touch $@
 
 demo: build

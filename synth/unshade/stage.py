@@ -90,6 +90,10 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("--no-fidelity", action="store_true")
     export.set_defaults(stage=_export)
 
+    figure = verbs.add_parser("figure", help="draw a figure that was gathered from runs")
+    figure.add_argument("--folder", type=Path, required=True)
+    figure.set_defaults(stage=_figure)
+
     method = verbs.add_parser("method", help="recover maps by a method that comes with unshade")
     method.add_argument("--name", required=True)
     method.add_argument("--capture", type=Path, required=True)
@@ -128,7 +132,7 @@ def _parser() -> argparse.ArgumentParser:
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
     for verb in (
-        synth, relight, budget, lights, export, method, cluster, check, describe, sheet, history, doctor, physics,
+        synth, relight, budget, lights, export, figure, method, cluster, check, describe, sheet, history, doctor, physics,
     ):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
@@ -210,6 +214,12 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
     rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
     return {"asset": str(options.out), "fidelity": rows, "lines": lines}
+
+
+def _figure(options: argparse.Namespace) -> dict[str, Any]:
+    from .figures.draw import draw
+
+    return {"files": [str(path) for path in draw(options.folder)]}
 
 
 def _relight_photographed(options: argparse.Namespace) -> dict[str, Any]:

@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use scoring::score::RegionSize;
 use serde::Serialize;
 
-use super::comparison_figures::{self, ComparisonFigure, Input, MethodFolders, Studio};
+use super::comparison_figures::{self, ComparisonFigure, Input, MethodFolders, Studio, Tile};
 use super::error::ReportError;
+use super::exports::{Export, Links};
+use super::lead::{self, Lead};
+use super::link::WayToRun;
 use super::methods::{self as made, MethodRow};
 use super::run::{Case, Frames, Timing};
 use super::solve::Solve;
@@ -29,6 +32,8 @@ pub(super) struct CaseView {
     complete: Table,
     regions: Vec<Region>,
     maps: Vec<ComparisonFigure>,
+    lead: Option<Lead>,
+    exports: [Links; 2],
     pub views: Vec<ComparisonFigure>,
     layers: Vec<ComparisonFigure>,
     solves: Vec<Solve>,
@@ -84,6 +89,7 @@ impl CaseView {
         columns: &[Column],
         timing: &Timing,
         root: &Path,
+        way: &WayToRun,
     ) -> Result<Self, ReportError> {
         let capture = run.join(&case.capture);
         let frames = Frames::read(&capture)?;
@@ -103,6 +109,8 @@ impl CaseView {
             methods: &methods,
             root,
             folder: &format!("pictures/{anchor}"),
+            run,
+            way,
         };
         let mut solves = Vec::new();
         let mut hashes = Vec::new();
@@ -120,6 +128,16 @@ impl CaseView {
             }
             hashes.push(Hashes::of(column, data));
         }
+        let (table, complete) =
+            (table::chosen(columns, &case.light), table::complete(columns, &case.light));
+        let save = |table: &Table, name: &str| {
+            Export::of_scores(table).write(root, &format!("tables/{anchor}"), name)
+        };
+        let exports = [save(&table, "scores")?, save(&complete, "every-score")?];
+        let (inputs, maps, views) =
+            (studio.inputs()?, studio.map_figures()?, studio.view_figures()?);
+        let input = main_input(&inputs, &views);
+        let lead = lead::lead(&views, &maps, &table, &case.light, input);
         Ok(Self {
             id: case.id.clone(),
             face: case.face.clone(),
@@ -127,13 +145,15 @@ impl CaseView {
             variant: case.variant.clone(),
             train: frames.train.len(),
             test: frames.test.len(),
-            inputs: studio.inputs()?,
+            inputs,
             methods: made::rows(run, case, columns, timing, root)?,
-            table: table::chosen(columns, &case.light),
-            complete: table::complete(columns, &case.light),
+            table,
+            complete,
+            lead,
+            exports,
             regions: regions(columns),
-            maps: studio.map_figures()?,
-            views: studio.view_figures()?,
+            maps,
+            views,
             layers: studio.layer_figures()?,
             solves,
             hashes,
@@ -143,10 +163,14 @@ impl CaseView {
     }
 
     /// The training view nearest to the first withheld one.
-    pub fn main_input(&self) -> Option<&comparison_figures::Tile> {
-        let index = self.views.first()?.strips.first()?.input?;
-        Some(&self.inputs.get(index)?.tile)
+    pub fn main_input(&self) -> Option<&Tile> {
+        main_input(&self.inputs, &self.views)
     }
+}
+
+fn main_input<'a>(inputs: &'a [Input], views: &[ComparisonFigure]) -> Option<&'a Tile> {
+    let index = views.first()?.strips.first()?.input?;
+    Some(&inputs.get(index)?.tile)
 }
 
 impl Hashes {

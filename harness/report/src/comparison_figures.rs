@@ -11,6 +11,8 @@ use serde::Serialize;
 
 use super::difference::{self, Measure};
 use super::error::ReportError;
+use super::float_picture;
+use super::link::WayToRun;
 use super::run::{Frame, Frames};
 use super::table::{self, Column};
 use super::tone::{self, Raster};
@@ -28,6 +30,20 @@ pub(super) struct Tile {
     pub src: String,
     pub width: usize,
     pub height: usize,
+    /// Its values as a script for the viewer, of key pictures.
+    pub values: Option<String>,
+    /// How the viewer shows them.
+    pub tone: Option<Tone>,
+    /// The file in the run that it was made from.
+    pub exr: Option<String>,
+}
+
+/// How a picture's values become visible, for the viewer.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Tone {
+    pub kind: &'static str,
+    /// The value that is shown as white.
+    pub white: f32,
 }
 
 /// One method's picture and errors in a row; absent where it made none.
@@ -111,6 +127,14 @@ impl Show {
         }
     }
 
+    fn tone(self) -> Tone {
+        match self {
+            Show::Colour { exposure } => Tone { kind: "colour", white: 1.0 / exposure },
+            Show::Grey { white } => Tone { kind: "grey", white },
+            Show::Normal => Tone { kind: "normal", white: 1.0 },
+        }
+    }
+
     fn words(self) -> String {
         match self {
             Show::Colour { exposure } => format!("linear colour × {exposure}, sRGB curve"),
@@ -135,11 +159,24 @@ pub(super) struct Subject {
     /// Which training view to show beside it.
     pub input: Option<usize>,
     pub truth: Picture,
+    /// The file that the truth was read from.
+    pub path: PathBuf,
     pub mask: Option<GrayImage>,
     pub show: Show,
     pub measure: Measure,
     /// Compare a second time after the method's one factor.
     pub scaled: bool,
+    /// Keep the values for the viewer: too many bytes for every picture.
+    pub values: bool,
+}
+
+/// What a method made of a subject.
+pub(super) struct Made {
+    pub picture: Picture,
+    /// The file that it was read from.
+    pub path: PathBuf,
+    /// The score that belongs to it.
+    pub caption: String,
 }
 
 /// Makes the comparison figures of one case and writes their pictures.
@@ -150,6 +187,9 @@ pub(super) struct Studio<'a> {
     /// The report's folder, and where below it this case's pictures go.
     pub root: &'a Path,
     pub folder: &'a str,
+    /// The run, and the way there from the finished report.
+    pub run: &'a Path,
+    pub way: &'a WayToRun,
 }
 
 impl Studio<'_> {
@@ -169,7 +209,7 @@ impl Studio<'_> {
     pub fn strip(
         &self,
         subject: &Subject,
-        made: impl Fn(&MethodFolders) -> Result<Option<(Picture, String)>, ReportError>,
+        made: impl Fn(&MethodFolders) -> Result<Option<Made>, ReportError>,
     ) -> Result<Strip, ReportError> {
         let mut errors = vec!["error".to_owned()];
         if subject.scaled {
@@ -178,26 +218,19 @@ impl Studio<'_> {
         let mut entries = Vec::new();
         for method in self.methods {
             entries.push(match made(method)? {
-                Some((picture, caption)) => self.entry(subject, method, &picture, caption)?,
+                Some(made) => self.entry(subject, method, made)?,
                 None => Entry::default(),
             });
         }
-        let truth = subject.show.raster(&subject.truth);
-        Ok(Strip {
-            title: subject.title.clone(),
-            input: subject.input,
-            truth: self.save("truth", &subject.name, &truth)?,
-            errors,
-            entries,
-        })
+        let truth = self.tile("truth", subject, &subject.truth, &subject.path)?;
+        Ok(Strip { title: subject.title.clone(), input: subject.input, truth, errors, entries })
     }
 
     fn entry(
         &self,
         subject: &Subject,
         method: &MethodFolders,
-        made: &Picture,
-        caption: String,
+        made: Made,
     ) -> Result<Entry, ReportError> {
         // A method may be called "truth" or "input" too.
         let group = format!("by-{}", file_name(&method.column.method.id));
@@ -209,7 +242,7 @@ impl Studio<'_> {
         for (index, factor) in factors.into_iter().enumerate() {
             let field = factor.and_then(|factor| {
                 let mask = subject.mask.as_ref();
-                difference::field(made, &subject.truth, mask, subject.measure, factor)
+                difference::field(&made.picture, &subject.truth, mask, subject.measure, factor)
             });
             errors.push(match field {
                 Some(field) => {
@@ -219,8 +252,27 @@ impl Studio<'_> {
                 None => None,
             });
         }
-        let picture = Some(self.save(&group, &subject.name, &subject.show.raster(made))?);
-        Ok(Entry { picture, caption, errors })
+        let picture = Some(self.tile(&group, subject, &made.picture, &made.path)?);
+        Ok(Entry { picture, caption: made.caption, errors })
+    }
+
+    /// A picture of a subject with the link to its file, and its values if they are to be kept.
+    fn tile(
+        &self,
+        group: &str,
+        subject: &Subject,
+        picture: &Picture,
+        path: &Path,
+    ) -> Result<Tile, ReportError> {
+        let mut tile = self.save(group, &subject.name, &subject.show.raster(picture))?;
+        tile.exr = path.strip_prefix(self.run).ok().map(|below| self.way.to(below));
+        if subject.values {
+            let script = tile.src.replace(".png", ".js");
+            float_picture::write(&self.root.join(&script), &script, picture)?;
+            tile.values = Some(script);
+            tile.tone = Some(subject.show.tone());
+        }
+        Ok(tile)
     }
 
     /// Writes a picture below the report's folder.
@@ -231,7 +283,8 @@ impl Studio<'_> {
             fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;
         }
         raster.save(&path)?;
-        Ok(Tile { src, width: raster.width, height: raster.height })
+        let (width, height) = (raster.width, raster.height);
+        Ok(Tile { src, width, height, values: None, tone: None, exr: None })
     }
 }
 

@@ -22,10 +22,10 @@ impl Measure {
     /// The error at the right end of the colour bar, the same for every suite.
     pub fn top(self) -> f32 {
         match self {
-            Measure::Display => 0.15,
-            Measure::ColourDifference => 12.0,
-            Measure::Value => 0.015,
-            Measure::Angle => 20.0,
+            Measure::Display => 0.1,
+            Measure::ColourDifference => 6.0,
+            Measure::Value => 0.01,
+            Measure::Angle => 5.0,
         }
     }
 

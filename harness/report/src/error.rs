@@ -65,6 +65,26 @@ pub enum ReportError {
     /// There is nothing to make a table of.
     #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
     NoScores(PathBuf),
+    /// A figure is to be of what no run has.
+    #[error("{what} {name:?}: not in {runs}; run.json there lists what is")]
+    Unknown {
+        /// `case` or `method`.
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+        /// The runs' folders.
+        runs: String,
+    },
+    /// The runs do not hold what a figure shows.
+    #[error(
+        "{run}: holds no {wanted}, which this figure is of; docs/figures.md says what each needs"
+    )]
+    NoFigure {
+        /// The first run's folder.
+        run: PathBuf,
+        /// What the figure is made of.
+        wanted: &'static str,
+    },
     /// A page could not be laid out.
     #[error("the report's page cannot be laid out: {0}")]
     Template(#[from] minijinja::Error),

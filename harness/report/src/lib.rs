@@ -12,7 +12,12 @@ mod contact_sheets;
 mod curve;
 mod difference;
 mod error;
+mod exports;
+mod figures;
+mod float_picture;
+mod lead;
 mod light;
+mod link;
 mod maps;
 mod matrix;
 mod methods;
@@ -39,6 +44,8 @@ use formats::atomic::{self, Folder, FolderError};
 
 pub use changed::write_changes;
 pub use error::ReportError;
+pub use figures::{FigureKind, FigureRequest, write_figure};
+use link::WayToRun;
 use page::Page;
 pub use page::ProgressCallback;
 pub use results::write_results;
@@ -70,8 +77,9 @@ pub fn write(
 ) -> Result<ReportSummary, ReportError> {
     let manifest = RunFile::open(run)?;
     check_place(run, out)?;
+    let way = WayToRun::new(run, out).map_err(|error| ReportError::read(run, error))?;
     let folder = Folder::begin(out)?;
-    let page = match fill(run, &manifest, folder.path(), progress) {
+    let page = match fill(run, &manifest, folder.path(), &way, progress) {
         Ok(page) => page,
         Err(error) => {
             folder.abandon();
@@ -91,9 +99,10 @@ fn fill(
     run: &Path,
     manifest: &RunFile,
     root: &Path,
+    way: &WayToRun,
     progress: &mut ProgressCallback,
 ) -> Result<Page, ReportError> {
-    let page = Page::make(run, manifest, root, progress)?;
+    let page = Page::make(run, manifest, root, way, progress)?;
     if page.has_every_score() {
         Baseline::of_run(run)?.write(&root.join(BASELINE))?;
     }

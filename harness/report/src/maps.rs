@@ -3,7 +3,7 @@
 use formats::picture::Content;
 use rayon::prelude::*;
 
-use super::comparison_figures::{self, ComparisonFigure, Show, Studio, Subject};
+use super::comparison_figures::{self, ComparisonFigure, Made, Show, Studio, Subject};
 use super::difference::{self, Measure};
 use super::error::ReportError;
 
@@ -73,11 +73,9 @@ impl Studio<'_> {
     fn map_figure(&self, kind: &MapKind) -> Result<Option<ComparisonFigure>, ReportError> {
         let file = format!("{}.exr", kind.subject);
         let folder = self.frames.root.join("truth");
-        let Some(truth) = comparison_figures::read_if_present(
-            &folder.join(&file),
-            kind.channels,
-            kind.content(),
-        )?
+        let path = folder.join(&file);
+        let Some(truth) =
+            comparison_figures::read_if_present(&path, kind.channels, kind.content())?
         else {
             return Ok(None);
         };
@@ -87,22 +85,27 @@ impl Studio<'_> {
             // The face looks along +Z.
             input: self.frames.nearest_train([0.0, 0.0, 1.0]),
             truth,
+            path,
             mask: comparison_figures::read_mask_if_present(&folder.join("coverage.png"))?,
             show: kind.show,
             measure: kind.measure,
             scaled: kind.subject == "diffuse_albedo",
+            values: matches!(kind.subject, "diffuse_albedo" | "specular_normal"),
         };
         let strip = self.strip(&subject, |method| {
             let Some(maps) = &method.maps else { return Ok(None) };
-            let map = comparison_figures::read_if_present(
-                &maps.join(&file),
-                kind.channels,
-                kind.content(),
-            )?;
-            let score = method.column.find(kind.subject, None, kind.metric, "none");
+            let path = maps.join(&file);
+            let map = comparison_figures::read_if_present(&path, kind.channels, kind.content())?;
+            // After the factor, as the last error picture; a column without one has it as it is.
+            let find = |scale| method.column.find(kind.subject, None, kind.metric, scale);
+            let score = if subject.scaled { find("global") } else { None };
+            let words = if score.is_some() { " after one factor" } else { "" };
+            let score = score.or_else(|| find("none"));
             Ok(map.map(|map| {
-                let map = difference::resample(&map, subject.truth.width, subject.truth.height);
-                (map, comparison_figures::caption(score, None))
+                let (width, height) = (subject.truth.width, subject.truth.height);
+                let picture = difference::resample(&map, width, height);
+                let caption = comparison_figures::caption(score, None) + words;
+                Made { picture, path, caption }
             }))
         })?;
         let title = kind.title.to_owned();

@@ -11,10 +11,12 @@ use serde::Serialize;
 
 use super::case::CaseView;
 use super::error::ReportError;
+use super::exports::{Export, Links};
+use super::link::WayToRun;
 use super::matrix::{self, Matrix};
 use super::run::{self, Case, Method, RunFile, SolverTiming, Timing};
 use super::solve::plain;
-use super::summary::{SummaryCase, summary};
+use super::summary::{KEY_FIGURE_NAMES, SummaryCase, summary};
 use super::table::Column;
 use super::tone;
 
@@ -26,15 +28,18 @@ const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 pub type ProgressCallback<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 
 /// Every template by the name that others include it by.
-pub(super) const TEMPLATES: [(&str, &str); 8] = [
+pub(super) const TEMPLATES: [(&str, &str); 11] = [
     ("index.html", include_str!("templates/index.html")),
     ("table.html", include_str!("templates/table.html")),
     ("comparison_figure.html", include_str!("templates/comparison_figure.html")),
     ("matrix.html", include_str!("templates/matrix.html")),
     ("solve.html", include_str!("templates/solve.html")),
     ("reading.html", include_str!("templates/reading.html")),
+    ("lead.html", include_str!("templates/lead.html")),
     ("style.css", include_str!("templates/style.css")),
     ("slider.js", include_str!("templates/slider.js")),
+    ("tables.js", include_str!("templates/tables.js")),
+    ("viewer.js", include_str!("templates/viewer.js")),
 ];
 
 /// The page as the templates see it.
@@ -45,6 +50,8 @@ pub(super) struct Page {
     heat: String,
     mark: &'static str,
     summary: Vec<SummaryCase>,
+    summary_export: Links,
+    run: String,
     matrices: Vec<Matrix>,
     cases: Vec<CaseView>,
     metrics: Vec<Definition>,
@@ -89,6 +96,7 @@ impl Page {
         run: &Path,
         manifest: &RunFile,
         root: &Path,
+        way: &WayToRun,
         progress: &mut ProgressCallback,
     ) -> Result<Self, ReportError> {
         let scores = manifest.cases.iter().map(|case| read_scores(run, case));
@@ -103,7 +111,7 @@ impl Page {
                 return Err(ReportError::Interrupted);
             }
             summaries.push(summary(case, columns));
-            cases.push(CaseView::make(run, case, columns, &timing, root)?);
+            cases.push(CaseView::make(run, case, columns, &timing, root, way)?);
         }
         let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
         let sources = pairs.map(|((case, view), columns)| matrix::Source {
@@ -120,6 +128,8 @@ impl Page {
             suite: manifest.suite.clone(),
             heat: tone::heat_gradient(),
             mark: MARK,
+            summary_export: exported(&summaries).write(root, "tables", "key-figures")?,
+            run: way.to(Path::new("")).trim_end_matches('/').to_owned(),
             summary: summaries,
             matrices,
             cases,
@@ -158,6 +168,17 @@ pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>
         _ => Ok(None),
     };
     case.methods.iter().map(read).collect()
+}
+
+/// The key figures as files.
+fn exported(cases: &[SummaryCase]) -> Export {
+    let headings = ["case", "method"].iter().chain(&KEY_FIGURE_NAMES);
+    let rows = cases.iter().flat_map(|case| {
+        case.rows.iter().map(|row| {
+            [&case.id, &row.title].into_iter().chain(&row.cells).cloned().collect::<Vec<_>>()
+        })
+    });
+    Export::of_text(headings.map(|heading| (*heading).to_owned()).collect(), rows.collect())
 }
 
 /// Each protocol once, in the order in which the scores name them.

@@ -9,18 +9,18 @@ use super::{comparison_figures, metric};
 /// The figures that decide, of one case.
 #[derive(Serialize)]
 pub(super) struct SummaryCase {
-    id: String,
+    pub id: String,
     anchor: String,
-    rows: Vec<SummaryRow>,
+    pub rows: Vec<SummaryRow>,
 }
 
 #[derive(Serialize)]
 pub(super) struct SummaryRow {
-    title: String,
+    pub title: String,
     kind: &'static str,
     /// What is likely wrong with the maps.
     findings: Vec<String>,
-    cells: Vec<String>,
+    pub cells: Vec<String>,
 }
 
 /// One entry of the key figures: heading, subject, metric, scale, and whether the light is
@@ -38,6 +38,15 @@ enum KeyLight {
     Own,
     Other,
 }
+
+/// What stands above the key figures in files.
+pub(super) const KEY_FIGURE_NAMES: [&str; 5] = [
+    "diffuse albedo, PSNR of sRGB after one factor, dB",
+    "specular normal, mean angle / plain mesh, °",
+    "withheld view, PSNR of sRGB, dB",
+    "relit, capture's light, PSNR of sRGB, dB",
+    "relit, other lights, PSNR of sRGB, dB",
+];
 
 const KEY_FIGURES: [KeyFigure; 5] = [
     KeyFigure {

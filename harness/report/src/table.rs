@@ -104,11 +104,19 @@ pub(super) struct Line {
     pub trivial: String,
     pub trivial_best: bool,
     pub floor: String,
+    /// Both in full.
+    #[serde(skip)]
+    pub numbers: (Option<f64>, Option<f64>),
 }
 
 #[derive(Debug, Serialize)]
 pub(super) struct Cell {
     pub value: String,
+    /// In full; none where nothing was scored.
+    #[serde(skip)]
+    pub number: Option<f64>,
+    #[serde(skip)]
+    pub ci95: Option<[f64; 2]>,
     pub interval: String,
     pub best: bool,
     pub kind: &'static str,
@@ -179,6 +187,8 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
                 Some(_) => FAILED.to_owned(),
                 None => shown(value(row), decimals),
             },
+            number: value(row).filter(|_| column.method.failed.is_none()),
+            ci95: row.and_then(|row| row.ci95),
             interval: interval(row.and_then(|row| row.ci95), decimals),
             best: column.method.is_ranked() && value(row).is_some() && value(row) == best,
             kind: column.method.role(),
@@ -199,6 +209,7 @@ fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line 
         trivial: shown(trivial, decimals),
         trivial_best: trivial.is_some() && trivial == best,
         floor: shown(floor, decimals),
+        numbers: (trivial, floor),
     }
 }
 

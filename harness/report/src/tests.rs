@@ -7,6 +7,7 @@ use formats::picture::{self, Picture};
 use scoring::compare::Baseline;
 use serde_json::{Value, json};
 
+use super::link::WayToRun;
 use super::page::{Page, TEMPLATES};
 use super::run::RunFile;
 use super::{ReportError, ReportSummary, sample_run, write};
@@ -104,7 +105,8 @@ fn every_part_of_the_page_and_of_a_case_is_shown_by_a_template() {
     let run = folder.path().join("run");
     sample_run::write(&run);
     let manifest = RunFile::open(&run).unwrap();
-    let page = Page::make(&run, &manifest, folder.path(), &mut |_, _, _| true).unwrap();
+    let way = WayToRun::new(&run, &folder.path().join("report")).unwrap();
+    let page = Page::make(&run, &manifest, folder.path(), &way, &mut |_, _, _| true).unwrap();
     let page = serde_json::to_value(page).unwrap();
     let shown = |key: &str| {
         let mut words = TEMPLATES
@@ -134,7 +136,7 @@ fn nothing_is_loaded_from_elsewhere_and_every_link_leads_somewhere() {
     {
         assert!(!made.html.contains(elsewhere), "{elsewhere}");
     }
-    let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\""]
+    let references = ["src=\"", "href=\"", "data-picture=\"", "data-truth=\"", "data-values=\""]
         .into_iter()
         .flat_map(|kind| between(&made.html, kind, "\""));
     let mut pictures = 0;

@@ -7,7 +7,7 @@ use formats::picture::Content;
 use rayon::prelude::*;
 
 use super::comparison_figures::{
-    self, ComparisonFigure, MethodFolders, Show, Strip, Studio, Subject,
+    self, ComparisonFigure, Made, MethodFolders, Show, Strip, Studio, Subject,
 };
 use super::difference::Measure;
 use super::error::ReportError;
@@ -142,6 +142,15 @@ impl Studio<'_> {
         Ok(Some(ComparisonFigure::new(subject, title, show, Measure::Display, strips)))
     }
 
+    /// Whether the figure at the head of the case is of such pictures: another light than the capture's, if there
+    /// is one.
+    fn is_key(&self, source: &Source) -> Result<bool, ReportError> {
+        let lights = self.lights()?;
+        Ok(source
+            .light()
+            .is_some_and(|light| lights.get(1).or(lights.first()).is_some_and(|key| key == light)))
+    }
+
     /// The lights with a true relit picture, the capture's own first.
     fn lights(&self) -> Result<Vec<String>, ReportError> {
         let folder = self.frames.root.join("truth/relit");
@@ -173,8 +182,9 @@ impl Studio<'_> {
             Source::Relit { .. } if layer.name.is_none() && !folder.is_dir() => frame.image.clone(),
             Source::Relit { light, .. } => folder.join("relit").join(light).join(&file),
         };
+        let path = truth;
         let Some(truth) =
-            comparison_figures::read_if_present(&truth, layer.channels, Content::Colour)?
+            comparison_figures::read_if_present(&path, layer.channels, Content::Colour)?
         else {
             return Ok(None);
         };
@@ -190,16 +200,21 @@ impl Studio<'_> {
             title: format!("view {}", frame.name),
             input: self.frames.nearest_train(frame.direction),
             truth,
+            path,
             mask,
             show: Show::Colour { exposure: layer.exposure },
             measure: Measure::Display,
             scaled: false,
+            values: layer.name.is_none()
+                && self.is_key(source)?
+                && self.frames.test.first().is_some_and(|first| first.name == frame.name),
         };
         let strip = self.strip(&subject, |method| {
             let Some(path) = source.path(method, &file) else { return Ok(None) };
             let made = comparison_figures::read_if_present(&path, layer.channels, Content::Colour)?;
             let score = method.column.find(&id, light, "psnr_srgb", source.scale());
-            Ok(made.map(|made| (made, comparison_figures::caption(score, Some(&frame.name)))))
+            let caption = comparison_figures::caption(score, Some(&frame.name));
+            Ok(made.map(|picture| Made { picture, path, caption }))
         })?;
         Ok(Some(strip))
     }

@@ -8,6 +8,7 @@ use super::bench::BenchArgs;
 use super::calibrate::CalibrateArgs;
 use super::compare::CompareArgs;
 use super::export::ExportArgs;
+use super::figure::FigureArgs;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
@@ -114,6 +115,8 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
+    /// Draw a figure of a paper from finished runs: PNG, PDF, LaTeX, and the CSV behind it.
+    Figure(FigureArgs),
     /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
     /// face.
     Table {
@@ -133,6 +136,7 @@ pub(super) enum Verb {
         /// The study's folder (Markdown, JSON, CSV); without it the Markdown is printed.
         #[arg(short, long)]
         out: Option<PathBuf>,
+    },
     /// Write finished runs, of whomever, as one leaderboard that opens offline: ranks, intervals, filters.
     Site {
         /// The runs' folders; captures are the same where their hashes are.

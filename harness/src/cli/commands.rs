@@ -12,7 +12,7 @@ use super::alone::{alone, tools};
 use super::arguments::{BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb};
 use super::exit::{CHECK_FAILED, DONE};
 use super::run::run_suite;
-use super::{bench, calibrate, check, clean, compare, doctor, export, seal, start};
+use super::{bench, calibrate, check, clean, compare, doctor, export, figure, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
 use crate::suite::{self, BaselineMethod, Budget, RunError};
 
@@ -65,6 +65,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             say!("{}", out.join("index.html").display());
         }
+        Verb::Figure(arguments) => figure::figure(&arguments)?,
         Verb::Table { runs, out } => {
             let mut words = vec!["unshade table".to_owned()];
             words.extend(runs.iter().map(|run| run.display().to_string()));

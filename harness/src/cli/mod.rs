@@ -22,6 +22,7 @@ mod compare;
 mod doctor;
 mod exit;
 mod export;
+mod figure;
 mod progress;
 mod run;
 mod seal;

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use formats::atomic;
+use report::FigureRequest;
 use scoring::score;
 
 use super::error::RunError;
@@ -165,6 +166,20 @@ pub fn export(
     }
     arguments.extend(export.options.iter().cloned());
     Ok(run_stage(&tools.interpreter, "export", &arguments, &tools.interrupt, step)?)
+}
+
+/// Gathers a figure from runs and draws it into the folder `out`.
+pub fn figure(
+    request: &FigureRequest,
+    out: &Path,
+    tools: &Tools,
+    step: &mut dyn FnMut(u64, u64, &str),
+) -> Result<(), RunError> {
+    report::write_figure(request, out, |folder| {
+        let arguments = words(&[("--folder", folder.as_os_str())]);
+        run_stage(&tools.interpreter, "figure", &arguments, &tools.interrupt, step)?;
+        Ok(())
+    })
 }
 
 pub(super) fn words(pairs: &[(&str, &OsStr)]) -> Vec<OsString> {

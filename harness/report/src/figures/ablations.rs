@@ -1,0 +1,158 @@
+//! What each part of a method gains: every method and variant of the runs against the first, on the same cases
+//! (the supplement of Rainer et al. 2023).
+
+use serde_json::json;
+
+use super::drawing::{Bar, Bars, Block, Drawing};
+use super::quantity::Quantity;
+use super::source::{CaseSource, Sources};
+use super::statistics::{Mean, over_faces};
+use crate::error::ReportError;
+use crate::exports::Export;
+
+/// A method in a variant.
+#[derive(Clone, PartialEq)]
+struct Setting {
+    variant: Option<String>,
+    method: String,
+    title: String,
+}
+
+/// A number of a setting in a case: the face, what makes the case the same one elsewhere, the value.
+type Found = (String, String, f64);
+
+pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    drawing.set_keys(&[
+        "setting",
+        "variant",
+        "method",
+        "quantity",
+        "faces",
+        "mean",
+        "low",
+        "high",
+        "reference",
+        "difference",
+        "difference low",
+        "difference high",
+    ]);
+    let cases: Vec<CaseSource> = sources.cases().collect();
+    let settings = settings(sources, &cases);
+    let Some(reference) = settings.first().filter(|_| settings.len() > 1) else {
+        return Err(sources.nothing("second method or variant of a solver"));
+    };
+    let names = names(&settings);
+    let mut shown: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
+    for quantity in Quantity::ALL {
+        let base = values(&cases, reference, quantity);
+        let mut bars = Vec::new();
+        for ((setting, name), row) in settings.iter().zip(&names).zip(&mut shown) {
+            let found = values(&cases, setting, quantity);
+            let mean = over_faces(
+                &found.iter().map(|(face, _, v)| (face.clone(), *v)).collect::<Vec<_>>(),
+            );
+            let paired: Vec<(String, f64)> = found
+                .iter()
+                .filter_map(|(face, case, value)| {
+                    let (.., before) = base.iter().find(|(f, c, _)| f == face && c == case)?;
+                    Some((face.clone(), value - before))
+                })
+                .collect();
+            let difference = over_faces(&paired);
+            row.push(in_words(mean));
+            if setting != reference {
+                bars.push(Bar {
+                    name: name.clone(),
+                    value: difference.map(|mean| mean.value),
+                    interval: difference.and_then(|mean| mean.interval),
+                });
+            }
+            let ends = |mean: Option<Mean>| {
+                mean.and_then(|mean| mean.interval).map_or([None; 2], |e| e.map(Some))
+            };
+            let ([low, high], [less, more]) = (ends(mean), ends(difference));
+            drawing.rows.push(vec![
+                json!(name),
+                json!(setting.variant),
+                json!(setting.method),
+                json!(quantity.name()),
+                json!(mean.map_or(0, |mean| mean.faces)),
+                json!(mean.map(|mean| mean.value)),
+                json!(low),
+                json!(high),
+                json!(names[0]),
+                json!(difference.map(|mean| mean.value)),
+                json!(less),
+                json!(more),
+            ]);
+        }
+        let mean = in_words(over_faces(
+            &base.into_iter().map(|(face, _, v)| (face, v)).collect::<Vec<_>>(),
+        ));
+        drawing.blocks.push(Block::Bars(Bars {
+            title: format!("{} ({}: {mean})", quantity.label(), names[0]),
+            label: "difference".to_owned(),
+            steps: false,
+            bars,
+            levels: Vec::new(),
+        }));
+    }
+    let mut headings = vec!["setting".to_owned()];
+    headings.extend(Quantity::ALL.map(|quantity| quantity.label().to_owned()));
+    drawing.table = Some(Export { keys: vec![], rows: vec![], headings, shown });
+    drawing.caption = format!(
+        "Ablations: the difference to {} on the same cases, mean over faces with the 95 % interval of Student's t over \
+         faces (none with a single face).",
+        names[0]
+    );
+    Ok(())
+}
+
+fn settings(sources: &Sources, cases: &[CaseSource]) -> Vec<Setting> {
+    let mut found = Vec::new();
+    for source in cases {
+        for column in source.columns.iter().filter(|column| sources.shows(column)) {
+            let setting = Setting {
+                variant: source.case.variant.clone(),
+                method: column.method.id.clone(),
+                title: column.method.title().to_owned(),
+            };
+            if !found.contains(&setting) {
+                found.push(setting);
+            }
+        }
+    }
+    found
+}
+
+/// As short as tells them apart.
+fn names(settings: &[Setting]) -> Vec<String> {
+    let one_method = settings.iter().all(|setting| setting.method == settings[0].method);
+    let name = |setting: &Setting| match &setting.variant {
+        Some(variant) if one_method => variant.clone(),
+        Some(variant) => format!("{}, {variant}", setting.title),
+        None => setting.title.clone(),
+    };
+    settings.iter().map(name).collect()
+}
+
+fn values(cases: &[CaseSource], setting: &Setting, quantity: Quantity) -> Vec<Found> {
+    let of_variant = cases.iter().filter(|source| source.case.variant == setting.variant);
+    of_variant
+        .filter_map(|source| {
+            let column = source.columns.iter().find(|column| column.method.id == setting.method)?;
+            let value = quantity.find(column, &source.case.light)?;
+            Some((source.case.face.clone(), source.case.light.clone(), value))
+        })
+        .collect()
+}
+
+fn in_words(mean: Option<Mean>) -> String {
+    match mean {
+        None => "–".to_owned(),
+        Some(Mean { value, interval: None, .. }) => format!("{value:.2}"),
+        Some(Mean { value, interval: Some([_, high]), .. }) => {
+            format!("{value:.2} ± {:.2}", high - value)
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The figures of a paper, from finished runs: panels as PNG, the numbers behind them as CSV, LaTeX that
+//! includes both, and a description that `unshade.figures` draws as one PNG and PDF.
+
+mod ablations;
+mod decomposition;
+mod detail;
+mod drawing;
+mod emily;
+mod mesh_scale;
+mod panels;
+mod quantity;
+mod reflectance;
+mod relighting;
+mod request;
+mod robustness;
+mod source;
+mod statistics;
+#[cfg(test)]
+mod tests;
+mod waterfall;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use formats::atomic::{self, Folder};
+
+use super::error::ReportError;
+use drawing::Drawing;
+pub use request::{FigureKind, FigureRequest};
+use source::Sources;
+
+/// Writes the figure's folder `out`. `draw` makes `figure.png` and `figure.pdf` of the `figure.json` in the folder
+/// that it is given, before that folder takes its place.
+pub fn write_figure<E: From<ReportError>>(
+    request: &FigureRequest,
+    out: &Path,
+    draw: impl FnOnce(&Path) -> Result<(), E>,
+) -> Result<(), E> {
+    let report = |error: atomic::FolderError| E::from(ReportError::from(error));
+    let runs: Vec<&Path> = request.runs.iter().map(PathBuf::as_path).collect();
+    atomic::refuse_overlap(out, &runs).map_err(report)?;
+    let sources = Sources::read(request)?;
+    let folder = Folder::begin(out).map_err(report)?;
+    let made = fill(request, &sources, folder.path()).map_err(E::from);
+    if let Err(error) = made.and_then(|()| draw(folder.path())) {
+        folder.abandon();
+        return Err(error);
+    }
+    folder.commit().map_err(report)
+}
+
+fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), ReportError> {
+    let mut drawing = Drawing::new(root);
+    match request.kind {
+        FigureKind::Relighting => relighting::draw(sources, &mut drawing),
+        FigureKind::Reflectance => reflectance::draw(sources, &mut drawing),
+        FigureKind::Emily => emily::draw(sources, &mut drawing),
+        FigureKind::Decomposition => decomposition::draw(sources, &mut drawing),
+        FigureKind::Ablations => ablations::draw(sources, &mut drawing),
+        FigureKind::Robustness => robustness::draw(sources, &mut drawing),
+        FigureKind::Waterfall => waterfall::draw(sources, &mut drawing),
+        FigureKind::Detail => detail::draw(sources, &mut drawing),
+    }?;
+    let save = |name: &str, text: String| {
+        let path = root.join(name);
+        fs::write(&path, text).map_err(|error| ReportError::write(&path, error))
+    };
+    save("figure.csv", drawing.csv())?;
+    save("figure.tex", drawing.latex(&request.command))?;
+    save("figure.json", drawing.json()?)
+}

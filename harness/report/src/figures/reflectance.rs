@@ -1,0 +1,118 @@
+//! Reflectance side by side: input, re-rendering, maps and a relit view, one row per method (figure 8 of Rainer et
+//! al. 2023), with the truth on top.
+
+use serde_json::json;
+
+use super::drawing::{Block, Drawing, PanelRow, Panels};
+use super::panels::PictureScores;
+use super::source::Sources;
+use crate::error::ReportError;
+use crate::maps::MAPS;
+use crate::views::Layer;
+
+/// The maps of the figure, in the paper's order.
+const SHOWN: [&str; 3] = ["diffuse_albedo", "specular_albedo", "specular_normal"];
+
+pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    drawing.set_keys(&[
+        "case", "method", "subject", "light", "metric", "scale", "value", "low", "high",
+    ]);
+    let maps: Vec<_> = MAPS.iter().filter(|map| SHOWN.contains(&map.subject)).collect();
+    for source in sources.cases() {
+        let frames = source.frames()?;
+        let Some(frame) = frames.test.first() else { continue };
+        let lights = source.lights();
+        let Some(light) = lights.get(1).or(lights.first()) else { continue };
+        let mut columns = vec!["input".to_owned(), "re-rendering".to_owned()];
+        columns.extend(maps.iter().map(|map| map.title.to_lowercase()));
+        columns.push(format!("relit, {light}"));
+        let id = &source.case.id;
+        let mut cells = vec![drawing.input(&source, &frames)?];
+        let nothing = String::new;
+        cells.push(drawing.picture(
+            &format!("{id}-truth-view"),
+            Some(&frame.image),
+            &Layer::ALL,
+            nothing(),
+        )?);
+        for map in &maps {
+            let path = source.truth(&format!("{}.exr", map.subject));
+            cells.push(drawing.map(&format!("{id}-truth-{}", map.subject), Some(&path), map)?);
+        }
+        let truth = source.true_relit(light, &frame.name);
+        cells.push(drawing.picture(
+            &format!("{id}-truth-relit"),
+            Some(&truth),
+            &Layer::ALL,
+            nothing(),
+        )?);
+        let mut rows = vec![PanelRow { title: "truth".to_owned(), cells }];
+        let shown: Vec<_> = source.columns.iter().filter(|column| sources.shows(column)).collect();
+        for column in shown {
+            let method = &column.method.id;
+            let view = source.map(column, &format!("views/{}.exr", frame.name));
+            let caption = PictureScores::find(column, None, Some(&frame.name)).in_words();
+            let name = format!("{id}-by-{method}");
+            let mut cells = vec![
+                None,
+                drawing.picture(&format!("{name}-view"), view.as_deref(), &Layer::ALL, caption)?,
+            ];
+            for map in &maps {
+                let path = source.map(column, &format!("{}.exr", map.subject));
+                let mut panel =
+                    drawing.map(&format!("{name}-{}", map.subject), path.as_deref(), map)?;
+                if let (Some(panel), Some(caption)) =
+                    (&mut panel, caption_of_map(column, map.subject))
+                {
+                    panel.caption = caption;
+                }
+                cells.push(panel);
+            }
+            let relit = source.relit(column, light, &frame.name);
+            let caption = PictureScores::find(column, Some(light), Some(&frame.name)).in_words();
+            cells.push(drawing.picture(
+                &format!("{name}-relit"),
+                relit.as_deref(),
+                &Layer::ALL,
+                caption,
+            )?);
+            rows.push(PanelRow { title: column.method.title().to_owned(), cells });
+            for row in column.rows().iter().filter(|row| crate::metric::is_chosen(row)) {
+                let ends = row.ci95.map_or([None; 2], |ends| ends.map(Some));
+                drawing.rows.push(vec![
+                    json!(id),
+                    json!(method),
+                    json!(row.subject),
+                    json!(row.light),
+                    json!(row.metric),
+                    json!(row.scale),
+                    json!(row.value),
+                    json!(ends[0]),
+                    json!(ends[1]),
+                ]);
+            }
+        }
+        if rows.len() > 1 {
+            let title = format!("{}, captured in {}", source.face(), source.case.light);
+            drawing.blocks.push(Block::Panels(Panels { title, columns, rows, error: None }));
+        }
+    }
+    if drawing.blocks.is_empty() {
+        return Err(sources.nothing("maps of a solver"));
+    }
+    drawing.caption = "Reflectance side by side: input view, the withheld view by each method itself, recovered diffuse \
+                       albedo, specular albedo (white is 0.05) and specular normal (object space), and the maps relit \
+                       (albedo after its one factor). PSNR of sRGB values / SSIM / FLIP over the face; albedo: PSNR \
+                       after one factor; specular albedo: RMSE; normal: mean angle."
+        .to_owned();
+    Ok(())
+}
+
+fn caption_of_map(column: &crate::table::Column, subject: &str) -> Option<String> {
+    let value = |metric: &str, scale: &str| column.find(subject, None, metric, scale)?.value;
+    Some(match subject {
+        "diffuse_albedo" => format!("{:.2} dB", value("psnr_srgb", "global")?),
+        "specular_albedo" => format!("{:.4}", value("rmse", "none")?),
+        _ => format!("{:.2}°", value("normal_mean_deg", "none")?),
+    })
+}

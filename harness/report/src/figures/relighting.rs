@@ -1,0 +1,126 @@
+//! Relighting in several environments, one row per case: input, then truth and each method in every light
+//! (figure 6 of Rainer et al. 2023, with the truth that a rendered face has).
+
+use serde_json::json;
+
+use super::drawing::{Block, Drawing, PanelRow, Panels};
+use super::panels::PictureScores;
+use super::source::{CaseSource, Sources};
+use crate::error::ReportError;
+use crate::table::Column;
+use crate::views::Layer;
+
+/// More lights than this fill no page.
+const LIGHTS: usize = 4;
+
+pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    drawing.set_keys(&[
+        "case",
+        "face",
+        "capture light",
+        "method",
+        "light",
+        "view",
+        "psnr_srgb",
+        "ssim",
+        "flip_mean",
+    ]);
+    let cases: Vec<CaseSource> = sources.cases().collect();
+    // The columns are the same for every case.
+    let mut lights: Vec<String> = cases.iter().flat_map(CaseSource::lights).collect();
+    lights.sort();
+    lights.dedup();
+    // With other lights than the capture's alone there is no need to show its own.
+    let captured = |light: &String| cases.iter().all(|source| source.case.light == *light);
+    if lights.iter().any(|light| !captured(light)) {
+        lights.retain(|light| !captured(light));
+    }
+    lights.truncate(LIGHTS);
+    let mut names: Vec<(String, String)> = Vec::new();
+    for column in cases.iter().flat_map(|source| &source.columns) {
+        let name = (column.method.id.clone(), column.method.title().to_owned());
+        if sources.shows(column) && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let mut panels = Panels { columns: vec!["input".to_owned()], ..Panels::default() };
+    for light in &lights {
+        panels.columns.push(format!("truth, {light}"));
+        panels.columns.extend(names.iter().map(|(_, title)| format!("{title}, {light}")));
+    }
+    for source in &cases {
+        let frames = source.frames()?;
+        let Some(frame) = frames.test.first() else { continue };
+        let mut cells = vec![drawing.input(source, &frames)?];
+        for light in &lights {
+            let truth = source.true_relit(light, &frame.name);
+            let id = &source.case.id;
+            let name = format!("{id}-{light}");
+            let nothing = String::new();
+            cells.push(drawing.picture(
+                &format!("{name}-truth"),
+                Some(&truth),
+                &Layer::ALL,
+                nothing,
+            )?);
+            for (method, _) in &names {
+                let column = source.columns.iter().find(|column| column.method.id == *method);
+                let (path, scores) = match column {
+                    Some(column) => (
+                        source.relit(column, light, &frame.name),
+                        Some(PictureScores::find(column, Some(light), Some(&frame.name))),
+                    ),
+                    None => (None, None),
+                };
+                let caption = scores.as_ref().map_or(String::new(), PictureScores::in_words);
+                let name = format!("{name}-by-{method}");
+                cells.push(drawing.picture(&name, path.as_deref(), &Layer::ALL, caption)?);
+            }
+        }
+        let scored = source.columns.iter().filter(|column| sources.shows(column));
+        let rows: Vec<_> =
+            scored.flat_map(|column| rows(source, column, &lights, &frames)).collect();
+        drawing.rows.extend(rows);
+        let title = format!("{}, {}", source.face(), source.case.light);
+        panels.rows.push(PanelRow { title, cells });
+    }
+    if drawing.rows.is_empty() {
+        return Err(sources.nothing("relit pictures of a solver"));
+    }
+    drawing.blocks.push(Block::Panels(panels));
+    drawing.caption = "Relighting: an input view, then a withheld view under each light, path-traced with the true \
+                       maps and with the recovered ones (albedo after its one factor). PSNR of sRGB values / SSIM / \
+                       FLIP, over the face."
+        .to_owned();
+    Ok(())
+}
+
+fn rows(
+    source: &CaseSource,
+    column: &Column,
+    lights: &[String],
+    frames: &crate::run::Frames,
+) -> Vec<Vec<serde_json::Value>> {
+    let mut rows = Vec::new();
+    for light in lights {
+        for frame in &frames.test {
+            let [psnr, ssim, flip] =
+                PictureScores::find(column, Some(light), Some(&frame.name)).values();
+            if psnr.is_some() {
+                let case = source.case;
+                rows.push(vec![
+                    json!(case.id),
+                    json!(source.face()),
+                    json!(case.light),
+                    json!(column.method.id),
+                    json!(light),
+                    json!(frame.name),
+                    json!(psnr),
+                    json!(ssim),
+                    json!(flip),
+                ]);
+            }
+        }
+    }
+    rows
+}

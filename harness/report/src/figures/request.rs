@@ -1,0 +1,39 @@
+//! What is asked for.
+
+use std::path::PathBuf;
+
+/// What can be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureKind {
+    /// Relighting in several lights (figure 6 of Rainer et al. 2023).
+    Relighting,
+    /// Input, re-rendering and maps of each method side by side (figure 8).
+    Reflectance,
+    /// The Digital Emily matrix (figure 9).
+    Emily,
+    /// The decomposition under each light (figure 10).
+    Decomposition,
+    /// What each part of a method gains (the supplement).
+    Ablations,
+    /// Quality over exposure, specular reflectance and roughness, by skin type.
+    Robustness,
+    /// From one method to the next, with what bounds them.
+    Waterfall,
+    /// How much of the albedo's detail is recovered, by its size.
+    Detail,
+}
+
+/// What a figure is made of.
+#[derive(Clone, Debug)]
+pub struct FigureRequest {
+    /// What to draw.
+    pub kind: FigureKind,
+    /// Folders of finished runs.
+    pub runs: Vec<PathBuf>,
+    /// Only these methods, by their ids; empty stands for those that the figure is usually of.
+    pub methods: Vec<String>,
+    /// Only these cases, by their ids; empty stands for all.
+    pub cases: Vec<String>,
+    /// What the files say they were made by.
+    pub command: String,
+}

@@ -1,0 +1,148 @@
+//! The runs that a figure is made of.
+
+use std::path::{Path, PathBuf};
+
+use scoring::score::Scores;
+
+use super::request::FigureRequest;
+use crate::error::ReportError;
+use crate::page::{columns, read_scores};
+use crate::run::{Case, Class, Frames, Kind, RunFile};
+use crate::table::Column;
+
+/// Cases of all runs, and which methods the figure is of.
+pub(super) struct Sources {
+    cases: Vec<Held>,
+    methods: Vec<String>,
+}
+
+struct Held {
+    run: PathBuf,
+    case: Case,
+    scores: Vec<Option<Scores>>,
+}
+
+/// One case, with the columns of its methods in the order of the suite.
+pub(super) struct CaseSource<'a> {
+    pub run: &'a Path,
+    pub case: &'a Case,
+    pub columns: Vec<Column<'a>>,
+}
+
+impl Sources {
+    pub fn read(request: &FigureRequest) -> Result<Self, ReportError> {
+        let mut cases = Vec::new();
+        for run in &request.runs {
+            for case in RunFile::open(run)?.cases {
+                if request.cases.is_empty() || request.cases.contains(&case.id) {
+                    let scores = read_scores(run, &case)?;
+                    cases.push(Held { run: run.clone(), case, scores });
+                }
+            }
+        }
+        let runs = || {
+            request.runs.iter().map(|run| run.display().to_string()).collect::<Vec<_>>().join(", ")
+        };
+        let unknown =
+            |given: &Vec<String>, known: &dyn Fn(&str) -> bool, what: &'static str| match given
+                .iter()
+                .find(|name| !known(name))
+            {
+                Some(name) => Err(ReportError::Unknown { what, name: name.clone(), runs: runs() }),
+                None => Ok(()),
+            };
+        unknown(&request.cases, &|id| cases.iter().any(|held| held.case.id == id), "case")?;
+        let method = |id: &str| {
+            cases.iter().any(|held| held.case.methods.iter().any(|method| method.id == id))
+        };
+        unknown(&request.methods, &method, "method")?;
+        Ok(Self { cases, methods: request.methods.clone() })
+    }
+
+    pub fn cases(&self) -> impl Iterator<Item = CaseSource<'_>> {
+        self.cases.iter().map(|held| CaseSource {
+            run: &held.run,
+            case: &held.case,
+            columns: columns_in_order(&held.case, &held.scores),
+        })
+    }
+
+    /// Whether a figure of solvers shows this column: one that was named, or else every solver of what all are
+    /// given.
+    pub fn shows(&self, column: &Column) -> bool {
+        if self.methods.is_empty() {
+            column.method.kind == Kind::Solver && column.method.class == Class::Passive
+        } else {
+            self.is_named(column)
+        }
+    }
+
+    /// Whether a figure of all methods shows this column.
+    pub fn lists(&self, column: &Column) -> bool {
+        self.methods.is_empty() || self.is_named(column)
+    }
+
+    fn is_named(&self, column: &Column) -> bool {
+        self.methods.contains(&column.method.id)
+    }
+
+    /// The runs hold nothing that the figure could show.
+    pub fn nothing(&self, wanted: &'static str) -> ReportError {
+        let run = self.cases.first().map_or(PathBuf::new(), |held| held.run.clone());
+        ReportError::NoFigure { run, wanted }
+    }
+}
+
+/// In the order of the suite, not of the report.
+fn columns_in_order<'a>(case: &'a Case, scores: &'a [Option<Scores>]) -> Vec<Column<'a>> {
+    let mut columns = columns(case, scores);
+    let place = |column: &Column| case.methods.iter().position(|m| m.id == column.method.id);
+    columns.sort_by_key(place);
+    columns
+}
+
+impl CaseSource<'_> {
+    pub fn frames(&self) -> Result<Frames, ReportError> {
+        Frames::read(&self.run.join(&self.case.capture))
+    }
+
+    /// The face, with its variant.
+    pub fn face(&self) -> String {
+        match &self.case.variant {
+            Some(variant) => format!("{}, {variant}", self.case.face),
+            None => self.case.face.clone(),
+        }
+    }
+
+    /// A file of a method's maps folder.
+    pub fn map(&self, column: &Column, file: &str) -> Option<PathBuf> {
+        Some(self.run.join(column.method.maps.as_ref()?).join(file))
+    }
+
+    /// A picture of a method's maps in a light, after the albedo's one factor if it was rendered so.
+    pub fn relit(&self, column: &Column, light: &str, frame: &str) -> Option<PathBuf> {
+        let folder = self.run.join(column.method.relit.as_ref()?);
+        let scale = if folder.join("global").is_dir() { "global" } else { "none" };
+        Some(folder.join(scale).join(light).join(format!("{frame}.exr")))
+    }
+
+    /// A file of the truth.
+    pub fn truth(&self, file: &str) -> PathBuf {
+        self.run.join(&self.case.capture).join("truth").join(file)
+    }
+
+    /// The truth in a light.
+    pub fn true_relit(&self, light: &str, frame: &str) -> PathBuf {
+        self.truth(&format!("relit/{light}/{frame}.exr"))
+    }
+
+    /// The lights that any method was relit in and scored, the capture's own first.
+    pub fn lights(&self) -> Vec<String> {
+        let rows = self.columns.iter().flat_map(Column::rows);
+        let mut lights: Vec<String> =
+            rows.filter(|row| row.subject == "relit").filter_map(|row| row.light.clone()).collect();
+        lights.sort_by_key(|light| (*light != self.case.light, light.clone()));
+        lights.dedup();
+        lights
+    }
+}

@@ -1,0 +1,115 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::sample_run;
+
+fn request(run: &Path, kind: FigureKind) -> FigureRequest {
+    let command = "unshade figure".to_owned();
+    FigureRequest { kind, runs: vec![run.to_path_buf()], methods: vec![], cases: vec![], command }
+}
+
+fn sample() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    sample_run::write(&run);
+    (folder, run)
+}
+
+fn write(request: &FigureRequest, out: &Path) -> Result<(), ReportError> {
+    write_figure(request, out, |_| Ok(()))
+}
+
+#[test]
+fn every_panel_figure_names_files_that_are_there_and_has_its_numbers_behind_it() {
+    let (folder, run) = sample();
+    for (kind, panels, rows) in [
+        // Per case: input, then truth and method in the two lights.
+        (FigureKind::Relighting, 2 * (1 + 2 * 2), 2 * 2 * 2),
+        // Truth: input, view, three maps, relit; method: the same without the input.
+        (FigureKind::Reflectance, 2 * (6 + 5), 2 * 9),
+        // Per input light: input and three comparisons.
+        (FigureKind::Emily, 2 * (1 + 3 * 3), 2 * 3),
+        (FigureKind::Decomposition, 2 * (6 + 5), 2 * 3),
+    ] {
+        let out = folder.path().join("figure");
+        write(&request(&run, kind), &out).unwrap();
+        let json: serde_json::Value =
+            serde_json::from_slice(&fs::read(out.join("figure.json")).unwrap()).unwrap();
+        let mut files = Vec::new();
+        for block in json["blocks"].as_array().unwrap() {
+            for row in block["rows"].as_array().unwrap() {
+                let cells = row["cells"].as_array().unwrap();
+                assert_eq!(cells.len(), block["columns"].as_array().unwrap().len(), "{kind:?}");
+                files.extend(cells.iter().filter_map(|cell| cell["file"].as_str()));
+            }
+        }
+        assert_eq!(files.len(), panels, "{kind:?}");
+        let latex = fs::read_to_string(out.join("figure.tex")).unwrap();
+        for file in files {
+            assert!(out.join(file).is_file() && latex.contains(file), "{kind:?}: {file}");
+        }
+        let csv = fs::read_to_string(out.join("figure.csv")).unwrap();
+        assert_eq!(csv.lines().count() - 1, rows, "{kind:?}\n{csv}");
+    }
+}
+
+#[test]
+fn detail_is_recovered_by_the_oracle_and_less_of_it_by_the_others() {
+    let (folder, run) = sample();
+    let out = folder.path().join("figure");
+    write(&request(&run, FigureKind::Detail), &out).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("figure.json")).unwrap()).unwrap();
+    let lines = json["blocks"][0]["lines"].as_array().unwrap();
+    assert_eq!(lines.len(), 3);
+    let gains = |line: &serde_json::Value| -> Vec<f64> {
+        line["y"].as_array().unwrap().iter().map(|y| y.as_f64().unwrap()).collect()
+    };
+    // The sample's factor is 0.93, and its maps are off by 0.4 % at most.
+    assert!(gains(&lines[2]).iter().all(|gain| (gain / 0.93 - 1.0).abs() < 0.05), "{lines:?}");
+    assert!(gains(&lines[1]).iter().any(|gain| (gain / 0.93 - 1.0).abs() > 0.05));
+}
+
+#[test]
+fn what_a_run_does_not_hold_is_said_in_one_line_and_leaves_the_earlier_figure() {
+    let (folder, run) = sample();
+    let out = folder.path().join("figure");
+    write(&request(&run, FigureKind::Relighting), &out).unwrap();
+    let refused = |request: FigureRequest, part: &str| {
+        let message = write(&request, &out).unwrap_err().to_string();
+        assert!(message.contains(part) && !message.contains('\n'), "{message}");
+        assert!(out.join("figure.csv").is_file() && !folder.path().join("figure.partial").exists());
+    };
+    refused(request(&run, FigureKind::Ablations), "second method or variant");
+    refused(request(&run, FigureKind::Waterfall), "two solvers");
+    let named = |methods: &[&str], cases: &[&str]| FigureRequest {
+        methods: methods.iter().map(|name| (*name).to_owned()).collect(),
+        cases: cases.iter().map(|name| (*name).to_owned()).collect(),
+        ..request(&run, FigureKind::Emily)
+    };
+    refused(named(&["nobody"], &[]), "method \"nobody\"");
+    refused(named(&[], &["nowhere"]), "case \"nowhere\"");
+    refused(named(&[], &["demo-flash"]), "captures in two lights");
+    let failing = |_: &Path| Err(ReportError::Interrupted);
+    let result = write_figure(&request(&run, FigureKind::Emily), &out, failing);
+    assert!(result.is_err() && !folder.path().join("figure.partial").exists());
+    assert!(fs::read_to_string(out.join("figure.tex")).unwrap().contains("Relighting"));
+}
+
+#[test]
+fn an_ablation_is_the_paired_difference_to_the_first_method_over_faces() {
+    let (folder, run) = sample();
+    let out = folder.path().join("figure");
+    let methods = ["unshade", "oracle"].map(str::to_owned).to_vec();
+    write(&FigureRequest { methods, ..request(&run, FigureKind::Ablations) }, &out).unwrap();
+    let csv = fs::read_to_string(out.join("figure.csv")).unwrap();
+    let row = csv.lines().find(|line| line.contains(",oracle,diffuse albedo,")).unwrap();
+    let cells: Vec<&str> = row.split(',').collect();
+    let number = |at: usize| cells[at].parse::<f64>().unwrap();
+    // -20 log10 of half the errors 0.05 and 0.004; one face, so no interval.
+    assert_eq!((cells[4], cells[6], cells[10]), ("1", "", ""));
+    assert!((number(5) - 53.979).abs() < 1e-2 && (number(9) - 21.938).abs() < 1e-2, "{row}");
+    let latex = fs::read_to_string(out.join("figure.tex")).unwrap();
+    assert!(latex.contains("\\toprule") && latex.contains("figure.pdf"));
+}

@@ -1,0 +1,82 @@
+//! The figure that tells a case: what was given, what is true, what each method made of it, and its error.
+
+use serde::Serialize;
+
+use super::comparison_figures::{ComparisonFigure, Tile};
+use super::table::Table;
+
+/// The figure at the head of a case.
+#[derive(Debug, Serialize)]
+pub(super) struct Lead {
+    pub rows: Vec<LeadRow>,
+}
+
+/// One comparison: a withheld view, or a map.
+#[derive(Debug, Serialize)]
+pub(super) struct LeadRow {
+    pub title: String,
+    pub input: Option<Tile>,
+    pub truth: Tile,
+    pub made: Vec<Made>,
+    /// What the error is, and where its colours end.
+    pub error: &'static str,
+    pub top: String,
+    pub unit: &'static str,
+}
+
+/// One method's picture and its error.
+#[derive(Debug, Serialize)]
+pub(super) struct Made {
+    pub title: String,
+    pub kind: &'static str,
+    pub picture: Tile,
+    pub error: Option<Tile>,
+    pub caption: String,
+}
+
+/// A view relit in another light than the capture's (in its own where there is no other), the diffuse albedo
+/// after its factor, and the specular normal. None of a case of which nothing is known.
+pub(super) fn lead(
+    views: &[ComparisonFigure],
+    maps: &[ComparisonFigure],
+    table: &Table,
+    own: &str,
+    input: Option<&Tile>,
+) -> Option<Lead> {
+    let relit = |figure: &&ComparisonFigure| figure.subject.0 == "relit";
+    let other = |figure: &&ComparisonFigure| figure.subject.1.as_deref() != Some(own);
+    let view = views.iter().filter(relit).find(other).or_else(|| views.iter().find(relit));
+    let map = |subject: &str| maps.iter().find(|figure| figure.subject.0 == subject);
+    let chosen = [view.or(views.first()), map("diffuse_albedo"), map("specular_normal")];
+    let rows: Vec<LeadRow> = chosen
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .filter_map(|(at, figure)| row(figure, table, input.filter(|_| at == 0)))
+        .collect();
+    (!rows.is_empty()).then_some(Lead { rows })
+}
+
+fn row(figure: &ComparisonFigure, table: &Table, input: Option<&Tile>) -> Option<LeadRow> {
+    let strip = figure.strips.first()?;
+    let made = strip.entries.iter().zip(&table.columns).filter_map(|(entry, column)| {
+        Some(Made {
+            title: column.title.clone(),
+            kind: column.kind,
+            picture: entry.picture.clone()?,
+            // After the factor, where there is one.
+            error: entry.errors.iter().rev().flatten().next().cloned(),
+            caption: entry.caption.clone(),
+        })
+    });
+    let view = if strip.title.is_empty() { String::new() } else { format!(", {}", strip.title) };
+    Some(LeadRow {
+        title: format!("{}{view}", figure.title),
+        input: input.cloned(),
+        truth: strip.truth.clone(),
+        made: made.collect(),
+        error: figure.error,
+        top: figure.top.clone(),
+        unit: figure.unit,
+    })
+}

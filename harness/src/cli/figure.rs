@@ -1,0 +1,84 @@
+//! `unshade figure`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use report::{FigureKind, FigureRequest};
+
+use super::alone::alone;
+use crate::suite::{self, RunError};
+
+#[derive(Args)]
+pub(super) struct FigureArgs {
+    /// What to draw.
+    #[arg(value_enum)]
+    kind: KindName,
+    /// The folders of finished runs.
+    #[arg(required = true)]
+    runs: Vec<PathBuf>,
+    /// The figure's folder.
+    #[arg(short, long)]
+    out: PathBuf,
+    /// Only this method, by its name in the suite; may be given again.
+    #[arg(long, value_name = "NAME")]
+    method: Vec<String>,
+    /// Only this case, by its name in the report; may be given again.
+    #[arg(long, value_name = "NAME")]
+    case: Vec<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum KindName {
+    /// Relighting in several lights.
+    Fig6,
+    /// Reflectance side by side.
+    Fig8,
+    /// The Digital Emily matrix.
+    Fig9,
+    /// The decomposition under each light.
+    Fig10,
+    /// What each part of a method gains, by the first one.
+    Ablations,
+    /// Albedo and relighting over exposure, specular reflectance and roughness, by skin.
+    Robustness,
+    /// From one method to the next, with what bounds them.
+    Waterfall,
+    /// How much of the albedo's detail is recovered, by its size.
+    Detail,
+}
+
+impl KindName {
+    fn kind(self) -> FigureKind {
+        match self {
+            Self::Fig6 => FigureKind::Relighting,
+            Self::Fig8 => FigureKind::Reflectance,
+            Self::Fig9 => FigureKind::Emily,
+            Self::Fig10 => FigureKind::Decomposition,
+            Self::Ablations => FigureKind::Ablations,
+            Self::Robustness => FigureKind::Robustness,
+            Self::Waterfall => FigureKind::Waterfall,
+            Self::Detail => FigureKind::Detail,
+        }
+    }
+}
+
+/// Gathers and draws the figure.
+pub(super) fn figure(arguments: &FigureArgs) -> Result<(), RunError> {
+    let FigureArgs { kind, runs, out, method, case } = arguments;
+    let name = kind.to_possible_value().map_or(String::new(), |name| name.get_name().to_owned());
+    let mut words = vec!["unshade figure".to_owned(), name];
+    words.extend(runs.iter().map(|run| run.display().to_string()));
+    words.extend(method.iter().map(|name| format!("--method {name}")));
+    words.extend(case.iter().map(|name| format!("--case {name}")));
+    words.push(format!("-o {}", out.display()));
+    let request = FigureRequest {
+        kind: kind.kind(),
+        runs: runs.clone(),
+        methods: method.clone(),
+        cases: case.clone(),
+        command: words.join(" "),
+    };
+    alone("figure", |tools, step| suite::figure(&request, out, tools, step))?;
+    say!("{}", out.join("figure.png").display());
+    Ok(())
+}

@@ -1,0 +1,1 @@
+"""Figures of a paper: draws what ``unshade figure`` gathered from runs."""
