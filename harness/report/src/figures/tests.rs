@@ -113,3 +113,46 @@ fn an_ablation_is_the_paired_difference_to_the_first_method_over_faces() {
     let latex = fs::read_to_string(out.join("figure.tex")).unwrap();
     assert!(latex.contains("\\toprule") && latex.contains("figure.pdf"));
 }
+
+#[test]
+fn the_robustness_map_places_cases_by_their_scenes() {
+    let (folder, run) = sample();
+    for (case, exposure) in [("demo-flash", "0.5"), ("demo-uniform", "2")] {
+        let text = format!("[face]\nfitzpatrick = \"IV\"\n[light]\nexposure = {exposure}\n");
+        fs::write(run.join("captures").join(case).join("truth/scene.toml"), text).unwrap();
+    }
+    let out = folder.path().join("figure");
+    write(&request(&run, FigureKind::Robustness), &out).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("figure.json")).unwrap()).unwrap();
+    let blocks = json["blocks"].as_array().unwrap();
+    assert_eq!(blocks.len(), 2, "albedo and relit, one skin, one roughness");
+    assert_eq!(
+        (&blocks[0]["x"], &blocks[0]["y"]),
+        (&serde_json::json!([0.5, 2.0]), &serde_json::json!([1.0]))
+    );
+    let value = |block: usize, x: usize| blocks[block]["values"][0][x].as_f64().unwrap();
+    assert!((value(0, 0) - 32.041).abs() < 1e-2 && (value(0, 1) - 32.041).abs() < 1e-2);
+    // The sample's relit scores grow by one from flash to uniform: each case has the other light's.
+    assert!((value(1, 0) - 33.041).abs() < 1e-2 && (value(1, 1) - 32.041).abs() < 1e-2);
+}
+
+#[test]
+fn a_waterfall_goes_from_method_to_method_and_the_oracle_bounds_it() {
+    let (folder, run) = sample();
+    let out = folder.path().join("figure");
+    let methods = ["mean_texture", "unshade"].map(str::to_owned).to_vec();
+    write(&FigureRequest { methods, ..request(&run, FigureKind::Waterfall) }, &out).unwrap();
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("figure.json")).unwrap()).unwrap();
+    let [albedo, relit] = [0, 1].map(|at| &json["blocks"][at]);
+    // In the order of the suite, whatever was named first.
+    let bar = |block: &serde_json::Value, at: usize| block["bars"][at]["value"].as_f64().unwrap();
+    assert!((bar(albedo, 0) - 32.041).abs() < 1e-2 && (bar(albedo, 1) - 20.0).abs() < 1e-2);
+    assert_eq!(albedo["levels"], serde_json::json!([]));
+    assert!((relit["levels"][0][1].as_f64().unwrap() - 54.479).abs() < 1e-2, "{relit}");
+    let csv = fs::read_to_string(out.join("figure.csv")).unwrap();
+    let row = csv.lines().find(|line| line.starts_with("diffuse albedo,mean_texture")).unwrap();
+    let step: f64 = row.rsplit(',').next().unwrap().parse().unwrap();
+    assert!((step + 12.041).abs() < 1e-2, "{row}");
+}
