@@ -43,7 +43,9 @@ def steps(values: Sequence[float]) -> list[int]:
     try:
         from ruptures import Pelt
     except ImportError:
-        raise CompareError("ruptures, which finds the steps, is not installed; pip install 'unshade[history]'") from None
+        raise CompareError(
+            "ruptures, which finds the steps, is not installed; pip install 'unshade[history]'"
+        ) from None
     series: NDArray[np.float64] = np.asarray(values, float)
     spread = float(np.ptp(series)) if len(series) else 0.0
     if len(series) < _FEWEST or spread == 0.0:
