@@ -11,9 +11,10 @@ from pathlib import Path
 
 import junitparser
 import pytest
-from conftest import TINY, unshade
 from doc_examples import ROOT
 from markdown_it import MarkdownIt
+
+from conftest import TINY, unshade
 
 CASE = "tiny-studio"
 
