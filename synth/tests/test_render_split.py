@@ -76,6 +76,16 @@ def test_variance_is_that_of_repeated_renders(name):
     assert stated == pytest.approx(measured, rel=0.15)
 
 
+def test_halves_of_the_samples_are_independent_and_make_the_picture():
+    lit = HEAD.lit(LIGHTS["studio"])
+    a, b = (render(lit, seed=seed, samples=16) for seed in (1, 2))
+    errors = a.half - b.half, (2 * a.total - a.half) - (2 * b.total - b.half)
+    squares = [np.mean(error**2) for error in errors]
+    # Each half is twice as noisy as the whole, and the noise of one says nothing of the other's.
+    assert squares == pytest.approx([2 * np.mean((a.total - b.total) ** 2)] * 2, rel=0.3)
+    assert abs(np.mean(errors[0] * errors[1])) < 0.06 * np.mean(squares)
+
+
 def test_equal_seeds_give_equal_bits_and_others_do_not():
     lit = HEAD.lit(LIGHTS["studio"])
     first, again, other = (render(lit, seed=seed, samples=16).total for seed in (1, 1, 2))
