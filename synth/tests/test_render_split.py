@@ -76,6 +76,18 @@ def test_variance_is_that_of_repeated_renders(name):
     assert stated == pytest.approx(measured, rel=0.15)
 
 
+def test_halves_of_the_samples_are_independent_and_make_the_picture():
+    lit = HEAD.lit(LIGHTS["studio"])
+    pictures = [render(lit, seed=seed, samples=16) for seed in range(20)]
+    first = np.stack([a.half - b.half for a, b in zip(pictures[::2], pictures[1::2])])
+    whole = np.stack([a.total - b.total for a, b in zip(pictures[::2], pictures[1::2])])
+    second = 2 * whole - first
+    # Each half is twice as noisy as the whole, and the noise of one says nothing of the other's.
+    for half in (first, second):
+        assert np.mean(half**2) == pytest.approx(2 * np.mean(whole**2), rel=0.1)
+    assert abs(np.mean(first * second)) < 0.05 * np.mean(first**2)
+
+
 def test_equal_seeds_give_equal_bits_and_others_do_not():
     lit = HEAD.lit(LIGHTS["studio"])
     first, again, other = (render(lit, seed=seed, samples=16).total for seed in (1, 1, 2))

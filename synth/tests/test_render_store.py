@@ -66,6 +66,10 @@ def test_a_kept_picture_comes_back_bit_by_bit(tmp_path):
     back = store.get("a")
     for name in ("diffuse", "specular", "variance"):
         assert getattr(back, name).tobytes() == getattr(layers(0.1), name).tobytes()
+    assert back.half is None
+    halved = replace(layers(0.1), half=np.full((16, 16, 3), 0.3, np.float32))
+    store.put("halved", halved)
+    assert store.get("halved").half.tobytes() == halved.half.tobytes()
     (tmp_path / "renders/a.npz").write_bytes(b"half")
     assert store.get("a") is None
 

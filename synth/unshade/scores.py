@@ -50,6 +50,8 @@ class Score:
     floor: float | None
     """The value that rendering noise alone would allow."""
     per_frame: dict[str, float] = field(default_factory=dict[str, float])
+    block: int | None = None
+    """Side of the blocks of the interval's bootstrap, texels or pixels."""
 
     @property
     def id(self) -> str:
@@ -196,6 +198,7 @@ def _row(row: dict[str, Any]) -> Score:
         label=row.get("label"), light=row.get("light"), value=row.get("value"),
         ci95=None if interval is None else (interval[0], interval[1]),
         n=row["n"], floor=row.get("floor"), per_frame=dict(row.get("per_frame", {})),
+        block=row.get("block"),
     )  # fmt: skip
 
 

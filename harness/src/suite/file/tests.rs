@@ -41,6 +41,44 @@ fn what_relights_is_one_of_the_renderers() {
 }
 
 #[test]
+fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let open = |seeds: &str, method: &str| {
+        let text = format!(
+            "format = 1\nname = \"s\"\nscene = \"scene.toml\"\n{seeds}\n[[method]]\n{method}\n"
+        );
+        Suite::open(&write(root.path(), "suite.toml", &text))
+    };
+    let suite = open("seeds = [0, 7]", "name = \"paper\"\nseeds = [1, 2]").unwrap();
+    let cases = suite.cases.iter().map(|case| {
+        (case.id.as_str(), case.seed, case.scene.table["render"]["seed"].as_integer())
+    });
+    let expected = [("ada-key-seed0", Some(0), Some(0)), ("ada-key-seed7", Some(7), Some(7))];
+    assert_eq!(cases.collect::<Vec<_>>(), expected);
+    for (method, seed) in suite.methods.iter().zip([1, 2]) {
+        assert_eq!(method.id, format!("paper-seed{seed}"));
+        assert_eq!(method.replicate, Some(("paper".to_owned(), seed)));
+        let MethodKind::Fields { config, .. } = &method.kind else { panic!() };
+        let config = config.parse::<Table>().unwrap();
+        assert_eq!(config["base"].as_str(), Some("paper"));
+        assert_eq!(config["seed"].as_integer(), Some(seed.cast_signed()));
+    }
+    let plain = open("", "name = \"paper\"").unwrap();
+    assert_eq!((plain.cases[0].id.as_str(), plain.cases[0].seed), ("ada-key", None));
+    assert_eq!((plain.methods[0].id.as_str(), &plain.methods[0].replicate), ("paper", &None));
+    for (seeds, method, words) in [
+        ("seeds = [1, 1]", "name = \"paper\"", "each once"),
+        ("seeds = 3", "name = \"paper\"", "each once"),
+        ("", "name = \"paper\"\nseeds = [-1]", "each once"),
+        ("", "name = \"oracle\"\nseeds = [1]", "has no use for seeds"),
+    ] {
+        let error = open(seeds, method).unwrap_err().to_string();
+        assert!(error.contains(words) && !error.contains('\n'), "{error}");
+    }
+}
+
+#[test]
 fn every_light_is_relit_in_all_the_others() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());
