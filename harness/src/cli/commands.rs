@@ -10,7 +10,7 @@ use solver::Choice;
 
 use super::alone::{alone, tools};
 use super::arguments::{BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb};
-use super::exit::{CHECK_FAILED, DONE};
+use super::exit::DONE;
 use super::run::run_suite;
 use super::{bench, calibrate, check, clean, compare, doctor, export, figure, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};

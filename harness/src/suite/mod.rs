@@ -26,8 +26,8 @@ mod record;
 mod relit;
 mod run;
 mod scene;
-mod seeds;
 mod seal;
+mod seeds;
 mod size;
 mod sources;
 mod stages;
@@ -54,8 +54,6 @@ pub use scene::{Scene, SceneError};
 pub use seal::{Round, SealedCase, Sealing, seal};
 pub use size::in_words as in_bytes;
 pub use sources::{READER_SOURCES, SOLVER_SOURCES};
-pub use stages::{
-    Budget, Export, budget, contact_sheet, describe, export, figure, relight, synth,
-};
+pub use stages::{Budget, Export, budget, contact_sheet, describe, export, figure, relight, synth};
 pub use submission::{Checked, check_submission, score_submission};
 pub use tools::{Observer, Tools};

@@ -51,9 +51,10 @@ fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
         Suite::open(&write(root.path(), "suite.toml", &text))
     };
     let suite = open("seeds = [0, 7]", "name = \"paper\"\nseeds = [1, 2]").unwrap();
-    let cases = suite.cases.iter().map(|case| {
-        (case.id.as_str(), case.seed, case.scene.table["render"]["seed"].as_integer())
-    });
+    let cases = suite
+        .cases
+        .iter()
+        .map(|case| (case.id.as_str(), case.seed, case.scene.table["render"]["seed"].as_integer()));
     let expected = [("ada-key-seed0", Some(0), Some(0)), ("ada-key-seed7", Some(7), Some(7))];
     assert_eq!(cases.collect::<Vec<_>>(), expected);
     for (method, seed) in suite.methods.iter().zip([1, 2]) {
