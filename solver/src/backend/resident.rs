@@ -79,6 +79,8 @@ pub struct TransportedJob<'a> {
     pub grey_mean: f32,
     /// Weight of every texel's coloured shading.
     pub grey_texel: f32,
+    /// Weight and softness of [`crate::transport::light_colour`].
+    pub light_colour: [f32; 2],
 }
 
 /// See [`Job::Highlights`]. The samples' taps are of the transport's size.
@@ -92,6 +94,8 @@ pub struct HighlightsJob<'a> {
     pub reflection: &'a Reflection,
     /// Weight of the albedo prior.
     pub prior: f32,
+    /// Weight and softness of [`crate::transport::light_colour`].
+    pub light_colour: [f32; 2],
 }
 
 /// Something that a stage moves, with its optimiser.

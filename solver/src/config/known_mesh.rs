@@ -88,6 +88,10 @@ pub struct TransportConfig {
     pub grey_mean: f32,
     /// Weight of the mean absolute deviation of each texel's shading from grey.
     pub grey_texel: f32,
+    /// Weight of neighbouring cells of the light whose colours differ: R, G, B of their logarithms, less the mean.
+    pub light_colour: f32,
+    /// Difference of a channel, in the logarithm, below which that costs next to nothing.
+    pub light_colour_softness: f32,
     /// Learning rate of the light's logarithm.
     pub light_rate: f32,
     /// Learning rate of the diffuse albedo.
@@ -121,10 +125,29 @@ pub struct TransportConfig {
     pub refinement: usize,
     /// Weight of the albedo prior in the refinement.
     pub refinement_prior: f32,
+    /// Learning rate of the albedo in the refinement.
+    pub refinement_rate: f32,
+    /// What is likely wrong with the model, by which the refinement weighs pixels.
+    pub model_error: ModelErrorConfig,
     /// Residual, relative to the colour, at which the confidence in a texel's albedo has fallen to 1 / e.
     pub confidence_misfit: f32,
     /// Standard deviation of the blur of what confidence goes by, texels.
     pub confidence_blur: f32,
+}
+
+/// Standard deviations of what the model gets wrong in a pixel under a known light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelErrorConfig {
+    /// Of the diffuse shading, relative.
+    pub shading: f32,
+    /// Of the normals, radians: relief that the mesh does not have moves the shading most where light grazes.
+    pub normal: f32,
+    /// Of the highlights, relative.
+    pub highlights: f32,
+    /// Of the diffuse shading, over its mean: what bounces and penumbras bring where there is no light. 0 weighs all
+    /// pixels alike.
+    pub shadow: f32,
 }
 
 /// Normals by Gauss-Newton on a height texture; not in the paper.

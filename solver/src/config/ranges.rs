@@ -88,6 +88,7 @@ impl TransportConfig {
         positive(&[
             ("transport.even_contrast", self.even_contrast),
             ("transport.confidence_misfit", self.confidence_misfit),
+            ("transport.light_colour_softness", self.light_colour_softness),
         ])?;
         not_negative(&[
             ("transport.ray_offset", self.ray_offset),
@@ -102,6 +103,12 @@ impl TransportConfig {
             ("transport.specular_rate", self.specular_rate),
             ("transport.network_rate", self.network_rate),
             ("transport.refinement_prior", self.refinement_prior),
+            ("transport.refinement_rate", self.refinement_rate),
+            ("transport.light_colour", self.light_colour),
+            ("transport.model_error.shading", self.model_error.shading),
+            ("transport.model_error.normal", self.model_error.normal),
+            ("transport.model_error.highlights", self.model_error.highlights),
+            ("transport.model_error.shadow", self.model_error.shadow),
         ])
     }
 }

@@ -7,27 +7,27 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
 /// Trust in every texel of the samples' texture, 0 to 1: q / (1 + q) x exp(-r / `confidence_misfit`). q
-/// weighs the pull of the pictures (the sum of view weight x S_d) against that of the prior of weight
-/// `refinement_prior`; r is the mean absolute residual over the mean colour. `layers` has S_d of R, G, B and the specular layer,
-/// `diffuse` the albedo at every sample.
+/// weighs the pull of the pictures (the sum of weight x S_d) against that of the prior of weight
+/// `refinement_prior`; r is the mean absolute residual over the mean colour. The target of `samples` is without
+/// highlights, `pictures` are with them; `shading` has S_d of R, G, B, `diffuse` the albedo at every sample.
 pub(super) fn confidence(
     config: &TransportConfig,
     samples: &Samples,
-    layers: &Planes,
+    pictures: &Planes,
+    shading: &Planes,
     diffuse: &Planes,
 ) -> Vec<f32> {
     let (size, prior) = (samples.taps.size(), config.refinement_prior);
     let parts = Planes::from_fn(samples.len(), |i| {
-        let [r, g, b, specular]: [f32; 4] = layers.sample(i, 0);
-        let shading = [r, g, b];
-        let albedo: [f32; 3] = diffuse.sample(i, 0);
-        let target: [f32; 3] = samples.target.sample(i, 0);
+        let [shading, albedo, target]: [[f32; 3]; 3] =
+            [shading, diffuse, &samples.target].map(|planes| planes.sample(i, 0));
+        let picture: [f32; 3] = pictures.sample(i, 0);
         let weight = samples.weight.get(0, i) / 3.0;
         let sum = |value: &dyn Fn(usize) -> f32| weight * (0..3).map(value).sum::<f32>();
         [
             sum(&|c| shading[c]),
-            sum(&|c| (albedo[c] * shading[c] + specular - target[c]).abs()),
-            sum(&|c| target[c].abs()),
+            sum(&|c| (albedo[c] * shading[c] - target[c]).abs()),
+            sum(&|c| picture[c].abs()),
         ]
     });
     let sums =

@@ -37,29 +37,31 @@ impl<'a> Diffuse<'a> {
             let [diffuse, specular] = layers.sample(i, 0);
             [diffuse, diffuse, diffuse, specular]
         });
-        let (iterations, prior) = (config.fine_tuning.iterations, config.fine_tuning.prior);
-        Self::under(config, samples, &shading, format!("diffuse {round}"), iterations, prior)
-    }
-
-    /// Under known shading: S_d of every channel, and the specular layer.
-    pub fn under(
-        config: &'a Config,
-        samples: &'a Samples,
-        shading: &Planes,
-        name: String,
-        iterations: usize,
-        prior: f32,
-    ) -> Self {
+        let f = &config.fine_tuning;
         let count = 3 * samples.taps.size() * samples.taps.size();
-        let by_diffuse = Adam::new(&config.adam, config.fine_tuning.diffuse_rate, count);
         Self {
             config,
             samples,
-            name,
-            iterations,
-            prior,
+            name: format!("diffuse {round}"),
+            iterations: f.iterations,
+            prior: f.prior,
+            layer: Layer::new(samples, &shading),
+            by_diffuse: Adam::new(&config.adam, f.diffuse_rate, count),
+        }
+    }
+
+    /// The refinement under known shading: S_d of every channel, and the specular layer.
+    pub fn refinement(config: &'a Config, samples: &'a Samples, shading: &Planes) -> Self {
+        let t = &config.transport;
+        let count = 3 * samples.taps.size() * samples.taps.size();
+        Self {
+            config,
+            samples,
+            name: "albedo".to_owned(),
+            iterations: t.refinement,
+            prior: t.refinement_prior,
             layer: Layer::new(samples, shading),
-            by_diffuse,
+            by_diffuse: Adam::new(&config.adam, t.refinement_rate, count),
         }
     }
 

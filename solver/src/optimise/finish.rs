@@ -18,7 +18,7 @@ use super::progress::LayerSink;
 use super::snapshot::stage_maps;
 use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
-use super::transported::albedo;
+use super::refinement::refinement;
 use crate::config::map_size;
 use crate::model::deviation::Deviation;
 use crate::model::deviation_textures::DeviationTextures;
@@ -43,7 +43,7 @@ pub(super) fn finish(
     let SolveContext { backend, capture, config, size, .. } = *context;
     let mesh = &capture.mesh;
     // Does nothing unless an interrupt came before it.
-    albedo(context, &mut runner, &mut solve)?;
+    refinement(context, &mut runner, &mut solve)?;
     let Solve { mut state, diffuse_reflectance, lighting, snapshots, .. } = solve;
     state.resize(size);
     let (samples, deviation) = (&context.fine().samples, &context.fine().deviation);

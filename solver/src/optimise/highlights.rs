@@ -19,7 +19,7 @@ use crate::config::{Config, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Reflection, Transport, contrast};
+use crate::transport::{CHANNELS, Reflection, Transport, contrast, light_colour};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
@@ -187,6 +187,11 @@ impl<'a> Highlights<'a> {
         })
     }
 
+    /// Weight and softness of the light's colours.
+    fn light_colour(&self) -> [f32; 2] {
+        [self.config.light_colour, self.config.light_colour_softness]
+    }
+
     /// The light, R, G, B per cell.
     fn light(&self) -> Vec<f32> {
         self.log_light.iter().map(|log| log.exp()).collect()
@@ -248,12 +253,14 @@ impl<'a> Highlights<'a> {
         let smooth = prior(&state.diffuse, state.size, self.config.prior, &mut diffuse);
         let mut by_light = self.transport.adjoint_nearer(&by_shading, self.nearness[0]);
         by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
+        let [weight, softness] = self.light_colour();
+        let colour = light_colour(&self.log_light, weight, softness, &mut by_light);
         let along = |gain: Vec<f32>| {
             let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
             products.sum::<f64>() as f32
         };
         Gradient {
-            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smooth,
+            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smooth + colour,
             light: by_light,
             nearness: gain.map(along),
             diffuse,
@@ -289,6 +296,7 @@ impl Stage for Highlights<'_> {
             transport: self.transport,
             reflection: &self.reflection,
             prior: self.config.prior,
+            light_colour: self.light_colour(),
         }))
     }
 

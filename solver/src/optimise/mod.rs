@@ -24,6 +24,7 @@ pub mod normals;
 mod pooled_specular;
 pub(crate) mod progress;
 mod recolour;
+mod refinement;
 mod reflectance;
 mod snapshot;
 pub mod solve;

@@ -13,7 +13,8 @@ use super::specular::Specular;
 use super::specular_floor;
 use super::stage::{Stage, State};
 use super::stage_runner::StageRunner;
-use super::transported::{albedo, light, light_and_albedo};
+use super::refinement::refinement;
+use super::transported::{light, light_and_albedo};
 use super::warm_up::WarmUp;
 use crate::config::Config;
 use crate::model::networks::Networks;
@@ -225,7 +226,7 @@ impl Step {
                     Diffuse::new(config, &fine.samples, &fine.deviation, state, backend, *round);
                 runner.stage(&mut stage, &mut solve.state)?;
             }
-            Self::Albedo => albedo(context, runner, solve)?,
+            Self::Albedo => refinement(context, runner, solve)?,
         }
         Ok(())
     }

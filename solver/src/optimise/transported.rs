@@ -1,31 +1,26 @@
 //! Diffuse albedo under explicit transport: the light and the albedo are solved for together, the
 //! networks explain the specular layer alone.
 
-use glam::Vec3;
 use rayon::prelude::*;
 
 use super::adam::Adam;
-use super::confidence::confidence;
 use super::context::{SolveContext, TransportSetup};
-use super::diffuse::Diffuse;
 use super::error::SolveError;
-use super::found::Solve;
-use super::light_estimate::{DiffuseReflectance, LightEstimate, bounce_albedo};
-use super::lighting::{Lighting, bent_shading};
+use super::light_estimate::{LightEstimate, bounce_albedo};
+use super::lighting::Lighting;
 use super::recolour::recolour;
 use super::reflectance::Reflectances;
 use super::specular_floor;
-use super::stage::{Memory, Stage, State, layers};
+use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
 use crate::backend::resident::{Job, TransportedJob, Variable};
 use crate::backend::{ALBEDOS, Backend};
 use crate::config::{Config, TransportConfig};
-use crate::model::deviation::Deviation;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Transport};
+use crate::transport::{CHANNELS, Transport, light_colour};
 
 /// Light and its distance under the colours of `start`, with the networks that the warm-up trained.
 pub(super) fn light(
@@ -86,75 +81,6 @@ pub(super) fn light_and_albedo(
     let light = stage.light();
     let LightEstimate { reflectances, setup, .. } = light_estimate;
     Ok(Lighting::new(context, &samples, state, reflectances, setup, light))
-}
-
-/// The albedo of [`light_and_albedo`] on the final texture and the full pictures, under the same
-/// light. `state` has the normals.
-pub(super) fn refined(
-    runner: &mut StageRunner,
-    config: &Config,
-    gain: f32,
-    samples: &Samples,
-    deviation: &Deviation,
-    state: &State,
-    lighting: &Lighting,
-) -> Result<DiffuseReflectance, SolveError> {
-    let mut own = lighting.state.clone();
-    own.resize(state.size);
-    own.deviation.clone_from(&state.deviation);
-    let shading = lighting.sampled(samples);
-    let specular = layers(samples, deviation, &own, runner.backend);
-    let deviations = deviation.textures(&state.deviation).blurred;
-    let deviations = samples.taps.sample::<3>(&deviations);
-    let planes = Planes::from_fn(samples.len(), |i| {
-        let normal = Vec3::from_array(samples.normal.sample(i, 0));
-        let bent = (normal + Vec3::from_array(deviations.sample(i, 0))).normalize();
-        let [r, g, b] = bent_shading(&shading.sample(i, 0), normal, bent);
-        [r, g, b, specular.get(1, i)]
-    });
-    let t = &config.transport;
-    let name = "albedo".to_owned();
-    let (steps, prior) = (t.refinement, t.refinement_prior);
-    // What the stage reads, and no more.
-    let rest = Samples {
-        target: lighting.without_specular_floor(samples),
-        weight: samples.weight.clone(),
-        taps: samples.taps.clone(),
-        pixel: samples.pixel.clone(),
-        ..Samples::none(state.size)
-    };
-    let mut stage = Diffuse::under(config, &rest, &planes, name, steps, prior);
-    runner.stage(&mut stage, &mut own)?;
-    let albedo = samples.taps.sample::<3>(&own.diffuse);
-    let confidence = confidence(t, samples, &planes, &albedo);
-    Ok(DiffuseReflectance {
-        diffuse: own.diffuse,
-        scale: lighting.peak / (gain * lighting.exposure),
-        confidence,
-    })
-}
-
-/// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
-pub(super) fn albedo(
-    context: &SolveContext,
-    runner: &mut StageRunner,
-    solve: &mut Solve,
-) -> Result<(), SolveError> {
-    if let (Some(lighting), None) = (&solve.lighting, &solve.diffuse_reflectance) {
-        solve.state.resize(context.size);
-        let (fine, state) = (context.fine(), &solve.state);
-        let (samples, deviation) = (&fine.samples, &fine.deviation);
-        solve.diffuse_reflectance = Some(refined(
-            runner,
-            context.config,
-            context.gain,
-            samples,
-            deviation,
-            state,
-            lighting,
-        )?);
-    }
-    Ok(())
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.
@@ -230,6 +156,11 @@ impl<'a> Transported<'a> {
         self.log_light.iter().map(|log| log.exp()).collect()
     }
 
+    /// Weight and softness of the light's colours.
+    fn light_colour(&self) -> [f32; 2] {
+        [self.config.light_colour, self.config.light_colour_softness]
+    }
+
     #[cfg(test)]
     pub(super) fn set_nearness(&mut self, nearness: f32) {
         self.nearness[0] = nearness;
@@ -270,9 +201,12 @@ impl<'a> Transported<'a> {
         let along = |gain: Vec<f32>| -> f64 {
             gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
         };
+        let mut by_log: Vec<f32> = product(&by_light, &light);
+        let [weight, softness] = self.light_colour();
+        let colour = light_colour(&self.log_light, weight, softness, &mut by_log);
         Gradient {
-            loss: joint.loss + grey + smooth,
-            light: product(&by_light, &light),
+            loss: joint.loss + grey + smooth + colour,
+            light: by_log,
             nearness: gain.map_or(0.0, along) as f32,
             diffuse: by_diffuse,
             specular: samples.taps.gather::<1>(&joint.albedo, 3),
@@ -367,6 +301,7 @@ impl Stage for Transported<'_> {
             prior: self.config.prior,
             grey_mean: self.config.grey_mean,
             grey_texel: self.config.grey_texel,
+            light_colour: self.light_colour(),
         }))
     }
 

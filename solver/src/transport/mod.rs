@@ -14,6 +14,7 @@
 
 mod channels;
 mod highlights;
+mod light_colour;
 mod matrix;
 mod rays;
 mod reflection;
@@ -30,6 +31,7 @@ use crate::config::TransportConfig;
 pub use channels::CHANNELS;
 pub(crate) use channels::LUMINANCE;
 pub use highlights::{HIGHLIGHT_ROWS, SkinHighlights};
+pub(crate) use light_colour::light_colour;
 use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
 pub use reflection::Reflection;

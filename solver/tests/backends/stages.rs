@@ -147,6 +147,7 @@ pub fn transported(backend: &dyn Backend) {
     let mut config = Config::default();
     config.transport.texture_size = 32;
     config.transport.rows = 6;
+    config.transport.light_colour = 0.3;
     config.transport.albedo_frozen_steps = 22;
     config.transport.grey_texel = 0.1;
     let (samples, state) = problem(&config);
@@ -165,6 +166,7 @@ pub fn highlights(backend: &dyn Backend) {
     let mut config = Config::default();
     config.transport.texture_size = 32;
     config.transport.rows = 6;
+    config.transport.light_colour = 0.3;
     config.transport.albedo_frozen_steps = 22;
     let (samples, state) = problem(&config);
     let mesh = testing::dome(24);

@@ -4,7 +4,7 @@ use super::computing::Gpu;
 use super::matrix::{Matrix, Shading, by_light};
 use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
-use super::program::{Moved, Program, prior, total};
+use super::program::{Moved, Program, light_colour, prior, total};
 use crate::backend::resident::HighlightsJob;
 use crate::transport::CHANNELS;
 
@@ -64,10 +64,13 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let mut matrices = vec![(&shading.matrix, &shading.by_row)];
     matrices.extend(reflections.iter().zip(&highlights));
     passes.extend(by_light(device, &matrices, light, &log_light.gradient));
+    let (colour_pass, colour_sums) = light_colour(device, &log_light, job.light_colour).unzip();
+    passes.extend(colour_pass);
     let by_nearness = [shading.groups(); 2];
     passes.extend(total(device, &shading.partial, by_nearness, &nearness.gradient, false, false));
 
     let mut losses = vec![(losses, first)];
     losses.extend(prior_sums);
+    losses.extend(colour_sums);
     Program::new(gpu, passes, &losses, vec![log_light, nearness, diffuse])
 }

@@ -5,7 +5,7 @@ use super::joint::Joint;
 use super::layout::Layout;
 use super::matrix::{Shading, by_light};
 use super::pieces::{DeviceTaps, Pieces};
-use super::program::{Moved, Program, prior, total};
+use super::program::{Moved, Program, light_colour, prior, total};
 use crate::backend::ALBEDOS;
 use crate::backend::resident::TransportedJob;
 use crate::transport::CHANNELS;
@@ -50,6 +50,8 @@ pub(super) fn program<'a>(gpu: &'a Gpu, layout: Layout, job: &TransportedJob) ->
     let matrices = [(&shading.matrix, &shading.by_row)];
     let light = [&shading.light, &nearness.values];
     passes.extend(by_light(device, &matrices, light, &log_light.gradient));
+    let (colour_pass, colour_sums) = light_colour(device, &log_light, job.light_colour).unzip();
+    passes.extend(colour_pass);
     let groups = shading.groups();
     let (penalties, by_nearness) = ([0, groups], [groups, groups]);
     passes.extend(total(device, &shading.partial, by_nearness, &nearness.gradient, false, false));
@@ -57,6 +59,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, layout: Layout, job: &TransportedJob) ->
     let samples_loss = (joint.losses, joint.groups.iter().sum());
     let mut losses = vec![samples_loss, (shading.partial, penalties[1])];
     losses.extend(prior_sums);
+    losses.extend(colour_sums);
     let moved = vec![log_light, nearness, diffuse, specular, weights.in_layout(layout)];
     Program::new(gpu, passes, &losses, moved)
 }

@@ -16,6 +16,7 @@ fn gradients_reach_light_albedo_networks_and_the_penalties() {
     config.transport.rows = 4;
     config.transport.prior = 20.0;
     config.transport.grey_texel = 0.1;
+    config.transport.light_colour = 0.3;
     let sky = Sky::even(4);
     let transport =
         Transport::new(&testing::dome(12), &sky, &config.transport, 0, Beside::Nearness);

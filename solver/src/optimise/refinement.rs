@@ -1,0 +1,135 @@
+//! The diffuse albedo on the final texture and the full pictures, under the light that explicit transport found.
+
+use glam::Vec3;
+
+use super::confidence::confidence;
+use super::context::SolveContext;
+use super::deviated_highlights::DeviatedHighlights;
+use super::diffuse::Diffuse;
+use super::error::SolveError;
+use super::found::Solve;
+use super::light_estimate::DiffuseReflectance;
+use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
+use super::stage::{State, layers};
+use super::stage_runner::StageRunner;
+use crate::config::ModelErrorConfig;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
+use crate::transport::CHANNELS;
+
+/// The channel of the shading that a pixel's weight goes by.
+const GREEN: usize = 1;
+
+/// The albedo under explicit transport on the final texture; after an interrupt as coarse as it is.
+pub(super) fn refinement(
+    context: &SolveContext,
+    runner: &mut StageRunner,
+    solve: &mut Solve,
+) -> Result<(), SolveError> {
+    if let (Some(lighting), None) = (&solve.lighting, &solve.diffuse_reflectance) {
+        solve.state.resize(context.size);
+        solve.diffuse_reflectance = Some(refined(context, runner, &solve.state, lighting)?);
+    }
+    Ok(())
+}
+
+/// `state` has the normals.
+fn refined(
+    context: &SolveContext,
+    runner: &mut StageRunner,
+    state: &State,
+    lighting: &Lighting,
+) -> Result<DiffuseReflectance, SolveError> {
+    let (config, fine) = (context.config, context.fine());
+    let (t, samples) = (&config.transport, &fine.samples);
+    let mut own = lighting.state.clone();
+    own.resize(state.size);
+    own.deviation.clone_from(&state.deviation);
+    let deviations = fine.deviation.textures(&state.deviation);
+    let [sharp, blurred] =
+        [&deviations.sharp, &deviations.blurred].map(|texture| samples.taps.sample::<3>(texture));
+    // The light's own highlights where it was solved for with them, else the networks' and what all views share.
+    let explicit = DeviatedHighlights::new(context, lighting, samples);
+    let target = match explicit.map(|highlights| highlights.at(samples, &sharp)) {
+        Some(highlights) => less(&samples.target, |i| highlights.sample(i, 0)),
+        None => {
+            let specular = layers(samples, &fine.deviation, &own, runner.backend);
+            let networks = |i: usize| [specular.get(1, i); CHANNELS];
+            less(&lighting.without_specular_floor(samples), networks)
+        }
+    };
+    let sampled = lighting.sampled(samples);
+    let shading = Planes::from_fn(samples.len(), |i| {
+        let normal = Vec3::from_array(samples.normal.sample(i, 0));
+        let bent = (normal + Vec3::from_array(blurred.sample(i, 0))).normalize();
+        let [r, g, b] = bent_shading(&sampled.sample(i, 0), normal, bent);
+        [r, g, b, 0.0]
+    });
+    let albedo = samples.taps.sample::<CHANNELS>(&own.diffuse);
+    let model = Model { shading: &shading, changes: &sampled, albedo: &albedo, target: &target };
+    // What the stage reads, and no more.
+    let rest = Samples {
+        weight: model.weights(&t.model_error, samples),
+        target,
+        taps: samples.taps.clone(),
+        pixel: samples.pixel.clone(),
+        ..Samples::none(state.size)
+    };
+    let mut stage = Diffuse::refinement(config, &rest, &shading);
+    runner.stage(&mut stage, &mut own)?;
+    let albedo = samples.taps.sample::<CHANNELS>(&own.diffuse);
+    Ok(DiffuseReflectance {
+        confidence: confidence(t, &rest, &samples.target, &shading, &albedo),
+        diffuse: own.diffuse,
+        scale: lighting.peak / (context.gain * lighting.exposure),
+    })
+}
+
+/// The pictures less what is specular in them.
+fn less(target: &Planes, specular: impl Fn(usize) -> [f32; CHANNELS] + Sync) -> Planes {
+    Planes::from_fn::<CHANNELS>(target.len(), |i| {
+        let specular = specular(i);
+        std::array::from_fn(|c| target.get(c, i) - specular[c])
+    })
+}
+
+/// What is known of every sample before the refinement.
+struct Model<'a> {
+    shading: &'a Planes,
+    /// See [`Lighting::sampled`].
+    changes: &'a Planes,
+    albedo: &'a Planes,
+    /// The pictures without highlights.
+    target: &'a Planes,
+}
+
+impl Model<'_> {
+    /// The weights of the samples, over how much the shading that explains them is likely to be wrong. Where all is
+    /// well that makes a residual one of the albedo, so that the prior has the same strength in dim light as in
+    /// bright; where light grazes, where highlights are strong and in shadows, pictures say less.
+    fn weights(&self, errors: &ModelErrorConfig, samples: &Samples) -> Planes {
+        if errors.shadow == 0.0 {
+            return samples.weight.clone();
+        }
+        let count = samples.len().max(1) as f32;
+        let mean = (0..samples.len()).map(|i| self.shading.get(GREEN, i)).sum::<f32>() / count;
+        Planes::from_fn(samples.len(), |i| {
+            let normal = Vec3::from_array(samples.normal.sample(i, 0));
+            let changes: [f32; SHADING_ROWS] = self.changes.sample(i, 0);
+            let change = Vec3::from_slice(&changes[CHANNELS + 3 * GREEN..]);
+            let change = (change - normal * normal.dot(change)).length();
+            let highlight = samples.target.get(GREEN, i) - self.target.get(GREEN, i);
+            let squares = [
+                errors.shading * self.shading.get(GREEN, i),
+                errors.normal * change,
+                errors.highlights * highlight / self.albedo.get(GREEN, i).max(DARK),
+                errors.shadow * mean,
+            ];
+            let error = squares.map(|error| error * error).iter().sum::<f32>().sqrt();
+            [samples.weight.get(0, i) * errors.shadow * mean / error]
+        })
+    }
+}
+
+/// Least albedo that is divided by.
+const DARK: f32 = 0.02;
