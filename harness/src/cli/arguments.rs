@@ -102,7 +102,7 @@ pub(super) enum Verb {
         out: PathBuf,
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
-    Compare(CompareArgs),
+    Compare(Box<CompareArgs>),
     /// Measure how far a suite's scores move with the seeds, and write tolerances with a known rate of
     /// false alarms.
     Calibrate(CalibrateArgs),
