@@ -157,7 +157,7 @@ pub(super) enum Verb {
         key: Option<String>,
     },
     /// Compare a run with a baseline; exit code 1 on a regression.
-    Compare(CompareArgs),
+    Compare(Box<CompareArgs>),
     /// Measure how far a suite's scores move with the seeds, and write tolerances with a known rate of
     /// false alarms.
     Calibrate(CalibrateArgs),
