@@ -7,12 +7,7 @@ use super::CHANNELS;
 /// cells. d_c is how much channel c of the logarithm differs between the two, less the mean of the three; the edge
 /// is its length over that on the equator; s is `softness`, below which differences cost next to nothing. The
 /// gradient is added to `gradient`. Cells are those of [`super::sky::Sky::even`], R, G, B each.
-pub fn light_colour(
-    log_light: &[f32],
-    weight: f32,
-    softness: f32,
-    gradient: &mut [f32],
-) -> f64 {
+pub fn light_colour(log_light: &[f32], weight: f32, softness: f32, gradient: &mut [f32]) -> f64 {
     if weight == 0.0 {
         return 0.0;
     }
@@ -75,7 +70,8 @@ mod tests {
 
     #[test]
     fn a_light_of_one_colour_costs_nothing_however_bright_its_lamps_are() {
-        let grey: Vec<f32> = light().chunks(CHANNELS).flat_map(|cell| [cell[0]; CHANNELS]).collect();
+        let grey: Vec<f32> =
+            light().chunks(CHANNELS).flat_map(|cell| [cell[0]; CHANNELS]).collect();
         let mut gradient = vec![0.0; grey.len()];
         assert!(light_colour(&grey, 1.0, 0.3, &mut gradient).abs() < 1e-6);
         assert!(gradient.iter().all(|by| by.abs() < 1e-6));

@@ -158,8 +158,7 @@ pub(super) fn light_colour(
         return None;
     }
     let cells = log_light.count / CHANNELS;
-    let kernel =
-        device.kernel("light colour", include_str!("wgsl/light_colour.wgsl"), &[], "urww");
+    let kernel = device.kernel("light colour", include_str!("wgsl/light_colour.wgsl"), &[], "urww");
     let rows = (cells / 2).isqrt() as u32;
     let words = [rows, (weight / cells as f32).to_bits(), softness.to_bits()];
     let parameters = device.uniform(&words);
