@@ -30,7 +30,7 @@ pub struct Capture {
     /// The withheld cameras, in the order of `test_filenames`; pinholes like all others, since
     /// lenses are taken out of the pictures when they are opened.
     pub withheld: Vec<Camera>,
-    /// What the ids of the label pictures stand for, as far as the file says.
+    /// Names of the label pictures' ids, as far as the file has them.
     pub label_names: BTreeMap<u8, String>,
     hash: String,
 }

@@ -25,7 +25,7 @@ struct PackedLayer {
     /// Tile by tile, input by input: weights to the tile's outputs.
     forward: Vec<[f32; TILE]>,
     bias: Vec<[f32; TILE]>,
-    /// The same of the transposed matrix; nothing in the first layer.
+    /// Tiles of the transposed matrix, as in `forward`; empty in the first layer.
     backward: Vec<[f32; TILE]>,
 }
 

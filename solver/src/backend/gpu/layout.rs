@@ -81,7 +81,7 @@ impl Layout {
         [32 * blocks - 8 * first, 32 * (blocks - first)]
     }
 
-    /// Of a network.
+    /// Number of outputs of a network.
     pub fn outputs(&self) -> usize {
         4 * self.outputs
     }
