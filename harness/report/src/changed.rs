@@ -20,7 +20,7 @@ use super::views::Layer;
 /// Findings that are shown: the largest first, as they come.
 const SHOWN: usize = 8;
 
-/// What one finding is shown by.
+/// Pictures of one finding.
 struct Shown {
     old: Option<Picture>,
     new: Picture,

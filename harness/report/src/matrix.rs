@@ -12,7 +12,7 @@ use super::table::{self, Column};
 /// The numbers below each panel.
 const FIGURE_METRICS: [&str; 3] = ["psnr_srgb", "ssim", "flip_mean"];
 
-/// What the matrix needs of one case.
+/// Inputs of the matrix from one case.
 pub(super) struct Source<'a> {
     pub face: &'a str,
     pub variant: Option<&'a str>,
