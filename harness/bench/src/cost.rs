@@ -96,7 +96,7 @@ pub fn normals(config: &Config, pixels: usize, size: usize) -> Cost {
 
 /// A step on the diffuse albedo: S_d, specular layer, colour and weight (8 values if S_d has colours).
 pub fn diffuse(pixels: usize, size: usize) -> Cost {
-    // Of every channel: model, residual and loss; its share of the gradient.
+    // Per channel: model, residual and loss; its part of the gradient.
     let sample = 3.0 * (SAMPLED + 6.0);
     cost([0.0, sample, 8.0], pixels, [0.0, 3.0 * (ADAM + PRIOR), 3.0], size)
 }

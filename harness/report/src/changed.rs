@@ -172,7 +172,7 @@ fn picture(
         Some(path) => read_if_present(&path, layer.channels, Content::Colour),
         None => Ok(None),
     };
-    // Of the capture's own light the picture itself is the truth; its layers lie apart.
+    // In the capture's own light the picture itself is the truth; its layers lie apart.
     let truth = match layer.channels {
         ["R", "G", "B"] => frame.image.clone(),
         _ => capture.join("truth/layers").join(&file),

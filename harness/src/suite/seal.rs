@@ -105,7 +105,7 @@ pub fn seal(
     observer: &mut dyn Observer,
 ) -> Result<Round, RunError> {
     let mut suite = suite.clone();
-    // Of the suite, its captures alone; methods are the business of those who take part.
+    // A round has captures alone; methods are the business of those who take part.
     suite.methods.clear();
     for case in &mut suite.cases {
         let refused = |reason: &str| {

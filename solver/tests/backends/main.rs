@@ -21,7 +21,6 @@ mod textured;
 use std::sync::LazyLock;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-// What `testing` calls its own crate's.
 
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::{Adapter, Gpu, VARIABLE, adapters};

@@ -188,7 +188,7 @@ fn limits<'a>(
 impl RowLimits<'_> {
     fn weigh(&self, metric: &Metric, old: f64, new: f64) -> Verdict {
         let gain = metric.direction.gain(old, new);
-        // Of a reasoned tolerance the gain counts, of a measured one whether the number moved at all.
+        // A reasoned tolerance judges the gain, a measured one whether the number moved at all.
         let moved = match self.measured {
             Some(row) => row.distance(old, new),
             None if self.either_way => (new - old).abs(),

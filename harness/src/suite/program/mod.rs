@@ -143,7 +143,7 @@ impl Program {
             None if self.gives == Gives::Maps => check(&maps).map_err(failed),
             None => Ok(()),
         };
-        // Of what was copied, in which no link leads to what the program itself could not read.
+        // Pictures come from the copy, in which no link leads to files that the program could not read.
         let kept = left.and_then(|()| Ok(copy_below(&maps, output.path())?)).and_then(|()| {
             let (size, scratch) = (self.texture_size, scratch.path());
             match self.gives {

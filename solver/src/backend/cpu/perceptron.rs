@@ -175,7 +175,7 @@ impl<const C: usize, const THEN: u8, const R: usize> Task for Product<'_, '_, C,
             while at < BLOCK {
                 ahead.ask();
                 let mut sums = [[S::splat(0.0); C]; R];
-                // Of what is gated, the last products are masked.
+                // The last products of gated inputs are masked, so they are left to the end.
                 let open = if THEN == GATED { input.len() - 1 } else { input.len() };
                 for (weights, row) in weights.iter().zip(&input[..open]) {
                     let mut x = [S::splat(0.0); C];
