@@ -68,7 +68,7 @@ pub struct Step {
     pub kind: Kind,
     /// On what.
     pub backend: String,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
     /// Pixels of all views.
     pub pixels: usize,

@@ -50,7 +50,7 @@ impl Kind {
 pub struct Task {
     /// `<kind>/<case>[/<method>]`.
     pub id: String,
-    /// Its kind.
+    /// The kind of its work.
     pub kind: Kind,
     /// The index of its case in the suite.
     pub case: usize,

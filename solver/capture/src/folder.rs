@@ -21,9 +21,9 @@ const TRANSFORMS: &str = "transforms.json";
 /// Pictures of withheld frames and the folder `truth` are never opened.
 #[derive(Clone, Debug)]
 pub struct Capture {
-    /// The folder.
+    /// Path of the folder.
     pub folder: PathBuf,
-    /// The mesh.
+    /// Positions in metres, and the UV chart that is the maps' layout.
     pub mesh: Mesh,
     /// The training views, in the order of `train_filenames`.
     pub train: Vec<View>,

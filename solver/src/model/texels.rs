@@ -10,9 +10,9 @@ use super::strips::{Strip, blocks};
 use super::taps::Taps;
 use crate::simd::{prefetch, widened};
 
-/// Values of a texel.
+/// Number of values of a texel.
 pub const CHANNELS: usize = 4;
-/// A texel.
+/// The values of a texel, one vector of the processor.
 pub type Texel = [f32; CHANNELS];
 
 /// Samples whose texels are asked for ahead of those of the one at hand.

@@ -77,7 +77,7 @@ pub trait Stage {
 /// The memory of a stage from step to step besides the state, in a fixed order.
 #[derive(Serialize)]
 pub struct Memory<'a> {
-    /// Its optimisers.
+    /// Moments and step counts of the optimisers.
     pub optimisers: Vec<&'a mut Adam>,
     /// Parameters of its own.
     pub own: Vec<&'a mut Vec<f32>>,

@@ -26,7 +26,7 @@ pub enum FigureKind {
 /// The figure to draw, its runs and its selection.
 #[derive(Clone, Debug)]
 pub struct FigureRequest {
-    /// Its kind.
+    /// Which of the figures.
     pub kind: FigureKind,
     /// Folders of finished runs.
     pub runs: Vec<PathBuf>,

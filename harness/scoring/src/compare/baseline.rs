@@ -30,7 +30,7 @@ pub struct Baseline {
     pub suite_hash: Option<String>,
     /// Versions that made the run.
     pub versions: BTreeMap<String, Value>,
-    /// Hashes of the captures, by case.
+    /// Face, light and hash of the capture, by case.
     #[serde(default)]
     pub cases: BTreeMap<String, Captured>,
     /// Devices that the solver computed on.

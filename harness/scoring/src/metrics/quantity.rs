@@ -18,13 +18,13 @@ pub enum Quantity {
     SquaredErrorSrgb,
     /// Mean over the channels of (p - g)² / (g + .01)².
     RelativeSquaredError,
-    /// Structural similarity.
+    /// Structural similarity of sRGB values, -1 to 1.
     Ssim,
-    /// FLIP.
+    /// LDR-FLIP of sRGB pictures, 0 to 1.
     Flip,
     /// Angle between two vectors, degrees; 90 where one of them has no length.
     Angle,
-    /// CIEDE2000.
+    /// CIEDE2000 of linear colours clipped to [0, 1], D65.
     ColourDifference,
     /// (Individual typology angle of p, of g), degrees.
     Typology,
