@@ -1,4 +1,4 @@
-//! What scores say of the baselines on a capture whose every value is a formula.
+//! Scores of the baselines on a capture whose every value is a formula.
 
 #![allow(clippy::unwrap_used)]
 

@@ -35,7 +35,7 @@ pub fn gaussian(sigma: f32) -> Vec<f32> {
 }
 
 /// Convolves with `kernel`, the weights from the centre outwards (1 at the centre), rows that `read` fills in.
-/// What comes out is passed to `after`. Both are given a row's number and its values.
+/// The result is passed to `after`. Both are given a row's number and its values.
 pub fn convolve(
     kernel: &[f32],
     shape: Shape,
@@ -75,7 +75,7 @@ struct Downwards<'a> {
     /// [`ROWS`] rows of sums, and their rows.
     sums: Vec<f32>,
     summed: Range<usize>,
-    /// Of the lines of a sum: where it begins, and its weights in the rows.
+    /// For each line of a sum, the row where it begins and its weights in the rows.
     taps: [Vec<(usize, [f32; ROWS])>; GROUP / ROWS],
 }
 
@@ -212,7 +212,7 @@ widened! {
 mod tests {
     use super::*;
 
-    /// Of more rows than a task and than the ring has lines.
+    /// A picture with more rows than a task and than the ring has lines.
     #[test]
     fn it_is_the_sum_written_out() {
         let (width, height, channels) = (300, 70, 2);

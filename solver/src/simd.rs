@@ -97,7 +97,7 @@ mod tests {
         WIDEST.get()
     }
 
-    /// What some of the loops make of noise, on this thread alone.
+    /// Results of some of the loops on noise, on this thread alone.
     fn results(widest: u8) -> Vec<f32> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
         let pool = pool.start_handler(move |_| WIDEST.set(widest)).build().unwrap();

@@ -128,7 +128,7 @@ impl RecoveredLight {
 /// One stage of the record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageRecord {
-    /// Its name.
+    /// Name of the stage, as in the log and the timing.
     pub name: String,
     /// Loss before every step.
     pub loss: Vec<f64>,

@@ -25,11 +25,11 @@ FIGURES = {
     "specular_normal/normal_mean_deg@coverage-e5:none": "Mean angle of the specular normal, °",
     "relit/*/psnr_srgb@mask-e5:global": "PSNR of the relit pictures, dB",
 }
-"""What is drawn, a panel each; ``*`` stands for all lights, which are averaged."""
+"""Row ids that are drawn, a panel each, with their titles; ``*`` stands for all lights, which are averaged."""
 
 _PENALTY = 4.0
-"""Of a step, times the logarithm of the number of runs, in squared standard deviations: a history without steps
-shows one in fewer than one in twenty (a test counts them)."""
+"""Penalty of a step over the logarithm of the number of runs, in squared standard deviations: a history without
+steps shows one in fewer than one in twenty (a test counts them)."""
 _FEWEST = 6
 _COLOURS = ("#1b6ca8", "#c2571a", "#2e7d4f", "#8a4fa3", "#7a6a1f", "#555555")
 _WIDTH, _PANEL, _LEFT, _RIGHT, _TOP = 760, 150, 64, 16, 30

@@ -48,7 +48,7 @@ def relight(
 
 
 class Fidelity(TypedDict):
-    """What an asset loses, in one light: the asset as its files say it beside the relit maps."""
+    """Loss of an asset in one light: the asset as its files say it beside the relit maps."""
 
     material: str
     """Which of the asset's materials, or what rendered it."""
@@ -57,7 +57,7 @@ class Fidelity(TypedDict):
     psnr_srgb: float | None
     """dB inside the mask; None where nothing differs."""
     psnr_noise: float | None
-    """What noise alone would allow, where the pictures do not share theirs."""
+    """PSNR that noise alone would allow, dB; None where both pictures have the same noise."""
     diffuse_ratio: float | None
     """Mean of the asset's diffuse layer over that of the maps; None without light in it."""
     specular_ratio: float | None
@@ -101,18 +101,18 @@ def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None =
 
 
 class Budget(TypedDict):
-    """What a map adds to the error of a relit view."""
+    """A map's part of the error of a relit view."""
 
     map: str
     """``diffuse albedo``, ``specular albedo``, ``normals``, ``roughness``."""
     squared_error: float
     """Its Shapley value of the mean squared error of linear values, without noise; all sum to the error."""
     share: float | None
-    """Of the whole error; None where there is no error."""
+    """Share of the whole error; None where there is no error."""
     alone: float
     """The error of the view where this map alone is the method's."""
     gain_db: float
-    """What the true map in its place would bring."""
+    """Gain in PSNR by the true map in its place, dB."""
 
 
 def budget(

@@ -1,4 +1,4 @@
-//! What both parts of the page are made of.
+//! Tables that both parts of the page have.
 
 use std::fmt::Write;
 

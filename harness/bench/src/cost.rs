@@ -1,4 +1,4 @@
-//! What a step has to do at least: arithmetic, and bytes from and to memory if every value is read once
+//! Least work of a step: arithmetic, and bytes from and to memory if every value is read once
 //! and written once. Divided by what the machine reaches, they are its floors.
 //!
 //! Arithmetic is counted twice: the products of networks and blurs alone; and all of it, where whatever is
@@ -96,13 +96,13 @@ pub fn normals(config: &Config, pixels: usize, size: usize) -> Cost {
 
 /// A step on the diffuse albedo: S_d, specular layer, colour and weight (8 values if S_d has colours).
 pub fn diffuse(pixels: usize, size: usize) -> Cost {
-    // Of every channel: model, residual and loss; its share of the gradient.
+    // Per channel: model, residual and loss; its part of the gradient.
     let sample = 3.0 * (SAMPLED + 6.0);
     cost([0.0, sample, 8.0], pixels, [0.0, 3.0 * (ADAM + PRIOR), 3.0], size)
 }
 
-/// Of every sample, and of every texel: multiply-adds of products, other operations, values that are read
-/// or moved.
+/// Cost of `samples` samples and `size`² texels; `sample` and `texel` are the multiply-adds of products,
+/// other operations, and values read or moved of each.
 fn cost(sample: [f64; 3], samples: usize, texel: [f64; 3], size: usize) -> Cost {
     let (samples, texels) = (samples as f64, (size * size) as f64);
     let all = |place: usize| samples * sample[place] + texels * texel[place];

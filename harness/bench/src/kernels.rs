@@ -21,7 +21,7 @@ use super::synthetic::Problem;
 /// A measured kernel.
 #[derive(Clone, Debug, Serialize)]
 pub struct Kernel {
-    /// What it does.
+    /// Name of the kernel.
     pub name: &'static str,
     /// Milliseconds, the shortest of several.
     pub milliseconds: f64,
@@ -29,7 +29,7 @@ pub struct Kernel {
     pub cost: Cost,
 }
 
-/// What is passed to a kernel.
+/// Sizes of a kernel's inputs.
 pub struct Size {
     /// Pixels of all views.
     pub pixels: usize,
@@ -37,7 +37,7 @@ pub struct Size {
     pub texture: usize,
     /// Side of the transport's texture.
     pub transport: usize,
-    /// Of each kernel.
+    /// Time for each kernel.
     pub budget: Duration,
 }
 

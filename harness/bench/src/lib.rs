@@ -52,7 +52,7 @@ const FINE: usize = 1024;
 /// Bytes of each array of the bandwidth measurement: far more than any cache.
 const ARRAY: usize = 128 << 20;
 
-/// What to measure.
+/// Choice of measurements.
 pub struct Options {
     /// One of every kind of row, as small as it goes: does the command work?
     pub quick: bool,

@@ -27,7 +27,7 @@ pub struct Machine {
     pub memory: Option<u64>,
     /// Operating system and architecture.
     pub system: String,
-    /// Of this program.
+    /// Version of this program.
     pub version: String,
 }
 
@@ -75,8 +75,8 @@ pub fn peak(level: Level, budget: Duration) -> f64 {
     flops / seconds
 }
 
-/// The same for about a fifth of a millisecond, each thread by its own clock: what is left of it at the pace
-/// that the work before has brought the processor to.
+/// [`peak`] over about a fifth of a millisecond, each thread by its own clock: the rate that is left at the
+/// pace to which the work before has brought the processor.
 pub fn peak_now(cpu: &Cpu) -> f64 {
     let rates = rayon::broadcast(|_| {
         let begin = Instant::now();

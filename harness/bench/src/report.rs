@@ -14,7 +14,7 @@ use super::torch::TorchStep;
 pub struct Report {
     /// On what.
     pub machine: Machine,
-    /// What it reaches, level by level.
+    /// Rates that it reaches, level by level.
     pub reach: Vec<(String, Reach)>,
     /// The paper's steps at every level.
     pub steps: Vec<Step>,
@@ -24,9 +24,9 @@ pub struct Report {
     pub scaling: Vec<Step>,
     /// The paper's capture on the processor.
     pub paper: PaperSize,
-    /// The same on a GPU.
+    /// Steps and solves on a GPU.
     pub gpu: Option<GpuReport>,
-    /// The same steps in PyTorch.
+    /// The paper's steps in PyTorch.
     pub torch: Torch,
     /// Whole solves.
     pub solves: Vec<Solved>,
@@ -49,17 +49,17 @@ pub struct PaperSize {
 pub enum Torch {
     /// None, and how to get them.
     Absent {
-        /// What to type.
+        /// The command to type.
         mend: String,
     },
-    /// Of each kind and size.
+    /// Rows of each kind and size.
     Measured(Vec<TorchRow>),
 }
 
 /// PyTorch beside ours.
 #[derive(Debug, Serialize)]
 pub struct TorchRow {
-    /// What was done.
+    /// The kind of step.
     pub kind: Kind,
     /// Pixels of all views.
     pub pixels: usize,

@@ -32,7 +32,7 @@ pub struct Solved {
     pub stages: Vec<(String, f64)>,
     /// Largest resident set of the host, bytes.
     pub peak_memory: Option<u64>,
-    /// What was said beforehand.
+    /// Bytes that the solver had estimated beforehand.
     pub estimated_memory: u64,
 }
 

@@ -52,7 +52,7 @@ impl Kind {
     }
 }
 
-/// What a machine reaches with a backend.
+/// Rates that a machine reaches with a backend.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Reach {
     /// Multiply-adds, FLOP/s.
@@ -64,11 +64,11 @@ pub struct Reach {
 /// A measured step.
 #[derive(Clone, Debug, Serialize)]
 pub struct Step {
-    /// What was done.
+    /// The kind of step.
     pub kind: Kind,
     /// On what.
     pub backend: String,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
     /// Pixels of all views.
     pub pixels: usize,

@@ -17,7 +17,7 @@ pub const VIEWS: usize = 10;
 /// Side of the square of the chart that a view sees.
 const SEEN: f32 = 0.8;
 
-/// What the stages of an optimisation start from.
+/// Starting point of an optimisation's stages.
 pub struct Problem {
     /// The configuration `paper`.
     pub config: Config,

@@ -1,5 +1,5 @@
-//! The same steps in PyTorch, an optional extra: a Python that has torch runs `torch_steps.py` on the
-//! same numbers, and its times and losses stand beside ours.
+//! The paper's steps in PyTorch, an optional extra: a Python that has torch runs `torch_steps.py` on
+//! equal numbers, and its times and losses stand beside ours.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

@@ -95,7 +95,7 @@ pub(super) fn score_json(
     json_of(&py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?)
 }
 
-/// What is likely wrong with a maps folder, as JSON text: a list of findings.
+/// Likely faults of a maps folder, as JSON text: a list of findings.
 #[pyfunction]
 #[pyo3(signature = (maps, capture=None))]
 pub(super) fn check_json(

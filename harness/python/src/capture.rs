@@ -99,7 +99,7 @@ impl Capture {
         mesh_to_dict(py, &self.inner.mesh)
     }
 
-    /// What any view sees of the mesh: positions, normals and uvs, NaN where it sees none.
+    /// The mesh as any view sees it: positions, normals and uvs, NaN where it sees none.
     fn gbuffer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
         let camera = self.inner.camera(name);
         let camera =

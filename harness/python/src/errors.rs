@@ -56,7 +56,7 @@ impl Named for ReportError {
     }
 }
 
-/// What a solve met with has the name that it has elsewhere.
+/// An error that a solve hands on keeps the class that it has elsewhere.
 impl Named for SolveError {
     fn class(&self) -> &'static str {
         match self {
@@ -69,7 +69,8 @@ impl Named for SolveError {
     }
 }
 
-/// What a stage met with has the name that it has elsewhere, the renderer's own exceptions too.
+/// An error that a stage hands on keeps the class that it has elsewhere, the renderer's exceptions
+/// too.
 impl Named for RunError {
     fn class(&self) -> &'static str {
         match self {
@@ -99,7 +100,7 @@ impl Named for RunError {
     }
 }
 
-/// What is wrong with a capture or a maps folder has the name that it has elsewhere.
+/// An error of a capture or a maps folder keeps the class that it has elsewhere.
 impl Named for CheckError {
     fn class(&self) -> &'static str {
         match self {

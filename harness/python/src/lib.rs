@@ -16,7 +16,7 @@ mod tangents;
 
 use pyo3::prelude::*;
 
-/// What the Python package `unshade` is made of.
+/// Functions and classes behind the Python package `unshade`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let package = module.py().import("unshade")?.filename()?.extract::<std::path::PathBuf>()?;

@@ -31,7 +31,7 @@ const FLOATS: [(&str, usize); 6] = [
     ("roughness", 3),
 ];
 const COVERAGE: &str = "coverage";
-/// What a pickle holds beside the maps.
+/// Key of a pickle beside the maps.
 const INTERRUPTED: &str = "interrupted";
 
 type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
@@ -42,7 +42,7 @@ fn argument(name: &str) -> Argument<'_> {
 }
 
 impl Maps {
-    /// What was read or solved, its arrays moved.
+    /// Maps that were read or solved, their arrays moved.
     pub(super) fn new_from(
         py: Python<'_>,
         maps: formats::Maps,

@@ -34,9 +34,9 @@ pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py,
     Ok(list)
 }
 
-/// What must be turned for all surfaces to face outwards, away from the origin: triangles (F,)
-/// bool, normals (V,) bool (empty without normals), and the number of triangles on surfaces with
-/// one side only.
+/// Parts to turn for all surfaces to face outwards, away from the origin: triangles (F,) bool,
+/// normals (V,) bool (empty without normals), and the number of triangles on surfaces with one side
+/// only.
 #[pyfunction]
 #[pyo3(signature = (vertices, triangles, normals=None))]
 #[allow(clippy::type_complexity)]
@@ -57,8 +57,8 @@ pub(super) fn outward_turns<'py>(
     Ok((flipped, found.normals.into_pyarray(py), found.one_sided))
 }
 
-/// What a pinhole sees: the depth along its axis at every pixel's centre (height, width), infinite
-/// where there is no surface, whichever side it shows. `camera_to_world` (4, 4) has OpenGL axes.
+/// Depth along a pinhole's axis at every pixel's centre (height, width), infinite where there is no
+/// surface, whichever side it shows. `camera_to_world` (4, 4) has OpenGL axes.
 #[pyfunction]
 pub(super) fn depth_of<'py>(
     py: Python<'py>,

@@ -101,7 +101,7 @@ pub(super) fn measure(
     py.detach(value).map_err(raise)
 }
 
-/// What some metrics compare with beside the truth.
+/// Inputs of some metrics beside prediction and truth.
 struct Inputs {
     labels: Option<GrayImage>,
     cause: Option<Picture>,

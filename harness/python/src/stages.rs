@@ -124,7 +124,7 @@ pub(super) fn report(py: Python<'_>, run: PathBuf, out: PathBuf, progress: Heard
     })
 }
 
-/// What the callback hears: done, total, and what.
+/// Arguments of the callback: done, total, and what.
 type Step = (u64, u64, String);
 
 /// The worker's end of the line to the callback.

@@ -20,7 +20,7 @@ use super::views::Layer;
 /// Findings that are shown: the largest first, as they come.
 const SHOWN: usize = 8;
 
-/// What one finding is shown by.
+/// Pictures of one finding.
 struct Shown {
     old: Option<Picture>,
     new: Picture,
@@ -172,7 +172,7 @@ fn picture(
         Some(path) => read_if_present(&path, layer.channels, Content::Colour),
         None => Ok(None),
     };
-    // Of the capture's own light the picture itself is the truth; its layers lie apart.
+    // In the capture's own light the picture itself is the truth; its layers lie apart.
     let truth = match layer.channels {
         ["R", "G", "B"] => frame.image.clone(),
         _ => capture.join("truth/layers").join(&file),

@@ -62,7 +62,7 @@ pub(super) struct Strip {
     /// Which of the case's inputs lies nearest to the view.
     pub input: Option<usize>,
     pub truth: Tile,
-    /// What each line of error pictures compares.
+    /// Quantity of each line of error pictures.
     pub errors: Vec<String>,
     /// One per column of the case.
     pub entries: Vec<Entry>,
@@ -170,7 +170,7 @@ pub(super) struct Subject {
     pub values: bool,
 }
 
-/// What a method made of a subject.
+/// A method's picture of a subject.
 pub(super) struct Made {
     pub picture: Picture,
     /// The file that it was read from.

@@ -90,7 +90,7 @@ impl Studio<'_> {
         }))
     }
 
-    /// Of photographs: the withheld views in every light, for most of which there is no truth.
+    /// The withheld views of photographs in every light, for most of which there is no truth.
     fn relit_sheet(
         &self,
         group: &str,

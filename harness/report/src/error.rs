@@ -1,4 +1,4 @@
-//! What can keep a report from being written.
+//! Reasons why a report cannot be written.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use scoring::score::ScoreError;
 /// The version of `run.json` that is read.
 pub(super) const FORMAT: u32 = 1;
 
-/// What can keep a report from being written; each message is one line.
+/// Reasons why a report cannot be written; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A file or folder of the run cannot be read.
@@ -20,7 +20,7 @@ pub enum ReportError {
     Read {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
     /// A file of the run is not what it should be.
@@ -28,7 +28,7 @@ pub enum ReportError {
     Json {
         /// The file.
         path: PathBuf,
-        /// What the parser said.
+        /// The parser's error.
         reason: String,
     },
     /// The run was written by another version.
@@ -53,7 +53,7 @@ pub enum ReportError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
     /// The report must not be written where it was to be.
@@ -70,7 +70,7 @@ pub enum ReportError {
     Unknown {
         /// `case` or `method`.
         what: &'static str,
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// The runs' folders.
         runs: String,
@@ -82,7 +82,7 @@ pub enum ReportError {
     NoFigure {
         /// The first run's folder.
         run: PathBuf,
-        /// What the figure is made of.
+        /// The part of a run that the figure is made of.
         wanted: &'static str,
     },
     /// A page could not be laid out.

@@ -18,7 +18,7 @@ pub(super) struct LeadRow {
     pub input: Option<Tile>,
     pub truth: Tile,
     pub made: Vec<Made>,
-    /// What the error is, and where its colours end.
+    /// Quantity of the error, and the value where its colours end.
     pub error: &'static str,
     pub top: String,
     pub unit: &'static str,

@@ -54,14 +54,14 @@ pub use site::{SiteSummary, write_site};
 
 use scoring::compare::Baseline;
 
-/// What a report consists of.
+/// Files and size of a written report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReportSummary {
     /// The page to open.
     pub index: PathBuf,
     /// Captures that were compared.
     pub cases: usize,
-    /// What a later run is compared with; absent while a method has no scores.
+    /// The baseline for later runs; absent while a method has no scores.
     pub baseline: Option<PathBuf>,
 }
 

@@ -12,7 +12,7 @@ use super::table::{self, Column};
 /// The numbers below each panel.
 const FIGURE_METRICS: [&str; 3] = ["psnr_srgb", "ssim", "flip_mean"];
 
-/// What the matrix needs of one case.
+/// Inputs of the matrix from one case.
 pub(super) struct Source<'a> {
     pub face: &'a str,
     pub variant: Option<&'a str>,
@@ -105,7 +105,7 @@ fn matrix(cases: &[&Source]) -> Option<Matrix> {
 }
 
 fn block(case: &Source, lights: &[&str]) -> Block {
-    // What the panel shows, and the subject and light of its figure and numbers.
+    // Title of the panel, and the subject and light of its figure and numbers.
     let mut kinds = vec![
         ("View synthesis, same light".to_owned(), "view", None),
         ("Maps relit, same light".to_owned(), "relit", Some(case.light)),

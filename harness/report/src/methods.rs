@@ -10,7 +10,7 @@ use super::error::ReportError;
 use super::run::{Case, Timing};
 use super::table::{Column, EMPTY};
 
-/// Of a longer log the end is kept, bytes.
+/// Bytes of a log that are kept, from its end.
 const LOG: usize = 256 << 10;
 const GIB: f64 = (1u64 << 30) as f64;
 
@@ -22,7 +22,7 @@ pub(super) struct MethodRow {
     made: String,
     seconds: String,
     memory: String,
-    /// Of a program that is not ours.
+    /// Whether the kernel kept the program to its files; none for methods that are ours.
     confined: Option<bool>,
     log: Option<String>,
 }

@@ -3,7 +3,7 @@
 use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
-/// What is compared, in the order of the table.
+/// Subjects, with their words in the table, in its order.
 pub(super) const SUBJECTS: [(&str, &str); 21] = [
     ("diffuse_albedo", "Diffuse albedo map"),
     ("confidence", "Confidence map, against the error of the diffuse albedo"),

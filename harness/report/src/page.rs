@@ -23,7 +23,7 @@ use super::tone;
 /// Stands in every page.
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
-/// What hears of the work: how many of how many cases are done, and the next one's name. Says whether to
+/// Observer of the work: number of cases done, number of cases, name of the next one. Returns whether to
 /// go on.
 pub type ProgressCallback<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 

@@ -1,4 +1,4 @@
-//! What a run folder holds, read leniently where a part is optional: a method may
+//! A run folder, read leniently where a part is optional: a method may
 //! leave out maps, views or relit pictures, and its cells of the table then stay empty.
 
 use std::collections::BTreeMap;
@@ -41,7 +41,7 @@ pub(super) struct Case {
     pub id: String,
     pub face: String,
     pub light: String,
-    /// What was changed of the scene; none in a suite without variants.
+    /// Name of the scene's variant; none in a suite without variants.
     pub variant: Option<String>,
     pub capture: PathBuf,
     #[serde(rename = "solvers")]
@@ -75,7 +75,7 @@ impl Method {
         self.kind != Kind::Oracle && self.class == Class::Passive
     }
 
-    /// What stands below its title: the part it plays, or the class of what it is given.
+    /// Text below its title: the part it plays, or the class of its inputs.
     pub fn role(&self) -> &'static str {
         match (self.kind, self.class) {
             (Kind::Oracle, _) | (_, Class::Passive) => self.kind.name(),
@@ -85,7 +85,7 @@ impl Method {
     }
 }
 
-/// What a method is given.
+/// Class of a method's inputs; only passive methods are ranked.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Class {
@@ -147,7 +147,7 @@ pub(super) struct Made {
     pub at: String,
     #[serde(default)]
     pub from: String,
-    /// Of a program that is not ours: the most memory it had, bytes.
+    /// Peak memory, bytes; none for methods that are ours.
     pub peak_bytes: Option<u64>,
     /// Whether the kernel kept it to its own files.
     pub confined: Option<bool>,

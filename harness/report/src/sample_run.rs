@@ -162,7 +162,7 @@ fn sky(height: usize, lamp: f32) -> Picture {
     picture
 }
 
-/// What only our own solver leaves: light, confidence, stages, layers of the training views.
+/// Pictures that only our own solver leaves: light, confidence, stages, layers of the training views.
 fn save_solve_pictures(maps: &Path, light: usize) {
     picture::write_exr_rgb(&maps.join("light.exr"), &sky(16, 6.0)).unwrap();
     let mut confidence = Picture::new(SIDE, SIDE, 1);

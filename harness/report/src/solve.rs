@@ -1,4 +1,4 @@
-//! What a method says of its own solve: configuration, losses, and the pictures it leaves.
+//! A method's record of its own solve: configuration, losses, and the pictures it leaves.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ pub(super) struct Solve {
 }
 
 impl Studio<'_> {
-    /// What the maps folder of a method tells; none of a method that leaves maps alone.
+    /// The record in the maps folder of a method; none of a method that leaves maps alone.
     pub fn solve(&self, method: &MethodFolders, maps: &Path) -> Result<Option<Solve>, ReportError> {
         let record = run::read_json_if_present::<Value>(&maps.join("solve.json"))?;
         let sheets = self.sheets(method, maps)?;

@@ -18,7 +18,7 @@ pub(super) struct SummaryCase {
 pub(super) struct SummaryRow {
     pub title: String,
     kind: &'static str,
-    /// What is likely wrong with the maps.
+    /// Likely faults of the maps, in words.
     findings: Vec<String>,
     pub cells: Vec<String>,
 }
@@ -39,7 +39,7 @@ enum KeyLight {
     Other,
 }
 
-/// What stands above the key figures in files.
+/// Headings of the key figures in files.
 pub(super) const KEY_FIGURE_NAMES: [&str; 5] = [
     "diffuse albedo, PSNR of sRGB after one factor, dB",
     "specular normal, mean angle / plain mesh, °",

@@ -10,10 +10,10 @@ use serde::Serialize;
 use super::metric;
 use super::run::{Kind, Method};
 
-/// What stands in a cell without a value.
+/// Text of a cell without a value.
 pub(super) const EMPTY: &str = "–";
 
-/// What stands in the cells of a method that did not come to its end.
+/// Text of the cells of a method that did not come to its end.
 pub(super) const FAILED: &str = "failed";
 
 /// One method in one case.
@@ -28,7 +28,7 @@ impl<'a> Column<'a> {
         self.scores.map_or(&[], |scores| &scores.rows)
     }
 
-    /// What is likely wrong with the maps, in words.
+    /// Likely faults of the maps, in words.
     pub fn findings(&self) -> Vec<String> {
         let findings = self.scores.into_iter().flat_map(|scores| &scores.findings);
         findings.map(ToString::to_string).collect()
@@ -78,7 +78,7 @@ pub(super) struct Table {
 pub(super) struct Heading {
     pub title: String,
     pub kind: &'static str,
-    /// What is likely wrong with the maps.
+    /// Likely faults of the maps, in words.
     pub findings: Vec<String>,
 }
 

@@ -40,7 +40,7 @@ fn again(folder: &Path) -> String {
     fs::read_to_string(folder.join("report/index.html")).unwrap()
 }
 
-/// What stands between every `from` and the next `to`.
+/// Texts between every `from` and the next `to`.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
     text.split(from).skip(1).map(|rest| rest.split(to).next().unwrap()).collect()
 }

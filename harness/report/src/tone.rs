@@ -10,7 +10,7 @@ use scoring::metrics::srgb;
 /// The longest side of a picture in a report; larger ones are averaged down.
 const LONGEST_SIDE: usize = 512;
 
-/// What lies outside the scored region of an error picture; no colour of the map.
+/// Colour outside the scored region of an error picture; no colour of the map.
 pub(super) const OUTSIDE: [u8; 3] = [118, 122, 128];
 
 /// An 8-bit sRGB picture, row 0 on top.

@@ -206,7 +206,7 @@ fn measured_tolerances_see_what_they_say_and_survive_their_file() {
     moved.rows.insert(SCALE.to_owned(), Entry { value: Some(1.006), ci95: None, n: 10 });
     let comparison = compare(&moved, &runs[0], &measured).unwrap();
     assert_eq!(comparison.count(Verdict::Worse), 1, "{}", comparison.table());
-    // Of twelve runs' mean less is enough.
+    // Against the mean of twelve runs a smaller change is enough.
     let mean = Baseline::mean(&runs[..12]).unwrap();
     let change = |baseline: &Baseline| {
         let rows = compare(&runs[20], baseline, &measured).unwrap().rows;

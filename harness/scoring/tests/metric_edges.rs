@@ -1,4 +1,4 @@
-//! What the metrics do where there is nothing to measure, or nothing to measure with.
+//! Metrics where there is nothing to measure, or nothing to measure with.
 
 #![allow(clippy::unwrap_used)]
 

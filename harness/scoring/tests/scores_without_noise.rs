@@ -32,7 +32,7 @@ fn noisy(variance: f64) -> (Bench, Scores) {
     (bench, scores)
 }
 
-/// The same error without any noise.
+/// Scores of this error without any noise.
 fn exact() -> Scores {
     let bench = Bench::new(0.0);
     let relit = bench.root.path().join("relit");

@@ -9,7 +9,7 @@ pub use statement::{Statement, Verified, is_signed, verify, write_signed};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What can be wrong with a secret or a signed folder; each message is one line.
+/// Faults of a secret or a signed folder; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum SealError {
     /// A file cannot be read or written.
@@ -17,7 +17,7 @@ pub enum SealError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
     /// The secret can be guessed.
@@ -31,7 +31,7 @@ pub enum SealError {
     Format {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// The signature is not that of the statement.

@@ -13,7 +13,7 @@ const LENGTH: usize = 32;
 const SEEDS: &str = "unshade 2026 sealed suites: seeds";
 const SIGNING: &str = "unshade 2026 sealed suites: signing key";
 
-/// What nobody else knows.
+/// Bytes that nobody else knows.
 pub struct Secret(Vec<u8>);
 
 impl Secret {
@@ -42,7 +42,7 @@ impl Secret {
         SigningKey::from_bytes(&blake3::derive_key(SIGNING, &self.0))
     }
 
-    /// What others check signatures with, 64 hexadecimal digits.
+    /// Key that others check signatures with, 64 hexadecimal digits.
     pub fn public_key(&self) -> String {
         hex(self.key().verifying_key().as_bytes())
     }

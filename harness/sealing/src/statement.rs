@@ -1,4 +1,4 @@
-//! What was scored, as a file with a signature beside it.
+//! A statement of scores, as a file with a signature beside it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,7 +17,7 @@ const ALGORITHM: &str = "ed25519";
 const DOMAIN: &[u8] = b"unshade signed scores 1\n";
 const FORMAT: u32 = 1;
 
-/// What is signed: hashes (BLAKE3) of all that the numbers follow from, and of the numbers.
+/// The signed content: hashes (BLAKE3) of all that the numbers follow from, and of the numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statement {
     /// Version of the format.
@@ -38,7 +38,7 @@ pub struct Statement {
     pub maps: BTreeMap<String, Option<String>>,
     /// Files beside the statement, by their paths.
     pub files: BTreeMap<String, String>,
-    /// Of the program and all that renders and scores.
+    /// Versions of the program and of all that renders and scores.
     pub versions: BTreeMap<String, String>,
 }
 
@@ -50,10 +50,10 @@ struct SignatureFile {
     signature: String,
 }
 
-/// What a signature holds for.
+/// A statement whose signature holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verified {
-    /// What was signed.
+    /// The signed statement.
     pub statement: Statement,
     /// Who signed it.
     pub public_key: String,

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! Arguments of the command line.
 
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub(super) enum Verb {
         /// The pictures' folder.
         #[arg(short, long)]
         out: PathBuf,
-        /// What traces the paths.
+        /// The path tracer.
         #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
         renderer: RendererName,
     },
@@ -84,7 +84,7 @@ pub(super) enum Verb {
         capture: PathBuf,
         /// The maps to score.
         maps: PathBuf,
-        /// What `unshade relight` made of them.
+        /// The folder of `unshade relight`.
         #[arg(long)]
         relit: Option<PathBuf>,
         /// The scores' file.
@@ -102,8 +102,8 @@ pub(super) enum Verb {
     Clean {
         /// The run's folder.
         run: PathBuf,
-        /// What stays, with commas: captures, lights, maps, relit, logs, scores, report, store. Without it
-        /// nothing is removed.
+        /// Kinds of folders to keep, with commas: captures, lights, maps, relit, logs, scores, report,
+        /// store. Without it nothing is removed.
         #[arg(long, value_delimiter = ',', value_name = "KINDS")]
         keep: Vec<String>,
     },
@@ -173,7 +173,7 @@ pub(super) enum Verb {
 
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// What to render: a file, or the name of a scene that comes with unshade, such as demo.
+    /// The scene to render: a file, or the name of a scene that comes with unshade, such as demo.
     #[arg(required_unless_present = "contact_sheet")]
     pub scene: Option<PathBuf>,
     /// The capture's folder, or the contact sheet's PNG.
@@ -207,7 +207,7 @@ pub(super) struct SolveArgs {
     /// Leave out the maps after every stage and the layers of every training view.
     #[arg(long)]
     pub no_records: bool,
-    /// What computes.
+    /// The device that computes.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     pub backend: BackendName,
     /// Show the solve as it goes, in the rerun viewer at this address or later from a file that ends in
@@ -235,8 +235,8 @@ pub(super) struct RunArgs {
     /// started here (needs unshade[cluster]).
     #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["redo", "dry_run"])]
     pub cluster: Option<String>,
-    /// What all machines of the cluster read and write: a shared folder, or a URL of fsspec. By default
-    /// `store` in the run's folder.
+    /// The store of all machines of the cluster: a shared folder, or a URL of fsspec. By default `store`
+    /// in the run's folder.
     #[arg(long, value_name = "URL", requires = "cluster")]
     pub store: Option<String>,
     /// Run nothing; say what is cached, and what time and disc the rest takes.

@@ -11,8 +11,8 @@ use solver::backend::gpu::{Adapter, VARIABLE};
 
 use crate::suite::RunError;
 
-/// What to measure, and where to put it. The GPU is the best real one; a software adapter only if
-/// UNSHADE_ADAPTER names it.
+/// Choice of measurements, and where they go. The GPU is the best real one; a software adapter only
+/// if UNSHADE_ADAPTER names it.
 #[derive(Args)]
 pub(super) struct BenchArgs {
     /// Print JSON instead of the tables.

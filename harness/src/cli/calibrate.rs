@@ -42,7 +42,7 @@ pub(super) struct CalibrateArgs {
     /// or worse.
     #[arg(long, default_value_t = 0.01, value_name = "RATE", value_parser = rate)]
     false_alarms: f64,
-    /// What change matters; the built-in rules are scenes/tolerances.toml.
+    /// Rules for the changes that matter; the built-in ones are scenes/tolerances.toml.
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! What each verb does.
+//! The verbs of the command line.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -27,7 +27,7 @@ pub(super) struct CompareArgs {
     /// Where the branch's baselines are: <commit>.json.
     #[arg(long, value_name = "DIR", requires = "baseline_branch")]
     baselines: Option<PathBuf>,
-    /// What `unshade calibrate` wrote, or reasoned rules; without it those of scenes/tolerances.toml.
+    /// The file of `unshade calibrate`, or reasoned rules; without it those of scenes/tolerances.toml.
     #[arg(long, value_name = "FILE")]
     tolerances: Option<PathBuf>,
     /// Also write the verdicts as JUnit XML.
@@ -124,7 +124,7 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
     Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
 }
 
-/// What to compare with: the file or folder that was named, or the branch's.
+/// The baseline: the file or folder that was named, or the branch's.
 fn source(arguments: &CompareArgs) -> Result<PathBuf, RunError> {
     let CompareArgs { baseline, baseline_branch, baselines, .. } = arguments;
     match (baseline, baseline_branch, baselines) {

@@ -12,7 +12,7 @@ use crate::suite::{self, RunError};
 pub(super) struct ExportArgs {
     /// The maps' folder.
     maps: PathBuf,
-    /// What the asset is for.
+    /// The asset's format.
     #[arg(long, value_enum)]
     format: FormatName,
     /// The asset's folder.

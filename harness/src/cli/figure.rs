@@ -10,7 +10,7 @@ use crate::suite::{self, RunError};
 
 #[derive(Args)]
 pub(super) struct FigureArgs {
-    /// What to draw.
+    /// The figure to draw.
     #[arg(value_enum)]
     kind: KindName,
     /// The folders of finished runs.
@@ -37,7 +37,7 @@ enum KindName {
     Fig9,
     /// The decomposition under each light.
     Fig10,
-    /// What each part of a method gains, by the first one.
+    /// The gain of each part of a method, by the first one.
     Ablations,
     /// Albedo and relighting over exposure, specular reflectance and roughness, by skin.
     Robustness,

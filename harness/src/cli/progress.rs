@@ -17,7 +17,7 @@ pub(super) struct Progress {
 struct Bars {
     all: MultiProgress,
     run: ProgressBar,
-    /// Of the stages that are being done, by their ids.
+    /// Bars of the stages that are being done, by the stages' ids.
     stages: BTreeMap<String, ProgressBar>,
 }
 

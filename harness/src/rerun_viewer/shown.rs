@@ -63,7 +63,7 @@ impl RerunViewer {
         }
     }
 
-    /// What the solve left behind: maps at the steps after which they were so.
+    /// Shows a solution: maps at the steps after which they were so.
     pub fn solution(&self, solution: &Solution) -> Result<(), ViewerError> {
         self.log_solution(solution).map_err(failed("the maps are not shown"))?;
         self.stream.flush_blocking().map_err(failed("the maps are not shown"))
@@ -136,7 +136,7 @@ fn transform(view: &View) -> Transform3D {
     Transform3D::from_translation(pose.w_axis.truncate().to_array()).with_mat3x3(rotation)
 }
 
-/// Of the camera, for a picture that may be smaller than its own.
+/// The camera, scaled to a picture that may be smaller than its own.
 fn pinhole(view: &View, picture: &Raster) -> Pinhole {
     let camera = &view.camera;
     let scale = picture.width as f32 / camera.width as f32;

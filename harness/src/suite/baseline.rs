@@ -45,7 +45,7 @@ macro_rules! baselines {
 baselines! {
     /// The mean of the projected colours as diffuse albedo: shading and highlights stay in it.
     MeanTexture, "mean_texture", "mean projected texture", mean_texture;
-    /// What our solver starts from: one colour for each label region.
+    /// The start of our solver: one colour for each label region.
     SemanticInitialisation, "semantic_initialisation", "semantic initialisation",
         semantic_initialisation;
 }

@@ -18,7 +18,7 @@ pub struct Case {
     pub variant: Option<String>,
     /// The renderer's seed, of a suite that has several.
     pub seed: Option<u64>,
-    /// What is rendered; of photographs the names alone.
+    /// The scene to render; of photographs the names alone.
     pub scene: Scene,
     /// The capture's folder, if it was photographed and not rendered.
     pub photographed: Option<PathBuf>,

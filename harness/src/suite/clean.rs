@@ -14,10 +14,10 @@ use super::size::size_of;
 
 /// The folders of a run, beside its records.
 const PARTS: [&str; 8] = ["captures", "lights", "maps", "relit", "scores", "logs", "report", STORE];
-/// What an interrupted run on a cluster leaves: outputs by their content.
+/// Folder that an interrupted run on a cluster leaves: outputs by their content.
 const STORE: &str = "store";
 
-/// What became of a folder of a run.
+/// Outcome for a folder of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// The folder.
@@ -30,12 +30,12 @@ pub struct Part {
     pub removed: u64,
 }
 
-/// What became of a run.
+/// Outcome for a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cleaned {
     /// Each folder of it that there is.
     pub parts: Vec<Part>,
-    /// What stays because unshade did not write it.
+    /// Files that stay because unshade did not write them.
     pub foreign: Vec<PathBuf>,
 }
 

@@ -23,15 +23,15 @@ use crate::synth::run_stage;
 /// Where stages are done.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cluster {
-    /// Of Dask's scheduler, or `local` for workers that are started here.
+    /// Address of Dask's scheduler, or `local` for workers that are started here.
     pub address: String,
-    /// What all machines read and write: a folder, or a URL that fsspec knows.
+    /// Store of all machines: a folder, or a URL that fsspec knows.
     pub store: Option<String>,
     /// How many workers `local` starts.
     pub workers: usize,
 }
 
-/// What the client's last line says.
+/// The client's last line.
 #[derive(Default, Deserialize)]
 pub(super) struct Elsewhere {
     #[serde(default)]
@@ -40,7 +40,7 @@ pub(super) struct Elsewhere {
     pub records: Vec<Record>,
 }
 
-/// What the client says of a stage that ended.
+/// The client's line on a stage that ended.
 #[derive(Deserialize)]
 struct Ended {
     stage: String,

@@ -10,7 +10,7 @@ use super::program::copy_blind;
 use super::tools::Tools;
 use crate::synth::run_stage;
 
-/// What a method is given; methods of different classes are in no ranking together.
+/// Class of a method's inputs; methods of different classes are in no ranking together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// The capture that every solver gets.
@@ -39,7 +39,7 @@ pub struct Competitor {
     pub name: &'static str,
     /// As tables name it.
     pub title: &'static str,
-    /// What it is given.
+    /// Class of its inputs.
     pub class: Class,
 }
 

@@ -1,4 +1,4 @@
-//! What a stage will cost: how much there is to do, times what the like of it took.
+//! Cost of a stage: how much there is to do, times what the like of it took.
 //!
 //! The work of a stage follows from its scene: rays of what is rendered, pixels of what is solved or
 //! scored. Seconds are a fixed part (a process that starts, a head that is built) and a part that grows
@@ -17,8 +17,8 @@ use super::record::Record;
 /// Cameras of a rig that does not say how many it has.
 const CAMERAS: u64 = 16;
 
-/// Of stages that nobody has measured: seconds that one takes however small it is, and those of a unit
-/// of work; on two cores, `unshade`'s settings.
+/// Seconds of stages that nobody has measured: a fixed part, and a part per unit of work; on two cores,
+/// with `unshade`'s settings.
 fn unmeasured(kind: Kind, method: Option<&Method>) -> (f64, f64) {
     match (kind, method.map(|method| &method.kind)) {
         (Kind::Capture, _) => (4.0, 0.9),
@@ -34,7 +34,7 @@ fn unmeasured(kind: Kind, method: Option<&Method>) -> (f64, f64) {
 /// Share of bare numbers that stays when they are written.
 const COMPRESSED: f64 = 0.5;
 
-/// What is known of a case's size from its scene.
+/// A case's size, as far as its scene tells.
 struct Size {
     pixels: f64,
     samples: f64,
@@ -95,7 +95,7 @@ pub(super) fn raw(suite: &Suite, task: &Task) -> f64 {
     }
 }
 
-/// What makes the costs of two stages comparable.
+/// Key of stages whose costs can be compared.
 pub(super) fn what(suite: &Suite, task: &Task) -> String {
     match task.method.map(|method| &suite.methods[method]) {
         Some(method) if task.kind == Kind::Maps => {
@@ -106,7 +106,7 @@ pub(super) fn what(suite: &Suite, task: &Task) -> String {
     }
 }
 
-/// What a stage is expected to take.
+/// Expected cost of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Cost {
     pub seconds: f64,
@@ -133,8 +133,8 @@ impl Costs {
         }
     }
 
-    /// What `task` will take: what it took, else what the like of it took, grown with the work, else
-    /// what it takes on two cores.
+    /// Cost of `task`: its measured one, else that of the like of it, grown with the work, else that on two
+    /// cores.
     pub fn estimate(&self, suite: &Suite, task: &Task) -> Cost {
         let method = task.method.map(|method| &suite.methods[method]);
         let (fixed, rate) = unmeasured(task.kind, method);

@@ -17,11 +17,11 @@ const KEYS: [&str; 14] = [
 /// Keys that say something of a scene.
 const OF_SCENES: [&str; 6] = ["faces", "lights", "face", "render", "variant", "seeds"];
 
-/// What the diffuse albedo can be multiplied by before maps are relit: nothing, and the one factor that
-/// aligns it with the truth.
+/// Factors on the diffuse albedo before maps are relit: none, and the one factor that aligns it with
+/// the truth.
 pub const SCALES: [&str; 2] = ["none", "global"];
 
-/// What can relight maps: the renderer of the truth, or a second judge.
+/// Renderers that can relight maps: that of the truth, and a second judge.
 pub const RENDERERS: [&str; 2] = ["mitsuba", "cycles"];
 
 /// A suite with its cases spelt out.
@@ -39,7 +39,7 @@ pub struct Suite {
     pub methods: Vec<Method>,
     /// Those of [`SCALES`] under which maps are relit.
     pub scales: Vec<&'static str>,
-    /// What relights maps: one of [`RENDERERS`].
+    /// Renderer that relights maps: one of [`RENDERERS`].
     pub relight: &'static str,
     /// The file's text, kept with the results.
     pub text: String,

@@ -1,4 +1,4 @@
-//! What a run will take, before it begins.
+//! Forecast of a run's time and disc, before it begins.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,17 +14,17 @@ use super::size::in_words;
 use super::tools::Tools;
 use super::workshop::{Contents, Workshop};
 
-/// Of runs that nobody has measured, on two cores, seconds.
+/// Seconds around the stages of runs that nobody has measured, on two cores.
 const AROUND: Around = Around { start: 0.7, scene: 1.0, report: 0.5 };
 
-/// What the stages of one kind will take.
+/// Forecast for the stages of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Share {
     /// Stages of which earlier results are valid.
     pub cached: usize,
     /// Stages to be done.
     pub pending: usize,
-    /// Of those, how many are estimated from what runs have measured.
+    /// Number of pending stages that are estimated from what runs have measured.
     pub measured: usize,
     /// Seconds of those to be done, one after the other.
     pub seconds: f64,
@@ -32,7 +32,7 @@ pub struct Share {
     pub bytes: f64,
 }
 
-/// What a run will take.
+/// Forecast for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Forecast {
     /// By what stages do, in their order.

@@ -75,7 +75,7 @@ pub fn solve(
     }
 }
 
-/// What a bar says beside it.
+/// Text beside a progress bar.
 pub fn in_words(step: &solver::Progress) -> String {
     format!(
         "{} {}/{}, loss {:.5}, {}{TIME_LEFT}",

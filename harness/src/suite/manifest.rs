@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::file::Suite;
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 
-/// What is known of a run once it has ended.
+/// Facts of a run that has ended.
 pub(super) struct Made<'a> {
     /// Methods that failed: `<case>/<method>` and why. What an earlier run left of such a method is not
     /// named.

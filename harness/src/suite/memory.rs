@@ -18,10 +18,10 @@ const MOST_RAYS: u64 = 1 << 21;
 const PROGRAM: u64 = 2 << 30;
 /// Scoring, and methods that optimise nothing.
 const SMALL: u64 = 200 << 20;
-/// Of what there is: the rest is for what the estimates miss.
+/// Part of the free memory that is used: the rest is for what the estimates miss.
 const SHARE: f64 = 0.9;
 
-/// What runs, with the memory that it takes.
+/// Running stages, with the memory that each takes.
 pub(super) struct Memory {
     /// None if one worker runs alone, who takes what it takes, or where the system does not say.
     limit: Option<u64>,

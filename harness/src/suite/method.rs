@@ -25,7 +25,7 @@ pub enum MethodKind {
     Fields {
         /// A preset's name or the text of a configuration.
         config: String,
-        /// What it runs on.
+        /// The device that computes.
         backend: Choice,
     },
     /// A program that is not ours.
@@ -59,7 +59,7 @@ pub struct Method {
     pub title: String,
     /// How it is started.
     pub kind: MethodKind,
-    /// Of a method with several seeds: the method's name, and the seed.
+    /// The method's name and the seed, for a method with several seeds.
     pub replicate: Option<(String, u64)>,
 }
 
@@ -81,7 +81,7 @@ impl Method {
         }
     }
 
-    /// What it is given.
+    /// Class of its inputs.
     pub fn class(&self) -> Class {
         match self.kind {
             MethodKind::Oracle | MethodKind::LabelMeans => Class::Privileged,
@@ -103,14 +103,14 @@ struct MethodTable {
     /// Single values that replace those of the configuration.
     #[serde(default)]
     set: Table,
-    /// Of our solver: it is run once with each.
+    /// Seeds of our solver: it is run once with each.
     seeds: Option<Value>,
     backend: Option<String>,
     command: Option<CommandLine>,
     python: Option<String>,
-    /// Of a baseline, and of a program that gives pictures.
+    /// Side of the textures of a baseline, or of a program that gives pictures.
     texture_size: Option<usize>,
-    /// Of a program.
+    /// Outputs of a program.
     gives: Option<Gives>,
     timeout_s: Option<f64>,
     memory_gib: Option<f64>,

@@ -22,7 +22,7 @@ fn folder() -> Option<PathBuf> {
     })
 }
 
-/// What a name can stand for.
+/// Kinds of files that a name can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Suite,
@@ -36,7 +36,7 @@ pub(super) enum Kind {
 const NO_SCENES: [&str; 2] = ["face-sets", "tolerances"];
 
 impl Kind {
-    /// What a key of a scene or suite file names.
+    /// The kind of file that a key of a scene or suite file names.
     pub fn of_key(key: &str) -> Self {
         match key {
             "face" | "faces" => Self::Face,

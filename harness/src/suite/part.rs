@@ -18,12 +18,12 @@ use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::tools::Tools;
 use super::workshop::{Contents, Done, Workshop};
 
-/// What became of a stage.
+/// Outcome of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartDone {
-    /// What it was made from.
+    /// Key of its inputs.
     pub key: String,
-    /// What it left, unless its method failed.
+    /// Record of its output, unless its method failed.
     #[serde(default)]
     pub record: Option<Record>,
     /// Why its method failed.
@@ -31,13 +31,13 @@ pub struct PartDone {
     pub failed: Option<String>,
 }
 
-/// What makes two machines give the same bytes: versions and sources of all that unshade is.
+/// Versions and sources of all of unshade: where they are equal, two machines give the same bytes.
 pub(super) fn versions(renderer: &str) -> String {
     let [solver, scores] = [SOLVER_SOURCES, SCORE_SOURCES];
     format!("{} {renderer} solver={solver} scores={scores}", env!("CARGO_PKG_VERSION"))
 }
 
-/// What a suite's file says and the scenes that it leads to, as a hash.
+/// Hash of a suite's file and of the scenes that it leads to.
 pub(super) fn content(suite: &Suite) -> Result<String, RunError> {
     let mut parts = vec![suite.text.clone()];
     for case in &suite.cases {

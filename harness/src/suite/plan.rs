@@ -1,4 +1,4 @@
-//! What a suite consists of: stages, and which of them come before which.
+//! The plan of a suite: stages, and which of them come before which.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use super::cases::Case;
 use super::file::Suite;
 use super::method::Method;
 
-/// What a stage does.
+/// Kinds of stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// Renders a case.
@@ -50,7 +50,7 @@ impl Kind {
 pub struct Task {
     /// `<kind>/<case>[/<method>]`.
     pub id: String,
-    /// What it does.
+    /// The kind of its work.
     pub kind: Kind,
     /// The index of its case in the suite.
     pub case: usize,

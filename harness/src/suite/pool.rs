@@ -20,7 +20,7 @@ use super::record::{Records, Times};
 use super::tools::Observer;
 use super::workshop::{Contents, Done, Workshop};
 
-/// What became of a plan.
+/// Outcome of a plan.
 #[derive(Default)]
 pub(super) struct Outcome {
     /// Stages that ran, and stages whose earlier results were still valid.
@@ -28,11 +28,11 @@ pub(super) struct Outcome {
     pub skipped: usize,
     /// Methods that failed: `<case>/<method>` and why.
     pub failed: BTreeMap<String, String>,
-    /// Of all finished stages.
+    /// Content hashes of all finished stages.
     pub contents: Contents,
 }
 
-/// What is to be done.
+/// The plan and how it is carried out.
 pub(super) struct Work<'a> {
     pub plan: &'a [Task],
     /// How many workers there are.
@@ -41,7 +41,7 @@ pub(super) struct Work<'a> {
     pub failed: BTreeMap<String, String>,
 }
 
-/// What a worker says; it goes on once that was heard.
+/// Message of a worker, which goes on once it was heard.
 enum Event {
     Begins(usize),
     Step(usize, u64, u64, String),

@@ -1,4 +1,4 @@
-//! What can be known before the first picture is rendered, which may be hours before it would show.
+//! Checks before the first picture is rendered: faults that would else show hours later.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ const CAMERAS: i64 = 16;
 /// A method with what was found of its program.
 pub(super) struct Ready<'a> {
     pub method: &'a Method,
-    /// Of a program that is not ours.
+    /// Files of a program; none for methods that are ours.
     pub files: Option<ProgramFiles>,
 }
 

@@ -1,4 +1,4 @@
-//! What a run folder remembers of its finished stages.
+//! Records of a run folder on its finished stages.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -30,7 +30,7 @@ pub struct Made {
     /// By what, in words.
     #[serde(default)]
     pub from: String,
-    /// What a program took.
+    /// Time and memory that a program took.
     #[serde(flatten)]
     pub usage: Option<Usage>,
 }
@@ -54,7 +54,7 @@ pub struct Record {
     /// Size of the output as bare numbers, bytes.
     #[serde(default)]
     pub raw: f64,
-    /// What did it, as costs are compared.
+    /// Key of the records that it is compared with, see [`cost`](super::cost).
     #[serde(default)]
     pub what: String,
     /// How it came about.
@@ -96,7 +96,7 @@ pub(super) fn now() -> String {
     now.format("%Y-%m-%d %H:%M UTC").to_string()
 }
 
-/// What `RUN/timing.json` says of each stage, and of the rest; nothing without the file.
+/// Records of `RUN/timing.json` by stage, and the time around them; empty without the file.
 pub(super) fn costs_of(run: &Path) -> (BTreeMap<String, Record>, Around) {
     let file: TimesFile = fs::read(run.join("timing.json"))
         .ok()
@@ -113,7 +113,7 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// Of a folder that need not be there; nothing is written.
+    /// Records of a folder that need not be there; nothing is written.
     pub fn of(run: &Path) -> Self {
         Self { run: run.to_path_buf(), earlier: costs_of(run).0 }
     }
@@ -147,7 +147,7 @@ impl Records {
         Ok(content)
     }
 
-    /// What a stage cost in the run that did it.
+    /// Record of a stage whose output is kept, with its cost in the run that did it.
     pub fn kept(&self, id: &str, content: String, output: &Path) -> io::Result<Record> {
         let mut record = self.earlier.get(id).cloned().unwrap_or_default();
         (record.id, record.content) = (id.to_owned(), content);

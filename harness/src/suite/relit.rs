@@ -1,4 +1,4 @@
-//! What a suite compares with the truth's relit pictures: maps relit, or a method's own pictures.
+//! Pictures that are compared with the truth's relit ones: maps relit, or a method's own pictures.
 
 use std::fs;
 use std::path::Path;

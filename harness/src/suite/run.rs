@@ -27,7 +27,7 @@ use super::workshop::{Contents, Workshop};
 /// The stage that comes last.
 const REPORT: &str = "report";
 
-/// What a run is told beside its suite.
+/// Options of a run, beside its suite.
 #[derive(Clone, Debug)]
 pub struct RunOptions {
     /// Methods whose maps are made anew, whatever was kept.
@@ -44,7 +44,7 @@ impl Default for RunOptions {
     }
 }
 
-/// What a run left behind.
+/// Outcome of a run.
 #[derive(Debug)]
 pub struct RunSummary {
     /// The page to open.

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use super::packaged;
 use super::place::{self, beside};
 
-/// What can be wrong with a scene or suite file.
+/// Faults of a scene or suite file.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// A file cannot be read.
@@ -17,7 +17,7 @@ pub enum SceneError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: String,
     },
     /// A file is not TOML.
@@ -27,7 +27,7 @@ pub enum SceneError {
         path: PathBuf,
         /// From 1.
         line: usize,
-        /// What the parser said, on one line.
+        /// The parser's error, on one line.
         reason: String,
     },
     /// A value is missing or of the wrong kind.
@@ -39,7 +39,7 @@ pub enum SceneError {
         line: Option<usize>,
         /// The key in question.
         key: String,
-        /// What is wrong and the mend.
+        /// The fault and its mend.
         reason: String,
     },
 }

@@ -19,10 +19,10 @@ use super::run::{RunOptions, stages};
 use super::scene::SceneError;
 use super::tools::{Observer, Tools};
 
-/// What others get, and what stays here.
+/// Folders of a round: for others, and to be kept here.
 pub(super) const PUBLIC: &str = "public";
 pub(super) const PRIVATE: &str = "private";
-/// What says of a folder what it is of.
+/// File that names the round of a folder.
 pub(super) const ROUND: &str = "round.json";
 
 /// A round of a sealed suite: `public/round.json`, and with the truth `private/round.json`.
@@ -86,7 +86,7 @@ impl Round {
     }
 }
 
-/// What sealing is told beside the suite.
+/// Options of sealing beside the suite.
 pub struct Sealing<'a> {
     /// Makes the faces, and signs.
     pub secret: &'a Secret,
@@ -105,7 +105,7 @@ pub fn seal(
     observer: &mut dyn Observer,
 ) -> Result<Round, RunError> {
     let mut suite = suite.clone();
-    // Of the suite, its captures alone; methods are the business of those who take part.
+    // A round has captures alone; methods are the business of those who take part.
     suite.methods.clear();
     for case in &mut suite.cases {
         let refused = |reason: &str| {

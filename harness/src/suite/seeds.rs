@@ -6,7 +6,7 @@ use super::file::Suite;
 use super::method::MethodKind;
 use super::scene::SceneError;
 
-/// What a program of one's own finds the seed in.
+/// Environment variable that hands a program of one's own the seed.
 const VARIABLE: &str = "UNSHADE_SEED";
 
 impl Suite {

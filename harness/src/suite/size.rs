@@ -6,7 +6,7 @@ use std::path::Path;
 
 use formats::atomic::MARK;
 
-/// What equal outputs may differ in, so that their sizes are equal too.
+/// Files in which equal outputs may differ, left out so that their sizes are equal too.
 const NOT_CONTENT: [&str; 2] = ["timing.json", MARK];
 
 /// Bytes of a file, or of the content of all files below a folder; of nothing, 0.

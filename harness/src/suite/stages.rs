@@ -34,7 +34,7 @@ pub fn synth(
     Ok(())
 }
 
-/// What the scene file `scene` stands for, in words: face, cameras, and each light in numbers.
+/// The scene file `scene` in words: face, cameras, and each light in numbers.
 pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
     let scene = &scene::typed(scene, Kind::Scene)?;
     let file = resolved(scene)?;

@@ -85,12 +85,12 @@ fn link_below(folder: &Path) -> Option<PathBuf> {
     })
 }
 
-/// What was found of a submission.
+/// Result of checking a submission.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// What keeps it from being accepted.
+    /// Faults for which it is refused.
     pub faults: Vec<String>,
-    /// What is likely wrong, by case.
+    /// Likely faults of its maps, by case.
     pub findings: Vec<(String, Finding)>,
     /// Cases that are there, of how many.
     pub cases: usize,

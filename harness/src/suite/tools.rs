@@ -1,8 +1,8 @@
-//! What every stage needs, and who hears of it.
+//! Tools of every stage, and the observer of a run.
 
 use crate::synth::{Interpreter, Interrupt};
 
-/// What every stage needs at hand.
+/// Tools of every stage.
 pub struct Tools {
     /// Runs the path tracer.
     pub interpreter: Interpreter,

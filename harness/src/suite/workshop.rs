@@ -32,7 +32,7 @@ pub(super) struct Workshop<'a> {
     /// The run's folder.
     pub out: &'a Path,
     pub tools: &'a Tools,
-    /// What renders, as keys carry it.
+    /// Fingerprint of the renderer, part of keys.
     pub renderer: &'a str,
     pub ready: &'a [Ready<'a>],
     /// Methods whose maps are made anew.
@@ -44,7 +44,8 @@ pub(super) struct Workshop<'a> {
 /// Content hashes of finished stages, by their ids.
 pub(super) type Contents = BTreeMap<String, String>;
 
-/// What decides whether a stage's earlier output is still valid, as a hash and in words.
+/// Key of a stage's inputs, as a hash and in words: an earlier output is valid while it is the
+/// same.
 pub(super) struct Key {
     pub hash: String,
     pub made_from: String,
@@ -97,7 +98,7 @@ impl<'a> Workshop<'a> {
         self.ready.get(task.method?)
     }
 
-    /// What a stage is made from; `contents` hold those that come before it.
+    /// Key of a stage; `contents` hold the stages that come before it.
     pub fn key(&self, task: &Task, contents: &Contents) -> Result<Key, RunError> {
         let case = &self.suite.cases[task.case];
         let of = |kind: Kind| {
@@ -230,7 +231,7 @@ impl<'a> Workshop<'a> {
     }
 }
 
-/// What decides a method's maps beside the capture, as a key and in words.
+/// Key of a method's maps beside the capture: a hash's text, and words.
 fn method_key(ready: &Ready, renderer: &str) -> Result<(String, String), RunError> {
     Ok(match (&ready.method.kind, &ready.files) {
         (MethodKind::Fields { config, backend }, _) => {

@@ -14,7 +14,7 @@ pub enum InterpreterError {
     Start {
         /// The interpreter.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: String,
     },
     /// The package is not installed there.
@@ -69,7 +69,7 @@ impl Interpreter {
         &self.path
     }
 
-    /// What decides whether a rendering is still valid: versions and sources of the renderer.
+    /// Versions and sources of the renderer: a rendering is valid while they are the same.
     pub fn fingerprint(&self) -> Result<String, InterpreterError> {
         let output =
             self.command().args(["-m", "unshade.fingerprint"]).output().map_err(|error| {

@@ -28,7 +28,7 @@ pub enum StageError {
     Input {
         /// The Python exception's name.
         kind: String,
-        /// What is wrong, where, and the mend.
+        /// The fault, its place, and its mend.
         message: String,
     },
     /// The child died without saying why.

@@ -35,7 +35,7 @@ static ENDING: AtomicBool = AtomicBool::new(false);
 static SLOTS: Mutex<Vec<Arc<Slot>>> = Mutex::new(Vec::new());
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
-/// What a target is at.
+/// State of a target: its input, and since when.
 struct Slot {
     target: &'static str,
     input: Mutex<Vec<u8>>,
@@ -135,7 +135,7 @@ fn watch(slot: &Arc<Slot>) {
     });
 }
 
-/// What an outcome is without its names and numbers: two inputs of one kind met the same lines.
+/// Kind of an outcome, without its names and numbers: two inputs of one kind met the same lines.
 fn kind_of(outcome: &str) -> String {
     let mut quoted = false;
     let plain = outcome.chars().filter(|c| {

@@ -28,12 +28,12 @@ static ALLOCATOR: Counting = Counting;
 
 const BINARY: Mutator = Mutator { words: &[], repair: None };
 
-/// What messages call the file.
+/// Name of the file in messages.
 fn name() -> &'static Path {
     Path::new("file")
 }
 
-/// What a reader met: its message, which is one line, or what came out.
+/// Outcome of a reader: its message, which is one line, or its result.
 fn met<T, E: std::fmt::Display>(result: Result<T, E>, shown: impl Fn(T) -> String) -> String {
     match result {
         Ok(value) => shown(value),

@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3};
 /// A pinhole camera; pixel (i, j) has its centre at (i + 0.5, j + 0.5), row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// What the frame is called in maps and scores: "000".
+    /// Name of the frame in maps and scores: "000".
     pub name: String,
     /// Columns of the picture.
     pub width: usize,

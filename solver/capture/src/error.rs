@@ -1,4 +1,4 @@
-//! What is wrong with a capture, each with one line for the user: what, where, and the mend.
+//! Errors of a capture, each one line for the user: what is wrong, where, and the mend.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ pub enum CaptureError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: String,
     },
     /// `transforms.json` says something impossible.
@@ -20,7 +20,7 @@ pub enum CaptureError {
     Transforms {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and the mend.
+        /// The fault and its mend.
         reason: String,
     },
     /// The mesh cannot carry textures.
@@ -28,7 +28,7 @@ pub enum CaptureError {
     Mesh {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and the mend.
+        /// The fault and its mend.
         reason: String,
     },
     /// A mask or picture does not belong to its camera.
@@ -36,7 +36,7 @@ pub enum CaptureError {
     Frame {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and the mend.
+        /// The fault and its mend.
         reason: String,
     },
     /// The mesh and the masks of the training views have no pixel in common.
@@ -63,7 +63,7 @@ pub enum CaptureError {
         overlap: f64,
         /// Views that were looked at.
         views: usize,
-        /// What single change fits, or where to look.
+        /// The single change that fits, or the places to look at.
         mend: String,
     },
     /// A picture file is faulty.

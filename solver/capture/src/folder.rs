@@ -21,16 +21,16 @@ const TRANSFORMS: &str = "transforms.json";
 /// Pictures of withheld frames and the folder `truth` are never opened.
 #[derive(Clone, Debug)]
 pub struct Capture {
-    /// The folder.
+    /// Path of the folder.
     pub folder: PathBuf,
-    /// The mesh.
+    /// Positions in metres, and the UV chart that is the maps' layout.
     pub mesh: Mesh,
     /// The training views, in the order of `train_filenames`.
     pub train: Vec<View>,
     /// The withheld cameras, in the order of `test_filenames`; pinholes like all others, since
     /// lenses are taken out of the pictures when they are opened.
     pub withheld: Vec<Camera>,
-    /// What the ids of the label pictures stand for, as far as the file says.
+    /// Names of the label pictures' ids, as far as the file has them.
     pub label_names: BTreeMap<u8, String>,
     hash: String,
 }

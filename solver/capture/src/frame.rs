@@ -26,7 +26,7 @@ pub(super) struct Frame {
     pub label_path: Option<PathBuf>,
 }
 
-/// What a frame is for.
+/// Purpose of a frame.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
     /// Its files are opened.
@@ -35,7 +35,7 @@ pub(super) enum Use {
     Withhold,
 }
 
-/// What stands in a frame, or beside the frames for all that do not say it themselves.
+/// Keys of a frame, or those beside the frames that hold for all frames without their own.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Shared {
@@ -219,7 +219,7 @@ impl FileFrame {
     }
 }
 
-/// What a file that holds no radiance is called.
+/// Kind of a file that holds no radiance, by its ending; nothing for others.
 fn developed(path: &Path) -> Option<&'static str> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     let known = [("jpg", "JPEG"), ("jpeg", "JPEG"), ("png", "PNG"), ("tif", "TIFF")];

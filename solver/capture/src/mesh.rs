@@ -122,7 +122,7 @@ fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     place.into_iter().map(|place| sums[place]).collect()
 }
 
-/// Of every vertex the first one that lies where it lies.
+/// For each vertex, the index of the first vertex at the same position.
 pub(super) fn places(positions: &[Vec3]) -> Vec<usize> {
     let mut first = HashMap::with_capacity(positions.len());
     // Adding zero makes the two zeros one.

@@ -13,7 +13,7 @@ const OPPOSITE: f32 = -0.5;
 /// from them for the whole to be inside out; a closed surface shows as much of either side.
 const INSIDE_OUT: f64 = 0.1;
 
-/// What was turned round.
+/// Parts of the mesh that were turned round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Flipped {
     /// Normals, all or some.

@@ -11,7 +11,7 @@ const INSIDE_OUT: f64 = 0.1;
 /// Cosine below which a normal and its triangles are opposite.
 const OPPOSITE: f32 = -0.5;
 
-/// What must be turned round for all surfaces to face outwards.
+/// Triangles and normals to turn round so that all surfaces face outwards.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outward {
     /// One per triangle: whether its order of corners is to be reversed.

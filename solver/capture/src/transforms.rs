@@ -10,10 +10,10 @@ use serde_json::Value;
 use super::frame::{FileFrame, Frame, Shared, Use, matrix};
 use super::paths::{inside, plain};
 
-/// What the mesh is called if the file does not say.
+/// File of the mesh where `transforms.json` names none.
 const MESH: &str = "mesh.obj";
 
-/// What `transforms.json` says.
+/// Contents of `transforms.json`.
 pub(super) struct Transforms {
     pub mesh_path: PathBuf,
     pub train: Vec<Frame>,

@@ -13,7 +13,7 @@ use super::lens::Layers;
 /// A training view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// The camera.
+    /// A pinhole of the pictures' size.
     pub camera: Camera,
     /// Linear radiance, three channels, finite.
     pub image: Picture,

@@ -9,7 +9,7 @@ pub(super) struct Winding {
     /// Triangles to be turned so that those of one connected surface are wound alike, as most of
     /// its area is already.
     pub flipped: Vec<bool>,
-    /// Of every triangle, the number of its surface: its first triangle's index.
+    /// For each triangle, its surface, named by the index of that surface's first triangle.
     pub surface: Vec<usize>,
     /// Surfaces, by their numbers, that are wound alike in no way (a Möbius strip), so that
     /// nothing of them is turned.

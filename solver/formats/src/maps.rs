@@ -17,7 +17,7 @@ pub enum MapsError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         source: io::Error,
     },
     /// A picture file is faulty.
@@ -28,7 +28,7 @@ pub enum MapsError {
     Size {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and the mend.
+        /// The fault and its mend.
         reason: String,
     },
 }

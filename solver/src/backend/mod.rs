@@ -1,4 +1,4 @@
-//! What the arithmetic runs on. The boundary is narrow: samples, directions and albedos already
+//! Devices for the arithmetic. The boundary is narrow: samples, directions and albedos already
 //! sampled from their textures go in; losses, gradients and shading come out. A device with memory of
 //! its own may besides take in whole stages, see [`resident`].
 //!
@@ -139,7 +139,7 @@ pub struct TexturedNormals<'a> {
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one is read.
     pub albedo: &'a Planes,
-    /// Of the directions.
+    /// Scale of the directions.
     pub scale: &'a DirectionScale,
     /// Deviations and specular albedo.
     pub textures: &'a PackedDeviations,

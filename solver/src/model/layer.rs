@@ -12,8 +12,8 @@ use crate::simd::{prefetch, widened};
 /// early enough that they will be needed.
 const AHEAD: usize = 64;
 
-/// What is known of every sample, 32 bytes: the texture's factor of R, G, B, what is added; the target's R, G,
-/// B, the weight.
+/// Known values of every sample, 32 bytes: the texture's factor of R, G, B and the addend; the target's R, G,
+/// B and the weight.
 pub struct Layer(Vec<[Vec4; 2]>);
 
 impl Layer {
@@ -28,7 +28,7 @@ impl Layer {
         Self((0..samples.len()).into_par_iter().map(known).collect())
     }
 
-    /// What is known of a sample.
+    /// Known values of a sample.
     pub fn known(&self, sample: usize) -> [Vec4; 2] {
         self.0[sample]
     }

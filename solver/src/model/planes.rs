@@ -38,13 +38,13 @@ impl Planes {
         })
     }
 
-    /// What `fill` makes of the rows of every block, which are zero at first, in parallel.
+    /// Planes whose blocks `fill` writes, in parallel; rows are zero at first.
     pub fn from_blocks(rows: usize, len: usize, fill: impl Fn(usize, &mut [Row]) + Sync) -> Self {
         Self::from_tasks(rows, len, 1, || (), |(), block, rows| fill(block, rows)).0
     }
 
-    /// The same for tasks of `blocks` blocks each: `fill(scratch, first block, rows)`. Returns the
-    /// planes and the results of the tasks in their order.
+    /// [`Self::from_blocks`] in tasks of `blocks` blocks each: `fill(scratch, first block, rows)`.
+    /// Returns the planes and the results of the tasks in their order.
     pub fn from_tasks<S, T: Send>(
         rows: usize,
         len: usize,

@@ -24,7 +24,7 @@ pub fn first_rows<const R: usize>(rows: &[Row]) -> &[Row; R] {
     rows.first_chunk().unwrap_or_else(|| unreachable!("{} rows instead of {R}", rows.len()))
 }
 
-/// The same, to be written.
+/// The first `R` rows, mutable.
 #[inline(always)]
 pub fn first_rows_mut<const R: usize>(rows: &mut [Row]) -> &mut [Row; R] {
     rows.first_chunk_mut().unwrap_or_else(|| unreachable!("fewer rows than {R}"))

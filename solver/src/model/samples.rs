@@ -39,7 +39,7 @@ pub struct SampleSpace {
     centre: Vec3,
     scale: f32,
     f0: Option<f32>,
-    /// What the pictures are multiplied with.
+    /// Factor on the pictures.
     gain: f32,
 }
 
@@ -68,7 +68,7 @@ impl SampleSpace {
         }
     }
 
-    /// The same for pictures multiplied with `gain`.
+    /// Samples of the pictures multiplied with `gain`.
     pub fn exposed(self, gain: f32) -> Self {
         Self { gain, ..self }
     }

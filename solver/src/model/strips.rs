@@ -38,7 +38,7 @@ impl Taps {
         (texels, results)
     }
 
-    /// The same, of whole blocks: one belongs to the strip that its first sample begins in.
+    /// `by_strip` in whole blocks: a block belongs to the strip that its first sample begins in.
     pub fn by_blocks<const D: usize, S, T: Send>(
         &self,
         scratch: impl Fn() -> S + Send + Sync,
@@ -165,7 +165,7 @@ pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize
 
 /// Some rows of a texture of `D` channels, and those below that its samples reach.
 pub struct Strip<'a, const D: usize> {
-    /// Of all samples.
+    /// Taps of all samples.
     pub taps: &'a Taps,
     /// The first row.
     pub first: usize,

@@ -10,9 +10,9 @@ use super::strips::{Strip, blocks};
 use super::taps::Taps;
 use crate::simd::{prefetch, widened};
 
-/// Values of a texel.
+/// Number of values of a texel.
 pub const CHANNELS: usize = 4;
-/// A texel.
+/// The values of a texel, one vector of the processor.
 pub type Texel = [f32; CHANNELS];
 
 /// Samples whose texels are asked for ahead of those of the one at hand.
@@ -26,7 +26,7 @@ impl Taps {
         })
     }
 
-    /// The same at the samples of a block.
+    /// A texture at the samples of a block (4 rows).
     pub fn sample_vectors_of(&self, texture: &[f32], block: usize, rows: &mut [Row]) {
         let first = block * BLOCK;
         let samples = first..(first + BLOCK).min(self.cells().len());
@@ -64,7 +64,7 @@ impl<const D: usize> Strip<'_, D> {
 }
 
 widened! {
-    /// What samples see of the texels of their cells.
+    /// A texture at `samples`, interpolated between the texels of their cells.
     fn interpolate(texels: &[Texel], taps: &Taps, samples: Range<usize>, values: &mut [Vec4]) {
         let size = taps.size();
         let later = taps.cells().get(samples.start + AHEAD..).unwrap_or_default();

@@ -131,7 +131,7 @@ mod tests {
     use super::*;
     use crate::config::Config;
 
-    /// The same three steps written out in f64, operation by operation as torch.optim.Adam.
+    /// Three steps of torch.optim.Adam, written out in f64 operation by operation, are the reference.
     #[test]
     fn steps_follow_the_published_formula() {
         let config = Config::default().adam;

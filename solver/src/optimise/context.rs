@@ -24,7 +24,7 @@ pub(super) struct SolveContext<'a> {
     pub capture: &'a Capture,
     pub config: &'a Config,
     pub space: SampleSpace,
-    /// What the pictures are multiplied with, so that no rate or weight depends on their exposure.
+    /// Factor on the pictures, so that no rate or weight depends on their exposure.
     pub gain: f32,
     /// G-buffers of the training views, in full resolution.
     pub gbuffers: Vec<GBuffer>,
@@ -232,8 +232,8 @@ fn several_labels(views: &[View]) -> bool {
     seen.any(|label| Some(label) != first)
 }
 
-/// What brings the mean luminance of the training pictures, where they show the mesh, to `wanted`; 1 if that is
-/// 0, or if they are black.
+/// Factor that brings the mean luminance of the training pictures, where they show the mesh, to `wanted`; 1 if
+/// that is 0, or if they are black.
 fn gain(capture: &Capture, gbuffers: &[GBuffer], wanted: f32) -> f32 {
     let luminance = |view: &View, pixel: usize| -> f64 {
         let colour = &view.image.data[CHANNELS * pixel..][..CHANNELS];

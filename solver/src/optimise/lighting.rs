@@ -29,7 +29,7 @@ pub(super) struct Lighting {
     pub specular_floor: Vec<f32>,
     /// The specular albedo that the specular floor goes by; empty if it is switched off.
     pub skin_specular: Vec<f32>,
-    /// The same by region.
+    /// Specular reflectances by region.
     pub reflectances: Option<Reflectances>,
     /// By what the pictures are brighter than those of a light with this peak.
     pub exposure: f32,
@@ -48,7 +48,7 @@ pub(super) fn evenness(contrast: f32, half_even: f32) -> f32 {
 }
 
 impl Lighting {
-    /// What a light makes of the textures of `state`; `reflectances` are [`Lighting::reflectances`].
+    /// Lighting by a light of `radiance`, with the textures of `state`; `reflectances` are [`Lighting::reflectances`].
     pub fn new(
         context: &SolveContext,
         samples: &Samples,

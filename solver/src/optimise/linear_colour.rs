@@ -47,7 +47,7 @@ pub(super) fn transposed(s: &[f32; SLOPES], z: [f32; 3]) -> [f32; UNKNOWNS] {
 }
 
 widened! {
-    /// What a block's unknowns explain, weighted, as gradients by the unknowns.
+    /// Weighted part of the residuals that a block's unknowns explain, as gradients by the unknowns.
     pub(super) fn normal_block(
         slopes: &[Row; SLOPES],
         weight: &[Row; 1],

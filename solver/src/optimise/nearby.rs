@@ -62,8 +62,8 @@ impl<'a> Nearby<'a> {
         })
     }
 
-    /// Of two residuals (3 rows) mostly the smaller one, sample by sample: each weighted by the other's
-    /// mean square around the sample.
+    /// Mostly the smaller of two residuals (3 rows), sample by sample: each is weighted by the other's mean
+    /// square around the sample.
     pub fn smaller(&self, a: &Planes, b: &Planes) -> Planes {
         let square =
             |of: &Planes, i: usize| of.sample::<3>(i, 0).iter().map(|z| z * z).sum::<f32>();

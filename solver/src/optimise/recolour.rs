@@ -41,7 +41,7 @@ pub(super) fn recolour(
         Planes::from_fn(samples.len(), |i| [layers.get(1, i); CHANNELS])
     });
     let shading = samples.taps.sample::<CHANNELS>(&transport.shading(light));
-    // Of every region and channel: what is seen, and what white would show.
+    // Per region and channel: sums of the seen colour, and of that of a white surface.
     let mut sums = [[[0.0_f64; 2]; CHANNELS]; 256];
     for i in 0..samples.len() {
         let weight = samples.weight.get(0, i);

@@ -10,7 +10,7 @@ use crate::config::ReflectanceConfig;
 /// Reflectance at normal incidence by region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Reflectances {
-    /// Of every region's id.
+    /// Id of each texel's region.
     regions: Vec<f32>,
     /// Reflectance of skin that is expected.
     expected: f32,
@@ -19,7 +19,7 @@ pub(super) struct Reflectances {
 }
 
 impl Reflectances {
-    /// What is expected of skin, everywhere; `regions` are those of a texture.
+    /// Reflectance expected of skin, everywhere; `regions` are those of a texture.
     pub fn expected(context: &SolveContext, regions: &[u8]) -> Self {
         let expected = context.gain * context.config.normalisation.specular_skin;
         let mut skin = context.skin();
@@ -114,7 +114,7 @@ mod tests {
 
     const SKIN: f32 = 0.028;
 
-    /// What is found of two halves of a texture whose highlights are `factors` of the predicted ones.
+    /// Reflectances found of two halves of a texture whose highlights are `factors` of the predicted ones.
     fn found(factors: [f32; 2]) -> [f32; 2] {
         let (samples, predicted) = scene();
         let texels = samples.taps.size() * samples.taps.size();

@@ -70,7 +70,7 @@ fn bytes_on_disk(capture: &Capture, config: &Config) -> u64 {
 /// stages: every submission) and may stop the solve, which then makes maps of what it has and says so
 /// in [`crate::Record::interrupted`].
 ///
-/// The same capture, configuration and backend give the same solution for any number of threads.
+/// Equal capture, configuration and backend give equal solutions for any number of threads.
 pub fn solve_on(
     backend: &dyn Backend,
     capture: &Capture,

@@ -1,5 +1,5 @@
-//! What is optimised, and what a stage of the optimisation is: it owns its optimisers and what stays fixed while
-//! it runs; another update of the state is another stage.
+//! The optimised state, and the stages of the optimisation: a stage owns its optimisers and the values that stay
+//! fixed while it runs; another update of the state is another stage.
 
 use serde::{Deserialize, Serialize};
 
@@ -77,7 +77,7 @@ pub trait Stage {
 /// The memory of a stage from step to step besides the state, in a fixed order.
 #[derive(Serialize)]
 pub struct Memory<'a> {
-    /// Its optimisers.
+    /// Moments and step counts of the optimisers.
     pub optimisers: Vec<&'a mut Adam>,
     /// Parameters of its own.
     pub own: Vec<&'a mut Vec<f32>>,

@@ -70,7 +70,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         (self.log.stages, Timing { seconds: seconds.collect() })
     }
 
-    /// What an earlier run had found, if it left a checkpoint; from here on this run keeps it.
+    /// State that an earlier run left in its checkpoint, if any; from here on this run keeps it.
     pub fn resume(&mut self, mut checkpoint: Open) -> Option<Solve> {
         let kept = checkpoint.read();
         self.checkpoint = Some(checkpoint);

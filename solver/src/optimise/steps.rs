@@ -27,11 +27,11 @@ pub(super) enum Step {
     WarmUp,
     /// The light under the semantic colours.
     Light,
-    /// The same with the highlights that the light itself makes.
+    /// The light under the semantic colours, its distance, and the highlights that it makes itself.
     Distance(usize),
     /// Light and albedo under explicit transport.
     Transport,
-    /// The same with the highlights that the light itself makes.
+    /// Light and albedo under explicit transport, with the highlights that the light itself makes.
     Highlights,
     /// Normals from heights.
     Heights,

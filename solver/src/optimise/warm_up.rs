@@ -16,7 +16,7 @@ pub struct WarmUp<'a> {
     config: &'a Config,
     samples: &'a Samples,
     directions: Planes,
-    /// Of the networks.
+    /// Widths of the networks' layers.
     shape: Vec<usize>,
     networks: Adam,
     diffuse: Adam,

@@ -22,7 +22,7 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// What `direct` light does with what it does after bounces.
+    /// Rows of `direct` light with those of its bounces added.
     pub fn with_bounces(
         direct: Vec<f32>,
         bounces: &[Bounces],

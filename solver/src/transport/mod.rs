@@ -40,11 +40,11 @@ pub use sky::{Sky, SkyRay, contrast};
 /// Parts of a transport beside the shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Beside {
-    /// Nothing.
+    /// The shading alone.
     Nothing,
     /// Visibility, for highlights and for how the shading changes with the normals.
     Open,
-    /// That, and what the shading gains as the sky comes nearer.
+    /// Visibility, and the change of the shading with the nearness of the sky.
     Nearness,
 }
 

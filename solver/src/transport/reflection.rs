@@ -64,8 +64,8 @@ impl Transport {
         Some(Reflection(Matrix { rows, cells }))
     }
 
-    /// Of the cells that a sample sees: which, and what it reflects of their light towards its camera, times
-    /// F0 / pi.
+    /// Cells that a sample sees, each with the part of its light that the sample reflects towards its
+    /// camera, times F0 / pi.
     fn reflecting<'a>(
         &'a self,
         skin: &'a SkinConfig,

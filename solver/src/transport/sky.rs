@@ -60,7 +60,7 @@ impl Sky {
         Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
     }
 
-    /// The same cells on a sphere of another nearness.
+    /// These cells on a sphere of another nearness.
     pub fn at(self, nearness: f32) -> Self {
         Self { nearness, ..self }
     }

@@ -19,7 +19,7 @@ fn config() -> Config {
     config
 }
 
-/// Of all stages.
+/// Steps of all stages.
 const STEPS: usize = 160;
 
 /// Loses the device once `at` steps are done.

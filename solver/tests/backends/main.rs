@@ -21,7 +21,6 @@ mod textured;
 use std::sync::LazyLock;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-// What `testing` calls its own crate's.
 
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::{Adapter, Gpu, VARIABLE, adapters};
@@ -32,7 +31,7 @@ type Body = fn(&dyn Backend);
 /// A test's body that opens a device of its own.
 type OnAdapter = fn(&Adapter);
 
-/// Of every backend.
+/// Tests of every backend.
 const SHARED: [(&str, Body); 6] = [
     ("joint gradients match central differences", kernels::joint_gradients),
     ("direction gradients match central differences", kernels::direction_gradients),
@@ -42,7 +41,7 @@ const SHARED: [(&str, Body); 6] = [
     ("deviated normals in one pass is that through planes", textured::normals),
 ];
 
-/// Of backends that take in whole stages.
+/// Tests of backends that take in whole stages.
 const RESIDENT: [(&str, Body); 10] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
@@ -56,7 +55,7 @@ const RESIDENT: [(&str, Body); 10] = [
     ("an interrupted solve goes on to the same bytes", solves::resumed),
 ];
 
-/// Of devices that are opened for the test.
+/// Tests of devices that are opened for the test.
 const OWN: [(&str, OnAdapter); 6] = [
     ("no choice but a name leads to a software adapter", choice),
     ("every pass is timed, and has the same result", stages::timed),

@@ -13,7 +13,7 @@ use super::model::{networks, noise};
 /// Numbers of samples; an interpreter has time for two of them.
 const LENGTHS: &[usize] = if cfg!(miri) { &[1, 17] } else { &[0, 1, 15, 16, 17, 63, 65] };
 
-/// What the kernels read of the samples `first..first + len`.
+/// Inputs of the kernels for the samples `first..first + len`.
 struct Inputs {
     samples: Samples,
     directions: Planes,

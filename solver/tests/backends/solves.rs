@@ -42,7 +42,7 @@ pub fn whole(backend: &dyn Backend) {
     assert!(off < spread, "{off} {spread}");
 }
 
-/// Of the maps and the record, without wall times.
+/// Files of the maps and the record, without wall times.
 fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let kept = entries.filter(|path| path.is_file() && !path.ends_with("timing.json"));

@@ -23,10 +23,10 @@ use super::testing;
 
 /// Steps that are compared.
 const STEPS: usize = 50;
-/// Of every loss, relative.
+/// Relative tolerance of every loss.
 const TOLERANCE: f64 = 1e-4;
-/// Of all values of a kind together: the norm of the difference over that of their way. Adam makes a
-/// whole step of the faintest gradient, whose sign is rounding.
+/// Tolerance of all values of a kind together: the norm of the difference over that of their way. Adam
+/// makes a whole step of the faintest gradient, whose sign is rounding.
 const WAY: f64 = 0.01;
 
 /// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead: the state,

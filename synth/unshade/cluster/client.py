@@ -19,7 +19,7 @@ from .store import Store
 from .work import Done, Job, do
 
 RETRIES = 2
-"""Of a stage that ended in an error that is no method's: a full disc, a store out of reach."""
+"""Further tries of a stage after an error that is no method's: a full disc, a store out of reach."""
 PATIENCE = 300.0
 """Seconds that a scheduler may be away."""
 _LOST = (OSError, TimeoutError)

@@ -1,4 +1,4 @@
-"""What is to be done, as ``unshade run --cluster`` writes it down."""
+"""Stages to be done, as ``unshade run --cluster`` writes it down."""
 
 from __future__ import annotations
 

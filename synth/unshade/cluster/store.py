@@ -61,7 +61,7 @@ class Store:
             self._write(file.name, self._key(key))
 
     def known(self, key: str) -> dict[str, Any] | None:
-        """What a key led to, if its output is there still."""
+        """Record of the output that a key led to, if that output is there still."""
         if not self._files.exists(self._key(key)):
             return None
         done: dict[str, Any] = json.loads(self._files.cat_file(self._key(key)))

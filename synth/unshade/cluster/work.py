@@ -1,4 +1,4 @@
-"""What a worker does: one stage at a time, in a folder of its own."""
+"""The work of a worker: one stage at a time, in a folder of its own."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .store import Store
 
 
 class Done(TypedDict):
-    """What became of a stage."""
+    """Outcome of a stage."""
 
     id: str
     key: str

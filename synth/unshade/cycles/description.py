@@ -1,4 +1,4 @@
-"""What Cycles shall render, as a JSON file and plain arrays and pictures beside it."""
+"""A scene for Cycles, as a JSON file and plain arrays and pictures beside it."""
 
 from __future__ import annotations
 

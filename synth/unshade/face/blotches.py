@@ -28,7 +28,7 @@ _DARKEST_BLOOD_SHARE = 0.35
 """How much of the redness is left to be seen through the darkest skin."""
 
 _SHARES = {"melanin": 0.6, "blood": 0.4}
-"""Of what the pigments do together."""
+"""Parts of the two pigments in their common effect."""
 
 
 def draw_coarse(regions: Regions, spec: FaceSpec, amounts: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -76,7 +76,7 @@ def _summed(scales: dict[float, tuple[float, float]], field: Callable[[str, floa
 
 
 def _places(regions: Regions, pigment: str, spec: FaceSpec) -> np.ndarray:
-    """What whole regions hold more of, in log luminance: lids and hollows of the eyes, the mouth's surround, nose, cheeks."""
+    """Log luminance that whole regions add: lids and hollows of the eyes, the mouth's surround, nose, cheeks."""
     rng = stream(spec.seed, f"{pigment} places")
     if pigment == "melanin":
         weights = rng.uniform((0.06, 0.04, 0.0, -0.06, -0.06), (0.26, 0.20, 0.14, 0.10, 0.10))

@@ -23,7 +23,7 @@ LOW, HIGH = (0.06, 0.15, 0.15), (0.45, 0.60, 0.90)
 """Bounds of painted values."""
 
 MIN_ALPHA = 0.02
-"""What the material takes as the smoothest lobe."""
+"""GGX alpha of the smoothest lobe that the material takes."""
 
 # How a region's sheen departs from standard skin: log of the factor on both alphas, and what is added to the narrow lobe's share.
 _REGIONS = {

@@ -1,6 +1,6 @@
-"""What a face's maps look like in numbers: spectra of log albedo and of relief, spread and contrast of regions.
+"""Statistics of a face's maps: spectra of log albedo and of relief, spread and contrast of regions.
 
-Made to hold generated faces beside scanned ones. Spectra are of windows laid over a region
+Made to compare generated faces with scanned ones. Spectra are of windows laid over a region
 (Welch's method with Hann windows; what lies outside the region has no weight), over cycles
 per millimetre of the surface, which the mesh gives for every texel.
 """

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 WIDTH = 7.2
-"""Of a page's text, inches."""
+"""Width of a page's text, inches."""
 DPI = 300
 FONT = 7
 """Points."""

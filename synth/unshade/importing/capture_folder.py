@@ -81,7 +81,7 @@ class CaptureWriter:
         self._write("transforms.json", (json.dumps(document, indent=1) + "\n").encode())
 
     def record(self, document: dict[str, Any]) -> None:
-        """What was assumed."""
+        """Writes `import.json`: what was read, and what had to be assumed."""
         self._write(RECORD, (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode())
 
     def commit(self) -> None:

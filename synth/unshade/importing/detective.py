@@ -21,10 +21,10 @@ SOUND = 0.9
 """Median intersection over union of a capture that fits."""
 
 _NAMED = 0.75
-"""What a single change must reach to be named."""
+"""Union that a single change must reach to be named."""
 
 _GAIN = 0.1
-"""What it must gain."""
+"""Gain in union that it must bring."""
 
 _LEAST_VIEWS, _MOST_VIEWS = 3, 6
 _MOST_TRIANGLES = 300_000
@@ -56,7 +56,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was found: intersection over union as it is and with the change, if one is named."""
+    """Result: intersection over union as it is, and with the change if one is named."""
 
     views: int
     union: float

@@ -45,7 +45,7 @@ class CaptureWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Choices:
-    """What the files do not say. The fields are those of `import_capture`."""
+    """Choices where the files are silent. The fields are those of `import_capture`."""
 
     mesh: Path | None = None
     objects: tuple[str, ...] = ()
@@ -235,7 +235,7 @@ class _Import:
         )
 
     def _look(self, reading: Reading) -> Verdict | None:
-        """What the detective says of some views; a change that mends them is an error unless it is to be made."""
+        """Verdict of the detective on some views; a change that mends them is an error unless it is to be made."""
         views = self.source.views
         chosen = views if len(views) <= _LOOKED_AT else [views[i * len(views) // _LOOKED_AT] for i in range(_LOOKED_AT)]
         evidence = []
@@ -331,7 +331,7 @@ class _Import:
 
 
 class Sightings:
-    """What photographs said of themselves."""
+    """Metadata of the photographs, collected as they are read."""
 
     def __init__(self) -> None:
         self.curves: set[str] = set()

@@ -14,8 +14,8 @@ from .source import Lens
 def undistorted(
     picture: NDArray[Any], lens: Lens, focal: tuple[float, float], centre: tuple[float, float], *, smooth: bool
 ) -> NDArray[Any]:
-    """What a pinhole with the same focal length and principal point would have seen, 0 where the lens saw
-    nothing. ``smooth`` interpolates; masks and ids take the nearest pixel.
+    """The picture of a pinhole with the same focal length and principal point, 0 where the lens saw nothing.
+    ``smooth`` interpolates; masks and ids take the nearest pixel.
     """
     height, width = picture.shape[:2]
     # OpenCV's pixel centres are whole numbers.

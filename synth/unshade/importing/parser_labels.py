@@ -54,7 +54,7 @@ PARSERS: dict[str, tuple[str, ...]] = {
     "farl-lapa": _FARL_LAPA,
     "unshade": _OURS,
 }
-"""What the ids 0, 1, ... of a parser stand for, in our names; empty is none."""
+"""Our names for the ids 0, 1, ... of each parser; empty is none."""
 
 
 def name_table(parser: str) -> dict[int, str]:

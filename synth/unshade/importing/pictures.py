@@ -21,7 +21,7 @@ from ..errors import PictureError
 Floats = NDArray[np.float32]
 
 CURVES = ("auto", "srgb", "linear", "rec709", "gamma=<number>")
-"""What a transfer curve may be called."""
+"""Names of transfer curves."""
 
 _RAW = (
     ".3fr",
@@ -59,7 +59,7 @@ _NAMED_CURVES = (
     ("romm", "gamma=1.8"),
     ("709", "rec709"),
 )
-"""What the name of an ICC profile says of its curve."""
+"""Parts of an ICC profile's name, and the curve that each tells."""
 
 _SAME_PRIMARIES = 2e-3
 """How far a profile's primaries may be from Rec.709's and still be these: profiles are rounded."""
@@ -183,7 +183,7 @@ def _radiance(path: Path) -> Photograph:
 
 
 def _said(path: Path) -> dict[str, Any]:
-    """What the file says of itself: orientation, ICC profile, gamma, exposure."""
+    """Metadata of the file: orientation, ICC profile, gamma, exposure."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)

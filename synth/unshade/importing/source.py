@@ -1,4 +1,4 @@
-"""What a stranger's capture says, before a picture is opened: cameras in the mesh's coordinates."""
+"""Another program's capture before a picture is opened: cameras in the mesh's coordinates."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _MODELS = {
 """Lens models and the terms that they have."""
 
 _ENDINGS = (".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".JPG", ".JPEG", ".PNG", ".TIF", ".TIFF")
-"""What a picture named without an ending may be called; Blender's exporters name none."""
+"""Endings of a picture that is named without one; Blender's exporters name none."""
 
 
 def read_transforms(path: Path) -> Source:
@@ -69,7 +69,7 @@ def _document(path: Path) -> dict[str, Any]:
 
 
 def _undone(path: Path, document: Mapping[str, Any]) -> tuple[Matrix, Matrix | None]:
-    """What takes the cameras' world to the mesh's, and the matrix that the file says was applied."""
+    """Matrix from the cameras' world to the mesh's, and the matrix that the file says was applied."""
     stated = document.get("applied_transform")
     scale = document.get("applied_scale", 1.0)
     if stated is None and scale == 1.0:

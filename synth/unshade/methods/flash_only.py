@@ -17,7 +17,7 @@ _INTENSITY = 0.1
 """Radiance times area (m2) of the flash: it gives irradiance over pi of about .3 at a metre. Known, so of no matter."""
 
 _DAMPING = 0.3
-"""Of the specular unknown towards skin's mean, over the squared largest highlight: texels seen at one angle alone."""
+"""Damping of the specular unknown towards skin's mean, over the squared largest highlight: texels seen at one angle alone."""
 
 _MEAN_SPECULAR = 0.028
 

@@ -22,7 +22,7 @@ from .texel_samples import TexelSamples, sample_texels
 
 _AXES = "xyz"
 _ROWS, _SHADOW_SIZE = 16, 128
-"""Of the sky and the texture on which the mesh's own shadows are cast."""
+"""Rows of the sky, and side of the texture on which the mesh's own shadows are cast."""
 
 
 def recover(

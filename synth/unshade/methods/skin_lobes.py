@@ -1,4 +1,4 @@
-"""What skin's highlights are in light from everywhere, by quadrature of the material that all maps are for."""
+"""Skin's highlights in light from everywhere, by quadrature of the material that all maps are for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What views see at the texels of the chart."""
+"""Colours of the views at the texels of the chart."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ PLAYERS = {
     "normals": ("diffuse_normal", "specular_normal"),
     "roughness": ("roughness",),
 }
-"""What is replaced at once."""
+"""Maps that are replaced together."""
 
 _EROSION = 2
 """Pixels that the mask loses on every side, as in scores."""

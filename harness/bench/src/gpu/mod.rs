@@ -1,4 +1,4 @@
-//! The same steps on a GPU: whole steps, their passes by the device's own clock, and the losses beside the
+//! Steps on a GPU: whole steps, their passes by the device's own clock, and the losses beside the
 //! processor's; then whole solves, and the paper's capture in full.
 
 mod page;

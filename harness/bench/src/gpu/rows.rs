@@ -1,4 +1,4 @@
-//! What is measured on a GPU.
+//! Measurements on a GPU.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub struct GpuReport {
     pub name: String,
     /// A processor that plays a GPU: its times say nothing about GPUs.
     pub software: bool,
-    /// What compute kernels reach.
+    /// Rates that compute kernels reach.
     pub reach: Reach,
     /// The paper's steps.
     pub steps: Vec<GpuStep>,
@@ -25,7 +25,7 @@ pub struct GpuReport {
 /// A step.
 #[derive(Debug, Serialize)]
 pub struct GpuStep {
-    /// What was done.
+    /// The kind of step.
     pub kind: Kind,
     /// Pixels of all views.
     pub pixels: usize,
@@ -48,7 +48,7 @@ pub struct GpuStep {
 /// All dispatches of one name within a step.
 #[derive(Debug, Serialize)]
 pub struct PassRow {
-    /// What it does.
+    /// Name of the dispatches' kernel.
     pub name: &'static str,
     /// In a step.
     pub dispatches: f64,
@@ -68,14 +68,14 @@ pub enum GpuPaper {
         share: usize,
         /// One of each kind.
         steps: Vec<GpuStep>,
-        /// Of all 3000 steps on all pixels.
+        /// Seconds of all 3000 steps on all pixels.
         seconds: f64,
         /// Before them: what stays fixed is evaluated and uploaded, kernels are compiled.
         preparation_seconds: f64,
     },
     /// It did not.
     Failed {
-        /// What the device said.
+        /// The device's error.
         reason: String,
     },
 }

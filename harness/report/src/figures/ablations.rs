@@ -1,4 +1,4 @@
-//! What each part of a method gains: every method and variant of the runs against the first, on the same cases
+//! Gain of each part of a method: every method and variant of the runs against the first, on the same cases
 //! (the supplement of Rainer et al. 2023).
 
 use serde_json::json;

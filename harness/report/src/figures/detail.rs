@@ -24,7 +24,7 @@ const RGB: &[&str] = &["R", "G", "B"];
 /// A crop's share of the map's side.
 const CROP: usize = 5;
 
-/// What one case gave of one method.
+/// Recovered amplitude of one method in one band of one case.
 struct Transfer {
     method: usize,
     face: String,

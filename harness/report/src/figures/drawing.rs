@@ -1,4 +1,4 @@
-//! What a figure consists of, as data: blocks of panels and of plots, and the table behind them.
+//! A figure as data: blocks of panels and of plots, and the table behind them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub(super) struct Panels {
     pub title: String,
     pub columns: Vec<String>,
     pub rows: Vec<PanelRow>,
-    /// What the error pictures show, and their colours' end.
+    /// Quantity of the error pictures, and the value where their colours end.
     pub error: Option<(String, f32)>,
 }
 

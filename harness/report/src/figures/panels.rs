@@ -87,7 +87,7 @@ pub(super) struct PictureScores {
 }
 
 impl PictureScores {
-    /// Of a view (`light` none) or a relit picture after the albedo's one factor.
+    /// Scores of a view (`light` none) or of a relit picture after the albedo's one factor.
     pub fn find(column: &Column, light: Option<&str>, frame: Option<&str>) -> Self {
         let subject = if light.is_some() { "relit" } else { "view" };
         let scales: &[&str] = if light.is_some() { &["global", "none"] } else { &["none"] };

@@ -1,8 +1,8 @@
-//! What is asked for.
+//! The request for a figure.
 
 use std::path::PathBuf;
 
-/// What can be drawn.
+/// Kinds of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureKind {
     /// Relighting in several lights (figure 6 of Rainer et al. 2023).
@@ -13,7 +13,7 @@ pub enum FigureKind {
     Emily,
     /// The decomposition under each light (figure 10).
     Decomposition,
-    /// What each part of a method gains (the supplement).
+    /// The gain of each part of a method (the supplement).
     Ablations,
     /// Quality over exposure, specular reflectance and roughness, by skin type.
     Robustness,
@@ -23,10 +23,10 @@ pub enum FigureKind {
     Detail,
 }
 
-/// What a figure is made of.
+/// The figure to draw, its runs and its selection.
 #[derive(Clone, Debug)]
 pub struct FigureRequest {
-    /// What to draw.
+    /// Which of the figures.
     pub kind: FigureKind,
     /// Folders of finished runs.
     pub runs: Vec<PathBuf>,
@@ -34,6 +34,6 @@ pub struct FigureRequest {
     pub methods: Vec<String>,
     /// Only these cases, by their ids; empty stands for all.
     pub cases: Vec<String>,
-    /// What the files say they were made by.
+    /// The command that the files name as theirs.
     pub command: String,
 }

@@ -1,5 +1,5 @@
-//! What each variant of a suite changes against its first one: the drop of every method, face by face
-//! subtracted and then averaged.
+//! Change of each variant of a suite against its first one: the drop of every method, subtracted face
+//! by face and then averaged.
 
 use super::figures::{Figure, TABLES, mean};
 use super::finished::Finished;

@@ -1,4 +1,4 @@
-//! What the tables show: each figure with the rows of the scores it is made of.
+//! The figures of the tables, each with the rows of the scores it is made of.
 
 use scoring::metrics::Direction;
 
@@ -187,7 +187,7 @@ const SHAPE: [Figure; 7] = [
 pub(super) struct Found {
     pub value: f64,
     pub against: Option<f64>,
-    /// What rendering noise alone would allow.
+    /// Value that rendering noise alone would allow.
     pub floor: Option<f64>,
 }
 

@@ -86,7 +86,7 @@ fn picture(capture: &Path, scene: &toml::Table) -> Result<String, ReportError> {
     Ok(parts.join(", "))
 }
 
-/// What a solver says of its textures and seeds over all cases; none if it says nothing.
+/// Textures and seeds of a solver over all cases, in words; none if its records have neither.
 fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
     let keys = [("version", "version"), ("texture_size", "texels a side"), ("seed", "seed")];
     let mut found = keys.map(|_| BTreeSet::new());

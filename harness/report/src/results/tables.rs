@@ -290,7 +290,7 @@ fn cell_of_face(figure: &Figure, found: Option<Found>) -> String {
     }
 }
 
-/// What every column is: the row of the scores, and the metric in full.
+/// Legend of the columns: the row of the scores, and the metric in full.
 pub(super) fn legend() -> String {
     let mut text =
         "\n## Figures\n\nA figure is a row of the scores: subject, metric, region, scale. \

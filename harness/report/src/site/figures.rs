@@ -64,7 +64,7 @@ const fn normal(name: &'static str, subject: &'static str) -> Figure {
     Figure { name, unit: "°", higher: false, decimals: 3, subject, metric, scale: "none", ..PLAIN }
 }
 
-/// Of a row of scores, what decides whose it is. The rest of it, most of a file, is not kept.
+/// Keys of a row of scores that say whose it is. The rest of it, most of a file, is not kept.
 #[derive(Deserialize)]
 pub(super) struct Row {
     subject: String,

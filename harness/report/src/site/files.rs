@@ -113,7 +113,7 @@ fn relative(file: &Path, folder: &Path) -> String {
     up.chain(down).collect::<Vec<_>>().join("/")
 }
 
-/// What a URL may not hold, as % and its bytes.
+/// A name for a URL: bytes that it may not hold are written as % and hexadecimal digits.
 fn encoded(name: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte);
     name.bytes()

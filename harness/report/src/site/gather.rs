@@ -1,4 +1,4 @@
-//! What runs have measured, by capture: two runs are compared where the hashes of their captures are equal.
+//! Measurements of runs, by capture: two runs are compared where the hashes of their captures are equal.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,7 +53,7 @@ pub(super) struct Run {
     pub folder: PathBuf,
     pub name: String,
     pub suite: String,
-    /// Of the scoring; others may measure otherwise.
+    /// Version of the scoring; others may measure otherwise.
     pub scoring: String,
     pub has_report: bool,
 }

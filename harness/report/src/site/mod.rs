@@ -1,6 +1,6 @@
 //! The leaderboard: many runs as one page that opens from disk, without a network.
 //!
-//! What the page shows is in it as columns of whole numbers, so that a thousand cases are some hundred
+//! The page holds its data as columns of whole numbers, so that a thousand cases are some hundred
 //! kilobytes; ranks and intervals are computed where they are shown, for whatever is chosen there.
 
 mod figures;
@@ -20,7 +20,7 @@ const STYLE: &str = include_str!("site.css");
 const SCRIPT: &str = include_str!("site.js");
 const STATISTICS: &str = include_str!("statistics.js");
 
-/// What a leaderboard consists of.
+/// Files and size of a written leaderboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SiteSummary {
     /// The page to open.

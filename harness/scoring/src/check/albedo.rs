@@ -102,7 +102,7 @@ pub(super) fn check(
     }
 }
 
-/// What colour and brightness say, beside the projected photographs where there are some.
+/// Statistics of colour and brightness, beside the projected photographs where there are some.
 struct Colours {
     /// Median luminance.
     luminance: f64,

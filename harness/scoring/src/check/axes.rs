@@ -7,7 +7,7 @@ use glam::Mat3;
 pub(super) struct Frame {
     /// Id of the fault.
     pub id: &'static str,
-    /// What is wrong, in words.
+    /// The fault, in words.
     pub wrong: String,
     /// The mend.
     pub mend: String,
@@ -69,7 +69,7 @@ pub(super) fn mean_cosine(moment: Mat3, turn: Mat3) -> f64 {
     products.map(|(a, b)| f64::from(a) * f64::from(b)).sum()
 }
 
-/// What goes wrong by axes: for each world axis the axis of the map that holds it, and its sign.
+/// For each world axis, the axis of the map that holds it, and its sign.
 type Axes = [(usize, f32); 3];
 
 fn signed_permutations() -> Vec<(Mat3, Axes)> {

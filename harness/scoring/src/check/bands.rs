@@ -63,8 +63,8 @@ impl Bands {
         mean(pairs.map(|(a, b)| pearson(&mask, |t| a[t], |t| b[t])), self.planes.len())
     }
 
-    /// The same for what is not its own mirror image in u: faces are nearly so, and lights need
-    /// not be.
+    /// [`Self::correlation`] of the parts that are not their own mirror image in u: faces are
+    /// nearly so, and lights need not be.
     pub fn asymmetry(&self, other: &Self) -> f64 {
         let mirror = |t: usize| t - t % SIDE + (SIDE - 1 - t % SIDE);
         let mut mask = both(&self.mask, &other.mask);

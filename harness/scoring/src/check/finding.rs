@@ -1,4 +1,4 @@
-//! What a check says: one fault of one map, with its evidence.
+//! A finding: one fault of one map, with its evidence.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -34,7 +34,7 @@ pub struct Finding {
     pub level: Level,
     /// The file, or what was found in its place.
     pub map: String,
-    /// What is wrong, with its numbers.
+    /// The fault, with its numbers.
     pub message: String,
     /// The likely mend.
     pub mend: String,

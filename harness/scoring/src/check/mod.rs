@@ -42,8 +42,7 @@ pub enum CheckError {
     Capture(#[from] CaptureError),
 }
 
-/// What is likely wrong with a maps folder; nothing for sound maps. With a capture far more can be
-/// said.
+/// Likely faults of a maps folder; none for sound maps. With a capture far more faults can be told.
 pub fn check(maps: &Path, capture: Option<&Path>) -> Result<Vec<Finding>, CheckError> {
     if !maps.is_dir() {
         return Err(CheckError::NoFolder(maps.to_path_buf()));
@@ -52,7 +51,7 @@ pub fn check(maps: &Path, capture: Option<&Path>) -> Result<Vec<Finding>, CheckE
     check_with(maps, capture.as_ref())
 }
 
-/// The same with a capture that is open.
+/// [`check`] with a capture that is open.
 pub fn check_with(maps: &Path, capture: Option<&Capture>) -> Result<Vec<Finding>, CheckError> {
     let witness = capture.map(Witness::of).transpose()?;
     let witness = witness.as_ref();

@@ -18,7 +18,7 @@ const WORSE_SHARE: f64 = 0.01;
 /// Length of the mean of the normals from which they point one way: a face's reach .5, a tangent
 /// space's .95.
 const ONE_WAY: f64 = 0.9;
-/// The same where no mesh says how much the true ones vary.
+/// [`ONE_WAY`] where no mesh says how much the true ones vary.
 const ONE_WAY_ALONE: f64 = 0.95;
 /// Mean cosine to the mesh that another frame must gain, and reach, to be named; right maps have .98.
 const GAIN: f64 = 0.05;
@@ -28,7 +28,7 @@ const UNLIKE: f64 = 0.5;
 /// Mean z below which normals of a face that looks along +z point inwards.
 const INWARDS: f64 = -0.2;
 
-/// What normals are compared with.
+/// Reference that normals are compared with.
 #[derive(Clone, Copy)]
 pub(super) enum Reference<'a> {
     /// The mesh of a capture.
@@ -167,7 +167,7 @@ impl Normals {
         sum / (count.max(1) as f32)
     }
 
-    /// What can be said without a mesh: faces look along +z, and bend.
+    /// The fault that can be told without a mesh: faces look along +z, and bend.
     fn alone(&self, file: &str, covered: Option<&[bool]>) -> Option<Finding> {
         let mean = self.mean(|texel| covered.is_none_or(|covered| covered[texel]));
         if f64::from(mean.length()) > ONE_WAY_ALONE && f64::from(mean.z) > ONE_WAY {

@@ -5,7 +5,7 @@ use formats::picture::Picture;
 use super::finding::Finding;
 use super::reduced::{median, quantile};
 
-/// What still counts as within 0 to 0.05.
+/// Largest value that still counts as within 0 to 0.05.
 const LARGEST: f64 = 0.0525;
 /// Networks without a bound reach -0.01 where the skin is dull.
 const NEGATIVE: f64 = -0.025;

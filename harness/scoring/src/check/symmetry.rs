@@ -49,7 +49,7 @@ impl Symmetry {
         (0..side * side).map(at).collect()
     }
 
-    /// The same, and mirrored in u; faces are nearly their own mirror images.
+    /// This symmetry, then a mirror in u; faces are nearly their own mirror images.
     pub fn mirrored(self) -> Self {
         match self {
             Self::Identity => Self::MirroredU,

@@ -1,5 +1,5 @@
-//! What a capture says of its maps without its truth: the mean projected texture, the mesh in
-//! texture space, and where the cameras stand.
+//! Evidence of a capture on its maps, without its truth: the mean projected texture, the mesh in
+//! texture space, and the cameras' places.
 
 use capture::gbuffer::Atlas;
 use capture::mean_texture::mean_texture;

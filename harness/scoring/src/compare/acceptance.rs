@@ -27,7 +27,7 @@ pub struct Acceptances {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Acceptance {
-    /// What was named on the command line; `*` stands for any text.
+    /// Pattern of row ids, as on the command line; `*` stands for any text.
     pub rows: String,
     /// Why.
     pub reason: String,

@@ -30,10 +30,10 @@ pub struct Baseline {
     pub suite_hash: Option<String>,
     /// Versions that made the run.
     pub versions: BTreeMap<String, Value>,
-    /// What each case was made of.
+    /// Face, light and hash of the capture, by case.
     #[serde(default)]
     pub cases: BTreeMap<String, Captured>,
-    /// What the solver computed on.
+    /// Devices that the solver computed on.
     #[serde(default)]
     pub devices: BTreeSet<String>,
     /// How many runs the values are means of.

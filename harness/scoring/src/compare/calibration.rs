@@ -46,7 +46,7 @@ pub struct Calibration {
     pub rows: BTreeMap<String, Spread>,
 }
 
-/// What is known of a row.
+/// Spread of a row over seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
@@ -64,7 +64,7 @@ pub struct Spread {
     pub power: f64,
 }
 
-/// What two values of a row, or their means over runs, are held against.
+/// Limits on the difference of two values of a row, or of their means over runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// A larger difference is a change.
@@ -75,7 +75,7 @@ pub struct Limits {
 }
 
 impl Calibration {
-    /// What a row with this spread says, if so large a change matters.
+    /// The row of the file for this spread, if a change of `matters` matters.
     pub(super) fn spread(&self, relative: bool, sd: f64, matters: f64) -> Spread {
         let row = Spread { relative, sd, matters, sees: 0.0, power: 0.0 };
         let change = self.limits(&row, 1).change;
@@ -86,7 +86,7 @@ impl Calibration {
         Spread { sees, power: beyond(change - matters) + beyond(change + matters), ..row }
     }
 
-    /// What a run's value is held against, of a baseline that is the mean of so many runs.
+    /// Limits for a run's value against a baseline that is the mean of `baseline_runs` runs.
     pub fn limits(&self, row: &Spread, baseline_runs: u64) -> Limits {
         let of_difference = row.believed() * (1.0 + 1.0 / baseline_runs.max(1) as f64).sqrt();
         // A row that never moved has the critical value of those that did.
@@ -100,7 +100,7 @@ impl Calibration {
             .map_or(f64::INFINITY, |student| student.inverse_cdf(confidence))
     }
 
-    /// What `false_alarms` would ask for if every row were a chance of its own, in standard deviations.
+    /// Bonferroni's limit at `false_alarms`, as if rows were independent, in standard deviations.
     pub fn bonferroni(&self) -> f64 {
         let moving = self.rows.values().filter(|row| row.sd > 0.0).count().max(1);
         self.student(1.0 - self.false_alarms / (2 * moving) as f64)

@@ -1,4 +1,4 @@
-//! What happened, in sentences: rows that changed are grouped by what they are of, and a map that
+//! Causes of change, in sentences: rows that changed are grouped by their subject, and a map that
 //! changed accounts for the pictures that are made with it.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,11 +25,11 @@ const ORACLE: &str = "oracle";
 pub struct Finding {
     /// Whether it is a regression.
     pub worse: bool,
-    /// What happened, in one sentence.
+    /// The change, in one sentence.
     pub sentence: String,
     /// Whose scores they are.
     pub method: String,
-    /// What they are of.
+    /// Subject of the scores.
     pub subject: String,
     /// The lights of the captures.
     pub lights: Vec<String>,
@@ -49,7 +49,7 @@ struct Group<'a> {
 }
 
 impl Comparison {
-    /// What happened: regressions before improvements, causes before what follows from them, the largest
+    /// Changes: regressions before improvements, causes before their consequences, the largest
     /// first. Rows that are explained by another group are counted there.
     pub fn findings(&self) -> Vec<Finding> {
         let mut found = self.of_verdicts(true);
@@ -146,7 +146,7 @@ fn is_pipeline((method, subject): &(&str, &str)) -> bool {
     *method == ORACLE || subject.starts_with("mesh_") || subject.starts_with("constant_")
 }
 
-/// What happened to a group, by its most telling score.
+/// The change of a group, by its most telling score.
 fn happened(subject: &str, group: &Group, worse: bool) -> String {
     if group.rows.iter().all(|(row, _)| row.verdict == Verdict::Missing) {
         return format!("has lost {} rows", group.rows.len());

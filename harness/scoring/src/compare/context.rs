@@ -1,4 +1,4 @@
-//! What differs between a run and its baseline beside the scores.
+//! Differences between a run and its baseline beside the scores.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! What keeps a run from being compared.
+//! Reasons why a run cannot be compared.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub enum CompareError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
     /// A file is not what it should be.
@@ -22,7 +22,7 @@ pub enum CompareError {
     Text {
         /// The file.
         path: PathBuf,
-        /// What the parser said, on one line.
+        /// The parser's error, on one line.
         reason: String,
     },
     /// A baseline or a run without scores would pass whatever happens.

@@ -1,4 +1,4 @@
-//! What became of a suite over time: a line of JSON for each comparison, in a file that only grows.
+//! History of a suite's scores: a line of JSON for each comparison, in a file that only grows.
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;

@@ -1,4 +1,4 @@
-//! What a row's id says: whose score it is, of what, in which light, by which metric.
+//! Parts of a row's id: method, subject, light, metric.
 
 use super::CompareError;
 use crate::metrics::Metric;
@@ -10,7 +10,7 @@ pub struct RowId<'a> {
     pub case: &'a str,
     /// Who made the maps.
     pub method: &'a str,
-    /// What is compared, such as `diffuse_albedo` or `relit`.
+    /// Subject, such as `diffuse_albedo` or `relit`.
     pub subject: &'a str,
     /// The light that it is relit in.
     pub light: Option<&'a str>,

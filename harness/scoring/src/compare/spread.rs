@@ -131,7 +131,7 @@ impl Normal {
         Self { random: Pcg64Mcg::seed_from_u64(seed), other: None }
     }
 
-    /// What makes a normal vector one of Student's t, with the variance that it had.
+    /// Factor that makes a normal vector one of Student's t, with the variance that it had.
     fn size(&mut self, degrees: usize) -> f64 {
         let squares: f64 = (0..degrees).map(|_| self.draw().powi(2)).sum();
         ((degrees as f64 - 2.0) / squares).sqrt()

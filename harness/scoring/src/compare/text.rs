@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::verdict::{Comparison, Judged, Verdict};
 
 impl Comparison {
-    /// What differs beside the scores, what happened, what moved (a line each), and the sums.
+    /// Text: differences beside the scores, causes, changed rows (a line each), and the sums.
     pub fn table(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

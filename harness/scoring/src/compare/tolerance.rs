@@ -11,7 +11,8 @@ use super::calibration::Calibration;
 /// The rules that hold unless a file says otherwise.
 const BUILT_IN: &str = include_str!("../../../../scenes/tolerances.toml");
 
-/// What was measured of a row decides; of others the first rule whose pattern matches.
+/// Limits on changes of rows: the measured ones of a row, else those of the first rule whose pattern
+/// matches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerances {
     rules: Vec<Rule>,
@@ -27,7 +28,7 @@ struct File {
     calibration: Option<Calibration>,
 }
 
-/// What rows of a kind may do.
+/// Allowed change of the rows that a pattern names.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rule {

@@ -1,4 +1,4 @@
-//! What became of each score: better, same, worse, or more than the runs can tell.
+//! Verdicts on scores: better, same, worse, or more than the runs can tell.
 
 use serde::Serialize;
 
@@ -10,7 +10,7 @@ use super::row_id::RowId;
 use super::tolerance::{Rule, Tolerances};
 use crate::metrics::Metric;
 
-/// What became of a score.
+/// Verdict on a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -66,11 +66,11 @@ impl Verdict {
 pub struct Judged {
     /// `<case>/<solver>/<row id>`.
     pub id: String,
-    /// What became of it.
+    /// Verdict on the change.
     pub verdict: Verdict,
-    /// What it was.
+    /// The baseline's value.
     pub baseline: Option<f64>,
-    /// What it is.
+    /// The run's value.
     pub current: Option<f64>,
     /// How far it may move.
     pub allowed: f64,
@@ -87,9 +87,10 @@ pub struct Judged {
 pub struct Comparison {
     /// The suite's name.
     pub suite: String,
-    /// What else differs between the two, in words; what follows is not like with like.
+    /// Differences between the two beside the scores, in words; with any, like is not compared with
+    /// like.
     pub differences: Vec<String>,
-    /// What decides, in one sentence.
+    /// The tolerances that decide, in one sentence.
     pub tolerances: String,
     /// Sorted by verdict, then by id.
     pub rows: Vec<Judged>,
@@ -152,7 +153,7 @@ fn judge(
     Ok(Judged { id, verdict, baseline, current, allowed, unit, reason, measured })
 }
 
-/// What the two values of a row are held against.
+/// Limits on the distance between the two values of a row.
 struct RowLimits<'a> {
     /// A larger distance is a change.
     change: f64,
@@ -187,7 +188,7 @@ fn limits<'a>(
 impl RowLimits<'_> {
     fn weigh(&self, metric: &Metric, old: f64, new: f64) -> Verdict {
         let gain = metric.direction.gain(old, new);
-        // Of a reasoned tolerance the gain counts, of a measured one whether the number moved at all.
+        // A reasoned tolerance judges the gain, a measured one whether the number moved at all.
         let moved = match self.measured {
             Some(row) => row.distance(old, new),
             None if self.either_way => (new - old).abs(),

@@ -1,4 +1,4 @@
-//! What a metric refuses to compute.
+//! Reasons why a metric has no value.
 
 /// Why a metric has no value; each message is one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -62,7 +62,7 @@ pub enum MetricError {
     Needs {
         /// The metric's id.
         metric: &'static str,
-        /// What is missing.
+        /// Name of the missing input.
         input: &'static str,
         /// The argument that takes it.
         argument: &'static str,

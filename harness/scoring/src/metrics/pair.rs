@@ -60,8 +60,8 @@ impl<'a> Pair<'a> {
         Ok(self)
     }
 
-    /// What may have leaked into the prediction (`leakage_*`), the true shading or specular layer; for
-    /// `relief_invented` the mesh's normals.
+    /// Sets the layer that may have leaked into the prediction (`leakage_*`), the true shading or
+    /// specular one; for `relief_invented` the mesh's normals.
     pub fn with_cause(mut self, cause: &'a Picture) -> Result<Self, MetricError> {
         check_size("leaking layer", (cause.width, cause.height), self.truth)?;
         check_finite("leaking layer", cause, self.region)?;

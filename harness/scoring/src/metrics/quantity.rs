@@ -1,4 +1,4 @@
-//! What a metric measures at every pixel of a region.
+//! Quantities of metrics at every pixel of a region.
 
 use super::colour::{ciede2000, lab, srgb, typology_angle};
 use super::neighbourhood::{band, flip, high_pass, log, log_luminances, low_pass_error, ssim};
@@ -14,17 +14,17 @@ pub const RELATIVE_OFFSET: f64 = 0.01;
 pub enum Quantity {
     /// Mean over the channels of (p - g)², as is.
     SquaredError,
-    /// The same of sRGB values in [0, 1].
+    /// Mean over the channels of (p - g)² of sRGB values in [0, 1].
     SquaredErrorSrgb,
     /// Mean over the channels of (p - g)² / (g + .01)².
     RelativeSquaredError,
-    /// Structural similarity.
+    /// Structural similarity of sRGB values, -1 to 1.
     Ssim,
-    /// FLIP.
+    /// LDR-FLIP of sRGB pictures, 0 to 1.
     Flip,
     /// Angle between two vectors, degrees; 90 where one of them has no length.
     Angle,
-    /// CIEDE2000.
+    /// CIEDE2000 of linear colours clipped to [0, 1], D65.
     ColourDifference,
     /// (Individual typology angle of p, of g), degrees.
     Typology,
@@ -52,7 +52,7 @@ pub enum Quantity {
     /// Mean over the channels of (a - b)(a' - b'), a and b being independent halves of the samples
     /// of prediction and truth, a' and b' the others: the squared error without what noise adds.
     CrossProduct,
-    /// The same of sRGB values in [0, 1], whose curve is bent by the noise of a half.
+    /// [`Self::CrossProduct`] of sRGB values in [0, 1], whose curve is bent by the noise of a half.
     CrossProductSrgb,
     /// Angle between two colours, degrees; 90 where one of them is black.
     ColourAngle,
@@ -72,7 +72,7 @@ pub enum Quantity {
 const FLAT_DEGREES: f64 = 0.5;
 
 impl Quantity {
-    /// What it compares with beside prediction and truth; as an argument is named in Python.
+    /// The input beside prediction and truth, by its argument's name in Python; none if those are all.
     pub fn needs(self) -> Option<&'static str> {
         match self {
             Self::WithinLabel => Some("labels"),

@@ -47,7 +47,7 @@ pub struct Metric {
     pub unit: &'static str,
     /// Which values are better.
     pub direction: Direction,
-    /// What is computed, in full; p is the prediction, g the truth.
+    /// Formula in full; p is the prediction, g the truth.
     pub definition: &'static str,
     /// Where it is defined.
     pub link: &'static str,
@@ -207,10 +207,10 @@ pub static METRICS: &[Metric] = metrics! {
         "https://github.com/google/nerfactor";
 };
 
-/// What is scored of what, in the order of the rows. A metric in none of these has no row, which
+/// Metrics of each subject, in the order of the rows. A metric in none of these has no row, which
 /// `harness/scoring/tests/scores.rs` notices.
 pub(crate) mod scored {
-    /// Of the diffuse albedo; after the median ratio the first five alone.
+    /// Metrics of the diffuse albedo; after the median ratio the first five alone.
     pub(crate) const ALBEDO: [&str; 8] = [
         "psnr_srgb",
         "psnr_lin",
@@ -221,34 +221,34 @@ pub(crate) mod scored {
         "flip_mean",
         "flip_p95",
     ];
-    /// Of the diffuse albedo, blind to its scale.
+    /// Metrics of the diffuse albedo that are blind to its scale.
     pub(crate) const ALBEDO_UNSCALED: [&str; 6] =
         ["scale_global", "hc", "wcorr", "lp", "chromaticity_deg", "log_rmse"];
-    /// Of the diffuse albedo's skin, blind to its scale.
+    /// Metrics of the diffuse albedo's skin that are blind to its scale.
     pub(crate) const DETAIL: [&str; 2] = ["detail_slope_1_2", "detail_slope_2_4"];
-    /// Of a normal map, beside the mesh's.
+    /// Metrics of a normal map beside the mesh's.
     pub(crate) const RELIEF: [&str; 1] = ["relief_invented"];
-    /// Of the roughness.
+    /// Metrics of the roughness.
     pub(crate) const ROUGHNESS: [&str; 1] = ["log_ratio_rms"];
-    /// Of a view or a relit picture, by independent halves of its samples.
+    /// Metrics of a view or a relit picture by independent halves of its samples.
     pub(crate) const UNBIASED: [&str; 2] = ["psnr_lin_unbiased", "psnr_srgb_unbiased"];
-    /// Of a view or a relit picture as it is, on the eroded mask and on the whole mask: as others score.
+    /// Other benchmarks' metrics of a view or a relit picture as it is, on the eroded and the whole mask.
     pub(crate) const COMPATIBLE: [&str; 2] = ["orb_psnr_h", "orb_psnr_l"];
     pub(crate) const COMPATIBLE_WHOLE: [&str; 1] = ["owl_psnr"];
-    /// Of the diffuse albedo, on the eroded and on the whole coverage: as others score.
+    /// Other benchmarks' metrics of the diffuse albedo, on the eroded and on the whole coverage.
     pub(crate) const COMPATIBLE_ALBEDO: [&str; 1] = ["orb_albedo_psnr"];
     pub(crate) const COMPATIBLE_ALBEDO_WHOLE: [&str; 1] = ["nerfactor_albedo_psnr"];
-    /// Of the light's brightest directions.
+    /// Metrics of the light's brightest directions.
     pub(crate) const PEAKS: [&str; 1] = ["direction_mean_deg"];
-    /// Of the light, in equal solid angles.
+    /// Metrics of the light in equal solid angles.
     pub(crate) const LIGHT: [&str; 1] = ["log_rmse"];
-    /// Of a sphere in the light; the last of one that no place of which is black.
+    /// Metrics of a sphere in the light; the last of a sphere without black places alone.
     pub(crate) const SPHERE: [&str; 3] = ["psnr_srgb", "log_rmse", "chromaticity_deg"];
-    /// Of the diffuse albedo, against the true diffuse shading and the true specular layer.
+    /// Metrics of the diffuse albedo against the true diffuse shading and the true specular layer.
     pub(crate) const LEAKAGE: [&str; 2] = ["leakage_shading", "leakage_specular"];
-    /// Of the diffuse albedo in one label region; the last of skin alone.
+    /// Metrics of the diffuse albedo in one label region; the last of skin alone.
     pub(crate) const PART: [&str; 3] = ["psnr_srgb", "ciede2000_mean", "ita_error"];
-    /// Of a normal map.
+    /// Metrics of a normal map.
     pub(crate) const NORMAL: [&str; 6] = [
         "normal_mean_deg",
         "normal_median_deg",
@@ -257,14 +257,14 @@ pub(crate) mod scored {
         "normal_below_22_5",
         "normal_below_30",
     ];
-    /// Of the specular albedo; of its best constant the first alone.
+    /// Metrics of the specular albedo; of its best constant the first alone.
     pub(crate) const SPECULAR: [&str; 3] = ["rmse", "pearson", "spearman"];
-    /// Of the confidence, against the error of the diffuse albedo.
+    /// Metrics of the confidence against the error of the diffuse albedo.
     pub(crate) const CONFIDENCE: [&str; 2] = ["confidence_rank", "sparsification"];
-    /// Of a view or a relit picture.
+    /// Metrics of a view or a relit picture.
     pub(crate) const PICTURE: [&str; 6] =
         ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
-    /// Of a layer of it.
+    /// Metrics of a layer of it.
     pub(crate) const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
 }
 

@@ -9,7 +9,7 @@ use super::{MetricError, Pair, Quantity, Statistic};
 pub struct Scale {
     /// k = <p,g> / <p,p> over all channels.
     pub global: f64,
-    /// The same for each channel.
+    /// Factor for each channel.
     pub channel: [f64; 3],
     /// Median of g/p for each channel, where p is positive.
     pub median: [f64; 3],

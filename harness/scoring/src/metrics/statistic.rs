@@ -23,8 +23,8 @@ pub enum Statistic {
     Mean,
     /// -10 log10 of the mean of x, peak 1.
     Psnr,
-    /// The same of products that may be negative: where their mean is not positive no error is left,
-    /// which is 100 dB.
+    /// [`Self::Psnr`] of products that may be negative: where their mean is not positive no error is
+    /// left, which is 100 dB.
     UnbiasedPsnr,
     /// Mean over the pictures of the PSNR of each; its interval is that of faces, not of pixels.
     PsnrOfPictures,
@@ -129,7 +129,7 @@ impl Statistic {
         })
     }
 
-    /// What is summed over pixels; the statistic is a function of the sums.
+    /// Terms of a pixel that are summed; the statistic is a function of the sums.
     fn terms(self, value: &[f64]) -> [f64; 5] {
         let x = value[0];
         match self {

@@ -1,4 +1,4 @@
-//! What keeps scores from being made.
+//! Reasons why scores cannot be made.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub enum ScoreError {
     Missing {
         /// The file.
         path: PathBuf,
-        /// What to do.
+        /// The mend.
         mend: &'static str,
     },
     /// The maps folder has nothing to score.
@@ -84,7 +84,7 @@ pub enum ScoreError {
     Text {
         /// The file.
         path: PathBuf,
-        /// What the parser said.
+        /// The parser's error.
         reason: String,
     },
     /// A file or folder cannot be read or written.
@@ -92,7 +92,7 @@ pub enum ScoreError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
 }

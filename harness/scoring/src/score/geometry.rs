@@ -1,4 +1,4 @@
-//! What the mesh says in texture space: its plain normal, and the true layers reprojected from
+//! The mesh in texture space: its plain normal, and the true layers reprojected from
 //! the training views. The solver's mean texture does both.
 
 use std::path::Path;

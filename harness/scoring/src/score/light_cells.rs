@@ -8,7 +8,7 @@ use crate::metrics::luminance;
 /// Cells of equal solid angle: rows of equal height along +Y, columns of equal azimuth.
 pub(super) const ROWS: usize = 32;
 pub(super) const COLUMNS: usize = 64;
-/// What is as bright within this of a direction belongs to it, degrees.
+/// Angle around a bright direction within which light as bright belongs to it, degrees.
 const REACH: f64 = 10.0;
 /// Two bright directions are at least this far apart, degrees.
 const APART: f64 = 30.0;

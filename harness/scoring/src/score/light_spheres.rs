@@ -12,7 +12,7 @@ const SIDE: usize = 64;
 /// Exponent of the cosine lobe around the mirrored direction.
 const GLOSS: i32 = 60;
 
-/// What a sphere is made of; all reflect all light.
+/// Material of a sphere; all reflect all light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Surface {
     Mirror,

@@ -1,11 +1,11 @@
-//! What captures, maps and relit pictures are called, by the folders that hold them.
+//! Names of captures, maps and relit pictures, from their folders.
 
 use std::fs;
 use std::path::Path;
 
 use super::error::ScoreError;
 
-/// What `relit.json` says rendered the pictures; nothing for the truth's own renderer.
+/// The renderer of the pictures, by `relit.json`; none for the truth's own renderer.
 pub(super) fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
     let path = relit.join("relit.json");
     if !path.exists() {
@@ -17,7 +17,7 @@ pub(super) fn renderer_of(relit: &Path) -> Result<Option<String>, ScoreError> {
     Ok(said["renderer"].as_str().map(str::to_owned))
 }
 
-/// What `solve.json` calls the solver, else the folder's name.
+/// The solver's name in `solve.json`, else the folder's name.
 pub(super) fn solver_name(maps: &Path) -> Result<String, ScoreError> {
     let path = maps.join("solve.json");
     if !path.exists() {

@@ -1,4 +1,4 @@
-//! What rendering noise alone does to a metric: two pictures of the same scene differ by the
+//! Effect of rendering noise alone on a metric: two pictures of the same scene differ by the
 //! Monte Carlo error of both.
 
 use formats::picture::Picture;

@@ -16,7 +16,7 @@ const INCOMPLETE: &str = "either all withheld frames of a light are given or non
 
 /// Writes the folder `out` of relit pictures of what `maps` has in `relit/<light>`: as they are, and for
 /// the scale `global` after one factor for all lights and frames, since there is no albedo to scale.
-/// Of a capture without a truth nothing of them can be judged, and none is taken.
+/// Nothing is taken with a capture without a truth, which cannot judge them.
 pub fn keep_own_relit(
     capture: &Path,
     maps: &Path,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What `relit.json` calls the renderer of pictures that a method relit itself.
+/// Renderer, in `relit.json`, of pictures that a method relit itself.
 pub(super) const OWN: &str = "own";
 
 /// How numbers were made; changes of meaning get another id.
@@ -10,7 +10,7 @@ pub(super) const OWN: &str = "own";
 pub struct Protocol {
     /// Its name.
     pub id: String,
-    /// What it fixes.
+    /// Its rules, in sentences.
     pub statements: Vec<String>,
 }
 
@@ -36,7 +36,7 @@ impl Protocol {
         Self { id, statements }
     }
 
-    /// The same for pictures that another renderer than the truth's relit.
+    /// This protocol for pictures that another renderer than the truth's relit.
     pub fn relit_by(mut self, renderer: Option<&str>) -> Self {
         if let Some(renderer @ "cycles") = renderer {
             self.id.push_str(&format!(" {renderer}"));

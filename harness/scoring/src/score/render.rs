@@ -8,7 +8,7 @@ use super::ScoreError;
 use super::truth::{check_size, size};
 use crate::metrics::black_outside;
 
-/// What the channel names of the parts begin with.
+/// Prefixes of the parts' channel names.
 const PARTS: [&str; 5] = ["", "diffuse.", "specular.", "variance.", "half."];
 
 /// A picture; layers and variance where the file has them.

@@ -8,7 +8,7 @@ use super::ScoreError;
 use super::scores::Row;
 use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample, block_side};
 
-/// What the rows of one comparison have in common.
+/// Fields that the rows of one comparison share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heading<'a> {
     pub subject: &'a str,

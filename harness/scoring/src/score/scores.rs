@@ -40,7 +40,7 @@ pub struct Scores {
     pub scale: Option<Scale>,
     /// How much of the truth each region is.
     pub regions: Vec<RegionSize>,
-    /// What is likely wrong with the maps; absent of sound ones.
+    /// Likely faults of the maps; absent of sound ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
     /// The numbers.
@@ -69,7 +69,7 @@ pub struct RegionSize {
     pub share: f64,
     /// Share of it for which the solver says that it had data; none if it does not say.
     pub solved: Option<f64>,
-    /// Of a region of texels: the side of a texel on the face, millimetres, in the mean.
+    /// Mean side of a texel on the face, millimetres; none for regions of pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texel_mm: Option<f64>,
 }
@@ -91,7 +91,7 @@ impl RegionSize {
 /// One number with its protocol.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// What is compared: `diffuse_albedo`, `view`, `relit`, ...
+    /// Subject: `diffuse_albedo`, `view`, `relit`, ...
     pub subject: String,
     /// Id of the metric.
     pub metric: String,

@@ -19,7 +19,7 @@ pub(super) const LABELS: [(u8, &str); 7] =
 /// The id of skin.
 pub(super) const SKIN: u8 = LABELS[0].0;
 
-/// What the truth says in texture space.
+/// True layers in texture space.
 pub(super) struct Truth {
     pub diffuse_albedo: Picture,
     pub specular_albedo: Picture,
@@ -93,7 +93,7 @@ pub(super) fn mean_alpha(map: &Picture) -> Picture {
     Picture { channels: 1, data, ..*map }
 }
 
-/// What a truth says of itself.
+/// Names and protocol that a truth states.
 pub(super) struct Identity {
     /// The face's name.
     pub face: String,

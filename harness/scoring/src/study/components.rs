@@ -1,4 +1,4 @@
-//! What a figure varies with: faces, lights, views, the renderer's seed, the solver's seed.
+//! Components of a figure's variance: faces, lights, views, the renderer's seed, the solver's seed.
 
 use std::collections::BTreeMap;
 
@@ -16,17 +16,17 @@ pub struct Components {
     /// Which scores.
     #[serde(flatten)]
     pub figure: Figure,
-    /// Of which method.
+    /// The method.
     pub method: String,
-    /// Of the means of the faces.
+    /// Standard deviation of the means of the faces.
     pub faces: Option<f64>,
-    /// Of the lights of a face.
+    /// Standard deviation between the lights of a face.
     pub lights: Option<f64>,
-    /// Of the views of a picture's score.
+    /// Standard deviation between the views of a picture's score.
     pub views: Option<f64>,
-    /// Of captures that differ in the renderer's seed alone.
+    /// Standard deviation between captures that differ in the renderer's seed alone.
     pub render_seeds: Option<f64>,
-    /// Of solves that differ in the solver's seed alone.
+    /// Standard deviation between solves that differ in the solver's seed alone.
     pub solver_seeds: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What keeps a study from being made.
+//! Reasons why a study cannot be made.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub enum StudyError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
     /// A file is not what it should be.
@@ -23,7 +23,7 @@ pub enum StudyError {
     Text {
         /// The file.
         path: PathBuf,
-        /// What the parser said, on one line.
+        /// The parser's error, on one line.
         reason: String,
     },
     /// No run has a score.

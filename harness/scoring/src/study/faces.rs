@@ -33,7 +33,7 @@ impl Face {
     }
 }
 
-/// Of nothing NaN.
+/// Mean of the values; NaN of none.
 pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (sum, count) =
         values.into_iter().fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));

@@ -28,7 +28,7 @@ pub struct Fairness {
     /// Which scores.
     #[serde(flatten)]
     pub figure: Figure,
-    /// Of which method.
+    /// The method.
     pub method: String,
     /// From light to dark.
     pub groups: Vec<Group>,

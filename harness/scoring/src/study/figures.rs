@@ -1,4 +1,4 @@
-//! What a study compares: scores of one kind, over the lights that a face was relit in.
+//! Figures of a study: scores of one kind, over the lights that a face was relit in.
 
 use std::collections::BTreeSet;
 
@@ -11,9 +11,9 @@ use crate::metrics::{Direction, Metric};
 /// A kind of score, of one variant of the scene.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Figure {
-    /// What was changed of the scene; none of a suite without variants.
+    /// Name of the scene's variant; none of a suite without variants.
     pub variant: Option<String>,
-    /// What is compared.
+    /// Subject of the scores.
     pub subject: String,
     /// `own` or `others`, of pictures that maps were relit to.
     pub relit_in: Option<&'static str>,
@@ -93,7 +93,7 @@ impl Figure {
     }
 }
 
-/// What identifies a cell below a method: face, light of the capture, light that it is relit in,
+/// Key of a cell below a method: face, light of the capture, light that it is relit in,
 /// seeds. Two methods are compared where both have it.
 pub(super) type Place = (String, String, Option<String>, Option<u64>);
 

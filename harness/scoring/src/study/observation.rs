@@ -22,7 +22,7 @@ pub struct Observation {
     pub skin_tone: Option<f64>,
     /// The light of the capture.
     pub light: String,
-    /// What was changed of the scene; none in a suite without variants.
+    /// Name of the scene's variant; none in a suite without variants.
     pub variant: Option<String>,
     /// The renderer's seed, of a suite that has several.
     pub seed: Option<u64>,
@@ -30,9 +30,9 @@ pub struct Observation {
     pub method: String,
     /// The solver's seed, of a method that has several.
     pub method_seed: Option<u64>,
-    /// What the method is: `solver`, `baseline`, `privileged` or `oracle`.
+    /// Role of the method: `solver`, `baseline`, `privileged` or `oracle`.
     pub kind: String,
-    /// What it is given: `passive`, `controlled` or `privileged`.
+    /// Class of its inputs: `passive`, `controlled` or `privileged`.
     pub class: String,
     /// The score.
     pub row: Row,
@@ -62,7 +62,7 @@ struct Method {
     kind: String,
     #[serde(default = "passive")]
     class: String,
-    /// Of a method with several seeds: the method, and the seed.
+    /// Method that this is one seed of; none of a method without several seeds.
     of: Option<String>,
     seed: Option<u64>,
     /// None of a method that failed.

@@ -24,7 +24,7 @@ pub struct Study {
     pub summaries: Vec<Summary>,
     /// Every two methods that compete, in the figures that decide.
     pub comparisons: Vec<Comparison>,
-    /// What the figures that decide vary with.
+    /// Components of variance of the figures that decide.
     pub components: Vec<Components>,
     /// The figures that decide by group of skin tone.
     pub fairness: Vec<Fairness>,
@@ -36,7 +36,7 @@ pub struct Summary {
     /// Which scores.
     #[serde(flatten)]
     pub figure: Figure,
-    /// Of which method.
+    /// The method.
     pub method: String,
     /// `solver`, `baseline`, `privileged`, `oracle`.
     pub kind: String,
@@ -52,13 +52,13 @@ pub struct Summary {
     pub spread: Option<f64>,
     /// The face with the worst mean, and that.
     pub worst: (String, f64),
-    /// Of a PSNR: that of the mean squared error over all faces.
+    /// PSNR of the mean squared error over all faces; none of other metrics.
     pub pooled: Option<f64>,
     /// Its 95 % interval, of four faces or more.
     pub pooled_ci95: Option<[f64; 2]>,
 }
 
-/// What a paired comparison says.
+/// Verdict of a paired comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -78,7 +78,7 @@ pub struct Comparison {
     pub figure: Figure,
     /// The first method.
     pub method: String,
-    /// What it is held against.
+    /// The second method.
     pub against: String,
     /// Faces that both have.
     pub faces: usize,
@@ -115,7 +115,7 @@ fn grouped(observations: &[Observation]) -> BTreeMap<Figure, Scores<'_>> {
 }
 
 impl Study {
-    /// Of observations, each once.
+    /// Statistics of observations, each once.
     pub fn of(observations: &[Observation]) -> Self {
         let groups = grouped(observations);
         let mut study = Self {

@@ -64,7 +64,7 @@ pub fn write_rgb(path: &Path, picture: &Picture) {
     write_exr(path, picture, &["R", "G", "B"]).unwrap();
 }
 
-/// What a camera sees: values of a texture on the plane, black beside it.
+/// A camera's picture: values of a texture on the plane, black beside it.
 fn view(camera: [f64; 2], texture: impl Fn(f64, f64) -> [f64; 3]) -> Picture {
     let mut picture = Picture::new(SIDE, SIDE, 3);
     for y in 0..SIDE {

@@ -1,9 +1,9 @@
-//! What a program may touch: the kernel's Landlock, where it is there, refuses everything else.
+//! Permissions of a program: the kernel's Landlock, where it is there, refuses everything else.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What every program needs of a system, to read.
+/// Paths of the system that every program needs to read.
 const SYSTEM: [&str; 12] = [
     "/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc", "/opt", "/nix", "/proc", "/sys",
     "/run",
@@ -11,7 +11,7 @@ const SYSTEM: [&str; 12] = [
 /// Devices, and the memory that processes share.
 const DEVICES: &str = "/dev";
 
-/// What a program may do.
+/// Permissions of a program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Permissions {
     /// Files and folders it may read beside the system's.
@@ -20,7 +20,7 @@ pub(super) struct Permissions {
     pub list: Vec<PathBuf>,
     /// Folders it may write.
     pub write: Vec<PathBuf>,
-    /// What it must not read, even inside what it may.
+    /// Paths that it must not read, even inside those it may.
     pub secret: Vec<PathBuf>,
 }
 

@@ -1,4 +1,4 @@
-//! What a program is made of: found before anything is rendered, and part of its result's key.
+//! Files of a program: found before anything is rendered, and part of its result's key.
 
 use std::fs::File;
 use std::io::Read;
@@ -159,7 +159,7 @@ impl Program {
 }
 
 impl ProgramFiles {
-    /// What the program may read of the user's files, without `inputs`.
+    /// Files of the user that the program may read, without `inputs`.
     pub(super) fn readable(&self) -> impl Iterator<Item = &PathBuf> {
         self.own.iter().chain(&self.interpreter).chain([&self.executable])
     }
@@ -182,7 +182,7 @@ impl ProgramFiles {
         Ok(hash_parts(&parts.iter().map(String::as_str).collect::<Vec<_>>()))
     }
 
-    /// What a report says of it: `mine.py and 3 more files, version "2"`.
+    /// Text of a report: `mine.py and 3 more files, version "2"`.
     pub fn in_words(&self, program: &Program) -> String {
         let name =
             |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -47,7 +47,7 @@ pub(super) struct Place<'a> {
     pub log: &'a Path,
     /// Lat-long pictures of the lights to relight in, for methods of pictures.
     pub lights: Option<&'a Path>,
-    /// What it must not see: the run, and the files of the truth.
+    /// Paths that it must not see: the run, and the files of the truth.
     pub secret: Vec<PathBuf>,
     /// The run's [`scratch_prefix`].
     pub scratch: &'a str,
@@ -143,7 +143,7 @@ impl Program {
             None if self.gives == Gives::Maps => check(&maps).map_err(failed),
             None => Ok(()),
         };
-        // Of what was copied, in which no link leads to what the program itself could not read.
+        // Pictures come from the copy, in which no link leads to files that the program could not read.
         let kept = left.and_then(|()| Ok(copy_below(&maps, output.path())?)).and_then(|()| {
             let (size, scratch) = (self.texture_size, scratch.path());
             match self.gives {
@@ -190,7 +190,7 @@ impl Program {
         Ok(command)
     }
 
-    /// What a failed program said last, and where the rest stands.
+    /// The last words of a failed program, and the place of the rest.
     fn last_words(&self, log: &Path, usage: &Usage) -> String {
         let text = fs::read(log).unwrap_or_default();
         let text = String::from_utf8_lossy(&text[text.len().saturating_sub(4096)..]).into_owned();

@@ -23,7 +23,7 @@ const RELIT: &str = "relit";
 /// Withheld views in the capture's light.
 const VIEWS: &str = "views";
 
-/// What a program leaves behind.
+/// Outputs of a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Gives {

@@ -1,4 +1,4 @@
-//! What a suite says of a program.
+//! A suite's settings for a program.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -18,19 +18,19 @@ pub enum Start {
 /// A `[[method]]` that names a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// What it leaves.
+    /// Its outputs.
     pub gives: Gives,
     /// Side of the maps that its pictures become, texels.
     pub texture_size: usize,
-    /// What is started.
+    /// The command or function that is started.
     pub start: Start,
     /// Where it is started, and what relative paths start from: the suite's folder.
     pub folder: PathBuf,
-    /// What it may take.
+    /// Limits of time, memory and processors.
     pub limits: Limits,
     /// Variables of its environment, replacing those of unshade's own.
     pub environment: BTreeMap<String, String>,
-    /// What the user calls this state of it.
+    /// The user's name for this state of it.
     pub version: Option<String>,
     /// Files and folders that it reads, beside its own.
     pub inputs: Vec<PathBuf>,

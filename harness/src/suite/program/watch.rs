@@ -18,7 +18,7 @@ const LOOK: Duration = Duration::from_millis(25);
 const LARGEST_LOG: u64 = 256 << 20;
 const GIB: f64 = (1u64 << 30) as f64;
 
-/// What a program may take; nothing said is no limit.
+/// Limits of a program; none where nothing is stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Wall time, seconds.
@@ -29,7 +29,7 @@ pub struct Limits {
     pub threads: Option<usize>,
 }
 
-/// What a program took.
+/// Time and memory that a program took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Usage {
     /// Wall time, seconds.

@@ -23,9 +23,9 @@ const LEAST: f64 = 0.002;
 pub(super) struct Comparison {
     /// Covered by the mesh, whichever side it shows.
     pub mesh: usize,
-    /// Of the mask.
+    /// Number of pixels in the mask.
     pub mask: usize,
-    /// Of both.
+    /// Number of pixels in both.
     pub both: usize,
     /// Whether the mask is the whole picture: then only that the mesh is seen can be told.
     pub unmasked: bool,

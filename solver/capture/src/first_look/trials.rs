@@ -11,12 +11,12 @@ const MOST_VIEWS: usize = 5;
 const MOST_TRIANGLES: usize = 400_000;
 /// Rounds in which a factor of the focal lengths is fitted.
 const ROUNDS: usize = 6;
-/// What sensors measure, millimetres: full frame, APS-C (two), Micro Four Thirds.
+/// Widths of sensors, millimetres: full frame, APS-C (two), Micro Four Thirds.
 const SENSORS: [f64; 4] = [36.0, 23.6, 22.3, 17.3];
 
 /// A change, and how well the mesh fits with it.
 pub(super) struct Trial {
-    /// What to do.
+    /// The change to make, in words.
     pub mend: String,
     /// Median intersection over union of silhouettes and masks.
     pub union: f64,

@@ -1,4 +1,4 @@
-//! What a camera sees of the mesh, one sample per covered pixel; and the same in texture space.
+//! The G-buffer: the mesh as a camera sees it, one sample per covered pixel, and in texture space.
 
 mod atlas;
 mod raster;

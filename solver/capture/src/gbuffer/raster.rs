@@ -28,7 +28,7 @@ pub struct Hit {
     pub depth: f32,
 }
 
-/// What rasterisation finds, row 0 on top.
+/// The nearest surface at every pixel, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
     /// Columns.
@@ -94,7 +94,7 @@ struct Facet {
     front: bool,
     /// Edge functions: linear in (column, row, 1), not negative inside.
     edges: [DVec3; 3],
-    /// What turns edge functions into barycentric coordinates over depth.
+    /// Factor from edge functions to barycentric coordinates over depth.
     scale: f64,
     /// First and last column and row with a pixel's centre in the box.
     columns: (usize, usize),

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What keeps a folder from being written; each message is one line.
+/// Reasons why a folder cannot be written; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// The target holds something that unshade did not write.
@@ -57,7 +57,7 @@ pub enum FolderError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The operating system's error.
         reason: io::Error,
     },
 }

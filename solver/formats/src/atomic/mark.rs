@@ -17,7 +17,7 @@ const STARTED: &str = "unshade folder 1: under construction";
 /// The mark of a folder that only ever grows, such as a run's.
 const GROWING: &str = "unshade folder 1: a run\n";
 
-/// What a folder is to us.
+/// Ownership of a folder, as its mark tells it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Owner {
     /// There is no such folder.

@@ -1,11 +1,11 @@
-//! What cannot be read.
+//! Faults of an OBJ file.
 
-/// What cannot be read, and where.
+/// A fault of an OBJ file, with its line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {reason}")]
 pub struct ObjError {
     /// Line of the file, from 1.
     pub line: usize,
-    /// What is wrong, and the mend.
+    /// The fault and its mend.
     pub reason: String,
 }

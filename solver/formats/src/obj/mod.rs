@@ -14,7 +14,7 @@ pub use error::ObjError;
 use polygon::Place;
 use text::{Lines, Values};
 
-/// What an unnamed object is called.
+/// Name of an object without one.
 const UNNAMED: &str = "geometry";
 /// No index: the corner has no texture coordinate or no normal.
 const NONE: u32 = u32::MAX;
@@ -23,7 +23,7 @@ const NONE: u32 = u32::MAX;
 /// where texture coordinates or normals are, in the order of their first use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// What follows `o`; "geometry" without one.
+    /// Text after `o`; "geometry" without one.
     pub name: String,
     /// One per vertex; as the file has them, so perhaps not finite.
     pub positions: Vec<[f64; 3]>,

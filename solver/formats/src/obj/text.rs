@@ -6,7 +6,7 @@ use super::error::ObjError;
 
 /// A line of the file, with those that continue it.
 pub(super) struct Line<'a> {
-    /// Of its first line, from 1.
+    /// Number of its first line in the file, from 1.
     pub number: usize,
     pub text: Cow<'a, [u8]>,
 }

@@ -1,8 +1,8 @@
-//! What can be wrong with a picture file.
+//! Faults of picture files.
 
 use std::path::PathBuf;
 
-/// What can be wrong with a picture file.
+/// Faults of picture files.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The file cannot be read or is not of its kind.
@@ -10,7 +10,7 @@ pub enum PictureError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The decoder's error.
         reason: String,
     },
     /// The file cannot be written.
@@ -18,7 +18,7 @@ pub enum PictureError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The encoder's error.
         reason: String,
     },
     /// A named channel is absent.
@@ -36,7 +36,7 @@ pub enum PictureError {
     Refused {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and the mend.
+        /// The fault and its mend.
         reason: String,
     },
     /// A value is NaN or infinite.

@@ -1,4 +1,4 @@
-//! What a DWA block says of its own size, checked before the decoder takes memory for it.
+//! Sizes that a DWA block states, checked before the decoder takes memory for them.
 
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::meta::BlockDescription;
@@ -10,7 +10,7 @@ const LINES: usize = 256;
 /// Counters of a block's leader that say how much comes out of its sections: channels as they
 /// are, run lengths packed and unpacked, AC and DC coefficients.
 const SIZES: [usize; 5] = [1, 6, 7, 8, 9];
-/// What a section may hold of what the block can; run lengths may double a section.
+/// Largest size of a section over that of its block; run lengths may double a section.
 const FACTOR: u64 = 4;
 const FREE_BYTES: u64 = 4096;
 

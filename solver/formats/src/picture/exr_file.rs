@@ -22,7 +22,7 @@ const VARIANCE: &str = "variance.";
 /// Blocks that are decompressed at a time, so that few are in memory.
 const BATCH: usize = 64;
 
-/// What the numbers of a picture are.
+/// Meaning of a picture's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Radiance or albedo: linear Rec.709 once read, whatever primaries the file states.
@@ -238,7 +238,7 @@ fn is_colour(layer: &str) -> bool {
     layer.is_empty() || layer.ends_with('.') && layer != VARIANCE
 }
 
-/// What the decoder said, with the mend where a kind of file is not read.
+/// The decoder's error, with the mend where a kind of file is not read.
 fn explained(error: exr::error::Error) -> String {
     let said = error.to_string().replace(char::is_control, " ");
     let mend = if said.contains("deep data") {

@@ -7,7 +7,7 @@ use crate::picture::Content;
 
 const RGB: [&str; 3] = ["R", "G", "B"];
 
-/// What a given picture shows.
+/// Content of a picture that is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Given {
     /// Linear Rec.709 in an EXR, sRGB codes in a PNG.

@@ -1,4 +1,4 @@
-//! What a file is by its first bytes, whatever its name says.
+//! Kind of a file by its first bytes, whatever its name says.
 
 use std::fs::File;
 use std::io::Read;

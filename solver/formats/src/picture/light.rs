@@ -35,7 +35,7 @@ pub fn read_light(path: &Path) -> Result<Picture, PictureError> {
     Ok(picture)
 }
 
-/// What a picture of these sides is likely to be.
+/// Likely layout of an environment picture with these sides.
 fn layout(width: usize, height: usize) -> &'static str {
     let is = |across: usize, down: usize| width * down == height * across;
     if is(1, 1) {

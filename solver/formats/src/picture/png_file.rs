@@ -17,7 +17,7 @@ pub struct Png {
     pub channels: usize,
     /// Bits of a sample: 1, 2, 4, 8 or 16.
     pub bits: u8,
-    /// What the samples are.
+    /// Colour type of the samples: grey, RGB, with or without alpha.
     pub colour: ColorType,
     /// `height * width * channels` samples, row 0 on top.
     pub samples: Vec<u16>,

@@ -12,9 +12,9 @@ use super::{Picture, PictureError, limits};
 /// Header lines beyond which a file is no picture.
 const MOST_LINES: usize = 4096;
 
-/// What a header says.
+/// Header of a Radiance file.
 struct Header {
-    /// What the values were multiplied with, per channel.
+    /// Factors per channel that the values were multiplied with.
     factors: [f32; 3],
     space: Option<Chromaticities>,
     /// The two axes of the resolution line, slow one first.

@@ -16,13 +16,13 @@ const PACE: usize = 3 * LINE;
 pub struct Ahead<'a> {
     planes: [&'a [Row]; PLANES],
     plane: usize,
-    /// Of the rows at hand: what is next, and how often may be asked yet.
+    /// The next row to ask for and the requests left, for each of the rows at hand.
     next: *const f32,
     left: usize,
 }
 
 impl<'a> Ahead<'a> {
-    /// Of a block, if there is one.
+    /// The rows of a block, if there is one.
     pub fn new(planes: &[&'a Planes], block: usize) -> Self {
         let mut rows = [[].as_slice(); PLANES];
         for (rows, planes) in rows.iter_mut().zip(planes).filter(|(_, p)| block < p.blocks()) {

@@ -99,7 +99,7 @@ fn joint_body<S: Lanes, const C: usize>(
     loss
 }
 
-/// The same of a chunk of samples with the albedos of a texture, and gradients by its texels.
+/// Loss of a strip's samples with the albedos of a texture; gradients go to the strip's texels.
 #[inline(always)]
 fn joint_textured_body<S: Lanes, const C: usize>(
     inputs: &Inputs,
@@ -174,7 +174,7 @@ fn direction_gradient_body<S: Lanes, const C: usize>(
     loss
 }
 
-/// The same of the samples of a strip, from textures, and by them.
+/// Loss of a strip's samples with directions from textures; gradients go to the strip's texels.
 #[inline(always)]
 fn textured_body<S: Lanes, const C: usize>(
     packed: &[Packed; 3],

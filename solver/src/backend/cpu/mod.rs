@@ -4,7 +4,7 @@
 //! block by block, and over the chunks in their order in f64, so that the number of threads has no
 //! influence.
 //!
-//! What passes between memory and a sample per iteration, in bytes; everything else lives in about
+//! Traffic between memory and a sample per iteration, in bytes; everything else lives in about
 //! 250 KiB of scratch per thread:
 //!
 //! | pass | read | written |

@@ -25,7 +25,7 @@ struct PackedLayer {
     /// Tile by tile, input by input: weights to the tile's outputs.
     forward: Vec<[f32; TILE]>,
     bias: Vec<[f32; TILE]>,
-    /// The same of the transposed matrix; nothing in the first layer.
+    /// Tiles of the transposed matrix, as in `forward`; empty in the first layer.
     backward: Vec<[f32; TILE]>,
 }
 
@@ -175,7 +175,7 @@ impl<const C: usize, const THEN: u8, const R: usize> Task for Product<'_, '_, C,
             while at < BLOCK {
                 ahead.ask();
                 let mut sums = [[S::splat(0.0); C]; R];
-                // Of what is gated, the last products are masked.
+                // The last products of gated inputs are masked, so they are left to the end.
                 let open = if THEN == GATED { input.len() - 1 } else { input.len() };
                 for (weights, row) in weights.iter().zip(&input[..open]) {
                     let mut x = [S::splat(0.0); C];

@@ -63,7 +63,7 @@ pub fn dot<S: Lanes>(a: &[Row], b: &[Row], out: &mut Row) {
 /// A kernel's shading = sum of light x softplus(z) over rows; z becomes its gradient by z.
 #[inline(always)]
 pub fn kernel<S: Lanes>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
-    // Of wide vectors there are registers for more.
+    // AVX-512 has registers for more rows at once.
     if S::WIDTH == 16 {
         kernel_in_turns::<S, 8>(light, kernel, shading);
     } else {

@@ -5,7 +5,7 @@ use crate::backend::error::{BackendError, VARIABLE};
 /// A graphics adapter that wgpu sees.
 #[derive(Clone, Debug)]
 pub struct Adapter {
-    /// Its name.
+    /// Name of the device, as its driver states it.
     pub name: String,
     /// Vulkan, Metal or DirectX 12.
     pub api: String,

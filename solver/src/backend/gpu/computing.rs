@@ -44,8 +44,8 @@ impl Gpu {
         self
     }
 
-    /// What every pass takes that `work` submits, each of them apart, which costs time; nothing if the
-    /// adapter has no clock.
+    /// Result of `work` and the time of every pass that it submits, each apart, which
+    /// costs time. No times if the adapter has no clock.
     pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
         if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             *locked(&self.device.timings) = Some(Timings::new());

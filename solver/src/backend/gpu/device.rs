@@ -158,7 +158,7 @@ impl Device {
         polled.map(drop).map_err(|error| DeviceError(one_line(&error.to_string())))
     }
 
-    /// What is in these buffers after all that was submitted.
+    /// Contents of these buffers after all that was submitted.
     pub fn read<T: bytemuck::Pod>(
         &self,
         buffers: &[&wgpu::Buffer],

@@ -32,7 +32,7 @@ pub(super) struct Joint {
     partial: wgpu::Buffer,
     /// Partial sums, as many as there are workgroups.
     pub losses: wgpu::Buffer,
-    /// Of every piece.
+    /// Workgroups of each piece.
     pub groups: Vec<usize>,
     layered: bool,
 }

@@ -40,7 +40,7 @@ impl Layout {
             let mut block = 0;
             for layer in 0..networks.layers() {
                 let (inputs, outputs) = (shape[layer], shape[layer + 1]);
-                // Of a weight's block, its column, and within that its element.
+                // A weight's place: its block, the column in that, the element in the column.
                 let at = |output: usize, input: usize| {
                     let block = block + output / 4 * inputs.div_ceil(4) + input / 4;
                     (4 * (base + 4 * block + input % 4) + output % 4) as u32
@@ -81,7 +81,7 @@ impl Layout {
         [32 * blocks - 8 * first, 32 * (blocks - first)]
     }
 
-    /// Of a network.
+    /// Number of outputs of a network.
     pub fn outputs(&self) -> usize {
         4 * self.outputs
     }

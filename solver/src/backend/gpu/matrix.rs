@@ -12,7 +12,7 @@ pub(super) struct Matrix {
     pub rows: usize,
     cells: usize,
     weights: wgpu::Buffer,
-    /// What they gain as the sky comes nearer.
+    /// Change of the weights with the nearness of the sky.
     gain: Option<wgpu::Buffer>,
 }
 
@@ -56,7 +56,8 @@ impl Matrix {
         self.rows.div_ceil(CHUNK)
     }
 
-    /// Of every chunk of rows the gradient by the light, by those of the rows; from chunk `first` on.
+    /// Partial gradients by the light, one per chunk of rows, from those by the rows; the first
+    /// lies at `first`.
     fn adjoint(
         &self,
         device: &Device,
@@ -99,16 +100,16 @@ pub(super) fn by_light(
 pub(super) struct Shading {
     pub matrix: Matrix,
     texels: usize,
-    /// Of every texel, its row; and of every row, its texels.
+    /// Row of each texel; `start` and `texel` are the texels of each row.
     row: wgpu::Buffer,
     start: wgpu::Buffer,
     texel: wgpu::Buffer,
     pub light: wgpu::Buffer,
     shading: wgpu::Buffer,
-    /// What the shading gains, then what `grey.wgsl` finds.
+    /// Gains of the shading, then the result of `grey.wgsl`.
     gains: wgpu::Buffer,
     pub by_row: wgpu::Buffer,
-    /// Of `rows.wgsl`.
+    /// Partial sums of `rows.wgsl`.
     pub partial: wgpu::Buffer,
 }
 

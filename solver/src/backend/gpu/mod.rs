@@ -10,7 +10,7 @@
 //!
 //! Samples come in pieces that fit the bindings: of 128 MiB, which every adapter has, or up to 512 MiB.
 //!
-//! What a sample and step costs, with the published networks. Everything but the networks is bound by
+//! Costs of a sample and step with the published networks. Everything but the networks is bound by
 //! memory wherever a byte costs more than a dozen operations.
 //!
 //! | stage | operations | bytes: sampling / directions / networks or albedo / gather | texel and step |

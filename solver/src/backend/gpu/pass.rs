@@ -31,7 +31,7 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    /// Of `workgroups` workgroups, whatever their number.
+    /// A pass of `workgroups` workgroups, whatever their number.
     pub fn new(
         device: &Device,
         kernel: &Arc<Kernel>,

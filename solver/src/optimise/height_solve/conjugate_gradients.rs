@@ -78,7 +78,7 @@ impl HeightSolve<'_> {
         Ok(())
     }
 
-    /// The same steps on a device. If there is none or it fails, the unknowns are as they were, and the error
+    /// These steps on a device. If there is none or it fails, the unknowns are as they were, and the error
     /// is the number of steps that `step` has heard of.
     fn on_device(
         &self,

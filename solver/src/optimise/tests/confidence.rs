@@ -1,4 +1,4 @@
-//! What trust in a texel depends on.
+//! Dependence of a texel's confidence on its observations.
 
 use super::*;
 use crate::config::TransportConfig;

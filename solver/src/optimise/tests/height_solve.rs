@@ -13,7 +13,7 @@ const SIDE: usize = 64;
 const TEXELS: usize = SIDE * SIDE;
 const LINEARISATIONS: usize = 3;
 
-/// What is wrong with the pictures.
+/// Faults of the pictures.
 #[derive(Clone, Copy)]
 enum Fault {
     None,

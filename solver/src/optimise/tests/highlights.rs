@@ -7,7 +7,7 @@ use crate::optimise::highlights::{Found, Highlights};
 use crate::transport::skin::schlick;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
-/// Of skin at normal incidence.
+/// Specular reflectance of skin at normal incidence.
 const SPECULAR: f32 = 0.04;
 
 #[test]

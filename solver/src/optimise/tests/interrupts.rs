@@ -26,7 +26,7 @@ fn short() -> Config {
     config
 }
 
-/// What the checkpoint's owner is called here.
+/// Name of the checkpoint's owner in these tests.
 const PROGRAM: &str = "tests";
 
 /// All files below a folder with their bytes, without wall times.

@@ -206,7 +206,7 @@ fn a_known_scene_is_recovered_and_its_withheld_view_predicted() {
     assert_eq!(solution.views[0].name, withheld.camera.name);
 }
 
-/// The same bytes for any number of threads, without `truth`, and nothing else in the folder.
+/// Bytes are equal for any number of threads, without `truth`, and nothing else is in the folder.
 #[test]
 fn solutions_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();

@@ -12,7 +12,7 @@ use super::*;
 use crate::backend::cpu::Level;
 use crate::optimise::stage::Stage;
 
-/// Of every loss, relative. PyTorch's own single and double precision differ by a tenth of it.
+/// Relative tolerance of every loss. PyTorch's single and double precision differ by a tenth of it.
 const TOLERANCE: f64 = 1e-5;
 /// Steps have a length of 1e-3, which Adam makes of the faintest gradients, too. One parameter in
 /// a hundred may have such a one, whose sign is rounding; the others must stay together.
@@ -189,7 +189,7 @@ fn every_stage_has_the_losses_and_the_results_of_pytorch() {
     }
 }
 
-/// What the comparison is worth: it finds every one of these faults.
+/// Power of the comparison: it finds every one of these faults.
 #[test]
 fn the_record_finds_small_faults() {
     type Fault = fn(&mut Config);

@@ -6,7 +6,7 @@ use crate::optimise::recolour::recolour;
 use crate::optimise::transported::Transported;
 use crate::transport::{Beside, CHANNELS, Sky, Transport};
 
-/// Of the sky in the gradient test, in the unit of its gain.
+/// Nearness of the sky in the gradient test, in the unit of its gain.
 const NEARNESS: f32 = 0.4;
 
 #[test]

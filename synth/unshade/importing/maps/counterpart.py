@@ -18,8 +18,8 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Counterparts:
-    """Of the M texels of the capture's chart: ``found`` (M,) whether one lies within the limit and faces the same way,
-    ``triangle`` (M,) and ``weights`` (M,3) of it, ``distance`` (M,) metres."""
+    """Points of the other mesh for the M texels of the capture's chart: ``found`` (M,) whether one lies within the
+    limit and faces the same way, its ``triangle`` (M,) and ``weights`` (M,3), ``distance`` (M,) metres."""
 
     texels: Texels
     found: NDArray[np.bool_]

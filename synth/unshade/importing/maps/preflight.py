@@ -1,4 +1,4 @@
-"""What a statement leaves open is tried, and what it says is doubted: which encoding makes plausible maps of a face.
+"""Trials of what a statement leaves open, and doubts of what it says: which encoding makes plausible maps of a face.
 
 The witnesses are the capture's: its photographs, projected into the chart, for the albedo's pattern and curve; its
 mesh for normals; skin's ranges for highlights. A relief has no curl, which tells green up from green down.

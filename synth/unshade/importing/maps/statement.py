@@ -1,4 +1,4 @@
-"""What is stated of another method's maps: files, encodings, layout. An adapter is a statement that is kept."""
+"""The statement on another method's maps: files, encodings, layout. An adapter is a statement that is kept."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ pub trait Lanes: Copy {
     fn load(row: &Row, at: usize) -> Self;
     /// Writes lanes `at..at + WIDTH` of a row.
     fn store(self, row: &mut Row, at: usize);
-    /// Of each of four vectors, the sum of its lanes.
+    /// Sum of the lanes of each of four vectors.
     fn sums(four: [Self; 4]) -> [f32; 4];
     /// self + b.
     fn add(self, b: Self) -> Self;

@@ -1,7 +1,7 @@
 // Samples per block of planes; see model/planes.rs.
 const BLOCK: u32 = 256u;
 
-// Of a sample's value in planes of `rows` rows.
+// Index of a sample's value in planes of `rows` rows.
 fn place(sample: u32, row: u32, rows: u32) -> u32 {
     return ((sample / BLOCK) * rows + row) * BLOCK + sample % BLOCK;
 }

@@ -1,4 +1,4 @@
-// What lies between the deviation texture and its blurs, value by value; see model/deviation.rs.
+// The steps between the deviation texture and its blurs, value by value; see model/deviation.rs.
 // WHAT: 0 the deviation d of what its band is made of, 1 the gradient by that, 2 the difference of the two
 // blurs' adjoints. RANGED: 0 if d is the texture itself, else d = range x tanh. BAND: 0 if no second blur
 // is subtracted.

@@ -2,7 +2,7 @@
 // runs, in their order. LANES threads share a texel; CHANNELS rows become the texel's channels.
 
 struct Parameters {
-    // Of the texture.
+    // Side of the texture, texels.
     size: u32,
     // Texels of this dispatch.
     first_texel: u32,
@@ -53,7 +53,7 @@ fn main(
     for (var half = 0u; half < 2u; half++) {
         if here && y + half >= 1u {
             let own = (y + half - 1u) * size + x;
-            // Of the cell to the left, where the texel is the right one; its own; and the next.
+            // Samples of the cell to the left, where the texel is the right one, then those of its own cell.
             let middle = begin(own);
             let end = begin(own + 1u);
             for (var i = begin(select(own, own - 1u, x > 0u)) + lane; i < end; i += LANES) {

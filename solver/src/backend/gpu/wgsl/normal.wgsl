@@ -1,5 +1,5 @@
-// What the unknowns explain of a sample's colour, weighted and carried back to the unknowns, in their
-// place: the product with the normal equations' matrix, of one sample. See optimise/height_solve.rs.
+// Product of one sample's unknowns with the normal equations' matrix, in place: the colour that they explain,
+// weighted and carried back to the unknowns. See optimise/height_solve.rs.
 
 struct Parameters {
     samples: u32,

@@ -14,10 +14,10 @@ struct Parameters {
 @group(0) @binding(3) var<storage, read> by_layer: array<f32>;
 @group(0) @binding(4) var<storage, read> diffuse: array<f32>;
 @group(0) @binding(5) var<storage, read> shading: array<f32>;
-// What the shading gains, then what grey.wgsl found.
+// Gains of the shading, then the result of grey.wgsl.
 @group(0) @binding(6) var<storage, read> gains: array<f32>;
 @group(0) @binding(7) var<storage, read_write> by_row: array<f32>;
-// Of every workgroup: the penalties, then of every workgroup the gradient by the nearness.
+// The penalty of every workgroup, then the gradient by the nearness of every workgroup.
 @group(0) @binding(8) var<storage, read_write> partial_sums: array<f32>;
 
 var<workgroup> sums: array<vec2<f32>, 256>;

@@ -8,7 +8,7 @@ struct Parameters {
     f0: f32,
     grazing: f32,
     opposite: f32,
-    // Of two lobes: roughness, weight.
+    // Roughness and weight of two lobes.
     rough_a: f32,
     weight_a: f32,
     rough_b: f32,
@@ -19,7 +19,7 @@ struct Parameters {
 // In blocks of 16 cells seven rows: direction from the sky's centre, R, G, B, luminance.
 @group(0) @binding(1) var<storage, read> lit: array<f32>;
 @group(0) @binding(2) var<storage, read> open: array<f32>;
-// Of every sample; and of every row, its place.
+// Row of every sample; and place of every row.
 @group(0) @binding(3) var<storage, read> row: array<u32>;
 @group(0) @binding(4) var<storage, read> places: array<f32>;
 // Rows: normal, view.

@@ -1,7 +1,7 @@
 // The workgroups' partial sums of `joint`, added in a fixed order: one workgroup a vec4 of the networks.
 
 struct Parameters {
-    // Of `joint`.
+    // Workgroups of `joint`.
     groups: u32,
 }
 
@@ -32,7 +32,7 @@ fn main(
     var block = within / 4u;
     var column = within % 4u;
     if within >= BIASES {
-        // Of the first block of its row of blocks.
+        // A bias lies with the first block of its row of blocks.
         block = W + (within - BIASES) * W;
         column = 4u;
     }
