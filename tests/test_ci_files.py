@@ -50,8 +50,9 @@ def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     changed = package.Maps.read(maps)
     changed.diffuse_albedo = changed.diffuse_albedo * 0.97
     changed.write(maps)
-    # The method's own views are no part of what is read and written.
+    # The method's own views and its light are no part of what is read and written.
     shutil.copytree(tiny_run / "maps" / CASE / "quick" / "views", maps / "views")
+    shutil.copy(tiny_run / "maps" / CASE / "quick" / "light.exr", maps)
     unshade("relight", capture, maps, "-o", relit)
     unshade("score", capture, maps, "--relit", relit, "-o", run / "scores" / CASE / "quick.json")
     return run

@@ -24,8 +24,8 @@ def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: 
     assert command("synth", "portrait", "--describe").stdout.startswith("scene portrait\n")
     failed = command("run", "portrait", "-o", "run", check=False)
     assert failed.returncode == 2 and not Path("run").exists()
-    assert failed.stderr.count("\n") == 1 and "there are degraded, demo, emily" in failed.stderr
-    with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are demo"):
+    assert failed.stderr.count("\n") == 1 and " ci, degraded, demo, emily, held-out, " in failed.stderr
+    with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are ci, demo"):
         unshade.synth("dmeo", "capture")
     # A file of the same name wins.
     Path("portrait").write_text((HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes/lights/", ""))

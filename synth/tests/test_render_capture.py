@@ -78,7 +78,7 @@ def test_the_folder_is_complete(captured):
     assert transforms["train_filenames"] == [f"images/{name}.exr" for name in frames[:3]]
     assert transforms["test_filenames"] == ["images/003.exr"]
     assert set(read_exr(captured / "truth/specular_albedo.exr")) == {"Y"}
-    layered = {f"{layer}.{c}" for layer in ("diffuse", "specular", "variance") for c in "RGB"}
+    layered = {f"{layer}.{c}" for layer in ("diffuse", "specular", "variance", "half") for c in "RGB"}
     assert set(read_exr(captured / "truth/layers/000.exr")) == layered
     assert set(read_exr(captured / "truth/relit/uniform/003.exr")) == layered | set("RGB")
 

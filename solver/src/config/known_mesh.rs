@@ -127,15 +127,14 @@ pub struct TransportConfig {
     pub refinement_prior: f32,
     /// Learning rate of the albedo in the refinement.
     pub refinement_rate: f32,
-    /// What is likely wrong with the model, by which the refinement weighs pixels.
-    pub model_error: ModelErrorConfig,
     /// Residual, relative to the colour, at which the confidence in a texel's albedo has fallen to 1 / e.
     pub confidence_misfit: f32,
     /// Standard deviation of the blur of what confidence goes by, texels.
     pub confidence_blur: f32,
 }
 
-/// Standard deviations of what the model gets wrong in a pixel under a known light.
+/// Standard deviations of the model's errors in a pixel under a known light, by which the refinement of the albedo
+/// weighs pixels; not in the paper.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelErrorConfig {

@@ -46,6 +46,8 @@ pub struct Config {
     pub transport: TransportConfig,
     /// Normals from one height texture.
     pub height: HeightConfig,
+    /// Errors of the model, by which the refinement weighs pixels.
+    pub model_error: ModelErrorConfig,
     /// How much regions mirror.
     pub reflectance: ReflectanceConfig,
     /// Records that are kept for the report.
@@ -144,6 +146,7 @@ impl Config {
         self.skin.validate()?;
         self.colour_regions.validate()?;
         self.transport.validate()?;
+        self.model_error.validate()?;
         self.reflectance.validate()?;
         self.height.validate()?;
         let percent = |x: f64| x > 0.0 && x <= 100.0;

@@ -115,14 +115,14 @@ impl Config {
                 refinement: 250,
                 refinement_prior: 1.0,
                 refinement_rate: 1e-3,
-                model_error: ModelErrorConfig {
-                    shading: 0.05,
-                    normal: 0.07,
-                    highlights: 0.3,
-                    shadow: 0.1,
-                },
                 confidence_misfit: 0.1,
                 confidence_blur: 1.5,
+            },
+            model_error: ModelErrorConfig {
+                shading: 0.05,
+                normal: 0.07,
+                highlights: 0.3,
+                shadow: 0.1,
             },
             reflectance: ReflectanceConfig {
                 rounds: 2,

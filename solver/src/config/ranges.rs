@@ -1,7 +1,10 @@
 //! Ranges of the values.
 
 use super::error::ConfigError;
-use super::{ColourRegionConfig, HeightConfig, ReflectanceConfig, SkinConfig, TransportConfig};
+use super::{
+    ColourRegionConfig, HeightConfig, ModelErrorConfig, ReflectanceConfig, SkinConfig,
+    TransportConfig,
+};
 
 /// Refuses a value outside its range, which `range` states in words.
 pub(super) fn range<T: ToString + Copy>(
@@ -105,10 +108,17 @@ impl TransportConfig {
             ("transport.refinement_prior", self.refinement_prior),
             ("transport.refinement_rate", self.refinement_rate),
             ("transport.light_colour", self.light_colour),
-            ("transport.model_error.shading", self.model_error.shading),
-            ("transport.model_error.normal", self.model_error.normal),
-            ("transport.model_error.highlights", self.model_error.highlights),
-            ("transport.model_error.shadow", self.model_error.shadow),
+        ])
+    }
+}
+
+impl ModelErrorConfig {
+    pub(super) fn validate(&self) -> Result<(), ConfigError> {
+        not_negative(&[
+            ("model_error.shading", self.shading),
+            ("model_error.normal", self.normal),
+            ("model_error.highlights", self.highlights),
+            ("model_error.shadow", self.shadow),
         ])
     }
 }

@@ -69,7 +69,7 @@ fn refined(
     let model = Model { shading: &shading, changes: &sampled, albedo: &albedo, target: &target };
     // What the stage reads, and no more.
     let rest = Samples {
-        weight: model.weights(&t.model_error, samples),
+        weight: model.weights(&config.model_error, samples),
         target,
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
