@@ -22,6 +22,7 @@ WALLS = {
     "capture": {"formats"},
     "scoring": {"formats", "capture"},
     "report": {"formats", "capture", "scoring"},
+    "sealing": {"formats"},
     "solver": {"formats", "capture"},
     "bench": {"formats", "capture", "solver"},
 }

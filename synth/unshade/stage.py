@@ -132,7 +132,20 @@ def _parser() -> argparse.ArgumentParser:
     physics = verbs.add_parser("physics", help="check the renderer against physics")
     physics.set_defaults(stage=_physics)
     for verb in (
-        synth, relight, budget, lights, export, figure, method, cluster, check, describe, sheet, history, doctor, physics,
+        synth,
+        relight,
+        budget,
+        lights,
+        export,
+        figure,
+        method,
+        cluster,
+        check,
+        describe,
+        sheet,
+        history,
+        doctor,
+        physics,
     ):
         verb.add_argument("--watch-stdin", action="store_true", help="leave when standard input ends")
     return parser
