@@ -121,8 +121,9 @@ impl FileFrame {
             let exr = image_path.with_extension("exr");
             let mend = match exr.is_file().then(|| exr.file_name()).flatten() {
                 Some(name) => format!("name {} beside it", name.display()),
-                None => "develop the raw files to linear Rec.709 without a tone curve, write them \
-                         as EXR and name those"
+                None => "bring the folder in with `unshade import transforms`, or develop the raw \
+                         files to linear Rec.709 without a tone curve, write them as EXR and name \
+                         those"
                     .to_owned(),
             };
             return Err(format!("is a {kind}, but pictures are linear float EXR files; {mend}"));

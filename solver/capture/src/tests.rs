@@ -224,7 +224,7 @@ fn what_is_missing_is_named_with_its_frame_and_the_mend() {
     assert!(jpeg("images/000.JPG").contains("name 000.exr beside it"));
     assert!(
         jpeg("images/009.png")
-            .contains("is a PNG, but pictures are linear float EXR files; develop")
+            .contains("float EXR files; bring the folder in with `unshade import transforms`, or")
     );
 }
 
