@@ -16,6 +16,7 @@ pub(super) const SUBJECTS: [(&str, &str); 21] = [
     ("light_mirror_sphere", "Mirror sphere in the light"),
     ("light_glossy_sphere", "Glossy sphere in the light"),
     ("light_diffuse_sphere", "Diffuse sphere in the light"),
+    ("usual_roughness", "Roughness, usual lobes"),
     ("constant_roughness", "Roughness, best constant"),
     ("constant_specular_albedo", "Specular albedo, best constant"),
     ("mesh_specular_normal", "Specular normal, plain mesh"),
@@ -30,7 +31,7 @@ pub(super) const SUBJECTS: [(&str, &str); 21] = [
 
 /// Answers that need no pictures: their scores stand beside those of the map they answer for.
 const TRIVIAL: [(&str, &str); 4] = [
-    ("roughness", "constant_roughness"),
+    ("roughness", "usual_roughness"),
     ("specular_albedo", "constant_specular_albedo"),
     ("specular_normal", "mesh_specular_normal"),
     ("diffuse_normal", "mesh_diffuse_normal"),

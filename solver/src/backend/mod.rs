@@ -106,14 +106,15 @@ pub trait Backend: Send + Sync {
     /// S_d and S_s of every sample (2 rows).
     fn shade(&self, networks: &Networks, light: &Planes, directions: &Planes) -> Planes;
 
-    /// Highlights on these normals, see [`SkinHighlights::on`].
+    /// Highlights on these normals with these specular terms, see [`SkinHighlights::on`].
     fn highlights(
         &self,
         skin_highlights: &SkinHighlights,
         samples: &Samples,
         normals: &Planes,
+        specular: &Planes,
     ) -> Planes {
-        skin_highlights.on(samples, normals)
+        skin_highlights.on(samples, normals, specular)
     }
 
     /// The program of a stage on the device; nothing if its steps are taken through the methods

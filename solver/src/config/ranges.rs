@@ -41,6 +41,11 @@ impl ReflectanceConfig {
         range("reflectance.region_deviation", self.region_deviation, deviation, wide)?;
         let error = |x: f32| (0.0..=1.0).contains(&x);
         range("reflectance.model_error", self.model_error, error, "0 to 1")?;
+        range("reflectance.roughness_rounds", self.roughness_rounds, |x| x <= 20, "0 to 20")?;
+        let roughness = |x: f32| (0.0..=3.0).contains(&x);
+        range("reflectance.roughness_deviation", self.roughness_deviation, roughness, "0 to 3")?;
+        range("reflectance.roughness_error", self.roughness_error, roughness, "0 to 3")?;
+        range("reflectance.roughness_samples", self.roughness_samples, |x| x > 0, "at least 1")?;
         range("reflectance.exposure_deviation", self.exposure_deviation, error, "0 to 1")
     }
 }

@@ -230,6 +230,16 @@ pub struct ReflectanceConfig {
     pub region_deviation: f32,
     /// Standard error of every measurement, relative: of the light and the normals that it goes by.
     pub model_error: f32,
+    /// Rounds in which the roughness is measured once the relief is found; 0 leaves the lobes of [`SkinConfig`].
+    pub roughness_rounds: usize,
+    /// Samples that it is measured by, about; more than that tell no more.
+    pub roughness_samples: usize,
+    /// Standard deviation of the logarithm of a region's roughness around that of skin, and of skin's around the
+    /// usual one.
+    pub roughness_deviation: f32,
+    /// Standard error of the logarithm of every measured roughness: of the light, which is no sharper than its
+    /// cells.
+    pub roughness_error: f32,
     /// Standard deviation of the logarithm of a picture's exposure around what the light's peak says; 0 takes the
     /// peak's word.
     pub exposure_deviation: f32,

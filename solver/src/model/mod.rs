@@ -17,3 +17,4 @@ pub mod strips;
 pub mod taps;
 pub mod texels;
 pub mod texture;
+pub mod thinning;

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::rows::Rows;
 pub use super::rows::{BLOCK, Row, first_rows, first_rows_mut};
+use super::thinning::Thinning;
 
 /// Blocks that one task works through; sums are formed per chunk and added in chunk order, so that
 /// results do not depend on the number of threads.
@@ -77,14 +78,14 @@ impl Planes {
         (Self { rows, len, data }, results)
     }
 
-    /// Every `step`-th sample.
-    pub fn thinned(&self, step: usize) -> Self {
-        let len = self.len.div_ceil(step);
+    /// The samples that are kept.
+    pub fn thinned(&self, thinning: Thinning) -> Self {
+        let len = thinning.kept(self.len);
         Self::from_blocks(self.rows, len, |block, rows| {
             let first = block * BLOCK;
             for (number, row) in rows.iter_mut().enumerate() {
                 for (at, value) in row.0.iter_mut().enumerate().take(len - first) {
-                    *value = self.get(number, (first + at) * step);
+                    *value = self.get(number, thinning.source(first + at));
                 }
             }
         })

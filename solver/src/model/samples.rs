@@ -6,9 +6,13 @@ use glam::{Vec2, Vec3};
 
 use super::planes::Planes;
 use super::taps::Taps;
+use super::thinning::Thinning;
 use crate::config::{Config, ViewWeightConfig};
 use crate::transport::skin::schlick;
 use crate::view_weights;
+
+/// Samples of a run of [`Samples::thinned_in_runs`]: rows of texels of a texture.
+const RUN: usize = 4096;
 
 /// Samples in texel order; see [`Taps`].
 #[derive(Clone, Debug)]
@@ -150,18 +154,25 @@ impl Samples {
 
     /// As many as fit into `count`, evenly spread over the texels.
     pub fn thinned(&self, count: usize) -> Self {
-        let step = self.len().div_ceil(count.max(1)).max(1);
-        let every = |of: &[u32]| of.iter().step_by(step).copied().collect();
+        self.kept(Thinning::to(count, self.len(), 1))
+    }
+
+    /// Likewise, but in runs, so that most of what several views see of one texel stays together.
+    pub fn thinned_in_runs(&self, count: usize) -> Self {
+        self.kept(Thinning::to(count, self.len(), RUN))
+    }
+
+    fn kept(&self, thinning: Thinning) -> Self {
         Self {
-            position: self.position.thinned(step),
-            normal: self.normal.thinned(step),
-            view: self.view.thinned(step),
-            fresnel: self.fresnel.thinned(step),
-            target: self.target.thinned(step),
-            weight: self.weight.thinned(step),
-            taps: self.taps.thinned(step),
-            pixel: every(&self.pixel),
-            view_index: every(&self.view_index),
+            position: self.position.thinned(thinning),
+            normal: self.normal.thinned(thinning),
+            view: self.view.thinned(thinning),
+            fresnel: self.fresnel.thinned(thinning),
+            target: self.target.thinned(thinning),
+            weight: self.weight.thinned(thinning),
+            taps: self.taps.thinned(thinning),
+            pixel: thinning.of(&self.pixel),
+            view_index: thinning.of(&self.view_index),
         }
     }
 

@@ -10,6 +10,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::planes::{BLOCK, Planes, Row};
+use super::thinning::Thinning;
 use crate::simd::widened;
 
 /// The four texels around each sample, with bilinear weights; outside the texture it is clamped.
@@ -44,13 +45,13 @@ impl Taps {
         (Self { size, cell, fraction, row_start }, order)
     }
 
-    /// Every `step`-th sample.
-    pub fn thinned(&self, step: usize) -> Self {
+    /// The samples that are kept.
+    pub fn thinned(&self, thinning: Thinning) -> Self {
         Self {
             size: self.size,
-            cell: self.cell.iter().step_by(step).copied().collect(),
-            fraction: self.fraction.iter().step_by(step).copied().collect(),
-            row_start: self.row_start.iter().map(|start| start.div_ceil(step)).collect(),
+            cell: thinning.of(&self.cell),
+            fraction: thinning.of(&self.fraction),
+            row_start: self.row_start.iter().map(|start| thinning.kept(*start)).collect(),
         }
     }
 

@@ -8,14 +8,14 @@ use crate::backend::Backend;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights};
+use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights, SpecularTerm};
 
-/// The light that makes them, and the specular albedo of the samples.
+/// The light that makes them, and the specular terms of the samples.
 pub(super) struct DeviatedHighlights<'a> {
     backend: &'a dyn Backend,
     skin_highlights: SkinHighlights<'a>,
-    /// Specular albedo of every sample.
-    albedo: Planes,
+    /// See [`SpecularTerm::at`].
+    specular: Planes,
 }
 
 impl<'a> DeviatedHighlights<'a> {
@@ -28,13 +28,27 @@ impl<'a> DeviatedHighlights<'a> {
         if !context.config.height.highlights || !lighting.explained {
             return None;
         }
-        let skin_specular =
-            resample(&lighting.skin_specular, lighting.state.size, 1, samples.taps.size());
-        let albedo = samples.taps.sample::<1>(&skin_specular);
+        let skin_specular = resample(
+            &lighting.skin_specular,
+            lighting.state.size,
+            SpecularTerm::ROWS,
+            samples.taps.size(),
+        );
+        let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(&skin_specular);
         let skin_highlights = context
             .transport(lighting.setup)
             .skin_highlights(&context.config.skin, &lighting.light.radiance)?;
-        Some(Self { backend: context.backend, skin_highlights, albedo })
+        Some(Self { backend: context.backend, skin_highlights, specular })
+    }
+
+    /// On skin that is rougher by this factor.
+    pub fn rougher(&self, factor: f32) -> Self {
+        let term = |i: usize| {
+            let term = SpecularTerm::at(&self.specular, i);
+            SpecularTerm { roughness: factor * term.roughness, ..term }.channels()
+        };
+        let specular = Planes::from_fn(self.specular.len(), term);
+        Self { specular, skin_highlights: self.skin_highlights.clone(), ..*self }
     }
 
     /// Highlights with normals bent by the first rows of `deviations`, R, G, B, and how they change with those.
@@ -44,13 +58,14 @@ impl<'a> DeviatedHighlights<'a> {
                 + Vec3::from_array(deviations.sample(i, 0))
         };
         let normals = Planes::from_fn(samples.len(), |i| bent(i).normalize().to_array());
-        let highlights = self.backend.highlights(&self.skin_highlights, samples, &normals);
+        let highlights =
+            self.backend.highlights(&self.skin_highlights, samples, &normals, &self.specular);
         Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(normals.sample(i, 0));
             let [r, g, b, x, y, z]: [f32; HIGHLIGHT_ROWS] = highlights.sample(i, 0);
             let by = Vec3::new(x, y, z) / bent(i).length();
             let [x, y, z] = (by - normal * normal.dot(by)).to_array();
-            [r, g, b, x, y, z].map(|value| self.albedo.get(0, i) * value)
+            [r, g, b, x, y, z]
         })
     }
 }

@@ -19,7 +19,7 @@ use super::refinement::refinement;
 use super::snapshot::stage_maps;
 use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
-use crate::config::map_size;
+use crate::config::{SkinConfig, map_size};
 use crate::model::deviation::Deviation;
 use crate::model::deviation_textures::DeviationTextures;
 use crate::model::planes::Planes;
@@ -72,8 +72,8 @@ pub(super) fn finish(
     if let Some(sink) = layer_sink.filter(|_| config.records.layers) {
         capture.train.iter().try_for_each(|view| sink(&synthesise(&view.camera)))?;
     }
-    let reflectances = lighting.as_ref().and_then(|lighting| {
-        let mut all = lighting.reflectances.clone()?;
+    let region_terms = lighting.as_ref().and_then(|lighting| {
+        let mut all = lighting.region_terms.clone()?;
         all.scale(1.0 / (context.gain * lighting.exposure));
         Some(all)
     });
@@ -93,14 +93,17 @@ pub(super) fn finish(
     state.resize(map_size);
     let atlas = Atlas::new(mesh, map_size);
     let seen = per_texel(&atlas, &projections, |_| true);
+    let mut roughness: Option<Vec<SkinConfig>> = None;
     if config.normalisation.specular_pooling > 0.0 {
         let config = &config.normalisation;
         let regions = context.regions(&atlas, &projections);
         let regions = regions.as_deref();
-        state.specular = match (&reflectances, regions) {
-            (Some(reflectances), Some(regions)) => {
+        state.specular = match (&region_terms, regions) {
+            (Some(region_terms), Some(regions)) => {
                 scales.specular = 1.0;
-                reflectances.of(regions)
+                let terms = || regions.iter().map(|region| region_terms.of(*region));
+                roughness = Some(terms().map(|term| term.lobes_of(&context.config.skin)).collect());
+                terms().map(|term| term.reflectance).collect()
             }
             _ => pooled_specular::pooled(config, &atlas, regions, &seen, &state.specular),
         };
@@ -116,6 +119,9 @@ pub(super) fn finish(
             .map(|(trust, seen)| if *seen { *trust } else { 0.0 })
             .collect(),
     });
+    if config.reflectance.roughness_rounds > 0 {
+        maps.roughness = roughness.map(|lobes| roughness_map(&lobes, map_size));
+    }
     runner.lap("maps and views");
     let interrupted = runner.cut().map(ToString::to_string);
     let (stage_records, timing) = runner.into_log();
@@ -135,6 +141,15 @@ pub(super) fn finish(
         stages: stage_records,
     };
     Ok(Solution { maps, light, views, stages, record, timing })
+}
+
+/// Both alphas, and the part of the first lobe.
+fn roughness_map(lobes: &[SkinConfig], size: usize) -> Picture {
+    let texel = |SkinConfig { roughness: [a, b], weights: [of_a, of_b], .. }: &SkinConfig| {
+        [*a, *b, of_a / (of_a + of_b)]
+    };
+    let data = lobes.iter().flat_map(texel).collect();
+    Picture { width: size, height: size, channels: 3, data }
 }
 
 /// Texels that no view sees take the values of the nearest one that is seen.

@@ -10,16 +10,16 @@ use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
 use super::light_estimate::{LightEstimate, bounce_albedo};
 use super::lighting::{Lighting, evenness};
+use super::regression::Regression;
 use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
-use super::tint::Regression;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
 use crate::config::{Config, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Reflection, Transport, contrast, light_colour};
+use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, contrast, light_colour};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
@@ -36,8 +36,8 @@ pub(super) fn distance(
     let iterations = distance_steps(context.config, round);
     let transport = context.far_transport();
     let size = transport.size();
-    let (Some(reflectances), Some(regions)) =
-        (&mut light_estimate.reflectances, context.regions_on(size))
+    let (Some(region_terms), Some(regions)) =
+        (&mut light_estimate.region_terms, context.regions_on(size))
     else {
         return Ok(iterations);
     };
@@ -50,7 +50,7 @@ pub(super) fn distance(
         let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
-    let skin_specular = reflectances.of(&regions);
+    let skin_specular = region_terms.texture(&regions);
     let found = Found {
         log_light: &light_estimate.log_light,
         nearness: light_estimate.setup.nearness,
@@ -64,7 +64,7 @@ pub(super) fn distance(
     let config = &context.config.reflectance;
     if config.rounds > 0 {
         let evenness = evenness(contrast(t.rows, &stage.light()), t.even_contrast);
-        reflectances.update(config, evenness, &stage.regression(&state, &weight), &regions);
+        region_terms.update(config, evenness, &stage.regression(&state, &weight), &regions);
     }
     if t.tint && round == config.rounds() {
         light_estimate.tint = stage.take_tint(&state);
@@ -109,20 +109,20 @@ pub(super) fn highlights(
     let Some(mut stage) = stage else { return Ok(t.highlights) };
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let reflectances = lighting.reflectances.take();
-    *lighting = Lighting::new(context, &samples, state, reflectances, lighting.setup, light);
+    let region_terms = lighting.region_terms.take();
+    *lighting = Lighting::new(context, &samples, state, region_terms, lighting.setup, light);
     lighting.explained = true;
     Ok(0)
 }
 
-/// A light that is known, and skin's reflectance.
+/// A light that is known, and skin's specular terms.
 #[derive(Clone, Copy)]
 pub struct Found<'a> {
     /// Logarithm of the light, R, G, B per cell.
     pub log_light: &'a [f32],
     /// Per metre.
     pub nearness: f32,
-    /// Reflectance at normal incidence, texel by texel of the transport's texture.
+    /// Of [`SpecularTerm`], on the transport's texture.
     pub skin_specular: &'a [f32],
 }
 
@@ -166,11 +166,11 @@ impl<'a> Highlights<'a> {
     ) -> Option<Self> {
         let (t, adam) = (&config.transport, &config.adam);
         let samples = samples.thinned(t.highlight_samples);
-        let skin_specular = samples.taps.sample::<1>(found.skin_specular);
+        let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(found.skin_specular);
         let light: Vec<f32> = found.log_light.iter().map(|log| log.exp()).collect();
         let peak = transport.peak(&light);
         let reflection =
-            transport.reflection(&config.skin, &samples, &skin_specular, peak, found.nearness)?;
+            transport.reflection(&config.skin, &samples, &specular, peak, found.nearness)?;
         Some(Self {
             config: t,
             transport,
@@ -219,7 +219,9 @@ impl<'a> Highlights<'a> {
         let layer = self.layer(state, &shading);
         let shown =
             |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
-        Regression::new(&self.samples, weight, &self.reflection.radiance(&light), shown)
+        let predicted = self.reflection.radiance(&light);
+        let predicted = |i: usize| [predicted[i], [0.0; CHANNELS]];
+        Regression::new(&self.samples, weight, predicted, shown)
     }
 
     /// The diffuse layer of every sample.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::context::TransportSetup;
-use super::reflectance::Reflectances;
+use super::region_terms::RegionTerms;
 use crate::model::networks::Networks;
 use crate::transport::{CHANNELS, Transport};
 
@@ -23,7 +23,7 @@ pub(super) struct LightEstimate {
     pub setup: TransportSetup,
     pub networks: Networks,
     /// By which the light makes highlights; none if the networks make them.
-    pub reflectances: Option<Reflectances>,
+    pub region_terms: Option<RegionTerms>,
     /// R, G, B by which the light has been multiplied since, so that the diffuse albedo that it was found
     /// with is to be divided by it.
     pub tint: [f32; CHANNELS],

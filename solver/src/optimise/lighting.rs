@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::context::{SolveContext, TransportSetup};
-use super::reflectance::Reflectances;
+use super::region_terms::RegionTerms;
 use super::specular_floor::{specular_floor, without_specular_floor};
 use super::stage::{State, layers};
 use crate::backend::Backend;
@@ -29,8 +29,8 @@ pub(super) struct Lighting {
     pub specular_floor: Vec<f32>,
     /// The specular albedo that the specular floor goes by; empty if it is switched off.
     pub skin_specular: Vec<f32>,
-    /// Specular reflectances by region.
-    pub reflectances: Option<Reflectances>,
+    /// Specular region_terms by region.
+    pub region_terms: Option<RegionTerms>,
     /// By what the pictures are brighter than those of a light with this peak.
     pub exposure: f32,
     /// Whether the light has been solved for with its highlights.
@@ -48,22 +48,22 @@ pub(super) fn evenness(contrast: f32, half_even: f32) -> f32 {
 }
 
 impl Lighting {
-    /// Lighting by a light of `radiance`, with the textures of `state`; `reflectances` are [`Lighting::reflectances`].
+    /// Lighting by a light of `radiance`, with the textures of `state`; `region_terms` are [`Lighting::region_terms`].
     pub fn new(
         context: &SolveContext,
         samples: &Samples,
         state: State,
-        reflectances: Option<Reflectances>,
+        region_terms: Option<RegionTerms>,
         setup: TransportSetup,
         radiance: Vec<f32>,
     ) -> Self {
         let (config, transport) = (context.config, context.transport(setup));
-        let regions = reflectances.as_ref().and_then(|_| context.regions_on(state.size));
-        let skin_specular = match (&reflectances, regions) {
-            (Some(reflectances), Some(regions)) => reflectances.of(&regions),
+        let regions = region_terms.as_ref().and_then(|_| context.regions_on(state.size));
+        let skin_specular = match (&region_terms, regions) {
+            (Some(region_terms), Some(regions)) => region_terms.texture(&regions),
             _ => vec![],
         };
-        let exposure = reflectances.as_ref().map_or(1.0, |all| all.exposure(&config.reflectance));
+        let exposure = region_terms.as_ref().map_or(1.0, |all| all.exposure(&config.reflectance));
         let specular_floor = match skin_specular.is_empty() {
             true => vec![],
             false => specular_floor(
@@ -84,12 +84,20 @@ impl Lighting {
             peak: transport.peak(&radiance),
             specular_floor,
             skin_specular,
-            reflectances,
+            region_terms,
             exposure,
             explained: false,
             even_contrast: config.transport.even_contrast,
             setup,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },
+        }
+    }
+
+    /// Replaces what regions mirror.
+    pub fn take_terms(&mut self, context: &SolveContext, terms: RegionTerms) {
+        if let Some(regions) = context.regions_on(self.state.size) {
+            self.skin_specular = terms.texture(&regions);
+            self.region_terms = Some(terms);
         }
     }
 
@@ -107,7 +115,7 @@ impl Lighting {
     }
 
     /// 1 of a light that is the same from everywhere, 0 of lamps in the dark.
-    fn evenness(&self) -> f32 {
+    pub fn evenness(&self) -> f32 {
         evenness(self.light.contrast(), self.even_contrast)
     }
 

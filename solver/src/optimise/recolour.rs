@@ -2,7 +2,7 @@
 //! of the pictures, shadow and all; skin of every label begins in one colour.
 
 use super::context::SolveContext;
-use super::reflectance::Reflectances;
+use super::region_terms::RegionTerms;
 use super::stage::{State, layers};
 use crate::model::deviation::Deviation;
 use crate::model::planes::Planes;
@@ -17,7 +17,7 @@ pub(super) fn recolour(
     transport: &Transport,
     samples: &Samples,
     light: &[f32],
-    skin_specular: Option<&Reflectances>,
+    skin_specular: Option<&RegionTerms>,
     state: &mut State,
 ) {
     let skin = context.skin();
@@ -26,14 +26,13 @@ pub(super) fn recolour(
     }
     let Some(regions) = context.regions_on(state.size) else { return };
     let predicted = skin_specular.and_then(|skin_specular| {
-        let highlights = context.backend.highlights(
+        let term = |i: usize| skin_specular.of(regions[samples.taps.nearest(i)]).channels();
+        Some(context.backend.highlights(
             &transport.skin_highlights(&context.config.skin, light)?,
             samples,
             &samples.normal,
-        );
-        let skin_specular = skin_specular.of(&regions);
-        let of = |i: usize, c: usize| skin_specular[samples.taps.nearest(i)] * highlights.get(c, i);
-        Some(Planes::from_fn(samples.len(), |i| [of(i, 0), of(i, 1), of(i, 2)]))
+            &Planes::from_fn(samples.len(), term),
+        ))
     });
     let highlights = predicted.unwrap_or_else(|| {
         let deviation = Deviation::new(context.config, state.size);

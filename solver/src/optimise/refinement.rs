@@ -10,6 +10,7 @@ use super::error::SolveError;
 use super::found::Solve;
 use super::light_estimate::DiffuseReflectance;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
+use super::roughness::roughness;
 use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
 use crate::config::ModelErrorConfig;
@@ -26,8 +27,10 @@ pub(super) fn refinement(
     runner: &mut StageRunner,
     solve: &mut Solve,
 ) -> Result<(), SolveError> {
-    if let (Some(lighting), None) = (&solve.lighting, &solve.diffuse_reflectance) {
+    if let (Some(lighting), None) = (&mut solve.lighting, &solve.diffuse_reflectance) {
         solve.state.resize(context.size);
+        roughness(context, &solve.state, lighting);
+        runner.lap("roughness");
         solve.diffuse_reflectance = Some(refined(context, runner, &solve.state, lighting)?);
     }
     Ok(())

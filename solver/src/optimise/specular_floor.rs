@@ -11,15 +11,15 @@ use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::resample;
-use crate::transport::{CHANNELS, Transport};
+use crate::transport::{CHANNELS, SpecularTerm, Transport};
 
 /// Whether highlights are predicted from the light.
 pub(super) fn wanted(config: &Config) -> bool {
     config.transport.specular_floor && config.normalisation.specular_skin > 0.0
 }
 
-/// The specular floor, R, G, B per texel: the median over the views of what skin of the albedo `specular`
-/// shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
+/// The specular floor, R, G, B per texel: the median over the views of what skin of the terms `specular`
+/// (a texture of [`SpecularTerm`]) shows in `light` (R, G, B per cell) more than the networks do. Under an L1 loss that is what a
 /// diffuse albedo takes up. Empty if the transport does not hold what is open.
 pub(super) fn specular_floor(
     config: &Config,
@@ -34,24 +34,30 @@ pub(super) fn specular_floor(
     let Some(skin_highlights) = transport.skin_highlights(&config.skin, light) else {
         return vec![];
     };
-    let highlights = backend.highlights(&skin_highlights, samples, &samples.normal);
+    let (terms, _) = specular.as_chunks();
+    let highlights = backend.highlights(
+        &skin_highlights,
+        samples,
+        &samples.normal,
+        &Planes::from_fn::<{ SpecularTerm::ROWS }>(samples.len(), |i| terms[taps.nearest(i)]),
+    );
     let directions = DirectionScale::from(&config.networks).directions(samples, None);
     let known = backend.light(&state.networks, &samples.position);
     let shading = backend.shade(&state.networks, &known, &directions);
     let networks = taps.sample::<1>(&state.specular);
-    let mut of: Vec<Vec<u32>> = vec![vec![]; specular.len()];
+    let mut of: Vec<Vec<u32>> = vec![vec![]; terms.len()];
     (0..samples.len()).for_each(|i| of[taps.nearest(i)].push(i as u32));
-    let texel = |(of, specular): (&Vec<u32>, &f32)| {
+    let texel = |of: &Vec<u32>| {
         let missing = |i: usize, channel: usize| {
             let found = samples.fresnel.get(0, i) * networks.get(0, i) * shading.get(1, i);
-            (specular * highlights.get(channel, i) - found, samples.weight.get(0, i))
+            (highlights.get(channel, i) - found, samples.weight.get(0, i))
         };
         let median =
             |channel| weighted_median(of.iter().map(|i| missing(*i as usize, channel)).collect());
         let [(r, weight), (g, _), (b, _)] = [0, 1, 2].map(median);
         [weight * r, weight * g, weight * b, weight]
     };
-    let texels: Vec<[f32; 4]> = of.par_iter().zip(specular).map(texel).collect();
+    let texels: Vec<[f32; 4]> = of.par_iter().map(texel).collect();
     let sums = Blur::new(taps.size(), 4, config.transport.specular_floor_blur)
         .apply(texels.as_flattened());
     let mean = |[r, g, b, weight]: &[f32; 4]| match *weight > 1e-6 {

@@ -4,100 +4,14 @@
 //! the highlights in it. But what varies in one place from view to view is hardly diffuse: it has the
 //! colour of the light (the dichromatic model of reflection).
 
+use super::regression::Regression;
 use crate::config::TransportConfig;
-use crate::model::planes::Planes;
-use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
-/// Sums over the samples of a texel.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    count: f64,
-    weight: f64,
-    /// Moments of predicted and shown highlights, channel by channel.
-    moments: [Moments; CHANNELS],
-    view: u32,
-    /// Whether more than one view sees it.
-    shared: bool,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Moments {
-    predicted: f64,
-    shown: f64,
-    both: f64,
-    predicted_squared: f64,
-    shown_squared: f64,
-}
-
-/// The regression of what samples show on the highlights that are predicted of them, within the texels that
-/// several views see, without the samples where the sensor was full. What is shown may hold what is the same
-/// all over a texel.
-pub(super) struct Regression {
-    texels: Vec<Sums>,
-}
-
 impl Regression {
-    /// Both in linear radiance; the samples count by `weight`.
-    pub fn new(
-        samples: &Samples,
-        weight: &Planes,
-        predicted: &[[f32; CHANNELS]],
-        shown: impl Fn(usize) -> [f32; CHANNELS],
-    ) -> Self {
-        let mut texels = vec![Sums::default(); samples.taps.size() * samples.taps.size()];
-        let full = full(samples);
-        for (i, predicted) in predicted.iter().enumerate() {
-            let (weight, view) = (f64::from(weight.get(0, i)), samples.view_index[i]);
-            if weight == 0.0 || samples.target.sample::<CHANNELS>(i, 0).iter().any(|t| *t >= full) {
-                continue;
-            }
-            let sums = &mut texels[samples.taps.nearest(i)];
-            sums.shared |= sums.count > 0.0 && sums.view != view;
-            sums.view = view;
-            sums.count += 1.0;
-            sums.weight += weight;
-            for ((moments, p), s) in sums.moments.iter_mut().zip(predicted).zip(shown(i)) {
-                let (p, s) = (f64::from(*p), f64::from(s));
-                moments.predicted += weight * p;
-                moments.shown += weight * s;
-                moments.both += weight * (p * s);
-                moments.predicted_squared += weight * (p * p);
-                moments.shown_squared += weight * (s * s);
-            }
-        }
-        Self { texels }
-    }
-
-    /// Slope and its standard error over the texels `within` and some channels; `None` of too little.
-    fn fitted(
-        &self,
-        within: impl Fn(usize) -> bool,
-        channels: std::ops::Range<usize>,
-    ) -> Option<(f64, f64)> {
-        let [mut both, mut predicted, mut shown, mut freedom] = [0.0, 0.0, 0.0, -1.0];
-        let shared = self.texels.iter().enumerate().filter(|(at, sums)| sums.shared && within(*at));
-        for (_, Sums { count, weight, moments, .. }) in shared {
-            freedom += count - 1.0;
-            for m in &moments[channels.clone()] {
-                both += m.both - m.predicted * m.shown / weight;
-                predicted += m.predicted_squared - m.predicted * m.predicted / weight;
-                shown += m.shown_squared - m.shown * m.shown / weight;
-            }
-        }
-        let slope = both / predicted;
-        let error = ((shown - slope * both).max(0.0) / (freedom * predicted)).sqrt();
-        (slope.is_finite() && error.is_finite()).then_some((slope, error))
-    }
-
-    /// Slope of all channels together and its standard error, over the texels `within`; `None` of too little.
-    pub fn slope(&self, within: impl Fn(usize) -> bool) -> Option<(f64, f64)> {
-        self.fitted(within, 0..CHANNELS)
-    }
-
     /// The slopes of R, G and B; 1 if there is too little to tell.
     pub fn tint(&self, config: &TransportConfig) -> [f32; CHANNELS] {
-        let slope = |channel: usize| match self.fitted(|_| true, channel..channel + 1) {
+        let slope = |channel: usize| match self.fit(|_| true, channel..channel + 1).slope() {
             Some((slope, error)) if error < config.tint_error * slope => slope,
             _ => 0.0,
         };
@@ -109,14 +23,6 @@ impl Regression {
     }
 }
 
-/// The value of a full sensor in the pictures: their largest one, if it occurs more than once.
-fn full(samples: &Samples) -> f32 {
-    let values = || (0..samples.len()).flat_map(|i| samples.target.sample::<CHANNELS>(i, 0));
-    let largest = values().fold(f32::MIN, f32::max);
-    let more = values().filter(|value| *value == largest).nth(1);
-    more.unwrap_or(f32::INFINITY)
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use capture::gbuffer::GBuffer;
@@ -124,6 +30,7 @@ pub(super) mod tests {
     use super::*;
     use crate::config::Config;
     use crate::model::samples::SampleSpace;
+    use crate::model::samples::Samples;
     use crate::testing;
 
     fn config() -> TransportConfig {
@@ -151,7 +58,8 @@ pub(super) mod tests {
         predicted: &[[f32; CHANNELS]],
         shown: impl Fn(usize) -> [f32; CHANNELS],
     ) -> [f32; CHANNELS] {
-        Regression::new(samples, &samples.weight, predicted, shown).tint(&config())
+        let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
+        Regression::new(samples, &samples.weight, rows, shown).tint(&config())
     }
 
     /// `tint` of the prediction over a paint that differs from texel to texel.

@@ -9,7 +9,7 @@ use super::error::SolveError;
 use super::light_estimate::{LightEstimate, bounce_albedo};
 use super::lighting::Lighting;
 use super::recolour::recolour;
-use super::reflectance::Reflectances;
+use super::region_terms::RegionTerms;
 use super::specular_floor;
 use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
@@ -41,9 +41,9 @@ pub(super) fn light(
     let regions = specular_floor::wanted(context.config)
         .then(|| context.regions_on(transport.size()))
         .flatten();
-    let reflectances = regions.map(|regions| Reflectances::expected(context, &regions));
+    let region_terms = regions.map(|regions| RegionTerms::expected(context, &regions));
     let networks = start.networks;
-    Ok(LightEstimate { log_light, setup, networks, reflectances, tint: [1.0; CHANNELS] })
+    Ok(LightEstimate { log_light, setup, networks, region_terms, tint: [1.0; CHANNELS] })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -71,7 +71,7 @@ pub(super) fn light_and_albedo(
             transport,
             &samples,
             &light,
-            light_estimate.reflectances.as_ref(),
+            light_estimate.region_terms.as_ref(),
             &mut state,
         );
     }
@@ -79,8 +79,8 @@ pub(super) fn light_and_albedo(
         Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let LightEstimate { reflectances, setup, .. } = light_estimate;
-    Ok(Lighting::new(context, &samples, state, reflectances, setup, light))
+    let LightEstimate { region_terms, setup, .. } = light_estimate;
+    Ok(Lighting::new(context, &samples, state, region_terms, setup, light))
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::matrix::Matrix;
 use super::reflection::scale;
 use super::skin::{GRAZING, lobe_slopes, schlick};
-use super::{CHANNELS, LUMINANCE, Transport};
+use super::{CHANNELS, LUMINANCE, SpecularTerm, Transport};
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -19,6 +19,7 @@ const LANES: usize = 16;
 const OPPOSITE: f32 = 1e-12;
 
 /// A light and its visibility, which make highlights on skin of any normals.
+#[derive(Clone)]
 pub struct SkinHighlights<'a> {
     transport: &'a Transport,
     skin: &'a SkinConfig,
@@ -50,10 +51,9 @@ impl Transport {
 }
 
 impl SkinHighlights<'_> {
-    /// Radiance that skin of reflectance 1 at normal incidence would send to the camera of every sample, on these
-    /// normals (unit), and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`]
-    /// rows.
-    pub fn on(&self, samples: &Samples, normals: &Planes) -> Planes {
+    /// Radiance that skin of these [`SpecularTerm`] terms sends to the camera of every sample, on these normals (unit),
+    /// and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`] rows.
+    pub fn on(&self, samples: &Samples, normals: &Planes, specular: &Planes) -> Planes {
         let Self { transport, skin, open, cells, scale } = self;
         Planes::from_fn(samples.len(), |i| {
             let row = transport.row_of(samples, i);
@@ -64,8 +64,9 @@ impl SkinHighlights<'_> {
             };
             let mut sums = [0.0; HIGHLIGHT_ROWS];
             let open = &open.rows[row * open.cells..][..open.cells];
-            sum_lobes(skin, cells, open, &seen, &mut sums);
-            sums.map(|sum| scale * sum)
+            let specular = SpecularTerm::at(specular, i);
+            sum_lobes(&specular.lobes_of(skin), cells, open, &seen, &mut sums);
+            sums.map(|sum| specular.reflectance * (scale * sum))
         })
     }
 
@@ -184,13 +185,22 @@ mod tests {
         (transport, light.collect(), samples)
     }
 
+    /// Terms that differ from sample to sample.
+    fn terms(count: usize) -> Planes {
+        Planes::from_fn(count, |i| {
+            let [reflectance, roughness] = [0.9, 1.4].map(|k| 1.0 + 0.3 * (i as f32 * k).sin());
+            SpecularTerm { reflectance, roughness }.channels()
+        })
+    }
+
     #[test]
     fn highlights_are_what_the_light_is_solved_for_with() {
         let (transport, light, samples) = scene();
-        let ones = Planes::from_fn(samples.len(), |_| [1.0]);
+        let terms = terms(samples.len());
         let (skin, peak) = (Config::default().skin, transport.peak(&light));
-        let rows = transport.reflection(&skin, &samples, &ones, peak, NEARNESS).unwrap();
-        let found = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &samples.normal);
+        let rows = transport.reflection(&skin, &samples, &terms, peak, NEARNESS).unwrap();
+        let highlights = transport.skin_highlights(&skin, &light).unwrap();
+        let found = highlights.on(&samples, &samples.normal, &terms);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
             for (c, expected) in expected.into_iter().enumerate() {
@@ -205,16 +215,18 @@ mod tests {
         let (transport, light, samples) = scene();
         let skin = Config::default().skin;
         const STEP: f32 = 2e-3;
+        let highlights = transport.skin_highlights(&skin, &light).unwrap();
+        let terms = terms(samples.len());
         let along = |axis: Vec3, step: f32| {
             let normal = |i: usize| {
                 let normal = Vec3::from_array(samples.normal.sample(i, 0));
                 (normal + step * (axis - normal * normal.dot(axis))).to_array()
             };
             let normals = Planes::from_fn(samples.len(), normal);
-            let bent = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &normals);
+            let bent = highlights.on(&samples, &normals, &terms);
             move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
         };
-        let bent = transport.skin_highlights(&skin, &light).unwrap().on(&samples, &samples.normal);
+        let bent = highlights.on(&samples, &samples.normal, &terms);
         for axis in [Vec3::X, Vec3::Y] {
             let (ahead, behind) = (along(axis, STEP), along(axis, -STEP));
             let (mut error, mut energy) = (0.0, 0.0);

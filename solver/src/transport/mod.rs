@@ -20,6 +20,7 @@ mod rays;
 mod reflection;
 pub mod skin;
 mod sky;
+mod specular_term;
 
 use capture::Mesh;
 use capture::gbuffer::Atlas;
@@ -36,6 +37,7 @@ use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
 pub use reflection::Reflection;
 pub use sky::{Sky, SkyRay, contrast};
+pub use specular_term::SpecularTerm;
 
 /// Parts of a transport beside the shading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

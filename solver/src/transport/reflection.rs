@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::matrix::{Matrix, add_scaled};
 use super::skin::reflected;
-use super::{CHANNELS, SkyRay, Transport};
+use super::{CHANNELS, SkyRay, SpecularTerm, Transport};
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -41,8 +41,8 @@ impl Reflection {
 }
 
 impl Transport {
-    /// The highlights of samples whose reflectances at normal incidence are `specular`, in colour, for lights of
-    /// the scale that has this `peak`, at a nearness per metre that may be another than what the rays were
+    /// The highlights of samples with these [`SpecularTerm`] terms, in colour, for lights of the scale that has
+    /// this `peak`, at a nearness per metre that may be another than what the rays were
     /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::skin_highlights`].
     pub fn reflection(
         &self,
@@ -56,7 +56,9 @@ impl Transport {
         let (cells, lobes) = (self.cells(), self.lobes());
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
-            let scale = scale(skin, peak) * specular.get(0, i);
+            let specular = SpecularTerm::at(specular, i);
+            let scale = scale(skin, peak) * specular.reflectance;
+            let skin = &specular.lobes_of(skin);
             for (cell, weight) in self.reflecting(skin, open, &centres, samples, i, nearness) {
                 add_scaled(row, &lobes[cell * cells..][..cells], scale * weight);
             }

@@ -16,7 +16,7 @@ use solver::optimise::specular::Specular;
 use solver::optimise::stage::{Stage, State};
 use solver::optimise::transported::Transported;
 use solver::optimise::warm_up::WarmUp;
-use solver::transport::{Beside, HIGHLIGHT_ROWS, Sky, Transport};
+use solver::transport::{Beside, HIGHLIGHT_ROWS, Sky, SpecularTerm, Transport};
 
 use super::scene::problem;
 use super::testing;
@@ -170,7 +170,7 @@ pub fn highlights(backend: &dyn Backend) {
     config.transport.albedo_frozen_steps = 22;
     let (samples, state) = problem(&config);
     let mesh = testing::dome(24);
-    let skin_specular = vec![0.04; state.specular.len()];
+    let skin_specular = SpecularTerm::usual(0.04).channels().repeat(state.specular.len());
     for beside in [Beside::Nearness, Beside::Open] {
         let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
         let light: Vec<f32> =
@@ -198,8 +198,13 @@ pub fn skin_highlights(backend: &dyn Backend) {
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bend)).normalize()
     };
     let normals = Planes::from_fn(samples.len(), |i| bent(i).to_array());
+    let term = |i: usize| {
+        let [reflectance, roughness] = [0.9, 1.4].map(|k| 1.0 + 0.3 * (i as f32 * k).sin());
+        SpecularTerm { reflectance, roughness }.channels()
+    };
+    let specular = Planes::from_fn(samples.len(), term);
     let [found, expected] = [backend, &Cpu::new()]
-        .map(|backend| backend.highlights(&skin_highlights, &samples, &normals));
+        .map(|backend| backend.highlights(&skin_highlights, &samples, &normals, &specular));
     for row in 0..HIGHLIGHT_ROWS {
         let values = || (0..samples.len()).map(|i| (found.get(row, i), expected.get(row, i)));
         let largest = values().map(|(_, expected)| expected.abs()).fold(0.0, f32::max);

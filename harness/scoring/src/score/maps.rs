@@ -10,6 +10,9 @@ use super::scores::{RegionSize, Row};
 use super::truth::{LABELS, Truth, mean_alpha};
 use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample, scored};
 
+/// Mean alpha of the lobes that skin is usually rendered with, .15 and .35 in equal parts (Digital Emily 2).
+const USUAL_ALPHA: f32 = 0.25;
+
 /// The rows of every map that `maps` has, and of the trivial answers.
 pub(super) fn rows_of_maps(
     maps: &Maps,
@@ -43,14 +46,14 @@ pub(super) fn rows_of_maps(
         let alpha = fit_to(&mean_alpha(roughness), truth);
         all.extend(map_rows("roughness", &scored::ROUGHNESS, &alpha, &truth.roughness, truth)?);
     }
-    let constant = constant_ratio(&truth.roughness, &truth.region);
-    all.extend(map_rows(
-        "constant_roughness",
-        &scored::ROUGHNESS,
-        &constant,
-        &truth.roughness,
-        truth,
-    )?);
+    for (subject, alpha) in [
+        ("usual_roughness", USUAL_ALPHA),
+        ("constant_roughness", geometric_mean(&truth.roughness, &truth.region)),
+    ] {
+        let data = vec![alpha; truth.roughness.data.len()];
+        let constant = Picture { data, ..truth.roughness.clone() };
+        all.extend(map_rows(subject, &scored::ROUGHNESS, &constant, &truth.roughness, truth)?);
+    }
     for (subject, trivial, map, true_normal) in [
         ("specular_normal", "mesh_specular_normal", &maps.specular_normal, &truth.specular_normal),
         ("diffuse_normal", "mesh_diffuse_normal", &maps.diffuse_normal, &truth.diffuse_normal),
@@ -191,9 +194,8 @@ fn constant(map: &Picture, region: &Region) -> Picture {
     Picture { data: vec![mean; map.data.len()], ..map.clone() }
 }
 
-/// The constant map with the smallest squared log ratio: the geometric mean of the truth.
-fn constant_ratio(map: &Picture, region: &Region) -> Picture {
+/// The constant with the smallest squared log ratio.
+fn geometric_mean(map: &Picture, region: &Region) -> f32 {
     let logs = region.pixels().iter().map(|i| f64::from(map.data[*i]).max(1e-3).ln());
-    let mean = (logs.sum::<f64>() / region.pixels().len() as f64).exp() as f32;
-    Picture { data: vec![mean; map.data.len()], ..map.clone() }
+    (logs.sum::<f64>() / region.pixels().len() as f64).exp() as f32
 }

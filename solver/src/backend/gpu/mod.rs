@@ -127,10 +127,13 @@ impl Backend for Gpu {
         skin_highlights: &SkinHighlights,
         samples: &Samples,
         normals: &Planes,
+        specular: &Planes,
     ) -> Planes {
         self.either(
-            |device| skin_highlights::highlights(device, skin_highlights, samples, normals),
-            |cpu| cpu.highlights(skin_highlights, samples, normals),
+            |device| {
+                skin_highlights::highlights(device, skin_highlights, samples, normals, specular)
+            },
+            |cpu| cpu.highlights(skin_highlights, samples, normals, specular),
         )
     }
 

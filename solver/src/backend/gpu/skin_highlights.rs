@@ -14,11 +14,12 @@ pub(super) fn highlights(
     skin_highlights: &SkinHighlights,
     samples: &Samples,
     normals: &Planes,
+    specular: &Planes,
 ) -> Result<Planes, DeviceError> {
     let parts = skin_highlights.parts(samples);
     let cells = parts.open.len() / parts.from.len().max(1);
     let pieces = Pieces::new(device, samples.len(), HIGHLIGHT_ROWS);
-    let surface = pieces.upload(device, "surface", &[normals, &samples.view]);
+    let surface = pieces.upload(device, "surface", &[normals, &samples.view, specular]);
     let out = pieces.zeros(device, "highlights", HIGHLIGHT_ROWS);
     let lit = device.filled("cells", parts.cells);
     let open = device.filled("open", parts.open);

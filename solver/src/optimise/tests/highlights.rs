@@ -3,9 +3,11 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
+use crate::model::planes::Planes;
 use crate::optimise::highlights::{Found, Highlights};
+use crate::optimise::regression::Regression;
 use crate::transport::skin::schlick;
-use crate::transport::{Beside, CHANNELS, Sky, Transport};
+use crate::transport::{Beside, CHANNELS, Sky, SpecularTerm, Transport};
 
 /// Specular reflectance of skin at normal incidence.
 const SPECULAR: f32 = 0.04;
@@ -20,7 +22,7 @@ fn gradients_reach_light_distance_and_albedo() {
     let transport = Transport::new(&mesh, &Sky::even(4), &config.transport, 0, Beside::Nearness);
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
-    let skin_specular = vec![0.2; SIDE * SIDE];
+    let skin_specular = SpecularTerm::usual(0.2).channels().repeat(SIDE * SIDE);
     let known = Found {
         log_light: &light,
         nearness: 0.4 * transport.near(),
@@ -50,8 +52,8 @@ fn gradients_reach_light_distance_and_albedo() {
     assert!((nearness - expected).abs() < 0.01 * expected.abs(), "{nearness} not {expected}");
 }
 
-/// Two GGX lobes with Schlick's term, times the cosine of the light, in their textbook form.
-fn reflected(normal: Vec3, view: Vec3, light: Vec3) -> f32 {
+/// Two GGX lobes, rougher by a factor, with Schlick's term, times the cosine of the light, in their textbook form.
+fn reflected(rougher: f32, normal: Vec3, view: Vec3, light: Vec3) -> f32 {
     let half = (view + light).normalize();
     let [n_h, n_v, n_l] = [half, view, light].map(|w| normal.dot(w).max(1e-4));
     let lobe = |alpha: f32| {
@@ -60,7 +62,7 @@ fn reflected(normal: Vec3, view: Vec3, light: Vec3) -> f32 {
         let g = |c: f32| 2.0 / (1.0 + (1.0 + squared * (1.0 / (c * c) - 1.0)).sqrt());
         0.5 * d * g(n_v) * g(n_l) / (4.0 * n_v)
     };
-    schlick(SPECULAR, view.dot(half)) * (lobe(0.15) + lobe(0.35))
+    schlick(SPECULAR, view.dot(half)) * (lobe(0.15 * rougher) + lobe(0.35 * rougher))
 }
 
 /// A small white lamp close to a dome of dark skin, whose shading and whose highlights are computed apart
@@ -79,7 +81,7 @@ struct Lamp {
 const RADIUS: f32 = 6.0;
 const ALBEDO: Vec3 = Vec3::new(0.12, 0.07, 0.05);
 
-fn lamp() -> Lamp {
+fn lamp(rougher: f32) -> Lamp {
     let mut config = small();
     config.transport.bounces = 0;
     config.transport.rows = 16;
@@ -95,7 +97,7 @@ fn lamp() -> Lamp {
         let irradiance = PI * (nearest / to.length()).powi(2);
         let towards = to.normalize();
         let highlight = match normal.dot(towards) > 0.0 {
-            true => irradiance * reflected(normal, (from - p).normalize(), towards),
+            true => irradiance * reflected(rougher, normal, (from - p).normalize(), towards),
             false => 0.0,
         };
         (ALBEDO * FRAC_1_PI * irradiance * normal.dot(towards).max(0.0) + highlight, 1)
@@ -129,7 +131,8 @@ impl Lamp {
     /// The light that explains the pictures with the albedo that is given.
     fn found(&self, state: &State, skin_specular: f32, samples: &Samples) -> Highlights<'_> {
         let log_light = vec![0.0; CHANNELS * self.sky.len()];
-        let skin_specular = vec![skin_specular; self.transport.size() * self.transport.size()];
+        let texels = self.transport.size() * self.transport.size();
+        let skin_specular = SpecularTerm::usual(skin_specular).channels().repeat(texels);
         let found = Found { log_light: &log_light, nearness: 0.1, skin_specular: &skin_specular };
         let new = Highlights::new(&self.config, &self.transport, samples, state, found);
         let mut stage = new.unwrap();
@@ -143,7 +146,7 @@ impl Lamp {
 
 #[test]
 fn highlights_say_where_the_lamp_is() {
-    let lamp = lamp();
+    let lamp = lamp(1.0);
     let found = |skin_specular: f32| {
         let stage = lamp.found(&lamp.state, skin_specular, &lamp.samples);
         let luminance = |cell: &usize| (1e6 * stage.log_light[CHANNELS * cell + 1]) as i64;
@@ -160,7 +163,7 @@ fn highlights_say_where_the_lamp_is() {
 /// Skin is said to be less red and more blue than it is, and so the light comes out too red.
 #[test]
 fn highlights_say_what_colour_the_lamp_has() {
-    let mut lamp = lamp();
+    let mut lamp = lamp(1.0);
     let wrong = [0.9f32, 1.0, 1.15];
     let texels = lamp.state.diffuse.iter_mut().zip(wrong.iter().cycle());
     texels.for_each(|(albedo, wrong)| *albedo *= wrong);
@@ -179,5 +182,42 @@ fn highlights_say_what_colour_the_lamp_has() {
     for c in [0, 2] {
         // Not all of it: what the highlights do not show has taken more of the tint than what they show.
         assert!((after[c] - 1.0).abs() < 0.6 * (before[c] - 1.0).abs(), "{before:?} {after:?}");
+    }
+}
+
+#[test]
+fn highlights_say_how_rough_skin_is() {
+    let found = |rougher: f32| {
+        let lamp = lamp(rougher);
+        let stage = lamp.found(&lamp.state, SPECULAR, &lamp.samples);
+        let light: Vec<f32> = stage.log_light.iter().map(|log| log.exp()).collect();
+        let transport = &lamp.transport;
+        let (peak, nearness) = (transport.peak(&light), stage.nearness[0] * transport.near());
+        let mut roughness = 1.0f32;
+        for _ in 0..3 {
+            let predicted = |roughness: f32| {
+                let term = SpecularTerm { reflectance: SPECULAR, roughness }.channels();
+                let terms = Planes::from_fn(lamp.samples.len(), |_| term);
+                let skin = &lamp.config.skin;
+                let rows = transport.reflection(skin, &lamp.samples, &terms, peak, nearness);
+                rows.unwrap().radiance(&light)
+            };
+            let (here, there) = (predicted(roughness), predicted(1.1 * roughness));
+            let slope =
+                |i: usize| std::array::from_fn(|c| (there[i][c] - here[i][c]) / 1.1f32.ln());
+            let shown = |i: usize| lamp.samples.target.sample(i, 0);
+            let rows = |i: usize| [here[i], slope(i)];
+            let regression = Regression::new(&lamp.samples, &lamp.samples.weight, rows, shown);
+            let (step, error) = regression.fit(|_| true, 0..CHANNELS).rougher().unwrap();
+            assert!(error < 0.05, "{error}");
+            roughness *= (step.clamp(-0.3, 0.3) as f32).exp();
+        }
+        roughness
+    };
+    for truth in [0.6f32, 1.6] {
+        let found = found(truth);
+        let misses = |roughness: f32| (roughness / truth).ln().abs();
+        // The lamp is smaller than a cell of the light, so that skin seems the sharper.
+        assert!(misses(found) < 0.7 * misses(1.0) && found < truth, "{found} not {truth}");
     }
 }

@@ -22,7 +22,7 @@ struct Parameters {
 // Row of every sample; and place of every row.
 @group(0) @binding(3) var<storage, read> row: array<u32>;
 @group(0) @binding(4) var<storage, read> places: array<f32>;
-// Rows: normal, view.
+// Rows: normal, view, reflectance at normal incidence, factor on the roughness.
 @group(0) @binding(5) var<storage, read> surface: array<f32>;
 // Rows: R, G, B, how the luminance changes with x, y, z of the normal.
 @group(0) @binding(6) var<storage, read_write> highlights: array<f32>;
@@ -57,8 +57,8 @@ fn unit(v: vec3<f32>) -> vec3<f32> {
 }
 
 fn direction(i: u32, row: u32) -> vec3<f32> {
-    return vec3(surface[place(i, row, 6u)], surface[place(i, row + 1u, 6u)],
-        surface[place(i, row + 2u, 6u)]);
+    return vec3(surface[place(i, row, 8u)], surface[place(i, row + 1u, 8u)],
+        surface[place(i, row + 2u, 8u)]);
 }
 
 @compute @workgroup_size(256)
@@ -73,6 +73,10 @@ fn main(
     }
     let n = direction(i, 0u);
     let v = direction(i, 3u);
+    let reflectance = surface[place(i, 6u, 8u)];
+    let roughness = surface[place(i, 7u, 8u)];
+    let rough_a = min(parameters.rough_a * roughness, 1.0);
+    let rough_b = min(parameters.rough_b * roughness, 1.0);
     let nv = max(dot(n, v), parameters.grazing);
     let here = 3u * row[i];
     let seen_from = vec3(places[here], places[here + 1u], places[here + 2u]);
@@ -88,8 +92,8 @@ fn main(
         }
         let h = unit(v + l);
         let c = dot(n, h);
-        let a = lobe(parameters.rough_a, parameters.weight_a, c, nv, nl);
-        let b = lobe(parameters.rough_b, parameters.weight_b, c, nv, nl);
+        let a = lobe(rough_a, parameters.weight_a, c, nv, nl);
+        let b = lobe(rough_b, parameters.weight_b, c, nv, nl);
         let grazing = 1.0 - clamp(dot(v, h), 0.0, 1.0);
         let squared = grazing * grazing;
         let weight =
@@ -98,8 +102,8 @@ fn main(
         slope += weight * lit[at + 96u]
             * (h * (a.by_c + b.by_c) + v * (a.by_nv + b.by_nv) + l * (a.by_nl + b.by_nl));
     }
-    colour *= parameters.scale;
-    slope *= parameters.scale;
+    colour *= parameters.scale * reflectance;
+    slope *= parameters.scale * reflectance;
     #for k in 0..3
         highlights[place(i, k, 6u)] = colour[k];
         highlights[place(i, 3u + k, 6u)] = slope[k];
