@@ -84,8 +84,8 @@ class Editable:
         maps = unshade.solve(unshade.Capture(self.folder), config=config, out=out)
         size = maps.diffuse_albedo.shape[0]
         assert maps.diffuse_albedo.shape == (size, size, 3) and maps.specular_albedo.shape == (size, size)
-        for albedo, most in ((maps.diffuse_albedo, 20.0), (maps.specular_albedo, 1.0)):
-            assert np.isfinite(albedo).all() and albedo.max() < most
+        for albedo, maximum in ((maps.diffuse_albedo, 20.0), (maps.specular_albedo, 1.0)):
+            assert np.isfinite(albedo).all() and albedo.max() < maximum
             assert albedo.min() >= 0 or "paper" in config  # which leaves them free
         for normal in (maps.diffuse_normal, maps.specular_normal):
             np.testing.assert_allclose(np.linalg.norm(normal, axis=-1), 1, atol=1e-4)

@@ -107,8 +107,8 @@ def nvdiffrec(maps: unshade.Maps, layout: Layout, folder: Path) -> None:
     layout.write_mesh(folder / "mesh.obj")
     write_png(folder / "texture_kd.png", srgb(layout.texture(maps.diffuse_albedo)))
     # What holds light back, roughness, metalness: F0 = 0.04 (1 - held back).
-    held = 1 - layout.texture(maps.specular_albedo) / 0.04
-    arm = np.stack([held, np.full(held.shape, 0.3**0.5), np.zeros(held.shape)], -1)
+    blocked = 1 - layout.texture(maps.specular_albedo) / 0.04
+    arm = np.stack([blocked, np.full(blocked.shape, 0.3**0.5), np.zeros(blocked.shape)], -1)
     write_png(folder / "texture_ks.png", arm)
     write_png(folder / "texture_n.png", layout.tangent(layout.texture(maps.specular_normal)) / 2 + 0.5)
 

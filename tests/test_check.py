@@ -44,7 +44,7 @@ def srgb(x: Array) -> Array:
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
 
 
-def turned(n: Array, degrees: float) -> Array:
+def rotated(n: Array, degrees: float) -> Array:
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return n @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
 
@@ -54,7 +54,7 @@ def tangent(n: Array) -> Array:
     return (wave + [0, 0, 1]) / np.linalg.norm(wave + [0, 0, 1], axis=-1, keepdims=True)
 
 
-VIEW = turned(np.eye(3), 0)
+VIEW = rotated(np.eye(3), 0)
 """World to camera (transposed) of the first view; the fixture sets it."""
 
 
@@ -101,7 +101,7 @@ FAULTS: dict[str, tuple[str, Callable[[Array], Array], str]] = {
     "normal coded 0 to 255": (NORMAL, lambda n: 127.5 * (n + 1), "coded-0-255"),
     "normal in tangent space": (NORMAL, tangent, "tangent-space"),
     "normal in tangent space, coded": (NORMAL, lambda n: tangent(n) / 2 + 0.5, "tangent-space"),
-    "normal turned by 70 degrees": (NORMAL, lambda n: turned(n, 70), "turned-normals"),
+    "normal turned by 70 degrees": (NORMAL, lambda n: rotated(n, 70), "turned-normals"),
     "normal in the first camera's space": (NORMAL, lambda n: n @ VIEW, "camera-space"),
     "normal of length 2": (NORMAL, lambda n: 2 * n, "not-unit"),
     "normal of length 0 here and there": (NORMAL, hole(0), "zero-length"),

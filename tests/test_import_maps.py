@@ -173,8 +173,8 @@ def test_texels_without_a_counterpart_stay_uncovered(capture: unshade.Capture, n
     foreign_maps.write_png(tmp_path / "theirs" / "albedo.png", foreign_maps.srgb(maps.diffuse_albedo), 16)
     layout.write_mesh(tmp_path / "theirs" / "half.obj")
     back = unshade.Maps.read(bring(capture, tmp_path / "theirs", tmp_path / "maps", limit_mm=1))
-    share = (back.coverage > 0).sum() / (maps.coverage > 0).sum()
-    assert 0.35 < share < 0.75
+    fraction = (back.coverage > 0).sum() / (maps.coverage > 0).sum()
+    assert 0.35 < fraction < 0.75
     assert np.isfinite(back.diffuse_albedo).all() and back.diffuse_albedo[maps.coverage > 0].min() > 0.001
 
 

@@ -146,8 +146,8 @@ def test_the_truth_has_its_roughness(tiny_run: Path) -> None:
     truth = capture.truth()
     assert truth.roughness is not None and truth.size is not None
     assert truth.roughness.shape == (truth.size, truth.size, 3)
-    sharp, broad, share = truth.roughness[truth.coverage > 127].T
-    assert (0 < sharp).all() and (sharp < broad).all() and (broad < 1).all() and ((0 <= share) & (share <= 1)).all()
+    sharp, broad, weight = truth.roughness[truth.coverage > 127].T
+    assert (0 < sharp).all() and (sharp < broad).all() and (broad < 1).all() and ((0 <= weight) & (weight <= 1)).all()
     assert "roughness" in repr(truth)
     again = pickle.loads(pickle.dumps(capture))
     assert again.path == capture.path and again.truth() == truth == pickle.loads(pickle.dumps(truth))

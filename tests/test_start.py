@@ -86,9 +86,9 @@ def test_the_wheel_carries_all_that_the_package_reads(tmp_path: Path) -> None:
     maturin = [Path(sys.executable).with_name("maturin"), "build", "--release", "--quiet", "-o", tmp_path]
     subprocess.run(maturin, cwd=ROOT, check=True, capture_output=True)
     (wheel,) = tmp_path.glob("*.whl")
-    held = set(zipfile.ZipFile(wheel).namelist())
+    packed = set(zipfile.ZipFile(wheel).namelist())
     files = [path.relative_to(ROOT / "synth") for path in (ROOT / "synth" / "unshade").rglob("*") if path.is_file()]
     scenes = [Path("unshade") / path.relative_to(ROOT) for path in (ROOT / "scenes").rglob("*") if path.is_file()]
     wanted = {path.as_posix() for path in (*files, *scenes) if "__pycache__" not in path.parts}
     assert "unshade/scenes/suites/demo.toml" in wanted and "unshade/_native.abi3.so" in wanted
-    assert wanted <= held, wanted - held
+    assert wanted <= packed, wanted - packed

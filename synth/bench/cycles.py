@@ -24,7 +24,7 @@ from unshade.render.pictures import read_exr, read_gray  # noqa: E402, needs the
 
 LAYERS = ("diffuse", "specular")
 
-FEWEST = 100
+MIN_PIXELS = 100
 """Pixels of a region that is looked at."""
 
 
@@ -47,7 +47,7 @@ def row(capture: Path, relit: Path, light: str) -> str:
         regions = {
             word: other[layer][labels == int(label)].mean() / truth[layer][labels == int(label)].mean() - 1
             for label, word in names.items()
-            if (labels == int(label)).sum() > FEWEST
+            if (labels == int(label)).sum() > MIN_PIXELS
         }
         worst = max(regions, key=lambda word: abs(regions[word]))
         cells += [f"{other[layer].mean() / truth[layer].mean() - 1:+.2%}", f"{worst} {regions[worst]:+.2%}"]

@@ -147,8 +147,8 @@ class Frame:
     def at(self, wave: float, value: float) -> tuple[float, float]:
         """Where a value at a wavelength (mm) lies; values beyond the edges lie on them."""
         x = (np.log(32) - np.log(wave)) / np.log(64)
-        share = np.log(np.clip(value, self.low, self.high) / self.low) / np.log(self.high / self.low)
-        return self.left + _SIDE * x, self.top + _SIDE * (1 - share)
+        fraction = np.log(np.clip(value, self.low, self.high) / self.low) / np.log(self.high / self.low)
+        return self.left + _SIDE * x, self.top + _SIDE * (1 - fraction)
 
 
 def draw(measured: dict[str, list[Measured]]) -> Image.Image:

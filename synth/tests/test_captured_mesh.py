@@ -17,13 +17,13 @@ from unshade.scene_file import CapturedMesh
 STEPS = 70
 
 
-def sheet(height=None, bend=2.2):
+def sheet(height=None, arc=2.2):
     """A 160 mm square sheet with a lens-shaped hole, bent to a half tube or with its own
     height; vertices in a regular grid."""
     u, v = (a.ravel() for a in np.meshgrid(*[np.linspace(0, 1, STEPS)] * 2))
     across, up = (u - 0.5) * 0.16, (v - 0.5) * 0.16
     if height is None:
-        radius = 0.16 / bend
+        radius = 0.16 / arc
         points = np.stack([radius * np.sin(across / radius), up, radius * np.cos(across / radius)], 1)
     else:
         points = np.stack([across, up, height(across, up)], 1)
@@ -82,10 +82,10 @@ def require_chart(chart, count):
     ]
 
 
-@pytest.mark.parametrize("share", [0.5, 0.1, 0.03])
-def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(share):
-    small = degrade(SHEET, CapturedMesh(vertex_share=share), 1)
-    assert len(small.vertices) == round(share * len(SHEET.vertices))
+@pytest.mark.parametrize("fraction", [0.5, 0.1, 0.03])
+def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(fraction):
+    small = degrade(SHEET, CapturedMesh(vertex_share=fraction), 1)
+    assert len(small.vertices) == round(fraction * len(SHEET.vertices))
     require_chart(small, holes(SHEET))
     # Every vertex is an old one, with its own texture coordinates.
     distance, old = cKDTree(SHEET.uv).query(small.uv)
@@ -96,7 +96,7 @@ def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(share):
     radius = 0.16 / 2.2
     off = np.abs(np.hypot(middles[:, 0], middles[:, 2]) - radius)
     # The sagitta of an even mesh's edge; the longest edge may be 2.6 times as long.
-    sagitta = 0.16**2 / len(SHEET.vertices) / share / (8 * radius)
+    sagitta = 0.16**2 / len(SHEET.vertices) / fraction / (8 * radius)
     assert off.max() < 7 * sagitta and off.mean() < 0.7 * sagitta
     assert deviation(SHEET, small)["max_distance_to_truth_mm"] < 1e-3
 

@@ -51,9 +51,9 @@ def test_both_renderers_see_the_same_face(capture, tmp_path):
     mask = read_gray(capture / "masks/003.png") > 0
     for light in ("studio", "uniform"):
         theirs, ours = out / "none" / light / "003.exr", capture / "truth/relit" / light / "003.exr"
-        for name, most in (("diffuse", 0.02), ("specular", 0.05)):
+        for name, tolerance in (("diffuse", 0.02), ("specular", 0.05)):
             ratio = layer(theirs, name)[mask].mean() / layer(ours, name)[mask].mean()
-            assert ratio == pytest.approx(1, abs=most), (light, name)
+            assert ratio == pytest.approx(1, abs=tolerance), (light, name)
         # The noise of few samples is what is left: within four of its own deviations nearly everywhere.
         deviation = np.sqrt(layer(theirs, "variance") + layer(ours, "variance")) + 1e-4
         total = [layer(path, "diffuse") + layer(path, "specular") for path in (theirs, ours)]
@@ -117,11 +117,11 @@ def blender_direction(row, column, height, width):
 def test_environments_keep_their_directions_and_energy(direction):
     picture = np.zeros((64, 128, 3))
     conventions.deposit(picture, np.array(direction), np.ones(3))
-    turned = description.equirectangular(picture.astype(np.float32))
-    height, width = turned.shape[:2]
-    rows, columns = np.nonzero(turned[..., 0])
+    converted = description.equirectangular(picture.astype(np.float32))
+    height, width = converted.shape[:2]
+    rows, columns = np.nonzero(converted[..., 0])
     solid = 2 * np.pi**2 / (height * width) * np.sin(np.pi * (rows + 0.5) / height)
-    energy = turned[rows, columns, 0] * solid
+    energy = converted[rows, columns, 0] * solid
     places = np.array([blender_direction(r, c, height, width) for r, c in zip(rows, columns)])
     mean = export_toy.unit(energy @ places)
     assert energy.sum() == pytest.approx(1, rel=0.03)

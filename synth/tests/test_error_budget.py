@@ -68,8 +68,8 @@ def test_a_planted_error_is_given_to_the_map_it_is_in(capture: Path, tmp_path: P
     write_exr(maps / "diffuse_albedo.exr", {"": np.stack([albedo[name] for name in "RGB"], -1) * slope[:, None]})
     rows = {row["map"]: row for row in unshade.budget(capture, maps, out)}
     culprit = {"specular_normal": "normals"}.get(planted, planted.replace("_", " "))
-    share = rows[culprit]["share"]
-    assert share is not None and share > 0.9, rows
+    fraction = rows[culprit]["share"]
+    assert fraction is not None and fraction > 0.9, rows
     document = json.loads((out / "budget.json").read_text())
     assert sum(row["squared_error"] for row in document["maps"]) == pytest.approx(document["squared_error"], rel=1e-9)
     assert len(document["mixes"]) == 16 and rows[culprit]["gain_db"] > 9

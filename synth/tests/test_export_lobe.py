@@ -13,18 +13,18 @@ def ggx(theta, alpha):
     return a2 / (np.pi * (cosine2 * (a2 - 1) + 1) ** 2)
 
 
-def misplaced(alpha, first, second, share):
+def misplaced(alpha, first, second, weight):
     """Half the integral of the difference, by another quadrature."""
 
     def difference(theta):
-        two = share * ggx(theta, first) + (1 - share) * ggx(theta, second)
+        two = weight * ggx(theta, first) + (1 - weight) * ggx(theta, second)
         return abs(two - ggx(theta, alpha)) * np.pi * np.sin(2 * theta)
 
     return quad(difference, 0, np.pi / 2, limit=400, epsabs=1e-7)[0] / 2
 
 
-def fitted(first, second, share):
-    single = lobe.fit(np.float32([[[first, second, share]]]))
+def fitted(first, second, weight):
+    single = lobe.fit(np.float32([[[first, second, weight]]]))
     return float(single.alpha[0, 0]), float(single.misplaced[0, 0])
 
 

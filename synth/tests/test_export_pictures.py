@@ -55,8 +55,8 @@ def test_roughness_is_the_root_of_an_alpha_between_the_lobes(sets, capture):
 def test_green_turns_and_nothing_else(sets):
     for name in NAMES:
         up, down = stacked(sets / "16", name), stacked(sets / "down", name)
-        turned = up * np.float32([1, -1, 1]) if name.endswith("normal") else up
-        np.testing.assert_array_equal(turned, down)
+        expected = up * np.float32([1, -1, 1]) if name.endswith("normal") else up
+        np.testing.assert_array_equal(expected, down)
 
 
 def test_srgb_is_its_own_inverse():

@@ -98,8 +98,8 @@ def test_labels_name_every_region_of_the_chart_alone(face):
     assert labels.dtype == np.uint8
     np.testing.assert_array_equal(labels > 0, inside)
     assert set(np.unique(labels)) == set(Label)
-    share = {label: (labels[inside] == label).mean() for label in Label}
-    assert share[Label.SKIN] > 0.4 and 0.005 < share[Label.LIPS] < 0.05 and 0.01 < share[Label.NOSE] < 0.06
+    fraction = {label: (labels[inside] == label).mean() for label in Label}
+    assert fraction[Label.SKIN] > 0.4 and 0.005 < fraction[Label.LIPS] < 0.05 and 0.01 < fraction[Label.NOSE] < 0.06
 
 
 def test_lips_are_redder_and_brows_darker_than_skin(face):

@@ -48,8 +48,8 @@ def test_samples_are_spread_and_skin_is_independent_of_shape():
     assert np.bincount(types, minlength=6).min() > 15
     years = np.array([spec.years for spec in SPECS])
     assert years.min() < 25 and years.max() > 60
-    for share in range(3):
-        shape = [spec.ethnicity[share] for spec in SPECS]
+    for component in range(3):
+        shape = [spec.ethnicity[component] for spec in SPECS]
         # Three standard errors of a correlation of 0.
         assert abs(np.corrcoef(types, shape)[0, 1]) < 3 / np.sqrt(COUNT)
 

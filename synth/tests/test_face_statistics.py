@@ -47,8 +47,8 @@ def test_what_lies_outside_the_region_is_not_measured():
     clean, marred = (statistics.spectrum(v, region, surface) for v in (noise, spoiled))
     np.testing.assert_array_equal(clean, marred)
     # White noise: the variance in an octave is its share of the square of frequencies up to 1 / mm.
-    share = np.pi * (3 * statistics.BANDS[3] ** 2) * 0.5**2
-    assert clean[3] == pytest.approx(0.1 * np.sqrt(share), rel=0.15)
+    fraction = np.pi * (3 * statistics.BANDS[3] ** 2) * 0.5**2
+    assert clean[3] == pytest.approx(0.1 * np.sqrt(fraction), rel=0.15)
     assert np.isnan(statistics.spectrum(noise, np.zeros_like(region), surface)).all()
 
 

@@ -44,17 +44,17 @@ def boundary(labels):
     return {(y, x) for y, x in np.argwhere(labels > 0) if neighbours(labels, y, x)}
 
 
-@pytest.mark.parametrize("share", [0.1, 0.5, 1.0])
-def test_the_share_of_boundary_pixels_is_exact_and_nothing_else_changes(share):
+@pytest.mark.parametrize("fraction", [0.1, 0.5, 1.0])
+def test_the_share_of_boundary_pixels_is_exact_and_nothing_else_changes(fraction):
     perfect = regions()
-    stated = stated_labels(perfect, camera(), scene(boundary_error=share))
+    stated = stated_labels(perfect, camera(), scene(boundary_error=fraction))
     edge = boundary(perfect)
     wrong = {tuple(p) for p in np.argwhere(stated != perfect)}
-    assert len(edge) > 300 and len(wrong) == round(share * len(edge)) and wrong <= edge
+    assert len(edge) > 300 and len(wrong) == round(fraction * len(edge)) and wrong <= edge
     for y, x in wrong:
         around = neighbours(perfect, y, x)
-        most = max(around.count(v) for v in around)
-        assert stated[y, x] == min(v for v in around if around.count(v) == most)
+        majority = max(around.count(v) for v in around)
+        assert stated[y, x] == min(v for v in around if around.count(v) == majority)
     assert stated.dtype == np.uint8
 
 

@@ -90,11 +90,11 @@ WIDE, TALL, FOCAL, DEPTH = 48, 12, 300.0, 0.5
 LOOK = Camera("000", WIDE, TALL, FOCAL, look_at(np.array([0.0, 0.0, DEPTH]), np.zeros(3)), True)
 
 
-def edge_scene(turned):
+def edge_scene(level):
     """A white half plane at z = 0 whose edge crosses the middle of the picture: upright
     (white on the left), or level (white below)."""
     corners = np.array([[-2, -2, 0], [0, -2, 0], [0, 2, 0], [-2, 2, 0]], np.float32)
-    if turned:
+    if level:
         corners = corners @ np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]], np.float32)
     uv = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]], np.float32)
     chart = Chart(corners, np.tile(np.float32([0, 0, 1]), (4, 1)), uv, np.array([[0, 1, 2], [0, 2, 3]], np.uint32))
@@ -153,10 +153,10 @@ def test_motion_smears_an_edge_over_its_pixels_and_across_it_alone(pixels):
     upwards = camera_lens(LOOK, formed(motion_pixels=pixels, motion_direction_degrees=90.0))
     assert np.abs(edge_profile(upwards) - (np.arange(WIDE) < WIDE / 2)).max() < 0.01
     # Degrees are pixels over the focal length.
-    turned = camera_lens(
+    in_degrees = camera_lens(
         LOOK, formed(motion_degrees=math.degrees(2 * math.atan(pixels / 2 / FOCAL)), motion_direction_degrees=0.0)
     )
-    assert turned.turn == pytest.approx(lens.turn)
+    assert in_degrees.turn == pytest.approx(lens.turn)
 
 
 def test_a_lens_without_faults_is_a_pinhole_and_equal_seeds_give_equal_bits():

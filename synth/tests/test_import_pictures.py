@@ -13,7 +13,7 @@ from PIL import Image, ImageCms
 
 from unshade.errors import PictureError
 from unshade.importing.brackets import bracket, merged
-from unshade.importing.pictures import read_photograph, read_plane, turned
+from unshade.importing.pictures import oriented, read_photograph, read_plane
 
 RANDOM = np.random.default_rng(1)
 CODES = RANDOM.integers(0, 256, (6, 10, 3), dtype=np.uint8)
@@ -108,7 +108,7 @@ def test_orientations_are_those_of_pillow(orientation: int, tmp_path: Path) -> N
     with Image.open(path) as image:
         shown = np.asarray(ImageOps.exif_transpose(image))
     assert read.codes is not None
-    np.testing.assert_array_equal(turned(read.codes, orientation), shown)
+    np.testing.assert_array_equal(oriented(read.codes, orientation), shown)
 
 
 def test_a_jpeg_is_read_as_it_is_stored(tmp_path: Path) -> None:

@@ -116,21 +116,21 @@ def changed(draw: random.Random, seeds: list[tuple[dict, bytes]]) -> bytes:
     document, data = draw.choice(seeds)
     document = copy.deepcopy(document)
     for _ in range(draw.choice([0, 1, 1, 2, 3, 6])):
-        holder, key = draw.choice(places(document) or [({}, "a")])
+        container, key = draw.choice(places(document) or [({}, "a")])
         way = draw.randrange(7)
         if way == 0:
-            holder.pop(key, None) if isinstance(holder, dict) else holder.pop(key)
+            container.pop(key, None) if isinstance(container, dict) else container.pop(key)
         elif way == 1:
-            holder[key] = copy.deepcopy(draw.choice(OTHERS))
+            container[key] = copy.deepcopy(draw.choice(OTHERS))
         elif way == 2:
             other, there = draw.choice(places(document) or [({}, "a")])
-            holder[key] = copy.deepcopy(other.get(there) if isinstance(other, dict) else other[there])
-        elif way == 3 and isinstance(holder, list):
-            holder.extend(holder[key : key + 1] * draw.choice([1, 2, 40]))
+            container[key] = copy.deepcopy(other.get(there) if isinstance(other, dict) else other[there])
+        elif way == 3 and isinstance(container, list):
+            container.extend(container[key : key + 1] * draw.choice([1, 2, 40]))
         elif key == "componentType":
-            holder[key] = draw.choice(KINDS)
+            container[key] = draw.choice(KINDS)
         else:
-            holder[key] = draw.choice(EDGES) if draw.random() < 0.6 else draw.randrange(-2, 12)
+            container[key] = draw.choice(EDGES) if draw.random() < 0.6 else draw.randrange(-2, 12)
     file = bytearray(glb(document, data))
     for _ in range(draw.choice([0, 0, 1, 2, 8])):
         at, way = draw.randrange(len(file) or 1), draw.randrange(5)
@@ -171,8 +171,8 @@ def limits():
 
     before = resource.getrlimit(resource.RLIMIT_AS)
     with open("/proc/self/statm") as state:
-        held = int(state.read().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (held + BYTES, before[1]))
+        used = int(state.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + BYTES, before[1]))
     handler = signal.signal(signal.SIGALRM, late)
     yield
     signal.alarm(0)

@@ -11,7 +11,7 @@ import pytest
 from unshade.face import FaceError
 from unshade.own_head import HeadFiles, build, placement
 from unshade.own_head.mesh_file import read_pieces
-from unshade.own_head.outward import MeshWarning, turned_outwards
+from unshade.own_head.outward import MeshWarning, oriented_outwards
 from unshade.scene_file.face import parse_face
 
 
@@ -76,7 +76,7 @@ def reversed_faces(text, which):
 
 
 left = lambda line: float(line.split()[1]) < 0.1
-TURNED = {
+INWARD = {
     "all normals": (with_normals, lambda t: negated(t, lambda _: True), "normals"),
     "half of the normals": (with_normals, lambda t: negated(t, left), "normals"),
     "all triangles": (lambda t: t, lambda t: reversed_faces(t, lambda _: True), "triangles"),
@@ -85,9 +85,9 @@ TURNED = {
 }
 
 
-@pytest.mark.parametrize("name", TURNED)
+@pytest.mark.parametrize("name", INWARD)
 def test_what_points_inwards_is_turned_with_a_warning(name, folder):
-    sound, change, said = TURNED[name]
+    sound, change, said = INWARD[name]
     files.write_obj(folder / "sound.obj", sound)
     files.write_obj(folder / "turned.obj", lambda text: change(sound(text)))
     with warnings.catch_warnings():
@@ -115,7 +115,7 @@ def test_a_twisted_strip_is_named():
     after_low, after_high = np.append(low[1:], high[0]), np.append(high[1:], low[0])
     triangles = np.concatenate([np.stack([low, after_low, after_high], 1), np.stack([low, after_high, high], 1)])
     with pytest.warns(MeshWarning, match="40 of 40 triangles lie on surfaces that have one side only"):
-        turned_outwards(points, triangles, None, type("Head", (), {"mesh": "strip.obj"}))
+        oriented_outwards(points, triangles, None, type("Head", (), {"mesh": "strip.obj"}))
 
 
 def test_one_obj_however_it_is_written(folder):

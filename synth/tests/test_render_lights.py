@@ -111,12 +111,12 @@ def test_turning_moves_light_from_front_to_left_hand(monkeypatch):
     picture[4, 7:9] = 1  # around phi = pi: +Z
     front = lights.Environment(picture)
     monkeypatch.setattr(envmap, "read_light", lambda path: picture)
-    turned = lights.environment(Light("e", "envmap", path="x", rotation_degrees=90.0))
+    rotated = lights.environment(Light("e", "envmap", path="x", rotation_degrees=90.0))
     axes = np.eye(3)
     at = np.zeros((3, 3))
     assert front.irradiance(at, axes)[:, 0].argmax() == 2
-    assert turned.irradiance(at, axes)[:, 0].argmax() == 0
-    assert turned.picture.sum() == pytest.approx(picture.sum())
+    assert rotated.irradiance(at, axes)[:, 0].argmax() == 0
+    assert rotated.picture.sum() == pytest.approx(picture.sum())
 
 
 def test_negatives_and_clamp(tmp_path):
@@ -246,7 +246,7 @@ def test_gradients_are_those_of_the_formula():
     assert full.irradiance(POINTS, NORMALS) == pytest.approx(math.pi)
 
 
-def share(first, second=None):
+def sphere_mean(first, second=None):
     """Mean over solid angle of a lat-long picture, or of the product of two."""
     solid = solid_angles(*first.shape[:2])
     return (first * (1 if second is None else second) * solid[:, None]).sum() / (solid.sum() * first.shape[1])
@@ -258,11 +258,11 @@ def test_patterns_split_the_sphere_evenly():
 
     for keys in ({"pattern": "stripes", "axis": "z+", "count": 8}, {"pattern": "hadamard", "index": 5}):
         picture = lit(**keys)
-        assert share(picture) == pytest.approx(0.5, abs=2e-3)
+        assert sphere_mean(picture) == pytest.approx(0.5, abs=2e-3)
         np.testing.assert_allclose(picture + lit(**keys, inverse=True), 1, atol=1e-6)
     # Rows of a Hadamard matrix: as +1 and -1 they are orthogonal.
     signs = [2 * lit(pattern="hadamard", axis="z+", order=4, index=index) - 1 for index in range(4)]
-    gram = np.array([[share(a, b) for a in signs] for b in signs])
+    gram = np.array([[sphere_mean(a, b) for a in signs] for b in signs])
     # Texels on edges are of neither sign.
     np.testing.assert_allclose(gram, np.eye(4), atol=0.02)
     towards, _ = directions(*lights.LATLONG, 1)
@@ -290,7 +290,7 @@ def test_small_sources_keep_their_energy_and_place_in_the_latlong():
     picture = model.latlong()
     d = 1.0
     solid = 2 * math.pi * (1 - math.sqrt(1 - (0.01 / d) ** 2))
-    assert share(picture[..., 0].astype(float)) * 4 * math.pi == pytest.approx(model.radiance * solid, rel=1e-3)
+    assert sphere_mean(picture[..., 0].astype(float)) * 4 * math.pi == pytest.approx(model.radiance * solid, rel=1e-3)
     towards, _ = directions(*lights.LATLONG, 1)
     weights = picture[..., 0] * solid_angles(*lights.LATLONG)[:, None]
     mean = (towards * weights[..., None]).sum((0, 1))

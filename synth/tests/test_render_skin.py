@@ -72,8 +72,8 @@ def test_the_lambert_term_reflects_its_albedo():
 def test_specular_albedo_reads_as_reflectance_at_normal_incidence():
     """Rough lobes lose a tenth of it to masking and to the horizon."""
     for rho_s in (0.02, 0.05):
-        share = reflected(skin(specular=rho_s), context("specular"), direction(1, 0))
-        assert 0.88 < share / rho_s < 0.95
+        albedo = reflected(skin(specular=rho_s), context("specular"), direction(1, 0))
+        assert 0.88 < albedo / rho_s < 0.95
 
 
 def test_furnace_on_a_head():
@@ -127,7 +127,7 @@ def test_roughness_varies_over_the_map():
 def test_the_share_is_that_of_the_first_lobe():
     """Far from the mirror direction a wide lobe is bright and a narrow one dark."""
     far = direction(50, 80)
-    narrow, wide = (values(skin(roughness=[0.05, 0.5, share]), wo=far) for share in (1.0, 0.0))
+    narrow, wide = (values(skin(roughness=[0.05, 0.5, weight]), wo=far) for weight in (1.0, 0.0))
     mixed = values(skin(roughness=[0.05, 0.5, 0.25]), wo=far)
     assert wide[0] > 20 * narrow[0]
     np.testing.assert_allclose(mixed, 0.25 * np.array(narrow) + 0.75 * np.array(wide), rtol=1e-5)

@@ -30,7 +30,7 @@ FIGURES = {
 _PENALTY = 4.0
 """Penalty of a step over the logarithm of the number of runs, in squared standard deviations: a history without
 steps shows one in fewer than one in twenty (a test counts them)."""
-_FEWEST = 6
+_MIN_RUNS = 6
 _COLOURS = ("#1b6ca8", "#c2571a", "#2e7d4f", "#8a4fa3", "#7a6a1f", "#555555")
 _WIDTH, _PANEL, _LEFT, _RIGHT, _TOP = 760, 150, 64, 16, 30
 
@@ -48,7 +48,7 @@ def steps(values: Sequence[float]) -> list[int]:
         ) from None
     series: NDArray[np.float64] = np.asarray(values, float)
     spread = float(np.ptp(series)) if len(series) else 0.0
-    if len(series) < _FEWEST or spread == 0.0:
+    if len(series) < _MIN_RUNS or spread == 0.0:
         return []
     noise = float(np.median(np.abs(np.diff(series)))) / (0.6745 * np.sqrt(2.0))
     # Runs of the same code have the same scores: then every change is a step.

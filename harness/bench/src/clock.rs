@@ -3,13 +3,13 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-/// The shortest of as many runs as fit into `budget`, `least` at the least; seconds. The shortest,
+/// The shortest of as many runs as fit into `budget`, `min_runs` at the least; seconds. The shortest,
 /// because whatever else the machine does only ever adds to it.
-pub fn best(budget: Duration, least: usize, mut work: impl FnMut()) -> f64 {
+pub fn best(budget: Duration, min_runs: usize, mut work: impl FnMut()) -> f64 {
     let start = Instant::now();
     let mut best = f64::INFINITY;
     let mut runs = 0;
-    while runs < least || start.elapsed() < budget {
+    while runs < min_runs || start.elapsed() < budget {
         let begin = Instant::now();
         work();
         best = best.min(begin.elapsed().as_secs_f64());

@@ -41,7 +41,7 @@ pub use solves::Solved;
 pub use steps::{Kind, Reach, Step};
 pub use torch::{MEND, TorchError, TorchStep};
 
-use paper::{COARSE, PAPER_SHARES, PAPER_STEPS, Paper};
+use paper::{COARSE, PAPER_DIVISORS, PAPER_STEPS, Paper};
 use synthetic::Problem;
 use torch::TORCH_STEPS;
 
@@ -177,8 +177,8 @@ impl Bench {
             progress(&format!("warm-up, {threads} threads"));
             // A machine that cannot start a thread has no row for it.
             let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
-            let share = threads as f64 / all as f64;
-            let reach = Reach { flops: share * reach.flops, ..reach };
+            let fraction = threads as f64 / all as f64;
+            let reach = Reach { flops: fraction * reach.flops, ..reach };
             let budget = self.budget();
             rows.push(pool.install(|| steps::measure(Kind::WarmUp, device, reach, size, budget)));
         }
@@ -188,15 +188,15 @@ impl Bench {
     fn paper(&self) -> Paper {
         Paper {
             quick: self.quick,
-            shares: if self.quick { [10_000, 40_000] } else { PAPER_SHARES },
+            divisors: if self.quick { [10_000, 40_000] } else { PAPER_DIVISORS },
         }
     }
 
     fn paper_size(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> PaperSize {
         let paper = self.paper();
         let steps = Kind::ALL.map(|kind| {
-            paper.shares.map(|share| {
-                let size = paper.size(kind, share);
+            paper.divisors.map(|divisor| {
+                let size = paper.size(kind, divisor);
                 let (pixels, name) = (size.0, kind.name());
                 progress(&format!(
                     "the paper's capture, {name}, {pixels} pixels, {}",
@@ -209,7 +209,7 @@ impl Bench {
             let times = [more, less].map(|step| (step.pixels, step.milliseconds));
             1e-3 * steps as f64 * on_a_line(times, paper.size(more.kind, 1).0)
         });
-        PaperSize { shares: paper.shares, seconds: seconds.sum(), steps: steps.to_vec() }
+        PaperSize { divisors: paper.divisors, seconds: seconds.sum(), steps: steps.to_vec() }
     }
 
     /// Steps, whole solves and the paper's capture on a GPU; `cpu` says what the losses should be.

@@ -125,7 +125,7 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
         "Ten views, 12 million pixels in half resolution for 2000 steps, 48 million in full for 1000, \
          2048² textures; the paper reports under 30 minutes on an RTX 3080.\n"
     )?;
-    let PaperSize { shares: [more, less], steps, seconds } = &report.paper;
+    let PaperSize { divisors: [more, less], steps, seconds } = &report.paper;
     let backend = steps.first().map_or("", |[step, _]| &step.backend);
     writeln!(
         page,
@@ -146,7 +146,7 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
          share of the peak: machine's / after the step | GB/s | memory | x floor |\n|---|---|---|---|---|---|---|---|---|---|"
     )?;
     for step in steps {
-        let share = match step.shares_of_peak() {
+        let of_peak = match step.fractions_of_peak() {
             [0.0, _] => "no products".to_owned(),
             [of_machine, after] => format!("{:.0} / {:.0} %", 100.0 * of_machine, 100.0 * after),
         };
@@ -167,7 +167,7 @@ fn write_steps<'a>(page: &mut String, steps: impl Iterator<Item = &'a Step>) -> 
             step.product_floor,
             step.compute_floor,
             step.memory_floor,
-            share,
+            of_peak,
             step.cost.bytes / step.milliseconds / 1e6,
             step.peak_memory.map_or(String::new(), size),
             step.milliseconds / step.floor(),

@@ -35,9 +35,10 @@ pub struct Report {
 /// The paper's capture on the processor.
 #[derive(Debug, Serialize)]
 pub struct PaperSize {
-    /// One over the shares of the pixels that were really there, the larger share first.
-    pub shares: [usize; 2],
-    /// One step of each kind on each share.
+    /// One of so many pixels was really there, more of them first.
+    #[serde(rename = "shares")]
+    pub divisors: [usize; 2],
+    /// One step of each kind on either number of pixels.
     pub steps: Vec<[Step; 2]>,
     /// Seconds of all 3000 steps on all pixels, on the line through the measured ones.
     pub seconds: f64,

@@ -96,9 +96,9 @@ impl Step {
         self.compute_floor.max(self.memory_floor)
     }
 
-    /// Share of the peak of multiply-adds that the products are: of the machine's, and of what is left
+    /// Fraction of the peak of multiply-adds that the products are: of the machine's, and of what is left
     /// of it after such steps.
-    pub fn shares_of_peak(&self) -> [f64; 2] {
+    pub fn fractions_of_peak(&self) -> [f64; 2] {
         let after = 1e3 * self.cost.flops / self.flops_after;
         [self.product_floor, after].map(|floor| floor / self.milliseconds)
     }

@@ -46,7 +46,7 @@ pub(super) struct CaseView {
 struct Region {
     name: String,
     pixels: usize,
-    share: String,
+    mask_percent: String,
     /// Per column: the share for which the method had data.
     solved: Vec<String>,
 }
@@ -63,8 +63,8 @@ struct Hashes {
 fn regions(columns: &[Column]) -> Vec<Region> {
     let sizes = |column: &Column| column.scores.map_or_else(Vec::new, |s| s.regions.clone());
     let all: Vec<Vec<RegionSize>> = columns.iter().map(sizes).collect();
-    let percent = |share: Option<f64>| {
-        share.map_or(table::EMPTY.to_owned(), |share| format!("{:.1} %", share * 100.0))
+    let percent = |fraction: Option<f64>| {
+        fraction.map_or(table::EMPTY.to_owned(), |fraction| format!("{:.1} %", fraction * 100.0))
     };
     let solved = |sizes: &Vec<RegionSize>, region: &str| {
         percent(sizes.iter().find(|size| size.region == region).and_then(|size| size.solved))
@@ -75,7 +75,7 @@ fn regions(columns: &[Column]) -> Vec<Region> {
         .map(|size| Region {
             name: size.region.clone(),
             pixels: size.pixels,
-            share: percent(Some(size.share)),
+            mask_percent: percent(Some(size.share)),
             solved: all.iter().map(|sizes| solved(sizes, &size.region)).collect(),
         })
         .collect()

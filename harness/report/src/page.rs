@@ -83,8 +83,8 @@ struct Times {
 struct TimeRow {
     id: String,
     seconds: String,
-    /// Share of the longest stage, per cent.
-    share: f64,
+    /// Of the longest stage.
+    percent: f64,
     cached: bool,
     /// A part of the stage above.
     part: bool,
@@ -223,7 +223,7 @@ impl Times {
         let row = |id: String, seconds: f64, cached: bool, part: bool| TimeRow {
             id,
             seconds: format!("{seconds:.1}"),
-            share: if longest > 0.0 { (seconds / longest * 1000.0).round() / 10.0 } else { 0.0 },
+            percent: if longest > 0.0 { (seconds / longest * 1000.0).round() / 10.0 } else { 0.0 },
             cached,
             part,
         };

@@ -65,7 +65,7 @@ fn layered(phase: f32, error: f32) -> Picture {
         for x in 0..SIDE {
             let pixel: Vec<f32> = [1.0, 0.8, 0.2]
                 .iter()
-                .flat_map(|share| whole.pixel(x, y).iter().map(move |value| value * share))
+                .flat_map(|weight| whole.pixel(x, y).iter().map(move |value| value * weight))
                 .collect();
             picture.pixel_mut(x, y).copy_from_slice(&pixel);
         }

@@ -130,12 +130,12 @@ pub(super) fn shrink(picture: &Picture, longest: usize) -> Picture {
     }
     let (width, height) = (picture.width / factor, picture.height / factor);
     let mut small = Picture::new(width, height, picture.channels);
-    let share = 1.0 / (factor * factor) as f32;
+    let weight = 1.0 / (factor * factor) as f32;
     for y in 0..height * factor {
         for x in 0..width * factor {
             let target = small.pixel_mut(x / factor, y / factor);
             for (sum, value) in target.iter_mut().zip(picture.pixel(x, y)) {
-                *sum += value * share;
+                *sum += value * weight;
             }
         }
     }

@@ -38,11 +38,11 @@ fn intervals_cover_the_truth_in_about_95_percent_of_trials() {
         ("median", coverage(Statistic::Quantile(0.5), 0.0, |x| vec![x])),
         ("below", coverage(Statistic::Below(0.0), 0.5, |x| vec![x])),
     ];
-    for (name, share) in found {
-        println!("{name} {share}");
+    for (name, fraction) in found {
+        println!("{name} {fraction}");
         // 200 trials at 95 %: two thirds of the results lie within 1.5 points of it, and a
         // percentile interval of 144 blocks is known to be a little short.
-        assert!((0.89..=0.99).contains(&share), "{name}: {share}");
+        assert!((0.89..=0.99).contains(&fraction), "{name}: {fraction}");
     }
 }
 
@@ -68,9 +68,9 @@ fn blocks_follow_the_correlation_and_their_intervals_hold() {
         let [low, high] = Statistic::Mean.interval(&[Sample { values, blocks }]).unwrap();
         (low..=high).contains(&0.0)
     });
-    let share = hits.count() as f64 / TRIALS as f64;
-    println!("chosen blocks {share}");
-    assert!((0.88..=0.99).contains(&share), "{share}");
+    let fraction = hits.count() as f64 / TRIALS as f64;
+    println!("chosen blocks {fraction}");
+    assert!((0.88..=0.99).contains(&fraction), "{fraction}");
 }
 
 #[test]

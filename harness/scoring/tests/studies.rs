@@ -27,7 +27,7 @@ fn study(face: &mut dyn FnMut() -> f64, noise: &mut dyn FnMut() -> f64) -> Vec<F
         .collect()
 }
 
-fn share(hits: impl Iterator<Item = bool>) -> f64 {
+fn fraction(hits: impl Iterator<Item = bool>) -> f64 {
     hits.filter(|hit| *hit).count() as f64 / STUDIES as f64
 }
 
@@ -48,7 +48,7 @@ fn intervals_over_faces_hold_the_true_mean_in_95_percent_of_studies() {
             let [low, high] = interval(&means).unwrap();
             (low..=high).contains(&truth)
         });
-        let covered = share(hits);
+        let covered = fraction(hits);
         println!("{name} {covered}");
         assert!((0.93..=0.97).contains(&covered), "{name}: {covered}");
     }
@@ -84,7 +84,7 @@ fn pooled_errors_hold_the_true_mean_square_in_95_percent_of_studies() {
         let truth = 30.0 - 10.0 * (mean_error(1.5) * mean_error(0.7)).log10();
         (low..=high).contains(&truth)
     });
-    let covered = share(hits);
+    let covered = fraction(hits);
     println!("pooled {covered}");
     assert!((0.93..=0.97).contains(&covered), "{covered}");
 }
@@ -96,12 +96,12 @@ fn paired_tests_raise_a_false_alarm_in_5_percent_of_studies_and_find_what_is_the
         // Two methods on the same faces: what a face does to both drops out.
         (0..FACES).map(|_| shift + noise() - 0.5 * noise()).collect()
     };
-    let alarms = share((0..STUDIES).map(|_| sign_flip(&differences(0.0)).unwrap() <= 0.05));
+    let alarms = fraction((0..STUDIES).map(|_| sign_flip(&differences(0.0)).unwrap() <= 0.05));
     println!("false alarms {alarms}");
     assert!((0.03..=0.07).contains(&alarms), "{alarms}");
     // The power that the table promises is the power that there is.
     let deviation = 1.25_f64.sqrt();
-    let found = share((0..STUDIES).map(|_| sign_flip(&differences(deviation)).unwrap() <= 0.05));
+    let found = fraction((0..STUDIES).map(|_| sign_flip(&differences(deviation)).unwrap() <= 0.05));
     let promised = power(1.0, FACES).unwrap();
     println!("found {found}, promised {promised}");
     assert!((found - promised).abs() < 0.05);

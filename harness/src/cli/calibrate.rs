@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use scoring::compare::{Baseline, Calibration, FEWEST_RUNS, Tolerances};
+use scoring::compare::{Baseline, Calibration, MIN_RUNS, Tolerances};
 
 use super::alone::tools;
 use super::exit::{CHECK_FAILED, DONE};
@@ -23,7 +23,7 @@ pub(super) struct CalibrateArgs {
     suite: Option<PathBuf>,
     /// How often, each time with other seeds of the renderer and of the methods.
     #[arg(long, default_value_t = 8, value_name = "N",
-          value_parser = clap::value_parser!(u32).range(FEWEST_RUNS as i64..=1000))]
+          value_parser = clap::value_parser!(u32).range(MIN_RUNS as i64..=1000))]
     seeds: u32,
     /// Finished runs of one suite that differ in their seeds alone, in place of a suite.
     #[arg(long, value_name = "RUN", num_args = 1..)]
@@ -50,8 +50,8 @@ pub(super) struct CalibrateArgs {
 fn rate(text: &str) -> Result<f64, String> {
     let rate: f64 = text.parse().map_err(|_| "is no number".to_owned())?;
     // Fewer than ten simulated comparisons decide about less.
-    let holds = (0.0005..=0.5).contains(&rate);
-    holds.then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
+    let valid = (0.0005..=0.5).contains(&rate);
+    valid.then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
 }
 
 /// Runs what is not run yet, and writes the tolerances.

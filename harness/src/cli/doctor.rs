@@ -30,11 +30,11 @@ pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
     if complete && physics {
         let mut progress = Progress::new();
         progress.stage_begins("physics", 0, 1);
-        let held = checks(tools, "physics", &mut |done, total, what| {
+        let passed = checks(tools, "physics", &mut |done, total, what| {
             progress.step("physics", done, total, what);
         });
         progress.finish();
-        complete = held?;
+        complete = passed?;
     }
     Ok(if complete { DONE } else { CHECK_FAILED })
 }

@@ -19,7 +19,7 @@ const AROUND: Around = Around { start: 0.7, scene: 1.0, report: 0.5 };
 
 /// Forecast for the stages of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Share {
+pub struct StageForecast {
     /// Stages of which earlier results are valid.
     pub cached: usize,
     /// Stages to be done.
@@ -36,7 +36,7 @@ pub struct Share {
 #[derive(Clone, Debug, Default)]
 pub struct Forecast {
     /// By what stages do, in their order.
-    pub kinds: BTreeMap<&'static str, Share>,
+    pub kinds: BTreeMap<&'static str, StageForecast>,
     order: Vec<&'static str>,
     /// Seconds that are no stage's: programs and scenes that are read, the report.
     pub around: f64,
@@ -81,19 +81,19 @@ pub fn forecast(
         let kept =
             key.and_then(|key| records.seems_finished(&task.id, &key.hash, &workshop.path(&task)));
         let before = task.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
-        let share = forecast.kinds.entry(task.kind.word()).or_default();
+        let stages = forecast.kinds.entry(task.kind.word()).or_default();
         let seconds = match kept {
             Some(content) => {
                 contents.insert(task.id.clone(), content);
-                share.cached += 1;
+                stages.cached += 1;
                 0.0
             }
             None => {
                 let cost = known.estimate(suite, &task);
-                share.pending += 1;
-                share.measured += usize::from(cost.measured);
-                share.seconds += cost.seconds;
-                share.bytes += cost.bytes;
+                stages.pending += 1;
+                stages.measured += usize::from(cost.measured);
+                stages.seconds += cost.seconds;
+                stages.bytes += cost.bytes;
                 cost.seconds
             }
         };
@@ -101,7 +101,7 @@ pub fn forecast(
     }
     forecast.longest = ends.into_iter().fold(0.0, f64::max);
     forecast.order = Kind::ALL.into_iter().map(Kind::word).collect();
-    let scenes = forecast.kinds.get(Kind::Capture.word()).map_or(0, |share| share.pending);
+    let scenes = forecast.kinds.get(Kind::Capture.word()).map_or(0, |stages| stages.pending);
     forecast.around =
         around.start + around.scene * scenes as f64 + around.report * suite.cases.len() as f64;
     Ok(forecast)
@@ -110,16 +110,16 @@ pub fn forecast(
 impl Forecast {
     /// Everything, by one process.
     pub fn seconds(&self) -> f64 {
-        self.kinds.values().map(|share| share.seconds).sum::<f64>() + self.around
+        self.kinds.values().map(|stages| stages.seconds).sum::<f64>() + self.around
     }
 
     /// Bytes that are added.
     pub fn bytes(&self) -> f64 {
-        self.kinds.values().map(|share| share.bytes).sum()
+        self.kinds.values().map(|stages| stages.bytes).sum()
     }
 
-    fn pending(&self) -> impl Iterator<Item = &Share> {
-        self.kinds.values().filter(|share| share.pending > 0)
+    fn pending(&self) -> impl Iterator<Item = &StageForecast> {
+        self.kinds.values().filter(|stages| stages.pending > 0)
     }
 }
 
@@ -127,9 +127,9 @@ impl fmt::Display for Forecast {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "stage", "cached", "to do", "time", "disc")?;
         for name in &self.order {
-            let Some(share) = self.kinds.get(name) else { continue };
-            let (time, bytes) = (seconds(share.seconds), in_words(share.bytes as u64));
-            writeln!(f, "{name:<9}{:>8}{:>8}{time:>10}{bytes:>12}", share.cached, share.pending)?;
+            let Some(stages) = self.kinds.get(name) else { continue };
+            let (time, bytes) = (seconds(stages.seconds), in_words(stages.bytes as u64));
+            writeln!(f, "{name:<9}{:>8}{:>8}{time:>10}{bytes:>12}", stages.cached, stages.pending)?;
         }
         writeln!(f, "{:<9}{:>8}{:>8}{:>10}{:>12}", "rest", "", "", seconds(self.around), "")?;
         let (total, bytes) = (self.seconds(), self.bytes() as u64);
@@ -138,15 +138,16 @@ impl fmt::Display for Forecast {
             write!(f, " of {} that are free", in_words(free))?;
         }
         if self.jobs > 1 {
-            let least = ((total - self.around) / self.jobs as f64).max(self.longest) + self.around;
+            let minimum =
+                ((total - self.around) / self.jobs as f64).max(self.longest) + self.around;
             let jobs = self.jobs;
             write!(
                 f,
                 "\nwith --jobs {jobs}: from {} if one leaves the other processors idle",
-                seconds(least)
+                seconds(minimum)
             )?;
         }
-        let guessed: usize = self.pending().map(|share| share.pending - share.measured).sum();
+        let guessed: usize = self.pending().map(|stages| stages.pending - stages.measured).sum();
         if guessed > 0 {
             write!(
                 f,

@@ -13,13 +13,13 @@ use super::workshop::Workshop;
 const RENDERER: u64 = 500 << 20;
 /// A camera ray in flight, and how many there are at most, see `synth/unshade/render/passes.py`.
 const RAY: u64 = 300;
-const MOST_RAYS: u64 = 1 << 21;
+const MAX_RAYS: u64 = 1 << 21;
 /// A program that states no limit.
 const PROGRAM: u64 = 2 << 30;
 /// Scoring, and methods that optimise nothing.
 const SMALL: u64 = 200 << 20;
 /// Part of the free memory that is used: the rest is for what the estimates miss.
-const SHARE: f64 = 0.9;
+const USED_FRACTION: f64 = 0.9;
 
 /// Running stages, with the memory that each takes.
 pub(super) struct Memory {
@@ -34,7 +34,7 @@ impl Memory {
     /// For so many workers.
     pub fn new(workers: usize) -> Self {
         let limit = available().filter(|_| workers > 1);
-        Self::limited(limit.map(|bytes| (SHARE * bytes as f64) as u64))
+        Self::limited(limit.map(|bytes| (USED_FRACTION * bytes as f64) as u64))
     }
 
     fn limited(limit: Option<u64>) -> Self {
@@ -61,7 +61,7 @@ impl Memory {
 /// Bytes that a stage takes at its peak.
 pub(super) fn estimate(workshop: &Workshop, task: &Task) -> u64 {
     let suite = workshop.suite;
-    let renders = RENDERER + RAY * frame(suite, task).min(MOST_RAYS);
+    let renders = RENDERER + RAY * frame(suite, task).min(MAX_RAYS);
     let method = task.method.map(|method| &suite.methods[method].kind);
     match (task.kind, method) {
         (Kind::Maps, Some(MethodKind::Fields { config, .. })) => {

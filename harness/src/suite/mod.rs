@@ -43,7 +43,7 @@ pub use cluster::{Cluster, check_worker};
 pub use competitor::{Class, Competitor};
 pub use error::RunError;
 pub use file::{RENDERERS, SCALES, Suite};
-pub use forecast::{Forecast, Share, forecast};
+pub use forecast::{Forecast, StageForecast, forecast};
 pub use make_maps::{TIME_LEFT, in_words, solve};
 pub use method::{Method, MethodKind};
 pub use packaged::set_folder as set_scenes_folder;

@@ -68,16 +68,15 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, RunError> {
     let jobs = jobs.clamp(1, plan.len().max(1));
-    let shares = processors::shares(jobs);
     let (sender, events) = mpsc::channel();
     let mut lines = Vec::new();
     thread::scope(|scope| {
-        for share in shares {
+        for own in processors::of_workers(jobs) {
             let (orders, ordered) = mpsc::channel::<(usize, Contents)>();
             let line = Line(sender.clone());
             scope.spawn(move || {
                 let work = move || worker(workshop, plan, records, &ordered, &line);
-                processors::keep_to(&share, work)
+                processors::keep_to(&own, work)
             });
             lines.push(orders);
         }

@@ -3,10 +3,10 @@
 use std::thread;
 
 /// The processors of a worker; none is all, and nothing is set.
-pub(super) type Share = Option<Vec<usize>>;
+pub(super) type Processors = Option<Vec<usize>>;
 
-/// Shares of `jobs` workers.
-pub(super) fn shares(jobs: usize) -> Vec<Share> {
+/// Those of each of `jobs` workers.
+pub(super) fn of_workers(jobs: usize) -> Vec<Processors> {
     if jobs == 1 {
         return vec![None];
     }
@@ -23,9 +23,9 @@ fn divided(processors: &[usize], jobs: usize) -> Vec<Vec<usize>> {
     (0..jobs).map(part).collect()
 }
 
-/// Does `work` on the processors of a share, and so all that it starts.
-pub(super) fn keep_to<T: Send>(share: &Share, work: impl FnOnce() -> T + Send) -> T {
-    let Some(processors) = share else { return work() };
+/// Does `work` on these processors, and so all that it starts.
+pub(super) fn keep_to<T: Send>(processors: &Processors, work: impl FnOnce() -> T + Send) -> T {
+    let Some(processors) = processors else { return work() };
     pin(processors);
     // A pool of the worker's own, whose threads inherit what was set here.
     match rayon::ThreadPoolBuilder::new().num_threads(processors.len()).build() {
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_worker_and_its_pool_keep_to_their_processors() {
-        let own = shares(2)[0].clone();
+        let own = of_workers(2)[0].clone();
         let seen = thread::scope(|scope| {
             let work = || keep_to(&own, || (all(), rayon::current_num_threads()));
             scope.spawn(work).join().unwrap()

@@ -10,17 +10,17 @@ use std::time::{Duration, Instant};
 use crate::mutate::Mutator;
 
 /// Live memory of all targets together that no input may exceed.
-const MOST_BYTES: usize = 2 << 30;
+const MAX_BYTES: usize = 2 << 30;
 /// Address space behind that, for what does not ask this allocator.
-const MOST_ADDRESSES: u64 = 16 << 30;
+const MAX_ADDRESSES: u64 = 16 << 30;
 /// Time that no input may exceed.
-const MOST_TIME: Duration = Duration::from_secs(5);
+const MAX_TIME: Duration = Duration::from_secs(5);
 /// Inputs of a target without `UNSHADE_FUZZ_INPUTS`.
 const FEW_INPUTS: usize = 30_000;
 /// Inputs that are kept to be changed again, because they met something new.
-const MOST_KEPT: usize = 1000;
+const MAX_KEPT: usize = 1000;
 /// And of those that are refused, from which little is reached.
-const MOST_REFUSED: usize = 100;
+const MAX_REFUSED: usize = 100;
 /// Bytes of a kept input, so that inputs do not grow for ever.
 const LONGEST_KEPT: usize = 1 << 14;
 
@@ -30,7 +30,7 @@ pub const REFUSED: &str = "refused: ";
 /// Counts what is live.
 pub struct Counting;
 
-static LIVE: AtomicUsize = AtomicUsize::new(0);
+static LIVE_BYTES: AtomicUsize = AtomicUsize::new(0);
 static ENDING: AtomicBool = AtomicBool::new(false);
 static SLOTS: Mutex<Vec<Arc<Slot>>> = Mutex::new(Vec::new());
 static PANIC: Mutex<String> = Mutex::new(String::new());
@@ -44,13 +44,13 @@ struct Slot {
 
 impl Counting {
     fn take(bytes: usize) {
-        let live = LIVE.fetch_add(bytes, Relaxed) + bytes;
-        if live > MOST_BYTES && !ENDING.swap(true, Relaxed) {
+        let live_bytes = LIVE_BYTES.fetch_add(bytes, Relaxed) + bytes;
+        if live_bytes > MAX_BYTES && !ENDING.swap(true, Relaxed) {
             let slots = SLOTS.try_lock().map(|slots| slots.clone()).unwrap_or_default();
             for slot in slots {
                 slot.save("memory");
             }
-            eprintln!("{live} bytes of memory are live, {bytes} of them asked for at once");
+            eprintln!("{live_bytes} bytes of memory are live, {bytes} of them asked for at once");
             std::process::abort();
         }
     }
@@ -71,14 +71,14 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, old: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        LIVE.fetch_sub(layout.size(), Relaxed);
+        LIVE_BYTES.fetch_sub(layout.size(), Relaxed);
         Self::take(size);
         // SAFETY: the caller's promises are passed on.
         unsafe { System.realloc(old, layout, size) }
     }
 
     unsafe fn dealloc(&self, old: *mut u8, layout: Layout) {
-        LIVE.fetch_sub(layout.size(), Relaxed);
+        LIVE_BYTES.fetch_sub(layout.size(), Relaxed);
         // SAFETY: the caller's promises are passed on.
         unsafe { System.dealloc(old, layout) }
     }
@@ -106,8 +106,8 @@ fn prepare() {
         #[cfg(target_os = "linux")]
         let _ = {
             use rustix::process::{Resource, Rlimit, setrlimit};
-            let most = Some(MOST_ADDRESSES);
-            setrlimit(Resource::As, Rlimit { current: most, maximum: most })
+            let limit = Some(MAX_ADDRESSES);
+            setrlimit(Resource::As, Rlimit { current: limit, maximum: limit })
         };
         std::panic::set_hook(Box::new(|what| {
             if let Ok(mut kept) = PANIC.lock() {
@@ -124,7 +124,7 @@ fn watch(slot: &Arc<Slot>) {
             let late = slot
                 .since
                 .lock()
-                .is_ok_and(|since| since.is_some_and(|since| since.elapsed() > MOST_TIME));
+                .is_ok_and(|since| since.is_some_and(|since| since.elapsed() > MAX_TIME));
             if late {
                 slot.save("hang");
                 std::process::abort();
@@ -186,10 +186,10 @@ pub fn fuzz(
         };
         let is_read = !outcome.starts_with(REFUSED);
         read += usize::from(is_read);
-        let most = if is_read { MOST_KEPT } else { MOST_REFUSED };
+        let limit = if is_read { MAX_KEPT } else { MAX_REFUSED };
         let seen = kinds.entry(kind_of(&outcome)).or_default();
         *seen += 1;
-        if *seen == 1 && kept.len() < most && input.len() <= LONGEST_KEPT {
+        if *seen == 1 && kept.len() < limit && input.len() <= LONGEST_KEPT {
             kept.push(input);
         }
     }

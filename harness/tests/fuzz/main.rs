@@ -95,8 +95,8 @@ fn obj() {
             assert!(mesh.triangles.iter().flatten().all(|corner| (*corner as usize) < count));
             let unit = |normal: &Vec3| (normal.length() - 1.0).abs() < 1e-3;
             assert!(mesh.normals.iter().all(unit), "a normal is not of length 1");
-            let turned = outward(&mesh.positions, Some(&mesh.normals), &mesh.triangles);
-            format!("{} triangles {}", mesh.triangles.len(), turned.triangles.len())
+            let oriented = outward(&mesh.positions, Some(&mesh.normals), &mesh.triangles);
+            format!("{} triangles {}", mesh.triangles.len(), oriented.triangles.len())
         })
     });
 }

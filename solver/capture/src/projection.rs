@@ -7,7 +7,7 @@ use crate::View;
 use crate::gbuffer::{Atlas, GBuffer};
 
 /// Cosine between view and normal below which a point is not used: its footprint is too long.
-const LEAST_COSINE: f32 = 0.1;
+const MIN_COSINE: f32 = 0.1;
 
 /// A point of the surface as a view sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl<'a> Projection<'a> {
         let pixel = camera.project(position);
         let (width, height) = (camera.width as f32, camera.height as f32);
         let in_picture = pixel.x >= 0.0 && pixel.x < width && pixel.y >= 0.0 && pixel.y < height;
-        if cosine <= LEAST_COSINE || pixel.z <= 0.0 || !in_picture {
+        if cosine <= MIN_COSINE || pixel.z <= 0.0 || !in_picture {
             return None;
         }
         let surface = self.depth[pixel.y as usize * camera.width + pixel.x as usize];

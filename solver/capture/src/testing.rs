@@ -30,13 +30,13 @@ pub fn dome(rings: usize) -> Mesh {
         triangles: vec![],
     };
     for ring in 1..=rings {
-        let share = ring as f32 / rings as f32;
-        let polar = share * 0.2_f32.acos();
+        let fraction = ring as f32 / rings as f32;
+        let polar = fraction * 0.2_f32.acos();
         for step in 0..around {
             let turn = step as f32 / around as f32 * std::f32::consts::TAU;
             let direction = Vec2::from_angle(turn);
             mesh.positions.push((direction * polar.sin()).extend(polar.cos()));
-            mesh.uvs.push(Vec2::splat(0.5) + 0.4 * share * direction);
+            mesh.uvs.push(Vec2::splat(0.5) + 0.4 * fraction * direction);
         }
     }
     let index = |ring: usize, step: usize| match ring {

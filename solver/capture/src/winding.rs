@@ -122,8 +122,8 @@ impl Forest {
         if a == b {
             return !between;
         }
-        let (least, other) = (a.min(b), a.max(b));
-        (self.parent[other], self.against[other]) = (least, between);
+        let (smaller, larger) = (a.min(b), a.max(b));
+        (self.parent[larger], self.against[larger]) = (smaller, between);
         true
     }
 }

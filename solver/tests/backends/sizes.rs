@@ -72,7 +72,7 @@ pub fn samples(backend: &dyn Backend) {
         let one = |first: usize| Inputs::new(first, 1).evaluated(&portable, &networks);
         let ones: Vec<Evaluated> = (0..len).map(one).collect();
         // The loss is a mean.
-        let share = 1.0 / len.max(1) as f64;
+        let weight = 1.0 / len.max(1) as f64;
         let close = |got: f64, expected: f64, scale: f64, what: &str| {
             assert!(
                 (got - expected).abs() <= 2e-5 * scale,
@@ -80,21 +80,21 @@ pub fn samples(backend: &dyn Backend) {
             );
         };
         for at in 0..2 {
-            let expected = ones.iter().map(|one| one.losses[at]).sum::<f64>() * share;
+            let expected = ones.iter().map(|one| one.losses[at]).sum::<f64>() * weight;
             close(got.losses[at], expected, expected, "loss");
         }
         let sum = |parameter: usize| -> f64 {
-            ones.iter().map(|one| f64::from(one.networks[parameter])).sum::<f64>() * share
+            ones.iter().map(|one| f64::from(one.networks[parameter])).sum::<f64>() * weight
         };
         let expected: Vec<f64> = (0..got.networks.len()).map(sum).collect();
-        let largest = expected.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let largest = expected.iter().fold(0.0, |maximum: f64, value| maximum.max(value.abs()));
         assert!(len == 0 || largest > 0.0);
         for (got, expected) in got.networks.iter().zip(expected) {
             close(f64::from(*got), expected, largest, "gradient");
         }
         for (at, planes) in got.planes.iter().enumerate() {
             assert_eq!(planes.len(), len);
-            let factor = if at < 2 { share } else { 1.0 };
+            let factor = if at < 2 { weight } else { 1.0 };
             for (i, one) in ones.iter().enumerate() {
                 for row in 0..planes.rows() {
                     let expected = f64::from(one.planes[at].get(row, 0)) * factor;

@@ -32,15 +32,18 @@ const WAY: f64 = 0.01;
 /// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead: the state,
 /// and what is the stage's own.
 fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, End) {
-    let shares: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
+    let rate_factors: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
     let Some(mut program) = backend.resident(&stage.job().unwrap()) else {
-        let losses = shares.iter().map(|share| stage.step(&mut state, backend, *share)).collect();
+        let losses =
+            rate_factors.iter().map(|factor| stage.step(&mut state, backend, *factor)).collect();
         return (losses, End::of(state, stage));
     };
     program.upload(&stage.variables(&mut state)).unwrap();
     let mut losses = vec![];
     // By way of the host in the middle, as a checkpoint would have it.
-    for part in [&shares[..1], &shares[1..20], &shares[20..27], &shares[27..]] {
+    for part in
+        [&rate_factors[..1], &rate_factors[1..20], &rate_factors[20..27], &rate_factors[27..]]
+    {
         losses.extend(program.steps(part).unwrap());
         program.download(&mut stage.variables(&mut state)).unwrap();
         program.upload(&stage.variables(&mut state)).unwrap();
@@ -193,11 +196,11 @@ pub fn skin_highlights(backend: &dyn Backend) {
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
     let skin_highlights = transport.skin_highlights(&config.skin, &light).unwrap();
-    let bent = |i: usize| {
-        let bend = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
-        (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(bend)).normalize()
+    let tilted = |i: usize| {
+        let tilt = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
+        (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(tilt)).normalize()
     };
-    let normals = Planes::from_fn(samples.len(), |i| bent(i).to_array());
+    let normals = Planes::from_fn(samples.len(), |i| tilted(i).to_array());
     let term = |i: usize| {
         let [reflectance, roughness] = [0.9, 1.4].map(|k| 1.0 + 0.3 * (i as f32 * k).sin());
         SpecularTerm { reflectance, roughness }.channels()

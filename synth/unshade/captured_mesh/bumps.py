@@ -25,7 +25,7 @@ def bump_heights(
         heights += np.cos((positions * direction).sum(1) + phase)
     corners = positions[triangles]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    share = sum(np.bincount(triangles[:, k], areas, minlength=len(positions)) for k in range(3))
-    share /= share.sum()
-    heights -= (share * heights).sum()
-    return heights * (rms / np.sqrt((share * heights**2).sum()))
+    weight = sum(np.bincount(triangles[:, k], areas, minlength=len(positions)) for k in range(3))
+    weight /= weight.sum()
+    heights -= (weight * heights).sum()
+    return heights * (rms / np.sqrt((weight * heights**2).sum()))

@@ -21,11 +21,11 @@ _ASKED = 0.4
 _PATIENCE = 12
 """Rounds without any collapse, each with other random choices, before giving up."""
 
-_LEAST_QUALITY = 0.05
+_MIN_QUALITY = 0.05
 """Least area of a new triangle over that of the equilateral one with the same edges, in UV
 and in space: no slivers."""
 
-_LEAST_COSINE = 0.3
+_MIN_COSINE = 0.3
 """Between the normals of a triangle before and after a collapse: no folds in space."""
 
 
@@ -80,8 +80,8 @@ class _Round:
     def _key(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         return np.minimum(a, b) * self.size + np.maximum(a, b)
 
-    def wanted(self, quadrics: Quadrics, fixed: np.ndarray, share: float) -> np.ndarray:
-        """Vertices whose cheapest collapse is among the cheapest ``share`` and breaks nothing,
+    def wanted(self, quadrics: Quadrics, fixed: np.ndarray, fraction: float) -> np.ndarray:
+        """Vertices whose cheapest collapse is among the cheapest ``fraction`` and breaks nothing,
         cheapest first; `onto` tells where each goes."""
         start, end = self.edges.T
         # Few can win in one round, so a part of the vertices suffices to find them.
@@ -94,7 +94,7 @@ class _Round:
         first = np.ones(len(order), bool)
         first[1:] = start[order][1:] != start[order][:-1]
         best = order[first]
-        best = best[np.argsort(cost[best], kind="stable")][: round(share * len(best))]
+        best = best[np.argsort(cost[best], kind="stable")][: round(fraction * len(best))]
         self.onto[start[best]] = end[best]
         bad = self._folds() | self._pinches() | self.outline.would_overlap(self.onto)
         return start[best][~bad[start[best]]]
@@ -110,10 +110,10 @@ class _Round:
             before = np.cross(self.positions[a] - self.positions[vertex], self.positions[b] - self.positions[vertex])
             after = np.cross(self.positions[a] - self.positions[onto], self.positions[b] - self.positions[onto])
             lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
-            folded = (before * after).sum(1) < _LEAST_COSINE * lengths
-            flat = np.linalg.norm(after, axis=1) < _LEAST_QUALITY * _equilateral(self.positions, onto, a, b)
+            folded = (before * after).sum(1) < _MIN_COSINE * lengths
+            flat = np.linalg.norm(after, axis=1) < _MIN_QUALITY * _equilateral(self.positions, onto, a, b)
             (x1, y1), (x2, y2) = (self.uv[a] - self.uv[onto]).T, (self.uv[b] - self.uv[onto]).T
-            flipped = x1 * y2 - y1 * x2 <= _LEAST_QUALITY * _equilateral(self.uv, onto, a, b)
+            flipped = x1 * y2 - y1 * x2 <= _MIN_QUALITY * _equilateral(self.uv, onto, a, b)
             bad[vertex[folded | flat | flipped]] = True
         return bad
 
@@ -133,12 +133,12 @@ class _Round:
         neighbourhood of two edges: their closed rings are disjoint, so none spoils another's checks."""
         rank = np.full(self.size, self.size)
         rank[wanted] = self.rng.permutation(len(wanted))
-        least = rank
+        minimum = rank
         for _ in range(2):
-            spread = least.copy()
-            np.minimum.at(spread, self.edges[:, 0], least[self.edges[:, 1]])
-            least = spread
-        return wanted[least[wanted] == rank[wanted]]
+            spread = minimum.copy()
+            np.minimum.at(spread, self.edges[:, 0], minimum[self.edges[:, 1]])
+            minimum = spread
+        return wanted[minimum[wanted] == rank[wanted]]
 
 
 def _equilateral(points: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:

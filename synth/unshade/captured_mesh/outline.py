@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-_MOST_BOW = 0.2
+_MAX_BOW = 0.2
 """Height of a vertex over the chord that replaces it, over the chord's length."""
 
 
@@ -39,7 +39,7 @@ class Outline:
         before, after = self._previous[vertex], self._next[vertex]
         p, q, r = self._uv[before], self._uv[vertex], self._uv[after]
         bow = _cross(r - p, q - p)
-        bad[vertex[np.abs(bow) > _MOST_BOW * ((r - p) ** 2).sum(1)]] = True
+        bad[vertex[np.abs(bow) > _MAX_BOW * ((r - p) ** 2).sum(1)]] = True
         # Beyond the chart lies the triangle p, r, q where q bows to the left.
         outside = np.flatnonzero(bow > 0)
         others = self._uv[self._vertices]

@@ -28,7 +28,12 @@ _Progress = Callable[[int, int, str], None]
 
 
 def collect(
-    order: Order, address: str, store: Store, shares: list[list[int]], progress: _Progress, patience: float = PATIENCE
+    order: Order,
+    address: str,
+    store: Store,
+    processors: list[list[int]],
+    progress: _Progress,
+    patience: float = PATIENCE,
 ) -> dict[str, Any]:
     """Do all stages; returns ``{"failed": ..., "records": ...}``, with all outputs in the run's folder."""
     done: dict[str, Done] = {}
@@ -41,7 +46,7 @@ def collect(
     while len(done) < len(order.tasks):
         try:
             with _connected(address, patience) as client:
-                _round(order, client, store, shares, done, records, failed, progress)
+                _round(order, client, store, processors, done, records, failed, progress)
         except _Interrupted:
             progress(len(done), len(order.tasks), "the scheduler is away; waiting for it")
     return {"failed": failed, "records": records}
@@ -67,7 +72,7 @@ def _connected(address: str, patience: float) -> Client:
 
 
 def _round(
-    order: Order, client: Client, store: Store, shares: list[list[int]], done: dict[str, Done],
+    order: Order, client: Client, store: Store, processors: list[list[int]], done: dict[str, Done],
     records: list[dict[str, Any]], failed: dict[str, str], progress: _Progress,
 ) -> None:  # fmt: skip
     """All stages that are still to be done, until they are or the scheduler goes away."""
@@ -80,7 +85,7 @@ def _round(
             continue
         before = [done.get(stage) or futures[stage] for stage in task.after]
         futures[task.id] = client.submit(
-            do, _job(order, task, tasks, store, shares), *before,
+            do, _job(order, task, tasks, store, processors), *before,
             key=f"{task.id}-{suffix}",
             retries=RETRIES, priority=-at, pure=False,
         )  # fmt: skip
@@ -124,12 +129,12 @@ def _result(future: Future) -> Done:
     return result
 
 
-def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, shares: list[list[int]]) -> Job:
+def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, processors: list[list[int]]) -> Job:
     return {
         "id": task.id, "case": task.case, "name": task.name, "path": task.path,
         "inputs": {stage: tasks[stage].path for stage in task.after},
         "suite": str(order.suite), "suite_content": order.suite_content, "versions": order.versions,
-        "store": store.url, "shares": shares,
+        "store": store.url, "processors": processors,
     }  # fmt: skip
 
 

@@ -29,12 +29,12 @@ class Store:
             raise ClusterError(f"{url}: cannot be used as a store: {error}; name a shared folder or a URL") from error
         self.url = url
 
-    def holds(self, content: str) -> bool:
+    def contains(self, content: str) -> bool:
         return bool(self._files.exists(self._object(content)))
 
     def put(self, content: str, output: Path) -> None:
         """Keep a file or folder under the hash of its content."""
-        if self.holds(content):
+        if self.contains(content):
             return
         with tempfile.NamedTemporaryFile(suffix=".tar") as packed:
             with tarfile.open(packed.name, "w") as tar:
@@ -65,7 +65,7 @@ class Store:
         if not self._files.exists(self._key(key)):
             return None
         done: dict[str, Any] = json.loads(self._files.cat_file(self._key(key)))
-        return done if self.holds(done["record"]["content"]) else None
+        return done if self.contains(done["record"]["content"]) else None
 
     def remove(self) -> None:
         """Everything."""

@@ -40,7 +40,7 @@ class Job(TypedDict):
     suite_content: str
     versions: str
     store: str
-    shares: list[list[int]]
+    processors: list[list[int]]
     """Processors of each worker, of workers on this machine alone."""
 
 
@@ -85,8 +85,8 @@ def _done(job: Job, key: str, record: dict[str, Any] | None = None, failed: str 
 
 def _keep_to_processors(job: Job) -> None:
     """The share of this worker; what it starts inherits it."""
-    if job["shares"] and hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, job["shares"][int(get_worker().name) % len(job["shares"])])
+    if job["processors"] and hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, job["processors"][int(get_worker().name) % len(job["processors"])])
 
 
 def _bring(store: Store, place: Path, path: str, content: str) -> None:

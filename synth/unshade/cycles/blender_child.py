@@ -205,8 +205,8 @@ def normal_of(graph, given):
     if given is None:
         return None
     settings = {"vector_type": "NORMAL", "convert_from": "OBJECT", "convert_to": "WORLD"}
-    turned = graph.node("ShaderNodeVectorTransform", settings, Vector=value_of(graph, given)).outputs[0]
-    return graph.node("ShaderNodeVectorMath", {"operation": "NORMALIZE"}, _0=turned).outputs[0]
+    in_world = graph.node("ShaderNodeVectorTransform", settings, Vector=value_of(graph, given)).outputs[0]
+    return graph.node("ShaderNodeVectorMath", {"operation": "NORMALIZE"}, _0=in_world).outputs[0]
 
 
 def skin(name, given):
@@ -223,12 +223,12 @@ def skin(name, given):
     if hasattr(specular, "is_output"):
         specular = graph.parts(specular)[0]
     if isinstance(given["roughness"], dict):
-        alpha1, alpha2, share = graph.parts(value_of(graph, given["roughness"]))
+        alpha1, alpha2, weight = graph.parts(value_of(graph, given["roughness"]))
     else:
-        alpha1, alpha2, share = given["roughness"]
+        alpha1, alpha2, weight = given["roughness"]
     n_d, n_s = normal_of(graph, given.get("diffuse_normal")), normal_of(graph, given.get("specular_normal"))
     surface = graph.node("ShaderNodeBsdfDiffuse", Color=diffuse, Roughness=0.0, Normal=n_d).outputs[0]
-    for alpha, part in ((alpha1, share), (alpha2, graph.math("SUBTRACT", 1.0, share))):
+    for alpha, part in ((alpha1, weight), (alpha2, graph.math("SUBTRACT", 1.0, weight))):
         lobe = graph.node(
             "ShaderNodeBsdfMetallic",
             {"distribution": "GGX", "fresnel_type": "F82"},

@@ -59,7 +59,7 @@ class LayeredBSDF(SkinBSDF):
     def _evaluate(self, ctx: Any, si: Any, wo: Any, active: Any, surface: Any) -> Any:
         rho, specular, normal, frame, n_g, lobes = surface
         active = active & (dr.dot(n_g, si.wi) > 0) & (dr.dot(n_g, wo) > 0)
-        share = self._specular_share(ctx, si, surface)
+        probability = self._specular_probability(ctx, si, surface)
         v, l = frame.to_local(si.wi), frame.to_local(wo)
         h = dr.normalize(v + l)
         value, pdf = mi.Color3f(0), mi.Float(0)
@@ -67,7 +67,7 @@ class LayeredBSDF(SkinBSDF):
         if ctx.is_enabled(mi.BSDFFlags.DiffuseReflection, 0):
             cosine = dr.fmax(dr.dot(normal, wo), 0) * dr.inv_pi
             value += rho * cosine * (1 - fresnel)
-            pdf += (1 - share) * cosine
+            pdf += (1 - probability) * cosine
         if ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 1):
             ok = (v.z > _MIN_COS) & (l.z > _MIN_COS)
             alpha = lobes[0][0]
@@ -77,7 +77,7 @@ class LayeredBSDF(SkinBSDF):
             masked = l.z * dr.sqrt(a2 + (1 - a2) * v.z * v.z) + v.z * dr.sqrt(a2 + (1 - a2) * l.z * l.z)
             # D V cos with V = 1 / (2 masked), Heitz 2014.
             value += dr.select(ok, fresnel * d * l.z / (2 * dr.select(ok, masked, 1)), 0)
-            pdf += dr.select(ok, share * d * lobe.smith_g1(v, h) / (4 * v.z), 0)
+            pdf += dr.select(ok, probability * d * lobe.smith_g1(v, h) / (4 * v.z), 0)
         return dr.select(active, value, 0), dr.select(active, pdf, 0)
 
     def _fresnel(self, specular: Any, cosine: Any) -> Any:

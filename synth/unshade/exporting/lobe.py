@@ -14,10 +14,10 @@ import numpy as np
 _ALPHAS = np.geomspace(0.02, 1.0, 256)
 """Candidates, 1.5 % apart; and the steps in which the alphas of maps are told apart."""
 
-_SHARES = 64
+_WEIGHT_STEPS = 64
 _ANGLES = 192
 _BATCH = 1 << 8
-_MOST_KINDS = 1 << 14
+_MAX_KINDS = 1 << 14
 """Pairs of lobes that are fitted: some seconds."""
 
 
@@ -30,15 +30,15 @@ class SingleLobe:
 
 
 def fit(roughness: np.ndarray) -> SingleLobe:
-    """The single lobe for GGX alphas of two lobes and the share of the first (N,N,3)."""
+    """The single lobe for GGX alphas of two lobes and the weight of the first (N,N,3)."""
     kinds, number = _kinds(roughness)
     lobes, weights = _lobes()
     best, distance = np.empty(len(kinds)), np.empty(len(kinds))
     for start in range(0, len(kinds), _BATCH):
         part = slice(start, start + _BATCH)
-        pair, s = np.divmod(kinds[part], _SHARES + 1)
+        pair, s = np.divmod(kinds[part], _WEIGHT_STEPS + 1)
         a, b = np.divmod(pair, len(_ALPHAS))
-        two = (s / _SHARES)[:, None] * lobes[a] + (1 - s / _SHARES)[:, None] * lobes[b]
+        two = (s / _WEIGHT_STEPS)[:, None] * lobes[a] + (1 - s / _WEIGHT_STEPS)[:, None] * lobes[b]
         errors = np.stack([np.abs(two - lobe) @ weights for lobe in lobes], 1) / 2
         best[part] = _ALPHAS[errors.argmin(1)]
         distance[part] = errors.min(1)
@@ -51,10 +51,10 @@ def _kinds(roughness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Different pairs of lobes as numbers, and which each texel has; told apart more coarsely where they are many."""
     for step in (1, 2, 4, 8):
         first, second = (_nearest(roughness[..., lobe]) // step * step for lobe in range(2))
-        share = np.rint(roughness[..., 2] * _SHARES / step).astype(np.int64) * step
-        codes = (first * len(_ALPHAS) + second) * (_SHARES + 1) + share
+        weight = np.rint(roughness[..., 2] * _WEIGHT_STEPS / step).astype(np.int64) * step
+        codes = (first * len(_ALPHAS) + second) * (_WEIGHT_STEPS + 1) + weight
         kinds, number = np.unique(codes, return_inverse=True)
-        if len(kinds) <= _MOST_KINDS:
+        if len(kinds) <= _MAX_KINDS:
             break
     return kinds, number
 

@@ -145,9 +145,9 @@ def resized(picture: np.ndarray, size: int) -> np.ndarray:
     place = ((np.arange(size) + 0.5) * len(picture) / size - 0.5).clip(0, len(picture) - 1)
     low = np.floor(place).astype(int)
     high = np.minimum(low + 1, len(picture) - 1)
-    share = (place - low).astype(np.float32)
-    across = share.reshape(-1, *[1] * (picture.ndim - 2))
-    rows = picture[low] + (picture[high] - picture[low]) * share.reshape(-1, *[1] * (picture.ndim - 1))
+    fraction = (place - low).astype(np.float32)
+    across = fraction.reshape(-1, *[1] * (picture.ndim - 2))
+    rows = picture[low] + (picture[high] - picture[low]) * fraction.reshape(-1, *[1] * (picture.ndim - 1))
     return rows[:, low] + (rows[:, high] - rows[:, low]) * across
 
 

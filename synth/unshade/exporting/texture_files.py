@@ -35,8 +35,8 @@ def encoded_normals(normals: np.ndarray, *, green_up: bool = True) -> np.ndarray
 
 def png_bytes(codes: np.ndarray, bits: int) -> bytes:
     """A PNG of codes 0 to 1: (N,N) grey, (N,N,3) RGB, (N,N,4) RGBA, 8 or 16 bits."""
-    most = (1 << bits) - 1
-    samples = np.rint(np.clip(codes, 0, 1) * most).astype(np.uint16 if bits == 16 else np.uint8)
+    maximum = (1 << bits) - 1
+    samples = np.rint(np.clip(codes, 0, 1) * maximum).astype(np.uint16 if bits == 16 else np.uint8)
     if bits == 8:
         stream = io.BytesIO()
         Image.fromarray(samples).save(stream, format="PNG")

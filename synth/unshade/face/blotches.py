@@ -24,10 +24,10 @@ alone. In a photographed face one direction of colour holds nine tenths of the v
 _SYMMETRIC = 0.4
 """Share of the coarse variance that both halves of the face have in common: sun, rubbing and anatomy are alike on both."""
 
-_DARKEST_BLOOD_SHARE = 0.35
+_DARKEST_BLOOD_FRACTION = 0.35
 """How much of the redness is left to be seen through the darkest skin."""
 
-_SHARES = {"melanin": 0.6, "blood": 0.4}
+_COMMON_WEIGHTS = {"melanin": 0.6, "blood": 0.4}
 """Parts of the two pigments in their common effect."""
 
 
@@ -44,7 +44,7 @@ def draw_coarse(regions: Regions, spec: FaceSpec, amounts: tuple[float, float]) 
             regions.points, wavelength, own
         )
 
-    places = [_places(regions, pigment, spec) for pigment in _SHARES]
+    places = [_places(regions, pigment, spec) for pigment in _COMMON_WEIGHTS]
     return tuple(p + a * f for p, a, f in zip(places, amounts, _summed(_COARSE_MM, field)))
 
 
@@ -68,9 +68,9 @@ def _summed(scales: dict[float, tuple[float, float]], field: Callable[[str, floa
     sums: list = [np.float32(0), np.float32(0)]
     for wavelength, (common, own) in scales.items():
         together = field("common", wavelength)
-        for number, (pigment, share) in enumerate(_SHARES.items()):
+        for number, (pigment, weight) in enumerate(_COMMON_WEIGHTS.items()):
             sums[number] = (
-                sums[number] + np.float32(share * common) * together + np.float32(own) * field(pigment, wavelength)
+                sums[number] + np.float32(weight * common) * together + np.float32(own) * field(pigment, wavelength)
             )
     return sums
 
@@ -107,5 +107,5 @@ def melanin_factor(amount: np.ndarray, spec: FaceSpec) -> np.ndarray:
 
 def blood_factor(amount: np.ndarray, spec: FaceSpec) -> np.ndarray:
     """Factor (M,) on blood that takes `amount` (M,) of log luminance away; under dark skin less of it shows."""
-    loss = max(_loss(spec.fitzpatrick)[1], _DARKEST_BLOOD_SHARE * _loss("I")[1])
+    loss = max(_loss(spec.fitzpatrick)[1], _DARKEST_BLOOD_FRACTION * _loss("I")[1])
     return np.exp(np.clip(amount / np.float32(loss), -1.2, 1.2))

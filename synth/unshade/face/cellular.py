@@ -60,9 +60,14 @@ def _batches(count: int) -> Iterator[slice]:
 
 
 def pits(
-    places: np.ndarray, cells: Cells, radii: tuple[float, float], share: float, texel: float, grain: Grain | None = None
+    places: np.ndarray,
+    cells: Cells,
+    radii: tuple[float, float],
+    fraction: float,
+    texel: float,
+    grain: Grain | None = None,
 ) -> np.ndarray:
-    """Round pits (M,) f32 at `share` of the cells' points: sum of Gaussians of height 1 at most.
+    """Round pits (M,) f32 at `fraction` of the cells' points: sum of Gaussians of height 1 at most.
 
     A pit's radius (mm, where it is down to 1/e) and its strength grow with its random number,
     over `radii`; the mean over a texel of `texel` mm stands for what is finer.
@@ -73,10 +78,10 @@ def pits(
         own = None if grain is None else Grain(grain.along[part], grain.stretch[part])
         depth = np.zeros(part.stop - part.start, dtype=np.float32)
         for squared, lot in cells.neighbours(places[part], own):
-            size = np.clip(lot / np.float32(share), 0, 1)
+            size = np.clip(lot / np.float32(fraction), 0, 1)
             reach = np.float32(radii[0]) + size * np.float32(radii[1] - radii[0])
             reach *= reach
-            strength = (0.3 + 0.7 * size * size) * (lot < share)
+            strength = (0.3 + 0.7 * size * size) * (lot < fraction)
             depth += strength * (reach / (reach + blur)) * np.exp(-squared / (reach + blur))
         total[part] = depth
     return total

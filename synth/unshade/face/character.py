@@ -15,7 +15,7 @@ ROUGHNESS_FACTORS = (0.7, 1.5)
 BEARDS = {"shaven": (0.0, 0.0), "stubble": (0.8, 2.0), "short": (4.0, 9.0), "full": (9.0, 18.0)}
 """Lengths of the hairs, mm, of what can grow on a man's jaw; longer hairs lie along the skin."""
 
-_BEARD_SHARES = (0.30, 0.35, 0.20, 0.15)
+_BEARD_PROBABILITIES = (0.30, 0.35, 0.20, 0.15)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,5 +48,5 @@ def character(spec: FaceSpec) -> Character:
         mottle=even("mottle", 0.8, 1.5),
         redness=even("redness", 0.7, 1.4),
         relief=even("relief factor", 0.8, 1.3),
-        beard=str(beards.choice(list(BEARDS), p=_BEARD_SHARES)) if spec.gender > 0.6 else "shaven",
+        beard=str(beards.choice(list(BEARDS), p=_BEARD_PROBABILITIES)) if spec.gender > 0.6 else "shaven",
     )

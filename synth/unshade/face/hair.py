@@ -169,6 +169,6 @@ class Brow:
         off = np.clip(rng.normal(0, 0.48), -1.2, 1.2) * (0.5 + 0.5 * min(t / 0.2, 1.0))
         root = np.array([self.inner + self.length * t, self.arch(t) + off * self.half_height(t)])
         lean = 75 - 70 * min(1.5 * t, 1.0) - 24 * max(t - 0.6, 0.0) / 0.4 - 26 * off + rng.normal(0, 11)
-        bend = np.radians([lean, lean - rng.uniform(5, 22)])
-        step = 0.5 * rng.uniform(4.0, 8.0) * (1 - 0.25 * t) * np.stack([np.cos(bend), np.sin(bend)], axis=1)
+        angles = np.radians([lean, lean - rng.uniform(5, 22)])
+        step = 0.5 * rng.uniform(4.0, 8.0) * (1 - 0.25 * t) * np.stack([np.cos(angles), np.sin(angles)], axis=1)
         return np.stack([root, root + step[0], root + step[0] + step[1]]), rng.uniform(0.13, 0.24)

@@ -58,8 +58,8 @@ def _stretch(
     points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """By what factor the turns (V,) about the eyeball's x axis close the lids, as a curve over x (m)."""
-    crossing, share, hidden = margin(triangles, gap)
-    edge, closing = between(points, crossing, share), between(turn, crossing, share)
+    crossing, fraction, hidden = margin(triangles, gap)
+    edge, closing = between(points, crossing, fraction), between(turn, crossing, fraction)
     upper, lower = margin_sides(triangles, crossing, hidden, edge)
     angle = np.arctan2(edge[:, 1], edge[:, 2])
     x = np.linspace(edge[upper, 0].min(), edge[upper, 0].max(), _COLUMNS)
@@ -88,16 +88,16 @@ def lift_lids(
     may touch the eyeball, is lifted clear.
     """
     rest = clearance(resting, eye, np.eye(3))
-    crossing, share, rim = margin(triangles, rest)
+    crossing, fraction, rim = margin(triangles, rest)
     near = np.flatnonzero(np.linalg.norm(resting - eye[:3], axis=1) < _LID_REACH * eye[3])
-    held = rim[near]
-    held[np.isin(near, socket)] = True
-    floor = np.where(held, rest[near], np.minimum(rest[near], _THICKNESS))
+    fixed = rim[near]
+    fixed[np.isin(near, socket)] = True
+    floor = np.where(fixed, rest[near], np.minimum(rest[near], _THICKNESS))
     way = smoothstep(0, _UNROLLED, np.linalg.norm(moved[near] - resting[near], axis=1))
-    away = smoothstep(*_EDGE, cKDTree(between(resting, crossing, share)).query(resting[near])[0])
-    floor += ~held * way * np.maximum(away * _THICKNESS - floor, 0)
+    away = smoothstep(*_EDGE, cKDTree(between(resting, crossing, fraction)).query(resting[near])[0])
+    floor += ~fixed * way * np.maximum(away * _THICKNESS - floor, 0)
     change = floor - clearance(moved[near], eye, gaze)
-    change = np.where(held, change, np.maximum(change, 0))
+    change = np.where(fixed, change, np.maximum(change, 0))
     outward = moved[near] - eye[:3]
     lifted = moved.copy()
     lifted[near] += outward * (change / np.linalg.norm(outward, axis=1))[:, None]

@@ -18,13 +18,13 @@ def margin_distance(positions: np.ndarray, triangles: np.ndarray, eyes: np.ndarr
     curves = []
     for eye in eyes:
         gap = np.linalg.norm(positions - eye[:3], axis=1) - eye[3]
-        crossing, share, _ = margin(triangles, gap)
-        curves.append(between(positions, crossing, share))
+        crossing, fraction, _ = margin(triangles, gap)
+        curves.append(between(positions, crossing, fraction))
     return cKDTree(np.concatenate(curves)).query(positions)[0]
 
 
 def margin(triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The margin of one eye's lids: edges (K,2) that cross it, the shares (K,) of the way where, and the hidden rim (C,) bool.
+    """The margin of one eye's lids: edges (K,2) that cross it, the fractions (K,) of the way where, and the hidden rim (C,) bool.
 
     `gap` (C,) is the distance of the chart's vertices from the eyeball's surface. The chart
     runs on under the lids, into the eyeball: the margin is the curve in which the rim of
@@ -69,18 +69,18 @@ def margin_sides(
     return (one, other) if edge[one, 1].mean() > edge[other, 1].mean() else (other, one)
 
 
-def between(values: np.ndarray, crossing: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """Values (C,...) of vertices at the points `share` (K,) of the way along edges (K,2)."""
-    share = share.reshape(-1, *[1] * (values.ndim - 1))
-    return values[crossing[:, 0]] * (1 - share) + values[crossing[:, 1]] * share
+def between(values: np.ndarray, crossing: np.ndarray, fraction: np.ndarray) -> np.ndarray:
+    """Values (C,...) of vertices at the points `fraction` (K,) of the way along edges (K,2)."""
+    fraction = fraction.reshape(-1, *[1] * (values.ndim - 1))
+    return values[crossing[:, 0]] * (1 - fraction) + values[crossing[:, 1]] * fraction
 
 
 def sunken_fold(positions: np.ndarray, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray) -> np.ndarray:
     """Places (K,3) where a lid's fold dips into the eyeball, or nearly: its own skin, not the hidden rim."""
     gap = clearance(positions, eye, gaze)
-    crossing, share, hidden = margin(triangles, gap)
+    crossing, fraction, hidden = margin(triangles, gap)
     skin = np.unique(triangles)
     skin = skin[(gap[skin] < 0.0002) & ~hidden[skin]]
     if not len(skin):
         return positions[skin]
-    return positions[skin[cKDTree(between(positions, crossing, share)).query(positions[skin])[0] > _FOLD]]
+    return positions[skin[cKDTree(between(positions, crossing, fraction)).query(positions[skin])[0] > _FOLD]]

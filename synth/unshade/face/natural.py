@@ -59,8 +59,8 @@ class Natural:
             (hairs.beard_cover, hairs.beard_tone, style.brow),
             (hairs.cover, hairs.tone, style.scalp),
         ):
-            share = (edge * cover)[:, None]
-            skin = skin + share * (np.minimum(tone[:, None] * colour, 0.6) - skin)
+            opacity = (edge * cover)[:, None]
+            skin = skin + opacity * (np.minimum(tone[:, None] * colour, 0.6) - skin)
         return np.maximum(skin, 0.004).astype(np.float32)
 
     def specular(self, values: np.ndarray, fade: np.ndarray, edge: np.ndarray) -> np.ndarray:

@@ -19,12 +19,12 @@ def tangents(positions: np.ndarray, uv: np.ndarray, triangles: np.ndarray) -> tu
     (u1, v1), (u2, v2) = ((uv[triangles[:, k]] - uv[triangles[:, 0]]).T[:, :, None] for k in (1, 2))
     area = u1 * v2 - u2 * v1
     per_triangle = (edge1 * v2 - edge2 * v1) / area, (edge2 * u1 - edge1 * u2) / area
-    share = np.abs(area[:, 0])
-    total = sum(np.bincount(triangles[:, k], share, minlength=len(positions)) for k in range(3))
+    weight = np.abs(area[:, 0])
+    total = sum(np.bincount(triangles[:, k], weight, minlength=len(positions)) for k in range(3))
 
     def gather(values: np.ndarray) -> np.ndarray:
         summed = [
-            sum(np.bincount(triangles[:, k], share * values[:, axis], minlength=len(positions)) for k in range(3))
+            sum(np.bincount(triangles[:, k], weight * values[:, axis], minlength=len(positions)) for k in range(3))
             for axis in range(3)
         ]
         return np.stack(summed, axis=1) / total[:, None]

@@ -40,7 +40,7 @@ _D65 = np.array([
 # Reduced scattering of skin, the mean of table 2 over the cited samples (dermis of Salomatina et al.
 # 2006: 43.6, .41, .562; their epidermis: 66.7, .29, .689): at 500 nm in cm-1, the share of Rayleigh
 # scattering in it, and the power of the rest.
-_SCATTERING_AT_500, _RAYLEIGH_SHARE, _MIE_POWER = 48.0, 0.409, 0.702
+_SCATTERING_AT_500, _RAYLEIGH_FRACTION, _MIE_POWER = 48.0, 0.409, 0.702
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,7 +112,7 @@ def reflectance(melanin: np.ndarray, blood: np.ndarray, tissue: Tissue = SKIN) -
 def reduced_scattering(wavelengths: np.ndarray) -> np.ndarray:
     """Reduced scattering coefficient of skin in cm-1 at wavelengths in nm: Rayleigh and Mie part."""
     relative = wavelengths / 500
-    return _SCATTERING_AT_500 * (_RAYLEIGH_SHARE * relative**-4.0 + (1 - _RAYLEIGH_SHARE) * relative**-_MIE_POWER)
+    return _SCATTERING_AT_500 * (_RAYLEIGH_FRACTION * relative**-4.0 + (1 - _RAYLEIGH_FRACTION) * relative**-_MIE_POWER)
 
 
 def _layer(absorption: np.ndarray, scattering: np.ndarray, thickness: float, below: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ from .wrinkles import slackness
 SPACING_MM = 1.05
 """Side of the square that each holds one pore: 91 per cm2, of which three in four are large enough to be seen."""
 
-_SHARE = 0.75
+_VISIBLE_FRACTION = 0.75
 _RADII_MM = (0.12, 0.27)
 """Radius, down to 1/e of the depth, of the smallest and the largest pore."""
 
@@ -48,7 +48,7 @@ def draw_fine_relief(regions: Regions, places: np.ndarray, texel: float, spec: F
         * (1 - 0.9 * np.clip(regions.upper_lid + 0.8 * regions.under_eye, 0, 1))
         * (1 - regions.lips)
     )
-    pores = pits(places, Cells(SPACING_MM, stream(spec.seed, "pores")), _RADII_MM, _SHARE, texel, grain)
+    pores = pits(places, Cells(SPACING_MM, stream(spec.seed, "pores")), _RADII_MM, _VISIBLE_FRACTION, texel, grain)
     net = furrows(places, Cells(_PLATEAU_MM, stream(spec.seed, "furrows")), _FURROW_MM, texel, grain)
     return FineRelief(pores * (amount * np.float32(person)), net * (1 - regions.lips) * (1 - 0.6 * regions.nose))
 

@@ -1,4 +1,4 @@
-"""Roughness of the skin's surface: two GGX lobes whose widths and shares vary by region.
+"""Roughness of the skin's surface: two GGX lobes whose widths and weights vary by region.
 
 Fits of measured faces with one Torrance-Sparrow lobe give slopes m of about 0.2 to 0.4,
 lowest where skin is oily (Weyrich et al. 2006; d'Eon & Luebke 2007 take 0.3 for the whole
@@ -17,7 +17,7 @@ from .relief import Relief
 from .spec import FaceSpec, stream
 
 NOMINAL = (0.15, 0.35, 0.5)
-"""Standard skin: alpha of the narrow lobe, alpha of the wide lobe, share of the narrow one."""
+"""Standard skin: alpha of the narrow lobe, alpha of the wide lobe, weight of the narrow one."""
 
 LOW, HIGH = (0.06, 0.15, 0.15), (0.45, 0.60, 0.90)
 """Bounds of painted values."""
@@ -25,7 +25,7 @@ LOW, HIGH = (0.06, 0.15, 0.15), (0.45, 0.60, 0.90)
 MIN_ALPHA = 0.02
 """GGX alpha of the smoothest lobe that the material takes."""
 
-# How a region's sheen departs from standard skin: log of the factor on both alphas, and what is added to the narrow lobe's share.
+# How a region's sheen departs from standard skin: log of the factor on both alphas, and what is added to the narrow lobe's weight.
 _REGIONS = {
     "nose": (-0.30, 0.12),
     "forehead": (-0.15, 0.07),
@@ -59,18 +59,18 @@ def draw_roughness(
     """
     sebum = float(stream(spec.seed, "sebum").uniform(0.75, 1.25))
     width = 0.25 * (1 - sebum) * (0.4 + 0.6 * regions.oily) + np.float32(0.10 * spec.age)
-    share = np.full(len(regions.points), 0.08 * (sebum - 1), dtype=np.float32)
+    weight = np.full(len(regions.points), 0.08 * (sebum - 1), dtype=np.float32)
     for name, (factor, more) in _REGIONS.items():
         width = width + factor * getattr(regions, name)
-        share += more * getattr(regions, name)
+        weight += more * getattr(regions, name)
     width = width + 0.07 * octaves(regions.points, 7.0, 3, 2 * texel, stream(spec.seed, "sheen"))
     width += 0.40 * relief.pores + 0.10 * relief.furrows + 0.25 * relief.creases + 0.15 * np.minimum(cover["beard"], 1)
-    share -= 0.15 * relief.pores
+    weight -= 0.15 * relief.pores
     lobes = np.empty((len(width), 3), dtype=np.float32)
     lobes[:, 0] = NOMINAL[0] * np.exp(width)
     # The wide lobe, scattering at many facets, follows the surface less.
     lobes[:, 1] = NOMINAL[1] * np.exp(0.7 * width)
-    lobes[:, 2] = NOMINAL[2] + share
+    lobes[:, 2] = NOMINAL[2] + weight
     hair = np.maximum(cover["brow"], cover["scalp"])
     for values, where in ((_HAIR, hair), (_WET, rims["wet"])):
         lobes += where[:, None] * (np.float32(values) - lobes)
@@ -79,6 +79,6 @@ def draw_roughness(
 
 
 def equivalent(lobes: np.ndarray) -> np.ndarray:
-    """Root mean square of the lobes' alphas by share (...,): the one roughness of a single-lobe fit."""
-    narrow, wide, share = np.moveaxis(lobes, -1, 0)
-    return np.sqrt(share * narrow**2 + (1 - share) * wide**2)
+    """Root mean square of the lobes' alphas by weight (...,): the one roughness of a single-lobe fit."""
+    narrow, wide, weight = np.moveaxis(lobes, -1, 0)
+    return np.sqrt(weight * narrow**2 + (1 - weight) * wide**2)

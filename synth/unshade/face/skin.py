@@ -135,8 +135,8 @@ def _lip_colour(melanin: np.ndarray, blood: np.ndarray, lower: np.ndarray, spec:
     least, and their epidermis stays nearer to that of skin.
     """
     amount = MELANOSOMES[spec.fitzpatrick]
-    share = 0.85 - lower * np.float32(0.1 + 0.5 * amount)
-    melanin = np.clip(melanin * share + np.float32(0.010), 0, MELANIN_LIMIT)
+    factor = 0.85 - lower * np.float32(0.1 + 0.5 * amount)
+    melanin = np.clip(melanin * factor + np.float32(0.010), 0, MELANIN_LIMIT)
     blood = np.clip(blood * (1 + 3.2 * stream(spec.seed, "lip colour").uniform(0.7, 1.2)), 0, BLOOD_LIMIT)
     vermilion = np.float32(0.75 - 1.6 * amount)
     return vermilion * skin_colour(melanin, blood, LIP) + (1 - vermilion) * skin_colour(melanin, blood)

@@ -94,7 +94,7 @@ class FaceSpec:
                 raise FaceError(f"unknown key '{key}' in {place}; did you mean '{near}'?")
         name, seed = _name(table, place), _whole(table, "seed", 0, 2**63 - 1, place)
 
-        def share(key: str, draw: Any) -> float:
+        def fraction(key: str, draw: Any) -> float:
             if key in table:
                 return _number(table[key], key, 0.0, 1.0, place)
             return float(draw(stream(seed, key)))
@@ -113,10 +113,10 @@ class FaceSpec:
             name=name,
             seed=seed,
             fitzpatrick=skin,
-            gender=share("gender", lambda rng: rng.uniform()),
-            age=share("age", lambda rng: rng.beta(1.0, 1.3)),
+            gender=fraction("gender", lambda rng: rng.uniform()),
+            age=fraction("age", lambda rng: rng.beta(1.0, 1.3)),
             ethnicity=_ethnicity(table, seed, place),
-            weight=share("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
+            weight=fraction("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
             texture_size=size,
             expression=_expression(table.get("expression", {}), place),
             detail=detail,
@@ -177,15 +177,15 @@ def _expression(units: Any, place: str) -> Expression:
 def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, float, float]:
     if "ethnicity" not in table:
         return tuple(map(float, stream(seed, "ethnicity").dirichlet([0.6] * 3)))
-    shares = table["ethnicity"]
-    if not isinstance(shares, Mapping):
+    fractions = table["ethnicity"]
+    if not isinstance(fractions, Mapping):
         raise FaceError(
             f"ethnicity in {place} is no table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}"
         )
-    for key in shares:
+    for key in fractions:
         if key not in ETHNICITIES:
             raise FaceError(f"unknown key '{key}' in ethnicity of {place}; use {', '.join(ETHNICITIES)}")
-    values = [_number(shares.get(key, 0.0), f"ethnicity.{key}", 0.0, 1.0, place) for key in ETHNICITIES]
+    values = [_number(fractions.get(key, 0.0), f"ethnicity.{key}", 0.0, 1.0, place) for key in ETHNICITIES]
     total = math.fsum(values)
     if abs(total - 1.0) > 1e-3:
         raise FaceError(f"ethnicity in {place} sums to {total:g}; make the shares sum to 1")

@@ -124,8 +124,8 @@ def _welch(values: np.ndarray, region: np.ndarray, surface: Surface, count: int)
             fit = np.linalg.lstsq(places * root[:, None], values[part].ravel() * root, rcond=None)[0]
             rest = (values[part].ravel() - places @ fit).reshape(count, count) * weights
             # Cycles per texel along rows and columns become cycles per mm through the mean of the metric.
-            share = weights / weights.sum()
-            across, down = (np.tensordot(share, t[part], 2) for t in (surface.across, surface.down))
+            normalised = weights / weights.sum()
+            across, down = (np.tensordot(normalised, t[part], 2) for t in (surface.across, surface.down))
             metric = np.linalg.inv([[down @ down, down @ across], [down @ across, across @ across]])
             fy, fx = cycles[:, None], cycles[None, :]
             frequency = np.sqrt(metric[0, 0] * fy**2 + 2 * metric[0, 1] * fy * fx + metric[1, 1] * fx**2)

@@ -109,10 +109,10 @@ class Field:
             return
         pieces = np.linalg.norm(np.diff(paths, axis=1), axis=2)
         count = max(2, int(np.ceil(pieces.max() / _STEP_TEXELS)))
-        share = (np.arange(count) + 0.5) / count
+        fraction = (np.arange(count) + 0.5) / count
         ahead = paths[:, 1:, None] - paths[:, :-1, None]
-        places = (paths[:, :-1, None] + share[:, None] * ahead).reshape(-1, 2)
-        along = ((np.arange(paths.shape[1] - 1)[:, None] + share) / (paths.shape[1] - 1)).ravel()
+        places = (paths[:, :-1, None] + fraction[:, None] * ahead).reshape(-1, 2)
+        along = ((np.arange(paths.shape[1] - 1)[:, None] + fraction) / (paths.shape[1] - 1)).ravel()
         at = self._at(places)
         across, down = self.across[at], self.down[at]
         step = np.repeat(ahead / count, count, axis=2).reshape(-1, 2)

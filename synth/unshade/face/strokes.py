@@ -24,14 +24,14 @@ class Sketch:
         balls = self.tree.query_ball_point(start + step / 2, reach + 0.5 * np.linalg.norm(step, axis=1))
         found = np.unique(np.concatenate([np.asarray(ball, dtype=np.int64) for ball in balls]))
         offset = self.plane[found][:, None, :] - start
-        share = np.clip((offset * step).sum(axis=2) / np.maximum((step**2).sum(axis=1), 1e-12), 0, 1)
-        away = offset - share[:, :, None] * step
+        fraction = np.clip((offset * step).sum(axis=2) / np.maximum((step**2).sum(axis=1), 1e-12), 0, 1)
+        away = offset - fraction[:, :, None] * step
         distance = np.sqrt((away**2).sum(axis=2))
         segment = distance.argmin(axis=1)
         rows = np.arange(len(found))
         shortest = distance[rows, segment]
         close = shortest <= reach
-        along = (segment + share[rows, segment]) / len(step)
+        along = (segment + fraction[rows, segment]) / len(step)
         return self.index[found[close]], shortest[close], along[close]
 
     def coverage(self, curve: np.ndarray, width: float, texel: float) -> tuple[np.ndarray, np.ndarray]:

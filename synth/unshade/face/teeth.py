@@ -20,8 +20,8 @@ from .subdivide import subdivide, triangulate
 _UPPER = np.array([[8.5, 10.5], [6.5, 9.0], [7.5, 10.0], [7.0, 8.5], [7.0, 8.5], [10.0, 7.5], [9.0, 7.0], [8.5, 6.5]])
 _LOWER = np.array([[5.0, 9.0], [5.5, 9.5], [7.0, 11.0], [7.0, 8.5], [7.0, 8.0], [11.0, 7.5], [10.5, 7.0], [10.0, 7.0]])
 _TALLEST = 10.5
-_CROWN_SHARE = 0.55
-"""Share of a band's height that the tallest crown takes; gum covers the rest."""
+_CROWN_FRACTION = 0.55
+"""Fraction of a band's height that the tallest crown takes; gum covers the rest."""
 
 _ARCH_WIDTH = 0.80
 """The bands stand 62 mm apart, wider than any arch (Wheeler: 60 mm over the cheek side of the molars on a large skull), and meet the cheeks."""
@@ -68,7 +68,7 @@ class _Arch:
         self.edge, self.rim = CubicSpline(way / way[-1], edge), CubicSpline(way / way[-1], gum)
         widths = np.r_[table[::-1, 0], table[:, 0]]
         self.bounds = np.r_[0, np.cumsum(widths)] / widths.sum()
-        self.heights = np.r_[table[::-1, 1], table[:, 1]] / _TALLEST * _CROWN_SHARE
+        self.heights = np.r_[table[::-1, 1], table[:, 1]] / _TALLEST * _CROWN_FRACTION
         self.length, self.down = way[-1], down
 
     def frame(self, s: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -43,8 +43,8 @@ def make_wet_lines(head: Head, geometry: Geometry) -> list[Part]:
 def _wet_line(
     name: str, positions: np.ndarray, triangles: np.ndarray, eye: np.ndarray, gaze: np.ndarray
 ) -> Part | None:
-    crossing, share, hidden = margin(triangles, clearance(positions, eye, gaze))
-    edge = between(positions, crossing, share)
+    crossing, fraction, hidden = margin(triangles, clearance(positions, eye, gaze))
+    edge = between(positions, crossing, fraction)
     # From the hidden rim out over the lid's edge.
     skin = unit(positions[np.where(hidden[crossing[:, 0]], crossing[:, 1], crossing[:, 0])] - edge)
     upper, lower = margin_sides(triangles, crossing, hidden, edge)

@@ -53,11 +53,11 @@ def draw_crinkle(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
     x, y, z = points[there].T
     for slope, name in ((-62.0, "crinkle down"), (24.0, "crinkle across")):
         along, across = np.cos(np.radians(slope)), np.sin(np.radians(slope))
-        turned = np.stack(
+        aligned = np.stack(
             [0.34 * (np.abs(x) * along + y * across), y * along - np.abs(x) * across, 0.5 * z + 200 * (x > 0)], axis=1
         )
         # Lines are where smooth noise, drawn out along them, changes its sign.
-        lines[there] += np.exp(-((smooth_noise(turned.astype(np.float32), 1.5, stream(spec.seed, name)) / 0.5) ** 2))
+        lines[there] += np.exp(-((smooth_noise(aligned.astype(np.float32), 1.5, stream(spec.seed, name)) / 0.5) ** 2))
     return amount * lines
 
 

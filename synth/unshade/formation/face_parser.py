@@ -21,12 +21,12 @@ def stated_labels(labels: np.ndarray, camera: Camera, scene: Scene) -> np.ndarra
         return None
     if scene.labels.one and camera.train:
         return np.where(labels > 0, np.uint8(Label.SKIN), labels)
-    share = scene.labels.boundary_error
-    return _mistaken(labels, share, generator("labels", scene, camera)) if share and camera.train else labels
+    fraction = scene.labels.boundary_error
+    return _mistaken(labels, fraction, generator("labels", scene, camera)) if fraction and camera.train else labels
 
 
-def _mistaken(labels: np.ndarray, share: float, rng: np.random.Generator) -> np.ndarray:
-    """``labels`` with the nearest whole number to ``share`` of their boundary pixels mistaken."""
+def _mistaken(labels: np.ndarray, fraction: float, rng: np.random.Generator) -> np.ndarray:
+    """``labels`` with the nearest whole number to ``fraction`` of their boundary pixels mistaken."""
     other = _other_side(labels)
     boundary = np.flatnonzero(other)
     # Every side of a boundary has noise of its own, so that a run moves the boundary to one side.
@@ -34,7 +34,7 @@ def _mistaken(labels: np.ndarray, share: float, rng: np.random.Generator) -> np.
     for label in np.unique(labels.flat[boundary]):
         noise = gaussian_filter(rng.standard_normal(labels.shape), _RUN_PIXELS)
         score = np.where(labels == label, noise, score)
-    worst = boundary[np.argsort(-score.flat[boundary], kind="stable")][: round(share * len(boundary))]
+    worst = boundary[np.argsort(-score.flat[boundary], kind="stable")][: round(fraction * len(boundary))]
     mistaken = labels.copy()
     mistaken.flat[worst] = other.flat[worst]
     return mistaken

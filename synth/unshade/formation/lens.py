@@ -50,13 +50,13 @@ class Lens:
         if self.turn > 0:
             # Stratified over the samples of a pixel, as the sampler's numbers are.
             angle = (sampler.next_1d() - 0.5) * plain(self.turn)
-            origin, towards = self._turned(origin, angle), self._turned(towards, angle)
+            origin, towards = self._rotated(origin, angle), self._rotated(towards, angle)
         rotation = [mi.Vector3f(*map(plain, axis)) for axis in camera.matrix[:3, :3].T]
         origin, towards = (v.x * rotation[0] + v.y * rotation[1] + v.z * rotation[2] for v in (origin, towards))
         position = mi.Point3f(*map(plain, camera.position))
         return mi.Ray3f(position + origin, dr.normalize(towards))
 
-    def _turned(self, vector, angle):
+    def _rotated(self, vector, angle):
         """Rodrigues' rotation about the turn axis."""
         axis = mi.Vector3f(*map(_number, self.turn_axis), 0)
         cosine, sine = dr.cos(angle), dr.sin(angle)

@@ -80,7 +80,7 @@ def read_colmap(path: Path, pictures: Path | None = None) -> Source:
             )
         )
     # COLMAP reads the pixels as they are stored and knows no EXIF orientation.
-    return Source(origin=origin, views=tuple(views), turned=False)
+    return Source(origin=origin, views=tuple(views), exif_applied=False)
 
 
 def _model(path: Path) -> Path:

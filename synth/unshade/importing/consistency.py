@@ -69,12 +69,12 @@ def compare_halves(first: _native.Maps, second: _native.Maps, *, views: tuple[in
         specular = metrics.pearson(first.specular_albedo, second.specular_albedo, both)
     if first.specular_normal is not None and second.specular_normal is not None:
         normals = metrics.normal_mean_deg(first.specular_normal, second.specular_normal, both)
-    share = float(both.sum() / max(int(either.sum()), 1))
+    fraction = float(both.sum() / max(int(either.sum()), 1))
     return {
         "diffuse_albedo_psnr": albedo,
         "specular_albedo_pearson": specular,
         "normal_mean_deg": normals,
-        "common": share,
+        "common": fraction,
         "views": views,
     }
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
 from .chart_mesh import ChartMesh
-from .pictures import turned
+from .pictures import oriented
 from .pinhole import Pinhole
 from .source import Matrix
 
@@ -26,8 +26,8 @@ _NAMED = 0.75
 _GAIN = 0.1
 """Gain in union that it must bring."""
 
-_LEAST_VIEWS, _MOST_VIEWS = 3, 6
-_MOST_TRIANGLES = 300_000
+_MIN_VIEWS, _MAX_VIEWS = 3, 6
+_MAX_TRIANGLES = 300_000
 """Drawn for one change."""
 
 _ROUNDS = 6
@@ -36,8 +36,8 @@ _ROUNDS = 6
 _SIZE = 256
 """Longest side of the small pictures at which changes are tried."""
 
-_WHOLE, _LEAST = 0.98, 0.002
-"""Shares of a picture beyond which a mask says nothing."""
+_MAX_FRACTION, _MIN_FRACTION = 0.98, 0.002
+"""Fractions of a picture beyond which a mask says nothing."""
 
 _VIEWS_AGREE = 0.8
 """Share of views that must gain by half a pixel."""
@@ -70,11 +70,11 @@ class Verdict:
 
 def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str, Matrix] | None) -> Verdict | None:
     """The verdict on cameras, mesh and masks; None where no mask says anything."""
-    telling = [e for e in evidence if _LEAST < e.mask.mean() < _WHOLE]
+    telling = [e for e in evidence if _MIN_FRACTION < e.mask.mean() < _MAX_FRACTION]
     if not telling:
         return None
-    most = min(max(_MOST_TRIANGLES // len(mesh.triangles), _LEAST_VIEWS), _MOST_VIEWS)
-    chosen = [telling[i * len(telling) // most] for i in range(most)] if len(telling) > most else telling
+    count = min(max(_MAX_TRIANGLES // len(mesh.triangles), _MIN_VIEWS), _MAX_VIEWS)
+    chosen = [telling[i * len(telling) // count] for i in range(count)] if len(telling) > count else telling
     small = [_smaller(e) for e in chosen]
     before = _union(mesh, small, PLAIN)
     if before >= SOUND:
@@ -152,7 +152,7 @@ def _smaller(evidence: Evidence) -> Evidence:
 
 def changed(evidence: Evidence, change: Change) -> Evidence:
     """The view after the change, but for the mesh's size."""
-    mask = turned(evidence.mask, change.orientation)
+    mask = oriented(evidence.mask, change.orientation)
     return Evidence(change.camera(evidence.camera), ~mask if change.inverted else mask)
 
 

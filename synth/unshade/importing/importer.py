@@ -144,9 +144,9 @@ def _check(format: str, choices: Choices) -> None:
         raise CaptureError(f"unit {choices.unit!r} is unknown; there are {', '.join(UNITS)}")
     if choices.place not in PLACES:
         raise CaptureError(f"place {choices.place!r} is unknown; there are {', '.join(PLACES)}")
-    for name, value, most in (("brackets", choices.brackets, 32), ("shrink", choices.shrink, 64)):
-        if not 1 <= value <= most:
-            raise CaptureError(f"{name} is {value}; it must be from 1 to {most}")
+    for name, value, maximum in (("brackets", choices.brackets, 32), ("shrink", choices.shrink, 64)):
+        if not 1 <= value <= maximum:
+            raise CaptureError(f"{name} is {value}; it must be from 1 to {maximum}")
     if isinstance(choices.holdout, int) and choices.holdout < 2:
         raise CaptureError(f"holdout is {choices.holdout}; every second view is the most that can be withheld")
     if choices.labels is not None and choices.parser is None:
@@ -274,7 +274,7 @@ class _Import:
 
     def _finished(self, taken: Taken, change: Change, mesh: ChartMesh, placement: Placement) -> Taken:
         """The view as it is written: mended, placed, without its lens where a capture cannot say it, smaller."""
-        taken = taken.turned(change.orientation, inverted=change.inverted)
+        taken = taken.oriented(change.orientation, inverted=change.inverted)
         camera = change.camera(taken.camera)
         camera = replace(camera, camera_to_world=moved(placement.matrix, camera.camera_to_world))
         taken = replace(taken, camera=camera)

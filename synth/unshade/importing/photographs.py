@@ -14,7 +14,7 @@ from ..errors import CaptureError
 from .brackets import bracket, merged
 from .lens import undistorted
 from .parser_labels import our_labels
-from .pictures import Floats, Photograph, read_photograph, read_plane, turned
+from .pictures import Floats, Photograph, oriented, read_photograph, read_plane
 from .pinhole import Pinhole
 from .source import Lens, Source, SourceView
 
@@ -53,14 +53,14 @@ class Taken:
             labels=None if self.labels is None else straight(self.labels),
         )
 
-    def turned(self, orientation: int, *, inverted: bool) -> Taken:
+    def oriented(self, orientation: int, *, inverted: bool) -> Taken:
         """The view with its pictures turned or mirrored, and its mask inside out."""
-        mask = None if self.mask is None else turned(self.mask, orientation)
+        mask = None if self.mask is None else oriented(self.mask, orientation)
         return replace(
             self,
-            radiance=turned(self.radiance, orientation),
+            radiance=oriented(self.radiance, orientation),
             mask=None if mask is None else (255 - mask if inverted else mask),
-            labels=None if self.labels is None else turned(self.labels, orientation),
+            labels=None if self.labels is None else oriented(self.labels, orientation),
         )
 
     def smaller(self, every: int) -> Taken:
@@ -114,15 +114,15 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
             )
         # A merged bracket is radiance over exposure already.
         radiance = radiance * np.float32(reading.reference / (1.0 if reading.brackets > 1 else photograph.exposure))
-    turn = _orientation(source, view, photograph, notes)
+    orientation = _orientation(source, view, photograph, notes)
     stored = photograph.radiance.shape[:2]
-    radiance = turned(radiance, turn)
+    radiance = oriented(radiance, orientation)
     camera = _camera(view, radiance.shape[1], radiance.shape[0], notes)
 
     def beside(plane: NDArray[Any], path: Path) -> NDArray[Any]:
         """A mask or label picture that is of the photograph's size, as stored or turned."""
-        if plane.shape == stored and turn != 1 and plane.shape != radiance.shape[:2]:
-            plane = turned(plane, turn)
+        if plane.shape == stored and orientation != 1 and plane.shape != radiance.shape[:2]:
+            plane = oriented(plane, orientation)
         if plane.shape != radiance.shape[:2]:
             size = f"{plane.shape[1]} x {plane.shape[0]}"
             raise CaptureError(
@@ -135,7 +135,7 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
         camera=camera,
         lens=view.lens,
         radiance=radiance,
-        mask=_mask(view, reading, photograph, turn, beside),
+        mask=_mask(view, reading, photograph, orientation, beside),
         labels=_labels(view, reading, beside),
         photograph=photograph,
     )
@@ -147,12 +147,12 @@ def _orientation(source: Source, view: SourceView, photograph: Photograph, notes
         return 1
     height, width = photograph.radiance.shape[:2]
     sideways = photograph.orientation >= 5
-    turn = source.turned
+    apply = source.exif_applied
     if view.width is not None and view.height is not None and sideways and width != height:
-        turn = (view.width < view.height) != (width < height)
-    what = "applied" if turn else "left out, as the cameras are those of the pixels as stored"
+        apply = (view.width < view.height) != (width < height)
+    what = "applied" if apply else "left out, as the cameras are those of the pixels as stored"
     notes.add(f"EXIF orientation {photograph.orientation}: {what}")
-    return photograph.orientation if turn else 1
+    return photograph.orientation if apply else 1
 
 
 def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinhole:
@@ -179,13 +179,13 @@ def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinho
     )
 
 
-def _mask(view: SourceView, reading: Reading, photograph: Photograph, turn: int, beside: Any) -> Bytes | None:
+def _mask(view: SourceView, reading: Reading, photograph: Photograph, orientation: int, beside: Any) -> Bytes | None:
     if reading.silhouette:
         return None
     if reading.alpha:
         if photograph.alpha is None:
             raise CaptureError(f"{view.picture}: has no alpha; name a folder of masks, or take the mesh's silhouette")
-        alpha = turned(photograph.alpha, turn)
+        alpha = oriented(photograph.alpha, orientation)
         return np.where(alpha >= 0.5, 255, 0).astype(np.uint8)
     path = view.mask
     if reading.masks is not None:
@@ -194,8 +194,8 @@ def _mask(view: SourceView, reading: Reading, photograph: Photograph, turn: int,
         return None
     plane = beside(read_plane(path), path)
     # Masks of 0 and 1, of 8 bits and of 16.
-    most = int(plane.max(initial=0))
-    full = 1 if most <= 1 else 255 if most <= 255 else 65535
+    maximum = int(plane.max(initial=0))
+    full = 1 if maximum <= 1 else 255 if maximum <= 255 else 65535
     return np.where(plane.astype(np.int64) * 2 >= full, 255, 0).astype(np.uint8)
 
 

@@ -44,7 +44,7 @@ _RAW = (
 _RADIANCE = (".exr", ".hdr")
 _READ = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 
-_MOST_PIXELS = 1 << 28
+_MAX_PIXELS = 1 << 28
 
 _ORIENTATION, _EXPOSURE_TIME, _F_NUMBER, _ISO, _EXIF = 0x0112, 0x829A, 0x829D, 0x8827, 0x8769
 
@@ -143,7 +143,7 @@ def decode(values: Floats, curve: str) -> Floats:
     return (values.clip(0) ** float(curve.partition("=")[2])).astype(np.float32)
 
 
-def turned(picture: NDArray[Any], orientation: int) -> NDArray[Any]:
+def oriented(picture: NDArray[Any], orientation: int) -> NDArray[Any]:
     """A picture [H, W(, C)] as its EXIF orientation (1 to 8) wants it shown."""
     if orientation in (5, 7):
         picture = picture.swapaxes(0, 1)
@@ -188,9 +188,9 @@ def _said(path: Path) -> dict[str, Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             with Image.open(path) as image:
-                if image.width * image.height > _MOST_PIXELS:
+                if image.width * image.height > _MAX_PIXELS:
                     raise PictureError(
-                        f"{path}: is {image.width} x {image.height}; write it with fewer than {_MOST_PIXELS} pixels"
+                        f"{path}: is {image.width} x {image.height}; write it with fewer than {_MAX_PIXELS} pixels"
                     )
                 exif = image.getexif()
                 orientation = exif.get(_ORIENTATION, 1)

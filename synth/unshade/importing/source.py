@@ -76,7 +76,7 @@ class Source:
     ``origin`` is the file that the cameras came from, ``withheld`` the names that it sets aside.
     ``metres`` is the length of its unit, if the format fixes it. ``objects`` names the mesh's objects
     that are the face; none means all. ``label_names`` says what the ids of its label pictures are.
-    ``turned`` says whether the program counts pixels after a photograph's EXIF orientation was applied.
+    ``exif_applied`` says whether the program counts pixels after a photograph's EXIF orientation was applied.
     ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
     that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
     """
@@ -88,7 +88,7 @@ class Source:
     elsewhere: tuple[str, str, Matrix] | None = None
     metres: float | None = None
     objects: tuple[str, ...] = ()
-    turned: bool = True
+    exif_applied: bool = True
     label_names: dict[int, str] = field(default_factory=lambda: dict[int, str]())
     assumed: tuple[str, ...] = ()
 

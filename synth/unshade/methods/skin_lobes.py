@@ -38,14 +38,14 @@ def _tables() -> tuple[np.ndarray, np.ndarray]:
     s = np.sqrt(1 - z * z)
     light = np.stack([s * np.cos(phi), s * np.sin(phi), z], -1)
     solid = 2 * np.pi / z.size
-    shares, turns = [], []
+    albedos, turns = [], []
     for angle in _ANGLES:
         view = np.array([np.sin(angle), 0, np.cos(angle)])
         value = reflected(np.broadcast_to(view, light.shape), light)
         mean = (value[..., None] * light).sum((0, 1))
-        shares.append(value.sum() * solid)
+        albedos.append(value.sum() * solid)
         turns.append(angle - np.arctan2(mean[0], mean[2]))
-    return np.array(shares), np.array(turns)
+    return np.array(albedos), np.array(turns)
 
 
 def everywhere(cosine: np.ndarray) -> np.ndarray:

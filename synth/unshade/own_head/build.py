@@ -14,7 +14,7 @@ from ..face.spec import FaceError
 from ..face.texels import Texels, rasterise
 from .map_files import linear, read_labels, read_normals, read_picture, resampled
 from .mesh_file import Piece, read_pieces
-from .outward import turned_outwards
+from .outward import oriented_outwards
 from .placement import axes, in_metres, origin, smooth_normals
 from .spec import SKIN_REFLECTANCE, HeadFiles
 
@@ -88,7 +88,7 @@ def _joined(pieces: list[Piece], head: HeadFiles) -> dict[str, np.ndarray]:
     normals = None if any(n is None for n in given) else np.concatenate(given)[used] @ axes(head).T
     if normals is not None and not (np.linalg.norm(normals, axis=1) > 1e-6).all():
         normals = None
-    triangles, normals = turned_outwards(points, triangles, normals, head)
+    triangles, normals = oriented_outwards(points, triangles, normals, head)
     if normals is None:
         normals = smooth_normals(points, triangles)
     return {"points": points, "normals": unit(normals), "uv": uv, "triangles": triangles}

@@ -11,7 +11,7 @@ _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126:
 
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
-_MOST_ZEROS = 1 << 24
+_MAX_ZEROS = 1 << 24
 """Elements of an accessor that no bytes stand behind."""
 
 
@@ -58,7 +58,7 @@ class Accessors:
             raise ValueError(f"accessors[{number}] is of no known kind")
         if "bufferView" in accessor:
             values = self._view(accessor["bufferView"], accessor.get("byteOffset", 0), kind, width, count)
-        elif count <= _MOST_ZEROS:
+        elif count <= _MAX_ZEROS:
             values = np.zeros((count, width), kind)
         else:
             raise ValueError(f"accessors[{number}] has {count} elements and no bytes")

@@ -32,7 +32,7 @@ _MENDS = {
     "EXT_meshopt_compression": "export it without compression (gltfpack without -c)",
 }
 
-_MOST_VERTICES = 1 << 25
+_MAX_VERTICES = 1 << 25
 """Most vertices of all objects together: instances may ask for more than any memory holds."""
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
@@ -70,8 +70,8 @@ def read_gltf(path: Path) -> list[Surface]:
             if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
                 continue  # points and lines are no surface
             vertices += item(document, "accessors", primitive["attributes"]["POSITION"])["count"]
-            if vertices > _MOST_VERTICES:
-                raise FaceError(f"{path}: has more than {_MOST_VERTICES} vertices; export a smaller mesh")
+            if vertices > _MAX_VERTICES:
+                raise FaceError(f"{path}: has more than {_MAX_VERTICES} vertices; export a smaller mesh")
             surfaces.append(_surface(path, name, transform, primitive, weights, accessors))
     return surfaces
 
@@ -150,13 +150,13 @@ def _transform(node: dict[str, Any]) -> np.ndarray:
         matrix = matrix @ moved
     if "rotation" in node:
         x, y, z, w = np.array(node["rotation"], np.float64) / np.linalg.norm(node["rotation"])
-        turned = np.eye(4)
-        turned[:3, :3] = [
+        rotated = np.eye(4)
+        rotated[:3, :3] = [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
-        matrix = matrix @ turned
+        matrix = matrix @ rotated
     if "scale" in node:
         matrix = matrix @ np.diag([*node["scale"], 1.0])
     return matrix

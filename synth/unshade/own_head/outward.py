@@ -14,7 +14,7 @@ class MeshWarning(UserWarning):
     """A mesh is read otherwise than its file says."""
 
 
-def turned_outwards(
+def oriented_outwards(
     points: np.ndarray, triangles: np.ndarray, normals: np.ndarray | None, head: HeadFiles
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Triangles (F,3) and normals (V,3) or None, all facing outwards.

@@ -97,9 +97,9 @@ def _light(light: Light, face: Face) -> tuple[str, ...]:
     model = lights.exposed(light, face.chart.vertices, face.chart.normals)
     mean = mean_radiance(model)
     # Parts of a light stage's sphere share its exposure; all other lights have theirs.
-    most = light.exposure * math.pi
+    irradiance = light.exposure * math.pi
     if isinstance(model, lights.StagePattern):
-        most = lights.largest_irradiance(model, face.chart.vertices, face.chart.normals)
+        irradiance = lights.largest_irradiance(model, face.chart.vertices, face.chart.normals)
     brightest = float(model.brightest() @ LUMINANCE)
     level = float(mean @ LUMINANCE)
     kelvin = correlated_kelvin(mean)
@@ -109,7 +109,7 @@ def _light(light: Light, face: Face) -> tuple[str, ...]:
         f"{brightest / level:.4g}",
         ":".join(f"{c:.3f}" for c in mean / mean[1]) if mean[1] > 0 else "-",
         f"{kelvin:.0f} K" if kelvin else "-",
-        f"{most / math.pi:.3f} pi",
+        f"{irradiance / math.pi:.3f} pi",
     )
 
 
@@ -135,8 +135,10 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
 
 def _faults(scene: Scene) -> list[str]:
     """Lines on the faults of pictures, cameras, mesh and labels, as the scene asks for them."""
-    share = scene.labels.boundary_error
-    labels = f"{100 * share:.3g} % of the boundary pixels have the label of the other side" if share else "perfect"
+    fraction = scene.labels.boundary_error
+    labels = (
+        f"{100 * fraction:.3g} % of the boundary pixels have the label of the other side" if fraction else "perfect"
+    )
     if scene.labels.one:
         labels = "one for everything"
     formation, mesh = (

@@ -166,12 +166,12 @@ def _named(choices, name: str, what: str):
 def _document(worth: Mapping[frozenset[str], float], light: str, view: str, factor: float) -> dict:
     every = frozenset(PLAYERS)
     total = worth[every]
-    shares = shapley(worth, list(PLAYERS))
+    contributions = shapley(worth, list(PLAYERS))
     rows = [
         {
             "map": player,
-            "squared_error": shares[player],
-            "share": shares[player] / total if total else None,
+            "squared_error": contributions[player],
+            "share": contributions[player] / total if total else None,
             "alone": worth[frozenset([player])],
             "gain_db": _decibels(worth[every - {player}]) - _decibels(total),
         }
@@ -202,9 +202,9 @@ def _page(document: dict) -> str:
         "|---|---|---|---|---|",
     ]
     for row in document["maps"]:
-        share = "none" if row["share"] is None else f"{100 * row['share']:.1f} %"
+        percent = "none" if row["share"] is None else f"{100 * row['share']:.1f} %"
         numbers = f"{row['squared_error']:.3e} | {row['alone']:.3e} | {row['gain_db']:.2f}"
-        lines.append(f"| {row['map']} | {share} | {numbers} |")
+        lines.append(f"| {row['map']} | {percent} | {numbers} |")
     lines.append(f"| all | 100 % | {document['squared_error']:.3e} | {document['squared_error']:.3e} | |")
     pictures = "![The true view, the method's, and the errors of each map alone and of all, eight times](budget.png)"
     return "\n".join([*lines, "", pictures, ""])

@@ -31,7 +31,7 @@ def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
 FACE_CENTRE = np.array([0.0, 0.0, 0.06])
 """Point that cameras aim at: the middle of the face, from the head's centre (m)."""
 
-_ELEVATION_SHARE = 0.6
+_ELEVATION_FRACTION = 0.6
 """A walk around a face moves more sideways than up and down."""
 
 
@@ -52,7 +52,7 @@ def _phone(rig: Rig, width: int, height: int):
         for x, y in zip(sideways, upwards):
             azimuth = reach * x
             # An ellipse, so that no corner view leaves the permitted angle.
-            elevation = reach * _ELEVATION_SHARE * y * math.sqrt(1 - x * x)
+            elevation = reach * _ELEVATION_FRACTION * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
             yield (
                 FACE_CENTRE + distance * _away(azimuth, elevation),
@@ -82,9 +82,9 @@ def _desktop(rig: Rig, width: int, height: int):
     rng = np.random.default_rng(rig.seed)
     place_play, aim_play = _DESKTOP_PLAY
     focal = _focal(rig, width, height)
-    for number, (azimuth, elevation, share) in enumerate(_DESKTOP):
+    for number, (azimuth, elevation, scale) in enumerate(_DESKTOP):
         away = _away(math.radians(azimuth), math.radians(elevation))
-        position = FACE_CENTRE + rig.distance_metres * share * away + rng.uniform(-place_play, place_play, 3)
+        position = FACE_CENTRE + rig.distance_metres * scale * away + rng.uniform(-place_play, place_play, 3)
         yield position, FACE_CENTRE + rng.uniform(-aim_play, aim_play, 3), focal, number < len(_DESKTOP) - 1
 
 
@@ -96,9 +96,9 @@ def _dome(rig: Rig, width: int, height: int):
     turned by the seed. Withheld views are taken evenly from the middle to the rim."""
     count = rig.train + rig.test
     turn = np.random.default_rng(rig.seed).uniform(0, 2 * math.pi)
-    share = (np.arange(count) + 0.5) / count
+    fraction = (np.arange(count) + 0.5) / count
     # Equal steps of height on the sphere enclose equal solid angles.
-    cosine = 1 - share * (1 - math.cos(math.radians(rig.max_angle_degrees)))
+    cosine = 1 - fraction * (1 - math.cos(math.radians(rig.max_angle_degrees)))
     sine = np.sqrt(1 - cosine**2)
     around = turn + _GOLDEN_ANGLE * np.arange(count)
     away = np.stack([sine * np.cos(around), sine * np.sin(around), cosine], 1)

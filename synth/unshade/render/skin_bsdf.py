@@ -32,7 +32,7 @@ MIN_ALPHA = 0.02
 wide enough that half vectors in single precision resolve them."""
 
 _MIN_COS = 1e-4
-_SPECULAR_SHARE = (0.15, 0.85)
+_SPECULAR_PROBABILITY = (0.15, 0.85)
 """Bounds of the probability to sample the specular lobes, so that neither part starves."""
 
 
@@ -80,12 +80,12 @@ class SkinBSDF(mi.BSDF):
         return mi.Normal3f(dr.select(known, n, mi.Vector3f(0, 0, 1)))
 
     def _lobes(self, si, active):
-        """GGX alpha and share of both lobes."""
+        """GGX alpha and weight of both lobes."""
         if self.roughness is None:
             return self.lobes
-        first, second, share = mi.Vector3f(self.roughness.eval_3(si, active))
-        share = dr.clip(share, 0, 1)
-        return (dr.clip(first, MIN_ALPHA, 1), share), (dr.clip(second, MIN_ALPHA, 1), 1 - share)
+        first, second, weight = mi.Vector3f(self.roughness.eval_3(si, active))
+        weight = dr.clip(weight, 0, 1)
+        return (dr.clip(first, MIN_ALPHA, 1), weight), (dr.clip(second, MIN_ALPHA, 1), 1 - weight)
 
     def _surface(self, si, active):
         """Colours, specular reflectance, diffuse normal, specular frame, geometric normal, lobes."""
@@ -98,7 +98,7 @@ class SkinBSDF(mi.BSDF):
             self._lobes(si, active),
         )
 
-    def _specular_share(self, ctx, si, surface):
+    def _specular_probability(self, ctx, si, surface):
         """Probability to sample the specular lobes; 0 where they are out of sight."""
         rho_d, rho_s, _, frame, _, _ = surface
         if not ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 1):
@@ -107,20 +107,20 @@ class SkinBSDF(mi.BSDF):
         if not ctx.is_enabled(mi.BSDFFlags.DiffuseReflection, 0):
             return dr.select(seen, mi.Float(1), mi.Float(0))
         strength = rho_s / F0 * schlick(dr.dot(frame.n, si.wi))
-        share = strength / (strength + mi.luminance(rho_d) + 1e-6)
-        return dr.select(seen & (rho_s > 0), dr.clip(share, *_SPECULAR_SHARE), 0)
+        probability = strength / (strength + mi.luminance(rho_d) + 1e-6)
+        return dr.select(seen & (rho_s > 0), dr.clip(probability, *_SPECULAR_PROBABILITY), 0)
 
     def _evaluate(self, ctx, si, wo, active, surface):
         rho_d, rho_s, n_d, frame, n_g, lobes = surface
         # Sidedness is judged by the triangle, not the interpolated normal, which leans
         # away from the eye at silhouettes and would leave black pixels there.
         active = active & (dr.dot(n_g, si.wi) > 0) & (dr.dot(n_g, wo) > 0)
-        share = self._specular_share(ctx, si, surface)
+        probability = self._specular_probability(ctx, si, surface)
         value, pdf = mi.Color3f(0), mi.Float(0)
         if ctx.is_enabled(mi.BSDFFlags.DiffuseReflection, 0):
             cosine = dr.fmax(dr.dot(n_d, wo), 0) * dr.inv_pi
             value += rho_d * cosine
-            pdf += (1 - share) * cosine
+            pdf += (1 - probability) * cosine
         if ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 1):
             v, l = frame.to_local(si.wi), frame.to_local(wo)
             ok = (v.z > _MIN_COS) & (l.z > 0)
@@ -134,15 +134,15 @@ class SkinBSDF(mi.BSDF):
                 sampled += density
                 reflected += density * lobe.smith_g1(l, h)
             value += dr.select(ok, reflected * (rho_s / F0) * schlick(dr.dot(v, h)), 0)
-            pdf += dr.select(ok, share * sampled, 0)
+            pdf += dr.select(ok, probability * sampled, 0)
         return dr.select(active, value, 0), dr.select(active, pdf, 0)
 
     def _sample(self, ctx, si, sample1, sample2, active, surface):
-        _, _, n_d, frame, _, ((alpha_1, share_1), (alpha_2, _)) = surface
-        share = self._specular_share(ctx, si, surface)
-        specular = sample1 < share
+        _, _, n_d, frame, _, ((alpha_1, weight_1), (alpha_2, _)) = surface
+        probability = self._specular_probability(ctx, si, surface)
+        specular = sample1 < probability
         # The rest of the first random number picks the lobe.
-        first = _safe_ratio(sample1, share) < share_1
+        first = _safe_ratio(sample1, probability) < weight_1
         alpha = dr.select(first, mi.Float(alpha_1), mi.Float(alpha_2))
         lobe = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, alpha, True)
         v = frame.to_local(si.wi)

@@ -14,7 +14,7 @@ import drjit as dr
 import mitsuba as mi
 
 
-def _share(part, whole):
+def _fraction(part, whole):
     """part / whole, 0 to 1 whatever the rounding."""
     return dr.select(whole > 0, dr.fmin(part / dr.select(whole > 0, whole, 1), 1), 0)
 
@@ -62,7 +62,7 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
     active = pi.is_valid()
     ray = mi.Ray3f(ray)
     depth = mi.UInt32(0)
-    throughput, share = mi.Color3f(1), mi.Color3f(1)
+    throughput, diffuse_fraction = mi.Color3f(1), mi.Color3f(1)
     diffuse, specular = mi.Color3f(0), mi.Color3f(0)
     previous = dr.zeros(mi.Interaction3f)
     previous_pdf = mi.Float(1)
@@ -74,8 +74,8 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
         weight = _mis(previous_pdf, scene.pdf_emitter_direction(previous, towards, later))
         lambert_weight = dr.select(depth == 1, _lambert_weight(lambert_light, weight, 0, 1), weight)
         met = dr.select(later, throughput * towards.emitter.eval(si, later), 0)
-        diffuse += share * met * lambert_weight
-        specular += (1 - share) * met * weight
+        diffuse += diffuse_fraction * met * lambert_weight
+        specular += (1 - diffuse_fraction) * met * weight
 
         following = active & si.is_valid() & (depth + 1 < max_depth)
         bsdf = si.bsdf(ray)
@@ -86,15 +86,15 @@ def split_radiance(scene, head, sampler, ray, max_depth, lambert_light):
             everything, si, wo, sampler.next_1d(), sampler.next_2d(), following
         )
         at_first = following & (depth == 0)
-        light_share = dr.select(at_first, _share(bsdf.eval(lambert, si, wo, at_first), value), share)
+        direct_fraction = dr.select(at_first, _fraction(bsdf.eval(lambert, si, wo, at_first), value), diffuse_fraction)
         weight = _mis(light.pdf, pdf)
         lambert_weight = dr.select(depth == 0, _lambert_weight(lambert_light, weight, 1, 0), weight)
         direct = dr.select(lit, throughput * value * radiance, 0)
-        diffuse += light_share * direct * lambert_weight
-        specular += (1 - light_share) * direct * weight
+        diffuse += direct_fraction * direct * lambert_weight
+        specular += (1 - direct_fraction) * direct * weight
 
         scattered_lambert = bsdf.eval(lambert, si, scattered.wo, at_first)
-        share = dr.select(at_first, _share(scattered_lambert, albedo * scattered.pdf), share)
+        diffuse_fraction = dr.select(at_first, _fraction(scattered_lambert, albedo * scattered.pdf), diffuse_fraction)
         throughput = throughput * albedo
         previous = mi.Interaction3f(si)
         previous_pdf = scattered.pdf

@@ -17,7 +17,7 @@ def split_radiance_scalar(scene, head, sampler, ray, max_depth: int, lambert_lig
     everything, lambert = mi.BSDFContext(), mi.BSDFContext()
     lambert.type_mask = +mi.BSDFFlags.DiffuseReflection
     layers = np.zeros((2, 3))
-    throughput, share = np.ones(3), np.ones(3)
+    throughput, diffuse_fraction = np.ones(3), np.ones(3)
     si = head.ray_intersect(ray)
     if not si.is_valid():
         return layers
@@ -28,11 +28,11 @@ def split_radiance_scalar(scene, head, sampler, ray, max_depth: int, lambert_lig
         value, pdf, scattered, albedo = bsdf.eval_pdf_sample(everything, si, wo, sampler.next_1d(), sampler.next_2d())
         value, albedo = np.array(value), np.array(albedo)
         if light.pdf > 0:
-            light_share = _share(bsdf.eval(lambert, si, wo), value) if depth == 0 else share
+            direct_fraction = _fraction(bsdf.eval(lambert, si, wo), value) if depth == 0 else diffuse_fraction
             direct = throughput * value * np.array(radiance)
-            layers += _weighed(direct, light_share, _mis(light.pdf, pdf), depth, lambert_light, 1, 0)
+            layers += _weighed(direct, direct_fraction, _mis(light.pdf, pdf), depth, lambert_light, 1, 0)
         if depth == 0:
-            share = _share(bsdf.eval(lambert, si, scattered.wo), albedo * scattered.pdf)
+            diffuse_fraction = _fraction(bsdf.eval(lambert, si, scattered.wo), albedo * scattered.pdf)
         throughput = throughput * albedo
         if throughput.max() <= 0:
             break
@@ -44,21 +44,21 @@ def split_radiance_scalar(scene, head, sampler, ray, max_depth: int, lambert_lig
             towards = mi.DirectionSample3f(scene, si, previous)
             weight = _mis(scattered.pdf, scene.pdf_emitter_direction(previous, towards))
             met = throughput * np.array(emitter.eval(si))
-            layers += _weighed(met, share, weight, depth, lambert_light, 0, 1)
+            layers += _weighed(met, diffuse_fraction, weight, depth, lambert_light, 0, 1)
         if not si.is_valid():
             break
     return layers
 
 
-def _weighed(light, share, blend, depth, lambert_light, towards_light, from_surface) -> np.ndarray:
+def _weighed(light, diffuse_fraction, blend, depth, lambert_light, towards_light, from_surface) -> np.ndarray:
     """Layers of some light at a vertex, weighed as its Lambert term wants it."""
     weight = blend
     if depth == 0 and lambert_light is not LambertLight.BLEND:
         weight = towards_light if lambert_light is LambertLight.TOWARDS_LIGHT else from_surface
-    return np.stack([share * light * weight, (1 - share) * light * blend])
+    return np.stack([diffuse_fraction * light * weight, (1 - diffuse_fraction) * light * blend])
 
 
-def _share(part, whole: np.ndarray) -> np.ndarray:
+def _fraction(part, whole: np.ndarray) -> np.ndarray:
     part = np.array(part)
     return np.divide(part, whole, out=np.zeros(3), where=whole > 0).clip(0, 1)
 

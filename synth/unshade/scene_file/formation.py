@@ -116,12 +116,12 @@ def _optional(table: Mapping[str, Any], key: str, place: str) -> float | None:
     return number(table, key, place, 0.0) if key in table else None
 
 
-def _positive(table: Mapping[str, Any], key: str, place: str, most: float = 1e6) -> float | None:
+def _positive(table: Mapping[str, Any], key: str, place: str, maximum: float = 1e6) -> float | None:
     if key not in table:
         return None
     value = number(table, key, place, 0.0, above=0.0)
-    if value > most:
-        raise SceneError(f"{key} in {place} is {value:g}; use at most {most:g}")
+    if value > maximum:
+        raise SceneError(f"{key} in {place} is {value:g}; use at most {maximum:g}")
     return value
 
 

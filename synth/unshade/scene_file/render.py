@@ -101,7 +101,7 @@ def _mean_free_paths(table: Mapping[str, Any], place: str) -> tuple[float, float
 def passes_for(samples: int) -> int | None:
     """Number of passes (4 to 16) whose share of the samples is a full multijitter grid."""
     for passes in range(4, 17):
-        share, rest = divmod(samples, passes)
-        if rest == 0 and share and share % math.isqrt(share) == 0:
+        per_pass, rest = divmod(samples, passes)
+        if rest == 0 and per_pass and per_pass % math.isqrt(per_pass) == 0:
             return passes
     return None

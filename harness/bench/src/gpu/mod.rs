@@ -25,8 +25,8 @@ pub use rows::{GpuPaper, GpuReport, GpuStep};
 
 /// Memory of the host that the whole of the paper's capture takes, about; with less, a quarter is done.
 const PAPER_MEMORY: u64 = 20 << 30;
-/// One over the share of the paper's pixels on a software adapter.
-const SOFTWARE_SHARE: usize = 256;
+/// A software adapter does one of so many of the paper's pixels.
+const SOFTWARE_DIVISOR: usize = 256;
 
 /// A GPU that is measured.
 pub struct Device {
@@ -71,13 +71,13 @@ impl Device {
 
     /// The paper's capture: on a GPU all steps on all pixels, if the host can hold them.
     pub fn paper(&self, paper: &Paper, progress: &mut dyn FnMut(&str)) -> GpuPaper {
-        let share = match (paper.quick, self.software) {
-            (true, _) => paper.shares[0],
-            (_, true) => SOFTWARE_SHARE,
+        let divisor = match (paper.quick, self.software) {
+            (true, _) => paper.divisors[0],
+            (_, true) => SOFTWARE_DIVISOR,
             _ if available().is_some_and(|bytes| bytes < PAPER_MEMORY) => 4,
             _ => 1,
         };
-        match self.paper_at(share, paper, progress) {
+        match self.paper_at(divisor, paper, progress) {
             Ok(done) => done,
             Err(error) => GpuPaper::Failed { reason: error.to_string() },
         }
@@ -85,7 +85,7 @@ impl Device {
 
     fn paper_at(
         &self,
-        share: usize,
+        divisor: usize,
         paper: &Paper,
         progress: &mut dyn FnMut(&str),
     ) -> Result<GpuPaper, BackendError> {
@@ -93,7 +93,7 @@ impl Device {
         let mut problem: Option<Problem> = None;
         for (kind, steps) in Kind::ALL.into_iter().zip(PAPER_STEPS) {
             progress(&format!("the paper's capture, {}, {}", kind.name(), self.name()));
-            let (pixels, texture) = paper.size(kind, share);
+            let (pixels, texture) = paper.size(kind, divisor);
             // Full resolution is made once for both kinds.
             let same = |problem: &Problem| problem.samples.len() == pixels;
             let made = problem.take().filter(same).unwrap_or_else(|| Problem::new(pixels, texture));
@@ -102,11 +102,12 @@ impl Device {
             problem = Some(made);
             let losses = running.steps(TORCH_STEPS)?;
             preparation_seconds += start.elapsed().as_secs_f64();
-            let each = if share == 1 { running.mean(steps)? } else { running.best(self.budget)? };
-            seconds += each * (steps * share) as f64;
+            let each =
+                if divisor == 1 { running.mean(steps)? } else { running.best(self.budget)? };
+            seconds += each * (steps * divisor) as f64;
             rows.push(running.row(each, losses)?);
         }
-        Ok(GpuPaper::Done { share, steps: rows, seconds, preparation_seconds })
+        Ok(GpuPaper::Done { divisor, steps: rows, seconds, preparation_seconds })
     }
 
     /// Whole solves of a capture.

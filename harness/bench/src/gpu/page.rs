@@ -44,10 +44,10 @@ pub fn write_gpu(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Res
             writeln!(page, "It did not go through: {reason}.")?;
             &report.steps
         }
-        GpuPaper::Done { share, steps, seconds, preparation_seconds } => {
-            let how = match share {
+        GpuPaper::Done { divisor, steps, seconds, preparation_seconds } => {
+            let how = match divisor {
                 1 => "all steps on all pixels".to_owned(),
-                share => format!("single steps on one pixel of {share}, multiplied"),
+                divisor => format!("single steps on one pixel of {divisor}, multiplied"),
             };
             writeln!(
                 page,

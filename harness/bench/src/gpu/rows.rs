@@ -64,8 +64,9 @@ pub struct PassRow {
 pub enum GpuPaper {
     /// It went through.
     Done {
-        /// One over the share of the pixels that was really there; with all of them, all steps were taken.
-        share: usize,
+        /// One of so many pixels was really there; with all of them, all steps were taken.
+        #[serde(rename = "share")]
+        divisor: usize,
         /// One of each kind.
         steps: Vec<GpuStep>,
         /// Seconds of all 3000 steps on all pixels.

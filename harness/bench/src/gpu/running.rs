@@ -57,8 +57,10 @@ impl<'a> Running<'a> {
     pub fn steps(&mut self, count: usize) -> Result<Vec<f64>, BackendError> {
         let mut losses = vec![];
         while losses.len() < count {
-            let shares = vec![1.0; BATCH.min(count - losses.len())];
-            losses.extend(self.program.steps(&shares).map_err(|error| failed(self.gpu, &error))?);
+            let rate_factors = vec![1.0; BATCH.min(count - losses.len())];
+            losses.extend(
+                self.program.steps(&rate_factors).map_err(|error| failed(self.gpu, &error))?,
+            );
         }
         Ok(losses)
     }

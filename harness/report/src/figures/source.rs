@@ -12,11 +12,11 @@ use crate::table::Column;
 
 /// Cases of all runs, and which methods the figure is of.
 pub(super) struct Sources {
-    cases: Vec<Held>,
+    cases: Vec<LoadedCase>,
     methods: Vec<String>,
 }
 
-struct Held {
+struct LoadedCase {
     run: PathBuf,
     case: Case,
     scores: Vec<Option<Scores>>,
@@ -36,7 +36,7 @@ impl Sources {
             for case in RunFile::open(run)?.cases {
                 if request.cases.is_empty() || request.cases.contains(&case.id) {
                     let scores = read_scores(run, &case)?;
-                    cases.push(Held { run: run.clone(), case, scores });
+                    cases.push(LoadedCase { run: run.clone(), case, scores });
                 }
             }
         }
@@ -51,19 +51,19 @@ impl Sources {
                 Some(name) => Err(ReportError::Unknown { what, name: name.clone(), runs: runs() }),
                 None => Ok(()),
             };
-        unknown(&request.cases, &|id| cases.iter().any(|held| held.case.id == id), "case")?;
+        unknown(&request.cases, &|id| cases.iter().any(|loaded| loaded.case.id == id), "case")?;
         let method = |id: &str| {
-            cases.iter().any(|held| held.case.methods.iter().any(|method| method.id == id))
+            cases.iter().any(|loaded| loaded.case.methods.iter().any(|method| method.id == id))
         };
         unknown(&request.methods, &method, "method")?;
         Ok(Self { cases, methods: request.methods.clone() })
     }
 
     pub fn cases(&self) -> impl Iterator<Item = CaseSource<'_>> {
-        self.cases.iter().map(|held| CaseSource {
-            run: &held.run,
-            case: &held.case,
-            columns: columns_in_order(&held.case, &held.scores),
+        self.cases.iter().map(|loaded| CaseSource {
+            run: &loaded.run,
+            case: &loaded.case,
+            columns: columns_in_order(&loaded.case, &loaded.scores),
         })
     }
 
@@ -88,7 +88,7 @@ impl Sources {
 
     /// The runs hold nothing that the figure could show.
     pub fn nothing(&self, wanted: &'static str) -> ReportError {
-        let run = self.cases.first().map_or(PathBuf::new(), |held| held.run.clone());
+        let run = self.cases.first().map_or(PathBuf::new(), |loaded| loaded.run.clone());
         ReportError::NoFigure { run, wanted }
     }
 }

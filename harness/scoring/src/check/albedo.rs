@@ -7,8 +7,8 @@ use super::finding::Finding;
 use super::reduced::{Reduced, SIDE, median, quantile};
 use super::witness::{Witness, brightness};
 
-/// Share of covered texels that may lie outside of 0 to 1: rounding, a highlight that is left.
-const OUTSIDE_SHARE: f64 = 0.02;
+/// Fraction of covered texels that may lie outside of 0 to 1: rounding, a highlight that is left.
+const OUTSIDE_FRACTION: f64 = 0.02;
 /// A value below this is negative, not rounded.
 const NEGATIVE: f32 = -1e-3;
 /// Median from which values are counts of 8 bits.
@@ -64,13 +64,13 @@ pub(super) fn check(
         return;
     }
     let negative = texels().filter(|rgb| rgb.iter().any(|v| *v < NEGATIVE)).count();
-    let share = negative as f64 / total as f64;
-    if share > OUTSIDE_SHARE {
-        let percent = 100.0 * share;
+    let fraction = negative as f64 / total as f64;
+    if fraction > OUTSIDE_FRACTION {
+        let percent = 100.0 * fraction;
         let message =
             format!("is negative in {percent:.1} % of its covered texels (down to {low:.3})");
         let mend = "write reflectance, 0 to 1; a value range of -1 to 1 is (x + 1) / 2";
-        let evidence = [("share", share), ("minimum", low)];
+        let evidence = [("share", fraction), ("minimum", low)];
         findings.push(Finding::warning("negative", file, message, mend).with(evidence));
     }
     if middle > BYTES {
@@ -91,13 +91,13 @@ pub(super) fn check(
         return;
     }
     let above = texels().filter(|rgb| rgb.iter().any(|v| *v > 1.0)).count();
-    let share = above as f64 / total as f64;
-    if share > OUTSIDE_SHARE {
-        let percent = 100.0 * share;
+    let fraction = above as f64 / total as f64;
+    if fraction > OUTSIDE_FRACTION {
+        let percent = 100.0 * fraction;
         let message =
             format!("is above 1 in {percent:.1} % of its covered texels (up to {high:.2})");
         let mend = "write reflectance, 0 to 1, not radiance";
-        let evidence = [("share", share), ("maximum", high)];
+        let evidence = [("share", fraction), ("maximum", high)];
         findings.push(Finding::warning("above-one", file, message, mend).with(evidence));
     }
 }
@@ -240,6 +240,6 @@ impl Photographs {
 
 /// ln(red / blue).
 fn redness(rgb: &[f32]) -> f32 {
-    let least = |value: f32| value.max(1e-6);
-    (least(rgb[0]) / least(rgb[2])).ln()
+    let clamped = |value: f32| value.max(1e-6);
+    (clamped(rgb[0]) / clamped(rgb[2])).ln()
 }

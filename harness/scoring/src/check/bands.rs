@@ -10,8 +10,8 @@ const SIGMAS: [f64; 2] = [2.0, 6.0];
 const CLIP: f64 = 3.0;
 /// Share of the median below which a value is noise.
 const DARK: f64 = 1e-3;
-/// Fewest texels that say something, as a share of the map.
-const LEAST_SHARE: f64 = 0.02;
+/// Fewest texels that say something, as a fraction of the map.
+const MIN_FRACTION: f64 = 0.02;
 
 /// Planes of unit variance: luminance and red over blue, each in two bands.
 pub(super) struct Bands {
@@ -25,9 +25,9 @@ impl Bands {
         let mask: Vec<bool> = mask.iter().zip(valid).map(|(mask, valid)| *mask && *valid).collect();
         let texels = || (0..SIDE * SIDE).filter(|texel| mask[*texel]);
         let greens = texels().map(|texel| values[texel * map.channels + 1].abs());
-        let least = (median(greens).unwrap_or(0.0) * DARK).max(f64::MIN_POSITIVE);
+        let floor = (median(greens).unwrap_or(0.0) * DARK).max(f64::MIN_POSITIVE);
         let log = |texel: usize, channel: usize| {
-            f64::from(values[texel * map.channels + channel]).max(least).ln()
+            f64::from(values[texel * map.channels + channel]).max(floor).ln()
         };
         let inside: Vec<f64> = mask.iter().map(|mask| f64::from(u8::from(*mask))).collect();
         let plane = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -92,7 +92,7 @@ fn mean(values: impl Iterator<Item = f64>, count: usize) -> f64 {
 
 /// 0 where one of them is constant or too little is known.
 fn pearson(texels: &[usize], a: impl Fn(usize) -> f64, b: impl Fn(usize) -> f64) -> f64 {
-    if (texels.len() as f64) < LEAST_SHARE * (SIDE * SIDE) as f64 {
+    if (texels.len() as f64) < MIN_FRACTION * (SIDE * SIDE) as f64 {
         return 0.0;
     }
     let count = texels.len() as f64;

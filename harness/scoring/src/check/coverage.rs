@@ -10,10 +10,10 @@ use super::witness::Witness;
 
 /// From here on a texel is covered, as in the scores.
 const COVERED: u8 = 128;
-/// Share of the texels between 0 and 255 that soft edges explain.
-const SOFT_SHARE: f64 = 0.02;
-/// Share of the seen chart that a coverage should hold.
-const LEAST_SHARE: f64 = 0.6;
+/// Fraction of the texels between 0 and 255 that soft edges explain.
+const SOFT_FRACTION: f64 = 0.02;
+/// Fraction of the seen chart that a coverage should hold.
+const MIN_FRACTION: f64 = 0.6;
 
 /// The faults of a coverage.
 pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut Vec<Finding>) {
@@ -33,7 +33,7 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
         return;
     }
     let soft = count(|value| value != 0 && value != 255);
-    if soft as f64 / total > SOFT_SHARE {
+    if soft as f64 / total > SOFT_FRACTION {
         let percent = 100.0 * soft as f64 / total;
         let message = format!("has values between 0 and 255 in {percent:.1} % of its texels");
         let mend =
@@ -69,13 +69,13 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
     } else {
         let seen = witness.seen.iter().filter(|seen| **seen).count().max(1) as f64;
         let pairs = covered.iter().zip(&witness.seen);
-        let share = pairs.filter(|(covered, seen)| **covered && **seen).count() as f64 / seen;
-        if share < LEAST_SHARE {
-            let percent = 100.0 * share;
+        let fraction = pairs.filter(|(covered, seen)| **covered && **seen).count() as f64 / seen;
+        if fraction < MIN_FRACTION {
+            let percent = 100.0 * fraction;
             let message =
                 format!("covers {percent:.0} % of what the training views see of the chart");
             let mend = "write 255 wherever a training view sees the face, or solve the rest";
-            let evidence = [("share", share)];
+            let evidence = [("share", fraction)];
             let finding = Finding::warning("coverage-small", COVERAGE, message, mend);
             findings.push(finding.with(evidence));
         }

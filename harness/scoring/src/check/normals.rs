@@ -11,10 +11,10 @@ use super::witness::Witness;
 
 /// Length below which a vector has no direction.
 const ZERO: f32 = 1e-3;
-/// How far the length of a unit vector may be off, and the share of texels that may be worse:
+/// How far the length of a unit vector may be off, and the fraction of texels that may be worse:
 /// halves and bilinear resizing stay within.
 const LENGTH_OFF: f32 = 0.1;
-const WORSE_SHARE: f64 = 0.01;
+const WORSE_FRACTION: f64 = 0.01;
 /// Length of the mean of the normals from which they point one way: a face's reach .5, a tangent
 /// space's .95.
 const ONE_WAY: f64 = 0.9;
@@ -73,14 +73,14 @@ pub(super) fn check(
     if total == 0 {
         return;
     }
-    let share = |count: usize| count as f64 / total as f64;
+    let fraction = |count: usize| count as f64 / total as f64;
     let zero = vectors().filter(|v| v.length() < ZERO).count();
     if zero > 0 {
-        let percent = 100.0 * share(zero);
+        let percent = 100.0 * fraction(zero);
         let message = format!("has {zero} covered texels ({percent:.1} %) of zero length");
         let mend = "write unit vectors there, or 0 into coverage.png";
         let finding = if zero == total { Finding::error } else { Finding::warning };
-        let evidence = [("texels", zero as f64), ("share", share(zero))];
+        let evidence = [("texels", zero as f64), ("share", fraction(zero))];
         findings.push(finding("zero-length", file, message, mend).with(evidence));
     }
     if zero == total {
@@ -90,14 +90,14 @@ pub(super) fn check(
     let coding = coding_of(&long().collect::<Vec<_>>());
     if coding == Coding::Plain {
         let off = long().filter(|v| (v.length() - 1.0).abs() > LENGTH_OFF).count();
-        if share(off) > WORSE_SHARE {
+        if fraction(off) > WORSE_FRACTION {
             let middle = median(long().map(Vec3::length)).unwrap_or(0.0);
-            let percent = 100.0 * share(off);
+            let percent = 100.0 * fraction(off);
             let message = format!(
                 "has {percent:.1} % of its vectors off unit length (median length {middle:.3})"
             );
             let mend = "normalise them before writing";
-            let evidence = [("share", share(off)), ("median_length", middle)];
+            let evidence = [("share", fraction(off)), ("median_length", middle)];
             findings.push(Finding::warning("not-unit", file, message, mend).with(evidence));
         }
     } else {
@@ -133,7 +133,7 @@ fn length(vector: [f32; 3]) -> f32 {
 
 /// Coded vectors are never negative, and of unit length only when decoded.
 fn coding_of(vectors: &[Vec3]) -> Coding {
-    let least = vectors.iter().map(|v| v.min_element()).fold(f32::INFINITY, f32::min);
+    let minimum = vectors.iter().map(|v| v.min_element()).fold(f32::INFINITY, f32::min);
     let near_unit = |coding: Coding| {
         let lengths = vectors.iter().map(|v| length(v.to_array().map(|v| coding.decode(v))));
         median(lengths).is_some_and(|length| (length - 1.0).abs() < 0.1)
@@ -144,7 +144,7 @@ fn coding_of(vectors: &[Vec3]) -> Coding {
         off.map(|off| f64::from(off.abs())).sum::<f64>() / vectors.len().max(1) as f64
     };
     let coded = [Coding::Unit, Coding::Bytes].into_iter().find(|coding| {
-        least > -0.02 && near_unit(*coding) && spread(*coding) < 0.5 * spread(Coding::Plain)
+        minimum > -0.02 && near_unit(*coding) && spread(*coding) < 0.5 * spread(Coding::Plain)
     });
     coded.unwrap_or(Coding::Plain)
 }
@@ -187,8 +187,8 @@ impl Normals {
         let counted = |t: usize| witness.seen[t];
         let mesh = Normals(witness.normals.clone());
         let (mean, mesh_mean) = (self.mean(counted), mesh.mean(counted));
-        let bends = f64::from(mesh_mean.length()) < ONE_WAY - GAIN;
-        if bends && f64::from(mean.length()) > ONE_WAY && f64::from(mean.z) > ONE_WAY - GAIN {
+        let curved = f64::from(mesh_mean.length()) < ONE_WAY - GAIN;
+        if curved && f64::from(mean.length()) > ONE_WAY && f64::from(mean.z) > ONE_WAY - GAIN {
             return Some(tangent_space(file, mean, Some(mesh_mean)));
         }
         let moments = Symmetry::ALL.map(|symmetry| {

@@ -11,9 +11,9 @@ use super::symmetry::Symmetry;
 use super::witness::Witness;
 
 /// A pattern below this correlation is no evidence; right albedos reach .25 to .8.
-const LEAST_CORRELATION: f64 = 0.15;
+const MIN_CORRELATION: f64 = 0.15;
 /// How much better another way must fit; wrong ways of right albedos reach .1.
-const LEAST_GAIN: f64 = 0.12;
+const MIN_GAIN: f64 = 0.12;
 /// By how much more the asymmetric part must correlate when mirrored: right maps lose by .15 to 1,
 /// so that mirrored ones gain that. The whole pattern may then fit worse only by a tie.
 const MIRRORED: f64 = 0.14;
@@ -50,21 +50,21 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
     let upright = if pair.contains(&Symmetry::Identity) { Symmetry::Identity } else { best };
     let &(_, upright_fit, asymmetry) = of(upright)?;
     let &(_, mirrored_fit, mirrored_asymmetry) = of(upright.mirrored())?;
-    let found = if (best_fit - other_fit).abs() > LEAST_GAIN {
+    let found = if (best_fit - other_fit).abs() > MIN_GAIN {
         best
     } else if mirrored_asymmetry > asymmetry + MIRRORED && mirrored_fit > upright_fit - TIE {
         upright.mirrored()
     } else {
         upright
     };
-    let clear = best_fit > LEAST_CORRELATION
-        && (found == Symmetry::Identity.mirrored() || best_fit > as_it_is + LEAST_GAIN);
+    let clear = best_fit > MIN_CORRELATION
+        && (found == Symmetry::Identity.mirrored() || best_fit > as_it_is + MIN_GAIN);
     if found == Symmetry::Identity || !clear {
         return None;
     }
     let (id, wrong, mend) = found.words();
     let fit = of(found)?.1;
-    let message = if found == Symmetry::MirroredU && upright_fit > LEAST_CORRELATION {
+    let message = if found == Symmetry::MirroredU && upright_fit > MIN_CORRELATION {
         format!(
             "{wrong}: what is asymmetric of its pattern correlates with the projected photographs \
              by {asymmetry:.2} as it is, {mirrored_asymmetry:.2} mirrored"
@@ -94,8 +94,8 @@ pub(super) fn of_empty_texels(maps: &MapFolder, covered: &[bool], findings: &mut
     let coloured = |map: &&(&str, &Picture)| map.1.channels == 3;
     for (file, map) in maps.pictures().collect::<Vec<_>>().iter().filter(coloured) {
         let filled = Reduced::of(map).valid;
-        let share = filled.iter().filter(|filled| **filled).count() as f64 / filled.len() as f64;
-        if EMPTY.contains(&share) {
+        let fraction = filled.iter().filter(|filled| **filled).count() as f64 / filled.len() as f64;
+        if EMPTY.contains(&fraction) {
             findings.extend(of_shape(file, &filled, covered, COVERAGE));
         }
     }

@@ -27,8 +27,8 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
     let evidence = [("median_alpha1", sharp), ("median_alpha2", wide)];
     for (channel, name) in ["alpha1", "alpha2", "share1"].iter().enumerate() {
         let (low, high) = bounds(channel);
-        let least = if channel == 2 { -1e-3 } else { 1e-4 };
-        if low >= least && high <= 1.0 + 1e-3 {
+        let minimum = if channel == 2 { -1e-3 } else { 1e-4 };
+        if low >= minimum && high <= 1.0 + 1e-3 {
             continue;
         }
         let message = format!("has {name} from {low:.3} to {high:.3}, outside of 0 to 1");

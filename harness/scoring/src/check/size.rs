@@ -26,8 +26,8 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
     }
     // The size that most maps have; of as many, that of the first.
     let votes = |side: usize| square.iter().filter(|(_, other)| *other == side).count();
-    let most = square.iter().rev().max_by_key(|(_, side)| votes(*side));
-    let Some(&(named, side)) = most else { return };
+    let majority = square.iter().rev().max_by_key(|(_, side)| votes(*side));
+    let Some(&(named, side)) = majority else { return };
     for (file, other) in square.iter().filter(|(_, other)| *other != side) {
         let message = format!("is {other}x{other}, but {named} is {side}x{side}");
         let mend = "write all maps in one size";
@@ -35,7 +35,7 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
         findings.push(Finding::error("sizes-differ", file, message, mend).with(evidence));
     }
     let Some(witness) = witness else { return };
-    let texels = witness.chart_share() * (side * side) as f64;
+    let texels = witness.chart_fraction() * (side * side) as f64;
     let pixels = witness.pixels as f64;
     if pixels > PIXELS_PER_TEXEL * texels && texels > 0.0 {
         let enough = (side as f64 * (pixels / texels).sqrt()).ceil() as usize;

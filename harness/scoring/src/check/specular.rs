@@ -24,9 +24,9 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
     };
     let Some(middle) = median(values()) else { return };
     let of = |q| quantile(values(), q).unwrap_or(middle);
-    let (least, low, high, largest) = (of(0.0), of(0.02), of(0.98), of(1.0));
-    let evidence = [("median", middle), ("q02", low), ("q98", high), ("maximum", largest)];
-    if least == 0.0 && largest == 0.0 {
+    let (minimum, low, high, maximum) = (of(0.0), of(0.02), of(0.98), of(1.0));
+    let evidence = [("median", middle), ("q02", low), ("q98", high), ("maximum", maximum)];
+    if minimum == 0.0 && maximum == 0.0 {
         let message = "is 0 in every covered texel: the face has no highlights".to_owned();
         let mend =
             "write reflectance at normal incidence, about 0.028 for skin, or leave the map out";

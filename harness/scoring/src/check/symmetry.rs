@@ -6,7 +6,7 @@ pub(super) enum Symmetry {
     Identity,
     FlippedV,
     MirroredU,
-    Turned180,
+    Rotated180,
     Transposed,
     AntiTransposed,
     Clockwise,
@@ -18,7 +18,7 @@ impl Symmetry {
         Self::Identity,
         Self::FlippedV,
         Self::MirroredU,
-        Self::Turned180,
+        Self::Rotated180,
         Self::Transposed,
         Self::AntiTransposed,
         Self::Clockwise,
@@ -32,7 +32,7 @@ impl Symmetry {
             Self::Identity => (x, y),
             Self::FlippedV => (x, far_y),
             Self::MirroredU => (far_x, y),
-            Self::Turned180 => (far_x, far_y),
+            Self::Rotated180 => (far_x, far_y),
             Self::Transposed => (y, x),
             Self::AntiTransposed => (far_y, far_x),
             Self::Clockwise => (far_y, x),
@@ -54,8 +54,8 @@ impl Symmetry {
         match self {
             Self::Identity => Self::MirroredU,
             Self::MirroredU => Self::Identity,
-            Self::FlippedV => Self::Turned180,
-            Self::Turned180 => Self::FlippedV,
+            Self::FlippedV => Self::Rotated180,
+            Self::Rotated180 => Self::FlippedV,
             Self::Transposed => Self::CounterClockwise,
             Self::CounterClockwise => Self::Transposed,
             Self::AntiTransposed => Self::Clockwise,
@@ -75,7 +75,7 @@ impl Symmetry {
             Self::MirroredU => {
                 ("mirrored-u", "is mirrored in u", "write its columns in the other order")
             }
-            Self::Turned180 => (
+            Self::Rotated180 => (
                 "turned-180",
                 "is turned by 180 degrees",
                 "write its rows and columns in the other order",

@@ -71,8 +71,8 @@ impl Witness {
         })
     }
 
-    /// The chart's share of the unit square.
-    pub fn chart_share(&self) -> f64 {
+    /// The fraction of the unit square that the chart takes.
+    pub fn chart_fraction(&self) -> f64 {
         self.chart.iter().filter(|inside| **inside).count() as f64 / self.chart.len() as f64
     }
 }

@@ -12,7 +12,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use super::CompareError;
 
 /// The fewest runs that a spread is estimated from.
-pub const FEWEST_RUNS: usize = 4;
+pub const MIN_RUNS: usize = 4;
 
 /// Probability of a change that `sees` states.
 const POWER: f64 = 0.9;
@@ -22,7 +22,7 @@ const SAME: f64 = 0.95;
 
 /// A standard deviation below this share of the change that matters is not believed: other processors
 /// round differently.
-pub(super) const LEAST: f64 = 0.02;
+pub(super) const MIN_RELATIVE_SD: f64 = 0.02;
 
 /// The measured spread of a suite's scores.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -152,8 +152,8 @@ impl Calibration {
     /// Why the file cannot be used, if so.
     pub(super) fn fault(&self) -> Option<String> {
         let amount = |value: f64| value.is_finite() && value >= 0.0;
-        if self.runs < FEWEST_RUNS {
-            return Some(format!("has {} runs, at least {FEWEST_RUNS} are needed", self.runs));
+        if self.runs < MIN_RUNS {
+            return Some(format!("has {} runs, at least {MIN_RUNS} are needed", self.runs));
         }
         if !(self.false_alarms > 0.0 && self.false_alarms < 1.0) {
             return Some("false_alarms is not between 0 and 1".to_owned());
@@ -184,6 +184,6 @@ impl Spread {
     }
 
     fn believed(&self) -> f64 {
-        self.sd.max(LEAST * self.matters)
+        self.sd.max(MIN_RELATIVE_SD * self.matters)
     }
 }

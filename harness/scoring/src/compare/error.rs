@@ -41,13 +41,13 @@ pub enum CompareError {
     },
     /// Too few runs say nothing of a spread.
     #[error(
-        "{runs} runs are too few to measure a spread; give at least {fewest} that differ in their seeds"
+        "{runs} runs are too few to measure a spread; give at least {minimum} that differ in their seeds"
     )]
     FewRuns {
         /// How many there are.
         runs: usize,
         /// How many it takes.
-        fewest: usize,
+        minimum: usize,
     },
     /// A branch has no baseline that can be found.
     #[error("--baseline-branch {branch}: {reason}")]

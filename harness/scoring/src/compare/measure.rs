@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::CompareError;
 use super::baseline::Baseline;
-use super::calibration::{Calibration, FEWEST_RUNS, LEAST};
+use super::calibration::{Calibration, MIN_RELATIVE_SD, MIN_RUNS};
 use super::row_id::RowId;
 use super::spread::{Column, SIMULATIONS, TAILS, critical, deviation};
 use super::tolerance::Tolerances;
@@ -20,8 +20,8 @@ impl Calibration {
         tolerances: &Tolerances,
         false_alarms: f64,
     ) -> Result<Self, CompareError> {
-        let Some(first) = runs.first().filter(|_| runs.len() >= FEWEST_RUNS) else {
-            return Err(CompareError::FewRuns { runs: runs.len(), fewest: FEWEST_RUNS });
+        let Some(first) = runs.first().filter(|_| runs.len() >= MIN_RUNS) else {
+            return Err(CompareError::FewRuns { runs: runs.len(), minimum: MIN_RUNS });
         };
         if let Some(other) = runs.iter().find(|run| run.suite != first.suite) {
             let (run, baseline) = (other.suite.clone(), first.suite.clone());
@@ -41,7 +41,7 @@ impl Calibration {
                 values.iter_mut().for_each(|value| *value = value.ln());
                 matters = (matters / mean).ln_1p();
             }
-            columns.extend(Column::new(&values, LEAST * matters));
+            columns.extend(Column::new(&values, MIN_RELATIVE_SD * matters));
             measured.push((id.clone(), relative, deviation(&values), matters));
         }
         let mut calibration = Self {

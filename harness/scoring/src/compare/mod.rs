@@ -20,7 +20,7 @@ mod verdict;
 
 pub use acceptance::{Acceptance, Acceptances, is_day};
 pub use baseline::{Baseline, Captured, Entry};
-pub use calibration::{Calibration, FEWEST_RUNS, Limits, Spread};
+pub use calibration::{Calibration, Limits, MIN_RUNS, Spread};
 pub use cause::Finding;
 pub use error::CompareError;
 pub use junit::Places;

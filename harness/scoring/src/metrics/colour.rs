@@ -70,8 +70,8 @@ pub fn ciede2000(first: [f64; 3], second: [f64; 3]) -> f64 {
         + 0.32 * cosine(3.0 * mean_hue + 6.0)
         - 0.20 * cosine(4.0 * mean_hue - 63.0);
     let rotation = 60.0 * (-((mean_hue - 275.0) / 25.0).powi(2)).exp();
-    let bend = (mean_l - 50.0).powi(2);
-    let dl = (l2 - l1) / (1.0 + 0.015 * bend / (20.0 + bend).sqrt());
+    let offset_squared = (mean_l - 50.0).powi(2);
+    let dl = (l2 - l1) / (1.0 + 0.015 * offset_squared / (20.0 + offset_squared).sqrt());
     let dc = (c2 - c1) / (1.0 + 0.045 * mean_c);
     let dh = 2.0 * (c1 * c2).sqrt() * (turn / 2.0).to_radians().sin() / (1.0 + 0.015 * mean_c * t);
     let cross = -2.0 * power7(mean_c) * rotation.to_radians().sin();

@@ -33,13 +33,13 @@ impl Protocol {
         let g: Vec<[f64; 3]> = pixels.iter().map(|i| triple(pair.true_values(*i))).collect();
         let (width, height) = pair.region().size();
         // Stanford-ORB and NeRFactor divide by the whole frame, whose background is right.
-        let share = p.len() as f64 / (width * height) as f64;
+        let frame_fraction = p.len() as f64 / (width * height) as f64;
         match self {
-            Self::OrbHdr => orb(p, g, share, 4.0, true, |value| value),
-            Self::OrbLdr => orb(p, g, share, 1.0, false, srgb),
-            Self::OrbAlbedo => orb(p, g, share, 1.0, false, |value| value),
+            Self::OrbHdr => orb(p, g, frame_fraction, 4.0, true, |value| value),
+            Self::OrbLdr => orb(p, g, frame_fraction, 1.0, false, srgb),
+            Self::OrbAlbedo => orb(p, g, frame_fraction, 1.0, false, |value| value),
             Self::ObjectsWithLighting => objects_with_lighting(p, &g),
-            Self::NerfactorAlbedo => nerfactor(p, g, share),
+            Self::NerfactorAlbedo => nerfactor(p, g, frame_fraction),
         }
     }
 }
@@ -47,15 +47,15 @@ impl Protocol {
 fn orb(
     mut p: Vec<[f64; 3]>,
     mut g: Vec<[f64; 3]>,
-    share: f64,
-    most: f64,
+    frame_fraction: f64,
+    maximum: f64,
     expose: bool,
     curve: fn(f64) -> f64,
 ) -> Vec<f64> {
     g.iter_mut().flatten().for_each(|value| *value = value.max(0.0));
     let sum = |of: &dyn Fn(f64) -> f64| g.iter().flatten().map(|value| of(*value)).sum::<f64>();
     let linear = sum(&|value| value.clamp(0.0, 1.0));
-    if expose && linear * share / (3 * g.len()) as f64 > 1e-8 {
+    if expose && linear * frame_fraction / (3 * g.len()) as f64 > 1e-8 {
         let factor = sum(&srgb) / linear;
         p.iter_mut().chain(&mut g).flatten().for_each(|value| *value *= factor);
     }
@@ -63,10 +63,12 @@ fn orb(
         let factor = channel_factor(&p, &g, c, 1e-6);
         p.iter_mut().for_each(|pixel| pixel[c] *= factor);
     }
-    let seen = |value: f64| curve(value.clamp(0.0, most));
+    let seen = |value: f64| curve(value.clamp(0.0, maximum));
     let grey = 0.5;
     let mean = |square: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
-        (0..g.len()).map(|i| share / 3.0 * (0..3).map(|c| square(i, c)).sum::<f64>()).collect()
+        (0..g.len())
+            .map(|i| frame_fraction / 3.0 * (0..3).map(|c| square(i, c)).sum::<f64>())
+            .collect()
     };
     let found = mean(&|i, c| (seen(p[i][c]) - seen(g[i][c])).powi(2));
     // No score is below that of a picture of grey.
@@ -75,9 +77,9 @@ fn orb(
 }
 
 /// <p, g> / <p, p> of a channel; of one that is all but black the mean of g.
-fn channel_factor(p: &[[f64; 3]], g: &[[f64; 3]], c: usize, least: f64) -> f64 {
+fn channel_factor(p: &[[f64; 3]], g: &[[f64; 3]], c: usize, threshold: f64) -> f64 {
     let square: f64 = p.iter().map(|p| p[c] * p[c]).sum();
-    if square <= least {
+    if square <= threshold {
         return g.iter().map(|g| g[c]).sum::<f64>() / g.len() as f64;
     }
     p.iter().zip(g).map(|(p, g)| p[c] * g[c]).sum::<f64>() / square
@@ -103,12 +105,12 @@ fn objects_with_lighting(mut p: Vec<[f64; 3]>, g: &[[f64; 3]]) -> Vec<f64> {
             let factor = power(factor);
             fitted.iter().map(|i| ((p[*i][c] * factor).min(1.0) - g[*i][c]).abs()).sum()
         };
-        let most = (0.95_f64.powf(GAMMA) / darkest).log2();
+        let max_stops = (0.95_f64.powf(GAMMA) / darkest).log2();
         let all = |stops: f64| (0..3).map(|c| error(&p, c, stops.exp2())).sum();
-        let exposure = power(least(all, -10.0, most).exp2());
+        let exposure = power(argmin(all, -10.0, max_stops).exp2());
         p.iter_mut().flatten().for_each(|value| *value *= exposure);
         for c in 0..3 {
-            let balance = power(least(|factor| error(&p, c, factor), 0.5, 2.0));
+            let balance = power(argmin(|factor| error(&p, c, factor), 0.5, 2.0));
             p.iter_mut().for_each(|pixel| pixel[c] *= balance);
         }
     }
@@ -118,8 +120,8 @@ fn objects_with_lighting(mut p: Vec<[f64; 3]>, g: &[[f64; 3]]) -> Vec<f64> {
     p.iter().zip(&g).map(square).collect()
 }
 
-/// Where a function is least: the best of a scan, then a golden-section search around it.
-fn least(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+/// Where a function has its minimum: the best of a scan, then a golden-section search around it.
+fn argmin(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const STEPS: usize = 32;
     let at = |step: usize| low + (high - low) * step as f64 / STEPS as f64;
     let best = (0..=STEPS)
@@ -145,8 +147,8 @@ fn least(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 /// Both stand on white and lie within the truth's range; luma is of values to the power 1 / 2.2.
-fn nerfactor(mut p: Vec<[f64; 3]>, g: Vec<[f64; 3]>, share: f64) -> Vec<f64> {
-    let background = if share < 1.0 { 1.0 } else { f64::NEG_INFINITY };
+fn nerfactor(mut p: Vec<[f64; 3]>, g: Vec<[f64; 3]>, frame_fraction: f64) -> Vec<f64> {
+    let background = if frame_fraction < 1.0 { 1.0 } else { f64::NEG_INFINITY };
     let top = g.iter().flatten().copied().fold(background, f64::max);
     let bottom = g.iter().flatten().copied().fold(top, f64::min);
     for c in 0..3 {
@@ -155,7 +157,7 @@ fn nerfactor(mut p: Vec<[f64; 3]>, g: Vec<[f64; 3]>, share: f64) -> Vec<f64> {
     }
     let luma = |pixel: &[f64; 3]| luminance(pixel.iter().map(|v| v.max(0.0).powf(1.0 / GAMMA)));
     let square = |(p, g): (&[f64; 3], &[f64; 3])| {
-        share * (luma(&p.map(|value| value.clamp(bottom, top))) - luma(g)).powi(2)
+        frame_fraction * (luma(&p.map(|value| value.clamp(bottom, top))) - luma(g)).powi(2)
     };
     p.iter().zip(&g).map(square).collect()
 }

@@ -60,8 +60,8 @@ fn correlation_length(grid: &[f64], width: usize, region: &Region, largest: usiz
         let here = correlation(lag);
         if here < fallen {
             let (before, was) = last;
-            let share = (was - fallen) / (was - here);
-            return before as f64 + share * (lag - before) as f64;
+            let fraction = (was - fallen) / (was - here);
+            return before as f64 + fraction * (lag - before) as f64;
         }
         last = (lag, here);
         lag += (lag / 4).max(1);

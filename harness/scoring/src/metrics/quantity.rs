@@ -227,9 +227,9 @@ impl Quantity {
             }
             Self::TrustedAndWholeError => {
                 let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
-                let shares = upper_half(&trust);
-                let pairs = shares.into_iter().zip(log_errors(pair));
-                pairs.flat_map(|(share, error)| [2.0 * share * error, error]).collect()
+                let weights = upper_half(&trust);
+                let pairs = weights.into_iter().zip(log_errors(pair));
+                pairs.flat_map(|(weight, error)| [2.0 * weight * error, error]).collect()
             }
         })
     }

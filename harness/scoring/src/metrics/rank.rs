@@ -12,19 +12,19 @@ pub(super) fn ranks(values: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// The share of each value that belongs to the upper half: 1 above the median, 0 below; those
+/// The weight of each value in the upper half: 1 above the median, 0 below; those
 /// that tie for the last places share them, so that the order of equal values does not matter.
 pub(super) fn upper_half(values: &[f64]) -> Vec<f64> {
-    let mut shares = vec![0.0; values.len()];
+    let mut weights = vec![0.0; values.len()];
     let half = values.len() as f64 / 2.0;
     let mut below = 0;
     for_ties(values, |ties| {
         below += ties.len();
         let above = (values.len() - below) as f64;
-        let share = ((half - above) / ties.len() as f64).clamp(0.0, 1.0);
-        ties.iter().for_each(|i| shares[*i] = share);
+        let weight = ((half - above) / ties.len() as f64).clamp(0.0, 1.0);
+        ties.iter().for_each(|i| weights[*i] = weight);
     });
-    shares
+    weights
 }
 
 /// Groups of equal values in ascending order.

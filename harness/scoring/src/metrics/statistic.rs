@@ -81,10 +81,10 @@ impl Statistic {
     /// The number over all pixels of all pictures; `None` where it is not defined (a correlation
     pub fn value<'a>(self, samples: impl IntoIterator<Item = &'a [f64]>) -> Option<f64> {
         let samples = samples.into_iter();
-        if let Self::Quantile(share) = self {
+        if let Self::Quantile(fraction) = self {
             let mut values: Vec<f64> = samples.flatten().copied().collect();
             values.sort_unstable_by(f64::total_cmp);
-            return quantile(&values, share);
+            return quantile(&values, fraction);
         }
         if self == Self::PsnrOfPictures {
             let each: Option<Vec<f64>> =
@@ -104,8 +104,8 @@ impl Statistic {
     ///
     /// It covers which part of the face was seen, not other faces, lights or seeds.
     pub fn interval(self, samples: &[Sample]) -> Option<[f64; 2]> {
-        if let Self::Quantile(share) = self {
-            return quantile_interval(samples, share);
+        if let Self::Quantile(fraction) = self {
+            return quantile_interval(samples, fraction);
         }
         if self == Self::PsnrOfPictures {
             return None;
@@ -204,8 +204,8 @@ fn variance(mean: f64, mean_square: f64) -> f64 {
     if variance > 1e-12 * mean_square { variance } else { 0.0 }
 }
 
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let place = share * sorted.len().checked_sub(1)? as f64;
+fn quantile(sorted: &[f64], fraction: f64) -> Option<f64> {
+    let place = fraction * sorted.len().checked_sub(1)? as f64;
     let low = place.floor() as usize;
     let high = (low + 1).min(sorted.len() - 1);
     Some(sorted[low] + (sorted[high] - sorted[low]) * place.fract())
@@ -213,7 +213,7 @@ fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
 
 /// Counts how many values of each block fall between a thousand quantiles of all values, so that
 /// a resample adds counts instead of sorting.
-fn quantile_interval(samples: &[Sample], share: f64) -> Option<[f64; 2]> {
+fn quantile_interval(samples: &[Sample], fraction: f64) -> Option<[f64; 2]> {
     let mut values: Vec<(f64, usize)> = Vec::new();
     let mut blocks = 0;
     for sample in samples {
@@ -235,7 +235,7 @@ fn quantile_interval(samples: &[Sample], share: f64) -> Option<[f64; 2]> {
         for block in drawn {
             sums.iter_mut().zip(&counts[*block]).for_each(|(sum, count)| *sum += count);
         }
-        let wanted = share * f64::from(sums.iter().sum::<u32>());
+        let wanted = fraction * f64::from(sums.iter().sum::<u32>());
         let mut seen = 0;
         let bin = sums.iter().position(|count| {
             seen += count;

@@ -12,9 +12,9 @@ pub(super) const COLUMNS: usize = 64;
 const REACH: f64 = 10.0;
 /// Two bright directions are at least this far apart, degrees.
 const APART: f64 = 30.0;
-/// Bright directions of the truth, at most, and what share of the brightest's light each has.
+/// Bright directions of the truth, at most, and what fraction of the brightest's light each has.
 const PEAKS: usize = 3;
-const LEAST: f64 = 0.2;
+const MIN_PEAK_FRACTION: f64 = 0.2;
 
 /// A light in cells of equal solid angle.
 pub(super) struct CellLight {
@@ -109,13 +109,13 @@ impl CellLight {
         let mut first = 0.0;
         while peaks.len() < PEAKS {
             let brighter = |a: &&DVec3, b: &&DVec3| a.length().total_cmp(&b.length());
-            let Some(most) = cones.iter().max_by(brighter).copied() else { break };
-            if most.length() <= LEAST * first {
+            let Some(brightest) = cones.iter().max_by(brighter).copied() else { break };
+            if brightest.length() <= MIN_PEAK_FRACTION * first {
                 break;
             }
-            first = f64::max(first, most.length());
+            first = f64::max(first, brightest.length());
             // Once more around its own mean, so that it does not hang on a cell's middle.
-            let peak = cone(most.normalize()).normalize_or(most.normalize());
+            let peak = cone(brightest.normalize()).normalize_or(brightest.normalize());
             for (cone, centre) in cones.iter_mut().zip(&directions) {
                 if centre.dot(peak) >= APART.to_radians().cos() {
                     *cone = DVec3::ZERO;

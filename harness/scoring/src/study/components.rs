@@ -64,13 +64,13 @@ pub(super) fn components(
     })
 }
 
-type Held = (String, String, Option<String>, Option<u64>, Option<u64>);
+type GroupKey = (String, String, Option<String>, Option<u64>, Option<u64>);
 
 /// The standard deviation within groups of scores that have all that is held in common.
-fn within(scores: &[&Observation], held: impl Fn(&Observation) -> Held) -> Option<f64> {
-    let mut groups: BTreeMap<Held, Vec<f64>> = BTreeMap::new();
+fn within(scores: &[&Observation], key: impl Fn(&Observation) -> GroupKey) -> Option<f64> {
+    let mut groups: BTreeMap<GroupKey, Vec<f64>> = BTreeMap::new();
     for score in scores {
-        groups.entry(held(score)).or_default().extend(score.row.value);
+        groups.entry(key(score)).or_default().extend(score.row.value);
     }
     pooled(groups.into_values())
 }

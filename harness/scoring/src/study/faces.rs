@@ -72,8 +72,8 @@ pub fn welch(a: &[f64], b: &[f64]) -> Option<[f64; 2]> {
     if va + vb == 0.0 {
         return Some([difference; 2]);
     }
-    let share = |v: f64, n: usize| v * v / (n - 1) as f64;
-    let freedom = (va + vb).powi(2) / (share(va, a.len()) + share(vb, b.len()));
+    let term = |v: f64, n: usize| v * v / (n - 1) as f64;
+    let freedom = (va + vb).powi(2) / (term(va, a.len()) + term(vb, b.len()));
     let half = critical(freedom)? * (va + vb).sqrt();
     Some([difference - half, difference + half])
 }
@@ -114,7 +114,9 @@ pub fn pooled_decibels(faces: &[Face]) -> (f64, Option<[f64; 2]>) {
         }
     }
     pivots.sort_unstable_by(f64::total_cmp);
-    let at = |share: f64| pivots.get((share * (pivots.len() - 1) as f64).round() as usize).copied();
+    let at = |fraction: f64| {
+        pivots.get((fraction * (pivots.len() - 1) as f64).round() as usize).copied()
+    };
     let ends = || Some([log - at(0.025)? * error, log - at(0.975)? * error]);
     (
         decibels(log),

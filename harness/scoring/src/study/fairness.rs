@@ -77,14 +77,14 @@ pub(super) fn fairness(figure: &Figure, method: &str, scores: &[&Observation]) -
     let (worst, best) = (groups.iter().min_by(by)?, groups.iter().max_by(by)?);
     let several = groups.len() > 1;
     // The sign of the interval is that of the gain, whichever values are better.
-    let turned =
+    let signed =
         |ends: [f64; 2]| if of(&best.1) < of(&worst.1) { [-ends[1], -ends[0]] } else { ends };
     Some(Fairness {
         figure: figure.clone(),
         method: method.to_owned(),
         worst: several.then_some(worst.0),
         gap: several.then(|| gain(&worst.1, &best.1)),
-        gap_ci95: several.then(|| welch(&best.1, &worst.1)).flatten().map(turned),
+        gap_ci95: several.then(|| welch(&best.1, &worst.1)).flatten().map(signed),
         bias: population_spread(&groups.iter().map(|(_, values)| of(values)).collect::<Vec<_>>()),
         groups: groups
             .iter()

@@ -21,14 +21,14 @@ pub fn sign_flip(differences: &[f64]) -> Option<f64> {
     }
     let seen = differences.iter().sum::<f64>().abs();
     // Sums in another order differ by rounding; equal ones must count.
-    let least = seen - 1e-12 * differences.iter().map(|d| d.abs()).sum::<f64>();
+    let threshold = seen - 1e-12 * differences.iter().map(|d| d.abs()).sum::<f64>();
     let sum = |signs: &dyn Fn(usize) -> bool| {
         let signed = differences.iter().enumerate().map(|(i, d)| if signs(i) { -d } else { *d });
         signed.sum::<f64>().abs()
     };
     if differences.len() <= EXACT {
         let all = 1_u32 << differences.len();
-        let far = (0..all).filter(|bits| sum(&|i| bits >> i & 1 == 1) >= least).count();
+        let far = (0..all).filter(|bits| sum(&|i| bits >> i & 1 == 1) >= threshold).count();
         return Some(far as f64 / f64::from(all));
     }
     let mut random = Pcg64Mcg::seed_from_u64(SEED);
@@ -36,7 +36,7 @@ pub fn sign_flip(differences: &[f64]) -> Option<f64> {
         .filter(|_| {
             let words: Vec<u64> =
                 (0..differences.len().div_ceil(64)).map(|_| random.next_u64()).collect();
-            sum(&|i| words[i / 64] >> (i % 64) & 1 == 1) >= least
+            sum(&|i| words[i / 64] >> (i % 64) & 1 == 1) >= threshold
         })
         .count();
     Some((far + 1) as f64 / (DRAWS + 1) as f64)

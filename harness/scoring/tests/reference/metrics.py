@@ -54,8 +54,8 @@ def normals():
     """True and predicted vectors, not of unit length, float32."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
     truth = np.stack([triangle(x, 37) - 0.5, triangle(y, 29) - 0.5, 1.0 + 0.0 * x], axis=-1).astype(np.float32)
-    bend = np.stack([noise(x, y, c) - 0.5 for c in (1, 2, 3)], axis=-1)
-    return truth, (truth * 2.0 + 1.8 * bend).astype(np.float32)
+    deviation = np.stack([noise(x, y, c) - 0.5 for c in (1, 2, 3)], axis=-1)
+    return truth, (truth * 2.0 + 1.8 * deviation).astype(np.float32)
 
 
 def halves(prediction, truth):
@@ -192,13 +192,13 @@ def compatible(truth, prediction, mask, eroded, srgb):
     """Scores by the protocols of other benchmarks, written from their published definitions."""
     decibels = lambda mse: -10 * np.log10(mse)
 
-    def orb(most, expose, curve):
+    def orb(maximum, expose, curve):
         p, g = (np.where(eroded[..., None], v.astype(np.float64), 0) for v in (prediction, truth))
         g = np.maximum(g, 0)
         if expose:
             p, g = (v * srgb(g.clip(0, 1)).mean() / g.clip(0, 1).mean() for v in (p, g))
         p = p * (p * g).sum((0, 1)) / (p * p).sum((0, 1))
-        p, g = curve(p.clip(0, most)), curve(g.clip(0, most))
+        p, g = curve(p.clip(0, maximum)), curve(g.clip(0, maximum))
         grey = np.where(eroded[..., None], 0.5, 0)
         return max(decibels(((p - g) ** 2).mean()), decibels(((grey - g) ** 2).mean()))
 
@@ -206,8 +206,8 @@ def compatible(truth, prediction, mask, eroded, srgb):
         curve = lambda v: np.clip(np.clip(v, 0, None) ** (1 / 2.2), 0, 1)
         g, p = np.round(255 * curve(truth[mask].astype(np.float64))) / 255, prediction[mask].astype(np.float64)
         fitted = g.max(-1) < 1
-        least = p[fitted].min(-1)
-        top = np.log2(0.95**2.2 / least[least > 0].min())
+        darkest = p[fitted].min(-1)
+        top = np.log2(0.95**2.2 / darkest[darkest > 0].min())
         off = lambda q: np.abs(curve(q[fitted]) - g[fitted]).mean()
         p = p * 2 ** optimize.minimize_scalar(lambda x: off(p * 2**x), (-10, top)).x
         start = np.ones(3)

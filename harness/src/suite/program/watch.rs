@@ -85,12 +85,12 @@ pub(super) fn watch(
 }
 
 fn exceeded(limits: &Limits, usage: &Usage, log: &Path) -> Option<String> {
-    if let Some(most) = limits.timeout_s.filter(|most| usage.seconds > *most) {
-        return Some(format!("took longer than timeout_s = {most}"));
+    if let Some(limit) = limits.timeout_s.filter(|limit| usage.seconds > *limit) {
+        return Some(format!("took longer than timeout_s = {limit}"));
     }
-    if let Some(most) = limits.memory_gib.filter(|most| usage.peak_bytes as f64 > most * GIB) {
+    if let Some(limit) = limits.memory_gib.filter(|limit| usage.peak_bytes as f64 > limit * GIB) {
         let taken = usage.peak_bytes as f64 / GIB;
-        return Some(format!("took {taken:.2} GiB of memory, more than memory_gib = {most}"));
+        return Some(format!("took {taken:.2} GiB of memory, more than memory_gib = {limit}"));
     }
     let written = fs::metadata(log).map_or(0, |log| log.len());
     (written > LARGEST_LOG).then(|| format!("wrote more than {} MiB to its log", LARGEST_LOG >> 20))

@@ -18,9 +18,9 @@ const DOUBTFUL: f64 = 0.9;
 /// proves that the cameras are wrong.
 const FITS: f64 = 0.8;
 /// Views at which silhouettes are compared, spread over all.
-const MOST_VIEWS: usize = 24;
+const MAX_VIEWS: usize = 24;
 /// Triangles painted in all, which bounds the time.
-const MOST_TRIANGLES: usize = 4_000_000;
+const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Warns of a mesh that hardly fits its masks, and refuses one that does not, saying what would
 /// fit. `applied` is how the writer of the file moved all cameras.
@@ -69,8 +69,8 @@ pub(crate) fn check(
 
 /// Views spread over all, as many as are looked at in a fraction of a second.
 fn chosen<'a>(mesh: &Mesh, views: &'a [View]) -> Vec<&'a View> {
-    let most = (MOST_TRIANGLES / mesh.triangles.len().max(1)).clamp(3, MOST_VIEWS);
-    spread(&views.iter().collect::<Vec<_>>(), most)
+    let max_views = (MAX_TRIANGLES / mesh.triangles.len().max(1)).clamp(3, MAX_VIEWS);
+    spread(&views.iter().collect::<Vec<_>>(), max_views)
 }
 
 #[cfg(test)]

@@ -12,11 +12,11 @@ pub(super) const REFUSED: f64 = 0.6;
 const HALF: f64 = 0.5;
 /// Pixels along the larger side of a picture, at most.
 const SIZE: usize = 256;
-/// Share of a picture that a mask may cover and still say anything.
-const WHOLE: f64 = 0.98;
+/// Fraction of a picture that a mask may cover and still say anything.
+const MAX_FRACTION: f64 = 0.98;
 
-/// Share of a picture that a mask must cover to say anything.
-const LEAST: f64 = 0.002;
+/// Fraction of a picture that a mask must cover to say anything.
+const MIN_FRACTION: f64 = 0.002;
 
 /// Pixels of a small picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,9 +73,9 @@ pub(super) fn compare(mesh: &Mesh, camera: &Camera, mask: &GrayImage) -> Option<
         found.mask += usize::from(masked);
         found.both += usize::from(masked && hit.is_some());
     }
-    let share = found.mask as f64 / (small.width * small.height) as f64;
-    found.unmasked = share > WHOLE;
-    (share > LEAST).then_some(found)
+    let fraction = found.mask as f64 / (small.width * small.height) as f64;
+    found.unmasked = fraction > MAX_FRACTION;
+    (fraction > MIN_FRACTION).then_some(found)
 }
 
 /// A camera with pictures of at most `size` pixels, and how many pixels of the given camera are

@@ -6,9 +6,9 @@ use super::silhouette::{Comparison, compare, median};
 use crate::{Camera, Mesh, View};
 
 /// Views at which a change is tried.
-const MOST_VIEWS: usize = 5;
+const MAX_VIEWS: usize = 5;
 /// Triangles painted for one change.
-const MOST_TRIANGLES: usize = 400_000;
+const MAX_TRIANGLES: usize = 400_000;
 /// Rounds in which a factor of the focal lengths is fitted.
 const ROUNDS: usize = 6;
 /// Widths of sensors, millimetres: full frame, APS-C (two), Micro Four Thirds.
@@ -24,8 +24,8 @@ pub(super) struct Trial {
 
 /// The change that fits best; the first one of equals.
 pub(super) fn best(mesh: &Mesh, views: &[&View], applied: Option<Mat4>) -> Option<Trial> {
-    let most = (MOST_TRIANGLES / mesh.triangles.len().max(1)).clamp(2, MOST_VIEWS);
-    let views = spread(views, most);
+    let max_views = (MAX_TRIANGLES / mesh.triangles.len().max(1)).clamp(2, MAX_VIEWS);
+    let views = spread(views, max_views);
     let mut trials = vec![inverted(mesh, &views)];
     trials.extend(focal(mesh, &views));
     trials.extend(moved(applied).into_iter().map(|(mend, change)| {
@@ -193,8 +193,8 @@ fn turns() -> Vec<(String, Mat4)> {
     turns
 }
 
-/// At most `most` of the items, evenly spread.
-pub(super) fn spread<T: Copy>(items: &[T], most: usize) -> Vec<T> {
-    let count = items.len().min(most);
+/// At most `max_count` of the items, evenly spread.
+pub(super) fn spread<T: Copy>(items: &[T], max_count: usize) -> Vec<T> {
+    let count = items.len().min(max_count);
     (0..count).map(|index| items[index * items.len() / count]).collect()
 }

@@ -114,9 +114,9 @@ impl Facet {
                 return size.checked_sub(1).map(|last| (0, last));
             }
             let at = corners.map(|v| v[axis] / v.z);
-            let least = at.into_iter().fold(f64::INFINITY, f64::min) - 0.5 - BOX_MARGIN;
-            let most = at.into_iter().fold(f64::NEG_INFINITY, f64::max) - 0.5 + BOX_MARGIN;
-            let (first, last) = (least.ceil().max(0.0), most.floor().min(size as f64 - 1.0));
+            let low = at.into_iter().fold(f64::INFINITY, f64::min) - 0.5 - BOX_MARGIN;
+            let high = at.into_iter().fold(f64::NEG_INFINITY, f64::max) - 0.5 + BOX_MARGIN;
+            let (first, last) = (low.ceil().max(0.0), high.floor().min(size as f64 - 1.0));
             (first <= last).then_some((first as usize, last as usize))
         };
         Some(Self {

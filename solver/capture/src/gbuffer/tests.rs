@@ -142,8 +142,8 @@ fn the_atlas_is_the_surface_at_the_texels_centres() {
     assert!((square.positions[0] - Vec3::new(-0.875, 0.875, 0.0)).length() < 1e-6);
     let dome = Atlas::new(&testing::dome(40), 64);
     assert!(!dome.inside[0] && dome.inside[32 * 64 + 32]);
-    let share = dome.inside.iter().filter(|inside| **inside).count() as f32 / 4096.0;
-    assert!((share - std::f32::consts::PI * 0.16).abs() < 0.01, "{share}");
+    let fraction = dome.inside.iter().filter(|inside| **inside).count() as f32 / 4096.0;
+    assert!((fraction - std::f32::consts::PI * 0.16).abs() < 0.01, "{fraction}");
     for (normal, position) in dome.normals.iter().zip(&dome.positions) {
         assert!((normal.length() - 1.0).abs() < 1e-6);
         assert!((*normal - *position).length() < 2e-3, "a unit sphere's normal is its position");

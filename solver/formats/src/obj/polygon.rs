@@ -6,7 +6,7 @@ use earcut::Earcut;
 /// or in the chart: files round to four digits or more.
 const STRAIGHT: f64 = 1e-4;
 /// Corners of a polygon that no fan can cut; ear clipping grows with a power of them.
-const MOST_CORNERS: usize = 1024;
+const MAX_CORNERS: usize = 1024;
 /// Share of a polygon's area by which its triangles may miss it.
 const AREA_TOLERANCE: f64 = 1e-3;
 
@@ -49,7 +49,7 @@ impl Cutter {
         if fan().into_iter().all(sound) {
             return Ok(fan());
         }
-        if count > MOST_CORNERS {
+        if count > MAX_CORNERS {
             return Err(format!(
                 "the face has {count} corners and is not convex; cut it into triangles"
             ));
@@ -114,9 +114,9 @@ fn between(triangles: &mut Vec<[usize; 3]>, first: usize, last: usize, count: us
     if chain.len() < 3 {
         return;
     }
-    let turned = |[a, b, c]: [usize; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+    let rotations = |[a, b, c]: [usize; 3]| [[a, b, c], [b, c, a], [c, a, b]];
     let found = triangles.iter().enumerate().find_map(|(index, triangle)| {
-        let edge = turned(*triangle).into_iter().find(|t| t[0] == first && t[1] == last);
+        let edge = rotations(*triangle).into_iter().find(|t| t[0] == first && t[1] == last);
         edge.map(|[_, _, apex]| (index, apex))
     });
     if let Some((index, apex)) = found {

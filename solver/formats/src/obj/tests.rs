@@ -115,14 +115,14 @@ fn polygons_are_cut_without_folds_and_slivers() {
         ("a corner twice", &[(0., 0.), (1., 0.), (1., 0.), (1., 1.), (0., 1.)], 2, 1.0),
     ];
     for (name, places, count, expected) in cases {
-        for turned in 0..places.len() {
+        for shift in 0..places.len() {
             let mut places = places.to_vec();
-            places.rotate_left(turned);
+            places.rotate_left(shift);
             let object = object(polygon(&places).as_bytes());
             let areas = areas(&object);
-            assert!(areas.iter().all(|area| *area > 1e-3), "{name}, {turned}: {areas:?}");
+            assert!(areas.iter().all(|area| *area > 1e-3), "{name}, {shift}: {areas:?}");
             assert!((areas.iter().sum::<f64>() - expected).abs() < 1e-9, "{name}: {areas:?}");
-            assert_eq!(areas.len(), count, "{name}, {turned}");
+            assert_eq!(areas.len(), count, "{name}, {shift}");
         }
     }
 }

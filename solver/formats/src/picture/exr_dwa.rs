@@ -36,7 +36,7 @@ pub(super) fn check(header: &Header, chunk: &Chunk) -> Result<(), String> {
     let counters = data.as_chunks::<8>().0;
     let said = SIZES.iter().filter_map(|slot| counters.get(*slot));
     match said.map(|counter| u64::from_le_bytes(*counter)).max() {
-        Some(most) if most > FACTOR * bytes + FREE_BYTES => {
+        Some(largest) if largest > FACTOR * bytes + FREE_BYTES => {
             Err("a DWA block says it holds more than its pixels; save it again".to_owned())
         }
         _ => Ok(()),

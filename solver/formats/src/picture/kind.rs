@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::PictureError;
-use super::limits::MOST_BYTES;
+use super::limits::MAX_BYTES;
 
 /// How to come from what a camera or a viewer wrote to a picture.
 const LINEAR: &str = "pictures are linear float EXR with channels R, G, B: develop the raw file \
@@ -56,7 +56,7 @@ pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, PictureError> {
     if !state.is_file() {
         return Err(wrong("is no file; name a picture".to_owned()));
     }
-    if state.len() > MOST_BYTES {
+    if state.len() > MAX_BYTES {
         return Err(wrong(format!("is {} bytes long, too long for a picture", state.len())));
     }
     // No more than was found, should the file grow.

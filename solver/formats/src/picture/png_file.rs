@@ -42,9 +42,10 @@ impl Png {
             return Err(PictureError::Refused { path: path.to_path_buf(), reason });
         }
         let kept = if self.channels < 3 { 1 } else { 3 };
-        let most = f32::from(((1u32 << self.bits) - 1) as u16);
+        let maximum = f32::from(((1u32 << self.bits) - 1) as u16);
         let pixels = self.samples.chunks_exact(self.channels);
-        let data = pixels.flat_map(|pixel| &pixel[..kept]).map(|v| f32::from(*v) / most).collect();
+        let data =
+            pixels.flat_map(|pixel| &pixel[..kept]).map(|v| f32::from(*v) / maximum).collect();
         Ok(Picture { width: self.width, height: self.height, channels: kept, data })
     }
 

@@ -10,7 +10,7 @@ use super::colour::{self, Chromaticities, XYZ};
 use super::{Picture, PictureError, limits};
 
 /// Header lines beyond which a file is no picture.
-const MOST_LINES: usize = 4096;
+const MAX_LINES: usize = 4096;
 
 /// Header of a Radiance file.
 struct Header {
@@ -94,7 +94,7 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
     };
     let mut factors = [1.0f32; 3];
     let (mut space, mut is_xyz) = (None, false);
-    for _ in 0..MOST_LINES {
+    for _ in 0..MAX_LINES {
         let Some((text, _)) = line() else { break };
         if text.is_empty() {
             let (text, pixels) = line().ok_or("ends before its resolution; save it again")?;

@@ -180,8 +180,8 @@ fn colours_of_other_primaries_are_converted_and_data_are_not() {
     let [r, g, b] = <[f32; 3]>::try_from(full().pixel(3, 2)).unwrap();
     let red = 1.70505 * r - 0.62179 * g - 0.08326 * b;
     assert!((converted.pixel(3, 2)[0] - red).abs() < 0.1, "{red} {:?}", converted.pixel(3, 2));
-    let turned = read_exr_colour(&path, &["B", "G", "R"]).unwrap();
-    assert_eq!(turned.pixel(3, 2)[2], converted.pixel(3, 2)[0]);
+    let reversed = read_exr_colour(&path, &["B", "G", "R"]).unwrap();
+    assert_eq!(reversed.pixel(3, 2)[2], converted.pixel(3, 2)[0]);
     let rec709 = [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.31271, 0.32902]];
     let (_kept, path) = write(&part, Some(rec709), LayerAttributes::default());
     assert_eq!(read_exr_rgb(&path).unwrap(), full());

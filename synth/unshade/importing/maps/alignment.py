@@ -107,8 +107,8 @@ def _tried(candidates: list[tuple[Matrix, str]], unit: str | None) -> list[tuple
             turn[:3, :3] = np.eye(3)[list(axes)] * np.array(signs)[:, None]
             if np.linalg.det(turn) > 0:
                 names = [("" if sign > 0 else "-") + "xyz"[axis] for axis, sign in zip(axes, signs)]
-                turned = "" if np.array_equal(turn, np.eye(4)) else f" with axes {', '.join(names)} as x, y, z"
-                result.append((matrix @ turn @ np.diag([size, size, size, 1.0]), words + scaled + turned))
+                with_axes = "" if np.array_equal(turn, np.eye(4)) else f" with axes {', '.join(names)} as x, y, z"
+                result.append((matrix @ turn @ np.diag([size, size, size, 1.0]), words + scaled + with_axes))
     return result
 
 

@@ -45,8 +45,8 @@ class Environment:
         solid = solid_angles(height, width)
         energy = self.picture.astype(np.float64) * solid[:, None, None]
         weight = energy @ LUMINANCE + 1e-12 * solid[:, None]
-        for axis, most in ((0, 64), (1, 128)):
-            starts = np.unique(np.arange(most) * energy.shape[axis] // most)
+        for axis, blocks in ((0, 64), (1, 128)):
+            starts = np.unique(np.arange(blocks) * energy.shape[axis] // blocks)
             moment = np.add.reduceat(direction * weight[..., None], starts, axis)
             energy, weight = (np.add.reduceat(a, starts, axis) for a in (energy, weight))
             direction = moment / weight[..., None]
@@ -77,5 +77,5 @@ def environment(light: Light) -> Environment:
     shift = light.rotation_degrees / 360 * width
     whole = math.floor(shift)
     near = np.roll(picture, -whole, 1)
-    turned = near + (np.roll(near, -1, 1) - near) * (shift - whole)
-    return Environment(turned.astype(np.float32))
+    rotated = near + (np.roll(near, -1, 1) - near) * (shift - whole)
+    return Environment(rotated.astype(np.float32))

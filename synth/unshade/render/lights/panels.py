@@ -48,7 +48,7 @@ _CELLS = 12
 _FINE = 4
 """Points along each edge of a texel of the lat-long picture."""
 
-_FEWEST_POINTS = 64
+_MIN_POINTS = 64
 """A panel that meets fewer points of the lat-long picture is entered as one direction."""
 
 
@@ -91,7 +91,7 @@ class Panels:
         whites = np.zeros(towards.shape[:-1])
         for panel in self.panels:
             inside = _met(panel, towards)
-            if inside.sum() < _FEWEST_POINTS:
+            if inside.sum() < _MIN_POINTS:
                 deposit(picture, panel.centre, np.broadcast_to(panel.radiance, (3,)) * _solid_angle(panel))
             elif grey(panel.radiance):
                 whites += panel.radiance * inside

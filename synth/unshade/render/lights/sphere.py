@@ -59,9 +59,9 @@ def _along(towards: np.ndarray, axis: str) -> np.ndarray:
     return towards[..., _AXES[axis[0]]] * (1 if axis[1] == "+" else -1)
 
 
-def _steps(share: np.ndarray, count: int) -> np.ndarray:
-    """Shares 0 to 1 as whole numbers 0 to ``count`` - 1."""
-    return np.floor(share * count).astype(int).clip(0, count - 1)
+def _steps(fraction: np.ndarray, count: int) -> np.ndarray:
+    """Fractions 0 to 1 as whole numbers 0 to ``count`` - 1."""
+    return np.floor(fraction * count).astype(int).clip(0, count - 1)
 
 
 def _environment(values: np.ndarray, row: np.ndarray) -> StagePattern:

@@ -62,18 +62,18 @@ def check_furnace(
         return max(_sampled_albedo(bsdf, "all", angle, samples, 1)[0] for angle in (*_ANGLES, _GRAZING))
 
     excess = {name: brightest(0.8, name) - 1 for name in EXCESS}
-    skin_most = brightest(0.7, None)
+    skin_brightest = brightest(0.7, None)
     picture = _picture_error(render)
     ok = (
         all(abs(e) < SINGLE + 4.5 * n for e, n in zip(errors, noise))
         and abs(pooled) < POOLED
         and all(excess[name] < EXCESS[name] + 0.01 for name in EXCESS)
-        and skin_most < 1
+        and skin_brightest < 1
         and abs(picture) < PICTURE
     )
     found = (
         f"{len(errors)} albedos within {100 * abs(errors[worst]):.2f} % of quadrature (worst at {where[worst]}), {100 * pooled:+.3f} % "
-        f"in the mean; ball in a dome {100 * picture:+.2f} %; skin reflects {skin_most:.3f} at most, near-white skin {1 + max(excess.values()):.2f}"
+        f"in the mean; ball in a dome {100 * picture:+.2f} %; skin reflects {skin_brightest:.3f} at most, near-white skin {1 + max(excess.values()):.2f}"
     )
     return Verdict(
         "furnace", ok, found, "render/skin_bsdf.py (patch) or render/split.py and passes.py (ball): energy is not kept"

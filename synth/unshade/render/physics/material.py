@@ -62,9 +62,9 @@ class Skin:
 
     @property
     def lobes(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """GGX alpha and share of each lobe."""
-        first, second, share = ROUGHNESS[self.roughness or "standard"]
-        return (first, share), (second, 1 - share)
+        """GGX alpha and weight of each lobe."""
+        first, second, weight = ROUGHNESS[self.roughness or "standard"]
+        return (first, weight), (second, 1 - weight)
 
     def bsdf(self) -> mi.BSDF:
         plugin = {

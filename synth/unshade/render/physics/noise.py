@@ -24,7 +24,7 @@ SAMPLES = 832
 BIAS_POOLED, BIAS_REGIONAL = 0.01, 0.03
 """Relative biases, of the picture and of one region, that must be found."""
 
-LEAST_POWER = (0.99, 0.8)
+MIN_POWER = (0.99, 0.8)
 """With at least this chance, the second for the noisiest region, or the check is too noisy to pass."""
 
 VARIANCE_TOLERANCE = 0.12
@@ -60,7 +60,7 @@ def check_noise(
     if abs(ratio - 1) > VARIANCE_TOLERANCE:
         faults.append(f"the stated variance is {ratio:.2f} of that of repeated renders")
     pooled, regional = np.min(powers, 0)
-    if pooled < LEAST_POWER[0] or regional < LEAST_POWER[1]:
+    if pooled < MIN_POWER[0] or regional < MIN_POWER[1]:
         faults.append("too noisy to conclude")
     found = (
         f"{len(names)} lights, {samples} samples, against path; a bias of {100 * BIAS_POOLED:g} % is found with chance {pooled:.3f}, one of "
@@ -73,10 +73,11 @@ def check_noise(
 def path_pictures(lit, camera, samples: int, count: int, first_seed: int) -> list[np.ndarray]:
     """``count`` independent pictures [H, W, 3] of Mitsuba's path tracer that share the samples."""
     path = mi.load_dict({"type": "path", "max_depth": _DEPTH, "rr_depth": 99, "hide_emitters": True})
-    sensor, share = camera.sensor(samples), samples // count
+    sensor, per_picture = camera.sensor(samples), samples // count
     seeds = range(first_seed, first_seed + count)
     return [
-        np.array(mi.render(lit.scene, sensor=sensor, integrator=path, spp=share, seed=seed))[..., :3] for seed in seeds
+        np.array(mi.render(lit.scene, sensor=sensor, integrator=path, spp=per_picture, seed=seed))[..., :3]
+        for seed in seeds
     ]
 
 

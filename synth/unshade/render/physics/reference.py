@@ -31,7 +31,9 @@ def value(skin: Skin, wi: np.ndarray, wo: np.ndarray, part: str = "all") -> np.n
         h = h / np.linalg.norm(h, axis=1, keepdims=True)
         v, l = wi @ n, wo @ n
         seen = (v > 0) & (l > 0)
-        lobes = sum(share * _ggx(h @ n, alpha) * _masking(v, alpha) * _masking(l, alpha) for alpha, share in skin.lobes)
+        lobes = sum(
+            weight * _ggx(h @ n, alpha) * _masking(v, alpha) * _masking(l, alpha) for alpha, weight in skin.lobes
+        )
         specular = skin.specular / _F0 * lobes * _schlick((h * wi).sum(1)) / (4 * np.where(seen, v, 1))
         total += np.where(seen, specular, 0)
     return np.where((wi[:, 2] > 0) & (wo[:, 2] > 0), total, 0)
@@ -50,7 +52,7 @@ def albedo(skin: Skin, wi: np.ndarray, part: str = "all") -> float:
         total += (
             skin.specular
             / _F0
-            * sum(share * _lobe_albedo(tuple(skin.specular_normal), tuple(wi), alpha) for alpha, share in skin.lobes)
+            * sum(weight * _lobe_albedo(tuple(skin.specular_normal), tuple(wi), alpha) for alpha, weight in skin.lobes)
         )
     return total
 
@@ -73,8 +75,8 @@ def _lobe_albedo(normal: tuple[float, ...], towards: tuple[float, ...], alpha: f
     ln, vn = l @ n, float(wi @ n)
     ok = (hv > 0) & (ln > 0) & (l[..., 2] > 0)
     # dl = 4 (h.v) dh; D (n.h) dh is the measure above.
-    share = _masking(vn, alpha) * _masking(np.where(ok, ln, 1), alpha) * _schlick(hv) * hv / (cos * vn)
-    return float(np.where(ok, share, 0).mean())
+    estimate = _masking(vn, alpha) * _masking(np.where(ok, ln, 1), alpha) * _schlick(hv) * hv / (cos * vn)
+    return float(np.where(ok, estimate, 0).mean())
 
 
 def _ggx(cosine: np.ndarray, alpha: float) -> np.ndarray:

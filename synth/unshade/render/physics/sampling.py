@@ -80,8 +80,8 @@ def _failure(case: Case, seed: int, count: int, samples: int, alter: Alter) -> s
     # Quiet, since otherwise a failure is dumped into the working directory.
     if not test.run(FALSE_ALARM, test_count=count, quiet=True):
         return f"p = {test.p_value:.1e}"
-    mass, share = float(test.pdf_sum[0]), float(test.histogram_sum[0])
-    noise = 4 * np.sqrt(share * (1 - share) / samples)
-    if abs(mass - share) > MASS_TOLERANCE + noise:
-        return f"the density integrates to {mass:.4f}, yet {share:.4f} of the samples count"
+    mass, fraction = float(test.pdf_sum[0]), float(test.histogram_sum[0])
+    noise = 4 * np.sqrt(fraction * (1 - fraction) / samples)
+    if abs(mass - fraction) > MASS_TOLERANCE + noise:
+        return f"the density integrates to {mass:.4f}, yet {fraction:.4f} of the samples count"
     return ""

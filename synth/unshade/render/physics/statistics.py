@@ -25,7 +25,7 @@ together (Sidak)."""
 BLOCK = 8
 """Edge of a region in pixels."""
 
-_LEAST_SEEN = 24
+_MIN_SEEN = 24
 """Pixels that a block must show of the object to count as a region."""
 
 
@@ -85,8 +85,8 @@ class Comparison:
         z = self.regional
         if np.abs(z).max() > _threshold(len(z)):
             worst = int(np.abs(z).argmax())
-            share = self._sums(self._difference)[worst] / self._sums(self.theirs.mean)[worst]
-            found.append(f"regional z = {z[worst]:+.1f} in region {worst} of {len(z)}, a bias of {100 * share:+.1f} %")
+            bias = self._sums(self._difference)[worst] / self._sums(self.theirs.mean)[worst]
+            found.append(f"regional z = {z[worst]:+.1f} in region {worst} of {len(z)}, a bias of {100 * bias:+.1f} %")
         p = self.per_pixel
         if p.min() < _sidak(len(p)):
             row, column = np.argwhere(self.seen)[int(p.argmin())]
@@ -128,7 +128,7 @@ class Comparison:
         cut = np.s_[: height * BLOCK, : width * BLOCK]
         seen = self.seen[cut].reshape(height, BLOCK, width, BLOCK)
         blocks = np.where(seen, values[cut].reshape(height, BLOCK, width, BLOCK), 0).sum((1, 3))
-        return blocks[seen.sum((1, 3)) >= _LEAST_SEEN]
+        return blocks[seen.sum((1, 3)) >= _MIN_SEEN]
 
 
 def _sidak(count: int) -> float:

@@ -20,9 +20,9 @@ from .statistics import Comparison, Estimate
 from .verdict import Verdict
 
 BOUND = 0.03
-"""Relative difference of the pictures' means that must be found with `LEAST_POWER`."""
+"""Relative difference of the pictures' means that must be found with `MIN_POWER`."""
 
-LEAST_POWER = 0.95
+MIN_POWER = 0.95
 
 SETTING = Setting(samples=100)
 
@@ -55,7 +55,7 @@ def check_variants(setting: Setting = SETTING, bound: float = BOUND, render: Cal
             mean = [getattr(layers, layer)[seen].mean(-1).sum() for layers in (ours, theirs)]
             if abs(mean[0] - mean[1]) > 4 * deviation:
                 faults.append(f"{name}: the {layer} layers differ by {100 * (mean[0] / mean[1] - 1):+.1f} %")
-    if power < LEAST_POWER:
+    if power < MIN_POWER:
         faults.append("too noisy to conclude")
     found = (
         f"means differ by {', '.join(f'{100 * bias:+.2f} % ({name})' for name, bias in zip(NAMES, biases))} between scalar_rgb and llvm_ad_rgb; "

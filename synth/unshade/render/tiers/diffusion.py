@@ -103,8 +103,8 @@ class _Lookup:
         for dx in (0, 1):
             for dy in (0, 1):
                 x, y = (mi.UInt32(dr.clip(low[i] + d, 0, size - 1)) for i, d in ((0, dx), (1, dy)))
-                share = (weight.x if dx else 1 - weight.x) * (weight.y if dy else 1 - weight.y)
-                total += share * dr.gather(mi.Color3f, self._texels, (number * size + y) * size + x, active)
+                corner_weight = (weight.x if dx else 1 - weight.x) * (weight.y if dy else 1 - weight.y)
+                total += corner_weight * dr.gather(mi.Color3f, self._texels, (number * size + y) * size + x, active)
         return total
 
     @staticmethod

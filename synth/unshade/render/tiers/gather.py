@@ -19,7 +19,7 @@ import numpy as np
 from . import profile
 from .surface import SkinPoints
 
-_MOST_CELLS = 200
+_MAX_CELLS = 200
 """Cells along the longest edge."""
 
 
@@ -80,7 +80,7 @@ class _Cells:
     @classmethod
     def of(cls, positions: np.ndarray, width: float) -> _Cells:
         # Few enough cells for memory, however short the reach.
-        width = max(width, float(np.ptp(positions, axis=0).max()) / _MOST_CELLS)
+        width = max(width, float(np.ptp(positions, axis=0).max()) / _MAX_CELLS)
         # Two empty layers around, so that no neighbour needs a test.
         place = ((positions - positions.min(0)) / width).astype(np.int64) + 2
         shape = place.max(0) + 3

@@ -21,7 +21,7 @@ from ..scene import HeadScene
 TEXEL = 0.8e-3
 """Metres between the points on the chart. The blue profile of skin spreads over about as much
 (2.5 scale radii of 0.35 mm in the mean); the gathering costs its inverse fourth power."""
-_FEWEST, _MOST = 64, 1024
+_MIN_TEXELS, _MAX_TEXELS = 64, 1024
 """Bounds of the texels along the chart's edge."""
 
 
@@ -74,7 +74,7 @@ class SkinPoints:
         flat = _doubled_uv(uv, chart.triangles)
         stretch = np.linalg.norm(chart.doubled, axis=1)
         edge = math.sqrt(stretch.sum() / flat.sum())
-        size = int(np.clip(math.ceil(edge / TEXEL), _FEWEST, _MOST))
+        size = int(np.clip(math.ceil(edge / TEXEL), _MIN_TEXELS, _MAX_TEXELS))
         texels = rasterise(uv, chart.triangles, size)
         smooth = unit(texels.sample(chart.normals))
         parts = tuple(Mesh.of(shape) for shape in scattering_parts(head))

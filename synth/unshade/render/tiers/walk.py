@@ -15,11 +15,11 @@ import mitsuba as mi
 from ..split import LambertLight
 from .profile import HIGHEST_ALBEDO
 
-_MOST_STEPS = 4096
+_MAX_STEPS = 4096
 """Flights of a lane, which Russian roulette ends long before."""
 _ROULETTE_BELOW = 0.25
 """Weight below which a walk may end: light that has lost most of itself."""
-_MOST_CROSSINGS = 16
+_MAX_CROSSINGS = 16
 _LIFT = 1e-6
 """Metres between a surface and the rays that leave it. Mitsuba's own 0.09 mm (in a scene of
 metres) would be a tenth of a free path: a loss of ten percent in dark skin."""
@@ -50,7 +50,7 @@ def walk(scene, body, medium, extinction, sampler, start, direction, active, way
     weight, density = mi.Float(1), mi.Float(0)
     previous = dr.zeros(mi.Interaction3f)
     steps = mi.UInt32(0)
-    while (channel < 3) & (steps < _MOST_STEPS):
+    while (channel < 3) & (steps < _MAX_STEPS):
         sigma = _pick(extinction, channel)
         si = scene.ray_intersect(ray)
         flight = dr.select(inside, -dr.log(1 - sampler.next_1d()) / sigma, dr.inf)
@@ -67,10 +67,10 @@ def walk(scene, body, medium, extinction, sampler, start, direction, active, way
             towards = mi.DirectionSample3f(scene, si, previous)
             met = ~collided & ~wall & ~inside & scattered
             emitted = _pick(towards.emitter.eval(si, met), channel)
-            share = mi.Float(1)
+            mis_weight = mi.Float(1)
             if dr.hint(way is LambertLight.BLEND, mode="scalar"):
-                share = _mis(density, scene.pdf_emitter_direction(previous, towards, met))
-            total += _only(channel, dr.select(met, weight * emitted * share, 0))
+                mis_weight = _mis(density, scene.pdf_emitter_direction(previous, towards, met))
+            total += _only(channel, dr.select(met, weight * emitted * mis_weight, 0))
 
         place = dr.select(collided, ray(flight), si.p)
         facing = mi.Normal3f(dr.select(leaving, -si.n, si.n))
@@ -85,12 +85,14 @@ def walk(scene, body, medium, extinction, sampler, start, direction, active, way
         if dr.hint(way is not LambertLight.FROM_SURFACE, mode="scalar"):
             light, radiance = scene.sample_emitter_direction(vertex, sampler.next_2d(), False, turns)
             lobe = dr.select(collided, mi.Float(dr.inv_four_pi), dr.fmax(dr.dot(facing, light.d), 0) * dr.inv_pi)
-            share = mi.Float(1)
+            mis_weight = mi.Float(1)
             if dr.hint(way is LambertLight.BLEND, mode="scalar"):
-                share = _mis(light.pdf, lobe)
+                mis_weight = _mis(light.pdf, lobe)
             reached = turns & (light.pdf > 0) & (lobe > 0)
             through = _transmittance(scene, body, sigma, vertex, light, inside, reached)
-            total += _only(channel, dr.select(reached, weight * lobe * _pick(radiance, channel) * share * through, 0))
+            total += _only(
+                channel, dr.select(reached, weight * lobe * _pick(radiance, channel) * mis_weight * through, 0)
+            )
 
         sphere = mi.warp.square_to_uniform_sphere(sampler.next_2d())
         # Uniform on the sphere about the tip of the normal: cosine-distributed.
@@ -129,7 +131,7 @@ def _transmittance(scene, body, sigma, vertex, light, inside, active):
         hit = si.is_valid()
         through *= dr.select(within & hit, dr.exp(-sigma * si.t), 1)
         passes = hit & (si.shape == body) & ((dr.dot(si.n, ray.d) > 0) == within)
-        onward = passes & (through > _DARK) & (crossings < _MOST_CROSSINGS)
+        onward = passes & (through > _DARK) & (crossings < _MAX_CROSSINGS)
         # What ends its way in the air, unhindered, has come from the emitter.
         through = dr.select(onward | (~hit & ~within), through, 0)
         within = within ^ passes
