@@ -4,7 +4,7 @@ use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
 /// Subjects, with their words in the table, in its order.
-pub(super) const SUBJECTS: [(&str, &str); 21] = [
+pub(super) const SUBJECTS: [(&str, &str); 22] = [
     ("diffuse_albedo", "Diffuse albedo map"),
     ("confidence", "Confidence map, against the error of the diffuse albedo"),
     ("specular_albedo", "Specular albedo map"),

@@ -118,8 +118,8 @@ pub struct TransportConfig {
     /// Of more samples than this, such highlights are followed on a part: a cell of the sky and a texel of the
     /// transport are far coarser than pixels.
     pub highlight_samples: usize,
-    /// Exponent of the cosine lobe that they see the light through: 5 degrees, so that cells, 11 degrees wide, run
-    /// into one another. A wider lobe makes lamps so large that skin seems half as rough as it is.
+    /// Exponent of the cosine lobe that they see the light through: 10 degrees, about a cell. Finer than that, the
+    /// cells do not tell of the light.
     pub light_exponent: i32,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,

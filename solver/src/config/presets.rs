@@ -111,7 +111,7 @@ impl Config {
                 distance: 150,
                 highlights: 150,
                 highlight_samples: 40_000,
-                light_exponent: 256,
+                light_exponent: 64,
                 refinement: 250,
                 refinement_prior: 2.0,
                 refinement_rate: 6e-4,
@@ -134,6 +134,7 @@ impl Config {
                 roughness_samples: 400_000,
                 roughness_deviation: 0.5,
                 roughness_error: 0.2,
+                roughness_light_exponent: 512,
                 exposure_deviation: 0.25,
             },
             height: HeightConfig {

@@ -42,6 +42,9 @@ impl ReflectanceConfig {
         let error = |x: f32| (0.0..=1.0).contains(&x);
         range("reflectance.model_error", self.model_error, error, "0 to 1")?;
         range("reflectance.roughness_rounds", self.roughness_rounds, |x| x <= 20, "0 to 20")?;
+        let exponent = |x: i32| (1..=4096).contains(&x);
+        let of_light = self.roughness_light_exponent;
+        range("reflectance.roughness_light_exponent", of_light, exponent, "1 to 4096")?;
         let roughness = |x: f32| (0.0..=3.0).contains(&x);
         range("reflectance.roughness_deviation", self.roughness_deviation, roughness, "0 to 3")?;
         range("reflectance.roughness_error", self.roughness_error, roughness, "0 to 3")?;

@@ -237,6 +237,9 @@ pub struct ReflectanceConfig {
     /// Standard deviation of the logarithm of a region's roughness around that of skin, and of skin's around the
     /// usual one.
     pub roughness_deviation: f32,
+    /// Exponent of the cosine lobe that the light is seen through meanwhile: next to none, since lamps are often
+    /// smaller than the cells that stand for them, and skin then seems sharper than it is.
+    pub roughness_light_exponent: i32,
     /// Standard error of the logarithm of every measured roughness: of the light, which is no sharper than its
     /// cells.
     pub roughness_error: f32,

@@ -19,11 +19,12 @@ pub(super) struct DeviatedHighlights<'a> {
 }
 
 impl<'a> DeviatedHighlights<'a> {
-    /// `None` if it is switched off, or if the light was not solved for with its highlights.
+    /// The light is seen through this power of the cosine. `None` if it is switched off, or if the light was not solved for with its highlights.
     pub fn new(
         context: &'a SolveContext,
         lighting: &'a Lighting,
         samples: &Samples,
+        light_exponent: i32,
     ) -> Option<Self> {
         if !context.config.height.highlights || !lighting.explained {
             return None;
@@ -35,9 +36,11 @@ impl<'a> DeviatedHighlights<'a> {
             samples.taps.size(),
         );
         let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(&skin_specular);
-        let skin_highlights = context
-            .transport(lighting.setup)
-            .skin_highlights(&context.config.skin, &lighting.light.radiance)?;
+        let skin_highlights = context.transport(lighting.setup).skin_highlights_through(
+            &context.config.skin,
+            &lighting.light.radiance,
+            light_exponent,
+        )?;
         Some(Self { backend: context.backend, skin_highlights, specular })
     }
 

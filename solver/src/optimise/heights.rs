@@ -32,9 +32,10 @@ pub(super) fn heights(
         let atlas = Atlas::new(&context.capture.mesh, side);
         let samples = context.samples(side);
         let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
+        let exponent = config.transport.light_exponent;
         let solve = HeightSolve::new(config, backend, &samples, views, &atlas, state, lighting);
         let solve = match lighting
-            .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples))
+            .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples, exponent))
         {
             Some(highlights) => solve.with(highlights),
             None => solve,

@@ -52,7 +52,7 @@ fn refined(
     let [sharp, blurred] =
         [&deviations.sharp, &deviations.blurred].map(|texture| samples.taps.sample::<3>(texture));
     // The light's own highlights where it was solved for with them, else the networks' and what all views share.
-    let explicit = DeviatedHighlights::new(context, lighting, samples);
+    let explicit = DeviatedHighlights::new(context, lighting, samples, t.light_exponent);
     let target = match explicit.map(|highlights| highlights.at(samples, &sharp)) {
         Some(highlights) => less(&samples.target, |i| highlights.sample(i, 0)),
         None => {

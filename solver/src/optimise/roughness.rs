@@ -27,7 +27,11 @@ pub(super) fn roughness(context: &SolveContext, state: &State, lighting: &mut Li
     let sharp = fine.deviation.textures(&state.deviation).sharp;
     let sharp = samples.taps.sample::<3>(&sharp);
     for _ in 0..config.roughness_rounds {
-        let Some(highlights) = DeviatedHighlights::new(context, lighting, samples) else { return };
+        let Some(highlights) =
+            DeviatedHighlights::new(context, lighting, samples, config.roughness_light_exponent)
+        else {
+            return;
+        };
         let predicted = highlights.at(samples, &sharp);
         let rougher = highlights.rougher(ROUGHER).at(samples, &sharp);
         let change = |c: usize, i: usize| rougher.get(c, i) - predicted.get(c, i);

@@ -36,9 +36,19 @@ impl Transport {
         skin: &'a SkinConfig,
         light: &[f32],
     ) -> Option<SkinHighlights<'a>> {
+        self.skin_highlights_through(skin, light, self.light_exponent)
+    }
+
+    /// Likewise, with the light seen through another lobe than the transport's own.
+    pub fn skin_highlights_through<'a>(
+        &'a self,
+        skin: &'a SkinConfig,
+        light: &[f32],
+        exponent: i32,
+    ) -> Option<SkinHighlights<'a>> {
         let open = self.open.as_ref()?;
         let scale = scale(skin, self.peak(light));
-        let light = self.through_lobes(light);
+        let light = self.through_lobes(light, exponent);
         let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
         for (cell, (centre, light)) in self.sky.centres().iter().zip(&light).enumerate() {
             let luminance = light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();

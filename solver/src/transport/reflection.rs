@@ -53,7 +53,7 @@ impl Transport {
         nearness: f32,
     ) -> Option<Reflection> {
         let (open, centres) = (self.open.as_ref()?, self.sky.centres());
-        let (cells, lobes) = (self.cells(), self.lobes());
+        let (cells, lobes) = (self.cells(), self.lobes(self.light_exponent));
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
             let specular = SpecularTerm::at(specular, i);
@@ -94,18 +94,18 @@ impl Transport {
         self.row[texel(at / side) * self.size + texel(at % side)] as usize
     }
 
-    /// A light of R, G, B per cell, every cell seen through a lobe.
-    pub(super) fn through_lobes(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
-        Matrix { rows: self.lobes(), cells: self.cells() }.product(light)
+    /// A light of R, G, B per cell, every cell seen through a power of the cosine.
+    pub(super) fn through_lobes(&self, light: &[f32], exponent: i32) -> Vec<[f32; CHANNELS]> {
+        Matrix { rows: self.lobes(exponent), cells: self.cells() }.product(light)
     }
 
     /// For every cell the weights of all cells in a lobe around it: rows of sum 1. Finer than that, the cells do
     /// not tell of the light.
-    fn lobes(&self) -> Vec<f32> {
+    fn lobes(&self, exponent: i32) -> Vec<f32> {
         let (rays, centres) = (self.sky.rays(1, 0), self.sky.centres());
         let lobe = |centre: &Vec3| {
             let weight = |(other, ray): (&Vec3, &SkyRay)| {
-                ray.solid_angle * centre.dot(*other).max(0.0).powi(self.light_exponent)
+                ray.solid_angle * centre.dot(*other).max(0.0).powi(exponent)
             };
             let row: Vec<f32> = centres.iter().zip(&rays).map(weight).collect();
             let total: f32 = row.iter().sum();
