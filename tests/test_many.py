@@ -92,6 +92,10 @@ def test_a_dry_run_says_what_is_cached_and_writes_nothing(tiny_run: Path, tmp_pa
     assert digest(run) == before
     said = unshade("run", TINY, "-o", tmp_path / "new", "--dry-run").stdout
     assert "never measured" in said and not (tmp_path / "new").exists()
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.tex").write_text("years")
+    done = unshade("run", TINY, "-o", tmp_path / "mine", "--dry-run", check=False)
+    assert done.returncode == 2 and "mine" in done.stderr
 
 
 def test_time_and_disc_are_those_that_the_like_of_it_took(tiny_run: Path, wide: Path, tmp_path: Path) -> None:

@@ -126,6 +126,8 @@ def test_a_changed_byte_breaks_the_signature(scored: Path, tmp_path: Path, name:
 def test_another_key_or_secret_is_refused(place: Path, submission: Path, scored: Path, tmp_path: Path) -> None:
     done = unshade("verify", scored, "--key", "ab" * 32, check=False)
     assert done.returncode == 2 and "is signed by" in done.stderr
+    done = unshade("verify", place, check=False)
+    assert done.returncode == 2 and "is not signed" in done.stderr
     (tmp_path / "secret").write_bytes(b"x" * 32)
     words = ["--score", submission, "--private", place / "out" / "private", "--seeds-from", tmp_path / "secret"]
     done = unshade("seal", *words, "-o", tmp_path / "scored", check=False)

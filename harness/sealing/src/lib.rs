@@ -34,6 +34,9 @@ pub enum SealError {
         /// The fault.
         reason: String,
     },
+    /// Nobody signed the folder.
+    #[error("{0}: is not signed; `unshade seal --score SUBMISSION` writes signed scores")]
+    Unsigned(PathBuf),
     /// The signature is not that of the statement.
     #[error("{0}: the signature does not fit; the statement was changed after it was signed")]
     Signature(PathBuf),

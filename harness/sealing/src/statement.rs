@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Component, Path};
 
 use ed25519_dalek::{Signature, VerifyingKey};
@@ -94,7 +95,10 @@ pub fn is_signed(folder: &Path) -> bool {
 /// is the one that was signed.
 pub fn verify(folder: &Path, key: Option<&str>) -> Result<Verified, SealError> {
     let path = folder.join(SIGNATURE);
-    let text = fs::read(&path).map_err(SealError::file(&path))?;
+    let text = fs::read(&path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound if folder.is_dir() => SealError::Unsigned(folder.to_path_buf()),
+        _ => SealError::file(&path)(error),
+    })?;
     let file: SignatureFile =
         serde_json::from_slice(&text).map_err(|error| SealError::format(&path, error))?;
     if file.format != FORMAT || file.algorithm != ALGORITHM {

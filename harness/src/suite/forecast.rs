@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use formats::atomic::claimable;
+
 use super::cost::Costs;
 use super::error::RunError;
 use super::file::Suite;
@@ -55,6 +57,7 @@ pub fn forecast(
     jobs: usize,
     tools: &Tools,
 ) -> Result<Forecast, RunError> {
+    claimable(out)?;
     preflight::files(suite)?;
     let ready = preflight::methods(suite, tools)?;
     let renderer = tools.interpreter.fingerprint()?;

@@ -130,7 +130,7 @@ pub trait Resident {
     fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError>;
 
     /// A step for each share of the learning rates, [`BATCH`] at most; the losses before each.
-    fn steps(&mut self, shares: &[f32]) -> Result<Vec<f64>, DeviceError>;
+    fn steps(&mut self, rate_factors: &[f32]) -> Result<Vec<f64>, DeviceError>;
 
     /// The reverse of [`Resident::upload`]; on an error the host's copies are as they were.
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;

@@ -147,6 +147,8 @@ pub struct ModelErrorConfig {
     /// Of the diffuse shading, over its mean: what bounces and penumbras bring where there is no light. 0 weighs all
     /// pixels alike.
     pub shadow: f32,
+    /// Diffuse albedo that counts as the least where highlights are compared with it.
+    pub darkest_albedo: f32,
 }
 
 /// Normals by Gauss-Newton on a height texture; not in the paper.

@@ -123,6 +123,7 @@ impl Config {
                 normal: 0.07,
                 highlights: 0.3,
                 shadow: 0.3,
+                darkest_albedo: 0.02,
             },
             reflectance: ReflectanceConfig {
                 rounds: 2,

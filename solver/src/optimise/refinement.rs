@@ -125,7 +125,8 @@ impl Model<'_> {
             let squares = [
                 errors.shading * self.shading.get(GREEN, i),
                 errors.normal * change,
-                errors.highlights * highlight / self.albedo.get(GREEN, i).max(DARK),
+                errors.highlights * highlight
+                    / self.albedo.get(GREEN, i).max(errors.darkest_albedo),
                 errors.shadow * mean,
             ];
             let error = squares.map(|error| error * error).iter().sum::<f32>().sqrt();
@@ -133,6 +134,3 @@ impl Model<'_> {
         })
     }
 }
-
-/// Least albedo that is divided by.
-const DARK: f32 = 0.02;

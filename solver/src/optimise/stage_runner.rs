@@ -184,8 +184,8 @@ impl<'a, 'b> StageRunner<'a, 'b> {
                 None => Ok(vec![stage.step(state, self.backend, decay(first))]),
                 Some(program) => {
                     let last = of.min(losses.len() + pace.steps());
-                    let shares: Vec<f32> = (first..=last).map(decay).collect();
-                    pace.time(shares.len(), || program.steps(&shares))
+                    let rate_factors: Vec<f32> = (first..=last).map(decay).collect();
+                    pace.time(rate_factors.len(), || program.steps(&rate_factors))
                 }
             };
             let Ok(batch) = batch else {

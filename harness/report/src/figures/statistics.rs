@@ -1,11 +1,6 @@
 //! Means over faces with their intervals.
 
-/// Student's t at 97.5 %, for 1 to 30 degrees of freedom (Abramowitz and Stegun, table 26.10).
-const T: [f64; 30] = [
-    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160,
-    2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056,
-    2.052, 2.048, 2.045, 2.042,
-];
+use scoring::study::interval;
 
 /// Mean and 95 % interval of values, one per face. Faces are the unit: what one face's cases give is averaged
 /// first.
@@ -35,13 +30,7 @@ pub(super) fn over_faces(values: &[(String, f64)]) -> Option<Mean> {
         return None;
     }
     let value = means.iter().sum::<f64>() / count as f64;
-    let interval = (count > 1).then(|| {
-        let squares: f64 = means.iter().map(|mean| (mean - value).powi(2)).sum();
-        let error = (squares / (count - 1) as f64 / count as f64).sqrt();
-        let half = T.get(count - 2).copied().unwrap_or(1.96) * error;
-        [value - half, value + half]
-    });
-    Some(Mean { value, interval, faces: count })
+    Some(Mean { value, interval: interval(&means), faces: count })
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -80,7 +81,10 @@ pub fn observations(runs: &[PathBuf]) -> Result<Vec<Observation>, StudyError> {
     let mut seen = BTreeSet::new();
     for folder in runs {
         let path = folder.join("run.json");
-        let bytes = fs::read(&path).map_err(|error| StudyError::io(&path, error))?;
+        let bytes = fs::read(&path).map_err(|error| match error.kind() {
+            ErrorKind::NotFound if folder.is_dir() => StudyError::Empty(folder.clone()),
+            _ => StudyError::io(&path, error),
+        })?;
         let run: Run =
             serde_json::from_slice(&bytes).map_err(|error| StudyError::text(&path, error))?;
         for case in &run.cases {

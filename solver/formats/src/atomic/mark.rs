@@ -97,17 +97,21 @@ pub(super) fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
+/// Refuses what [`claim`] would refuse, and writes nothing.
+pub fn claimable(folder: &Path) -> Result<(), FolderError> {
+    let growing = fs::read_to_string(folder.join(MARK)).is_ok_and(|text| text == GROWING);
+    match owner(folder).map_err(FolderError::io(folder))? {
+        Owner::Absent | Owner::Nobody => Ok(()),
+        _ if growing => Ok(()),
+        _ => Err(FolderError::NotOurs(folder.to_path_buf())),
+    }
+}
+
 /// Takes `folder`, which is made if it is not there, for a run that grows in it. Refused if it holds
 /// anything that is not a run's.
 pub fn claim(folder: &Path) -> Result<(), FolderError> {
-    let io = |reason| FolderError::io(folder)(reason);
-    fs::create_dir_all(folder).map_err(io)?;
+    fs::create_dir_all(folder).map_err(FolderError::io(folder))?;
+    claimable(folder)?;
     let mark = folder.join(MARK);
-    if fs::read_to_string(&mark).is_ok_and(|text| text == GROWING) {
-        return Ok(());
-    }
-    match owner(folder).map_err(io)? {
-        Owner::Nobody => fs::write(&mark, GROWING).map_err(FolderError::io(&mark)),
-        _ => Err(FolderError::NotOurs(folder.to_path_buf())),
-    }
+    fs::write(&mark, GROWING).map_err(FolderError::io(&mark))
 }

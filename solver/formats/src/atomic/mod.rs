@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::FolderError;
 pub use folder::{Folder, remove_folder};
-pub use mark::{MARK, claim};
+pub use mark::{MARK, claim, claimable};
 pub use place::{refuse_overlap, require_space};
 
 /// The place where `target` is written before it is complete.

@@ -174,7 +174,10 @@ fn a_run_is_claimed_once_and_only_where_nothing_is() {
     fs::write(run.join("run.json"), "{}").unwrap();
     claim(&run).unwrap();
     assert!(Folder::begin(&run).is_err(), "a run is not replaced by maps");
-    assert!(claim(root.path()).is_err());
+    assert!(claim(root.path()).is_err() && claimable(root.path()).is_err());
+    claimable(&run).unwrap();
+    claimable(&root.path().join("another")).unwrap();
+    assert!(!root.path().join("another").exists());
 }
 
 #[test]

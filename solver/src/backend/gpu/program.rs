@@ -186,9 +186,9 @@ impl Resident for Program<'_> {
         self.check(self.gpu.device.check())
     }
 
-    fn steps(&mut self, shares: &[f32]) -> Result<Vec<f64>, DeviceError> {
+    fn steps(&mut self, rate_factors: &[f32]) -> Result<Vec<f64>, DeviceError> {
         let device = &self.gpu.device;
-        let factors: Vec<Factors> = shares
+        let factors: Vec<Factors> = rate_factors
             .iter()
             .enumerate()
             .flat_map(|(step, decay)| {
@@ -202,10 +202,10 @@ impl Resident for Program<'_> {
             })
             .collect();
         self.slots.write(device, &factors);
-        device.submit(&self.passes, Some(&self.slots), shares.len());
+        device.submit(&self.passes, Some(&self.slots), rate_factors.len());
         let losses = self.check(device.read::<f32>(&[&self.losses]))?;
-        self.done += shares.len();
-        Ok(losses[0][..shares.len()].iter().map(|loss| f64::from(*loss)).collect())
+        self.done += rate_factors.len();
+        Ok(losses[0][..rate_factors.len()].iter().map(|loss| f64::from(*loss)).collect())
     }
 
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError> {

@@ -209,7 +209,7 @@ fn highlights_say_how_rough_skin_is() {
             let rows = |i: usize| [here[i], slope(i)];
             let regression = Regression::new(&lamp.samples, &lamp.samples.weight, rows, shown);
             let (step, error) = regression.fit(|_| true, 0..CHANNELS).rougher().unwrap();
-            assert!(error < 0.05, "{error}");
+            assert!(error < 0.2, "{error}");
             roughness *= (step.clamp(-0.3, 0.3) as f32).exp();
         }
         roughness

@@ -239,6 +239,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         "diffuse_albedo.exr",
         "diffuse_normal.exr",
         "light.exr",
+        "roughness.exr",
         "solve.json",
         "specular_albedo.exr",
         "specular_normal.exr",
