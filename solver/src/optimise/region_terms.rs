@@ -90,11 +90,6 @@ impl RegionTerms {
         let skin = {
             let (now, fit) = (self.of_skin(), evidence(&is_skin));
             let said = Said { config, now, fit, power: config.relaxation, doubt: doubt * doubt };
-            eprintln!(
-                "DEBUG now {now:?} slope {:?} rougher {:?} doubt {doubt}",
-                fit.slope(),
-                fit.rougher()
-            );
             SpecularTerm {
                 reflectance: said.reflectance(self.expected, config.skin_deviation),
                 ..now
@@ -123,11 +118,6 @@ impl RegionTerms {
         let is_skin = |region: u8| self.skin.contains(&region);
         let said = |now: SpecularTerm, of: &dyn Fn(u8) -> bool| {
             let fit = regression.fit(|texel| of(regions[texel]), 0..CHANNELS);
-            eprintln!(
-                "DEBUG now {now:?} slope {:?} rougher {:?} doubt {doubt}",
-                fit.slope(),
-                fit.rougher()
-            );
             Said { config, now, fit, power: 1.0, doubt }
         };
         let skin = said(self.of_skin(), &is_skin).roughness(self.expected);
