@@ -57,9 +57,10 @@ validators:
 
 # Hours on two cores; needs Debian's blender-data for one of the lights.
 results: build
-	$(BIN)/unshade run scenes/suites/method-512.toml -o runs/method-512
-	$(BIN)/unshade run scenes/suites/degraded.toml -o runs/degraded
-	$(BIN)/unshade table runs/method-512 runs/degraded -o docs/results.md
+	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
+	$(BIN)/unshade run scenes/suites/mismatch.toml -o runs/mismatch
+	$(BIN)/unshade study runs/held-out -o runs/study
+	$(BIN)/unshade table runs/held-out runs/mismatch -o docs/results.md
 
 test: build
 	cargo test --release --workspace --quiet

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
+import browser
 import numpy as np
 import pytest
 from scipy import stats
-import browser
 from simulated_study import METHODS, simulate
 
 from conftest import unshade

@@ -13,7 +13,7 @@ import pytest
 import unshade
 from unshade._native import read_exr
 from unshade.errors import SolveError
-from unshade.methods import flash_only, light_stage, method, path_traced, sh_lambert
+from unshade.methods import binary_patterns, flash_only, light_stage, method, path_traced, sh_lambert
 from unshade.methods.harmonics import harmonics, irradiance
 from unshade.methods.laboratory import Laboratory
 from unshade.methods.skin_lobes import everywhere, normal_between
@@ -94,6 +94,16 @@ def test_the_light_stage_reaches_an_opaque_truth(tmp_path: Path) -> None:
     assert quality(capture, maps, "specular_normal", "normal_median_deg") < 1
     assert quality(capture, maps, "mesh_specular_normal", "normal_median_deg") > 4
     assert quality(capture, maps, "specular_albedo", "rmse") < 0.003
+
+
+def test_binary_patterns_part_the_layers_of_coloured_skin(tmp_path: Path) -> None:
+    """Without polarisers, from small noisy pictures of normals that the mesh has not."""
+    capture = unshade.synth(convex_head.write_scene(tmp_path, size=64, samples=32, views=4), tmp_path / "capture")
+    maps = binary_patterns.recover(capture, laboratory(capture), texture_size=64, samples=256)
+    assert quality(capture, maps, "diffuse_albedo", "psnr_srgb") > 41
+    assert quality(capture, maps, "diffuse_normal", "normal_median_deg") < 1
+    assert quality(capture, maps, "mesh_diffuse_normal", "normal_median_deg") > 4
+    assert quality(capture, maps, "specular_albedo", "rmse") < 0.005
 
 
 def test_a_known_flash_gives_the_albedo_as_it_is(smooth: unshade.Capture) -> None:

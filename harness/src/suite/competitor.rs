@@ -44,9 +44,10 @@ pub struct Competitor {
 }
 
 /// Name, title and class; the modules stand in `synth/unshade/methods/__init__.py`.
-const ALL: [(&str, &str, Class); 4] = [
+const ALL: [(&str, &str, Class); 5] = [
     ("sh-lambert", "spherical harmonics, Lambert", Class::Passive),
     ("path-traced", "differentiable path tracing", Class::Passive),
+    ("binary-patterns", "binary patterns of screens", Class::Controlled),
     ("flash-only", "flash at the lens", Class::Controlled),
     ("light-stage", "light stage", Class::Controlled),
 ];

@@ -16,7 +16,7 @@ from ..errors import SolveError
 PASSIVE = {"sh-lambert": "sh_lambert", "path-traced": "path_traced"}
 """Name to module, whose ``recover(capture, **settings)`` returns `Maps`."""
 
-CONTROLLED = {"flash-only": "flash_only", "light-stage": "light_stage"}
+CONTROLLED = {"binary-patterns": "binary_patterns", "flash-only": "flash_only", "light-stage": "light_stage"}
 """Name to module, whose ``recover(capture, laboratory, **settings)`` returns `Maps`."""
 
 
