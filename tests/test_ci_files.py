@@ -158,5 +158,14 @@ def test_calibrate_runs_a_suite_over_seeds_and_goes_on_where_it_was(tmp_path: Pa
     same = unshade("compare", runs[0], runs[1], "--tolerances", out)
     assert "Not like with like: other captures (tiny-studio)" in same.stdout
     assert "1 % false alarms over all rows" in same.stdout
+    kept = tmp_path / "kept.toml"
+    unshade("calibrate", suite, "--seeds", 4, "--vary", "method", "-o", kept)
+    assert "[calibration.captures]" in kept.read_text() and "[calibration.captures]" not in text
+    kept_runs = [tmp_path / "kept-runs" / f"seed-{k:02d}" for k in range(1, 5)]
+    stages = json.loads((kept_runs[3] / "timing.json").read_text())["stages"]
+    assert [stage["cached"] for stage in stages if stage["id"].startswith("capture/")] == [True]
+    assert "Not like" not in unshade("compare", kept_runs[0], kept_runs[1], "--tolerances", kept).stdout
+    other = unshade("compare", runs[0], kept_runs[0], "--tolerances", kept, check=False)
+    assert other.returncode == 2 and "tiny-studio: the run's capture is not the baseline's" in other.stderr
     few = unshade("calibrate", "--runs", *runs[:3], "-o", tmp_path / "few.toml", check=False)
     assert few.returncode == 2 and "3 runs are too few" in few.stderr

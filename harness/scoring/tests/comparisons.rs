@@ -216,6 +216,45 @@ fn measured_tolerances_see_what_they_say_and_survive_their_file() {
 }
 
 #[test]
+fn a_spread_on_kept_captures_is_for_comparisons_of_the_same_captures() {
+    let on = |mut run: Baseline, hash: Option<&str>| {
+        let (face, light) = ("ada".to_owned(), "studio".to_owned());
+        let capture = hash.map(str::to_owned);
+        run.cases.insert("ada-studio".to_owned(), Captured { face, light, capture });
+        run
+    };
+    let rules = Tolerances::built_in().unwrap();
+    let kept: Vec<Baseline> = seed_runs(6, 0.0).into_iter().map(|run| on(run, Some("a"))).collect();
+    let mean = Baseline::mean(&kept).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tolerances.toml");
+    Calibration::of_runs(&kept, &rules, 0.01).unwrap().write(&path).unwrap();
+    let measured = Tolerances::read(&path).unwrap();
+    assert_eq!(measured.calibration().unwrap().captures["ada-studio"], "a");
+    let same = compare(&kept[1], &mean, &measured).unwrap();
+    assert!(same.differences.is_empty() && same.tolerances.ends_with("on kept captures"));
+    // Both on another machine's captures: the spread is still of the methods' seeds alone.
+    let elsewhere = |run: &Baseline| on(run.clone(), Some("b"));
+    let other = compare(&elsewhere(&kept[1]), &elsewhere(&kept[0]), &measured).unwrap();
+    assert_eq!(other.differences, ["tolerances measured on other captures that were kept"]);
+    let unknown = on(kept[0].clone(), None);
+    for (new, old) in [
+        (&elsewhere(&kept[1]), &kept[0]),
+        (&kept[1], &unknown),
+        (&unknown, &unknown),
+        (&kept[1], &seed_runs(1, 0.0)[0]),
+    ] {
+        let error = compare(new, old, &measured).unwrap_err().to_string();
+        assert!(error.starts_with("ada-studio: ") && error.contains("--vary both"), "{error}");
+    }
+    // One run of other captures, and the spread is of both.
+    let mut mixed = kept.clone();
+    mixed[3] = elsewhere(&mixed[3]);
+    assert!(Calibration::of_runs(&mixed, &rules, 0.01).unwrap().captures.is_empty());
+    assert_eq!(Baseline::mean(&mixed).unwrap().cases["ada-studio"].capture, None);
+}
+
+#[test]
 fn few_runs_and_broken_calibrations_are_refused() {
     let rules = Tolerances::built_in().unwrap();
     let error = Calibration::of_runs(&seed_runs(3, 0.0), &rules, 0.01).unwrap_err().to_string();

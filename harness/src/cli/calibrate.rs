@@ -8,7 +8,7 @@ use scoring::compare::{Baseline, Calibration, MIN_RUNS, Tolerances};
 use super::alone::tools;
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use crate::suite::{self, RunError, RunOptions, Suite};
+use crate::suite::{self, RunError, RunOptions, Suite, Vary};
 
 /// How many of the rows that see least are named.
 const NAMED: usize = 3;
@@ -21,10 +21,14 @@ pub(super) struct CalibrateArgs {
     /// The suite to run again and again: a file, or the name of one that comes with unshade.
     #[arg(required_unless_present = "runs", conflicts_with = "runs")]
     suite: Option<PathBuf>,
-    /// How often, each time with other seeds of the renderer and of the methods.
+    /// How often, each time with other seeds.
     #[arg(long, default_value_t = 8, value_name = "N",
           value_parser = clap::value_parser!(u32).range(MIN_RUNS as i64..=1000))]
     seeds: u32,
+    /// Whose seeds: those of the renderer and of the methods; or of the methods alone, on captures that are
+    /// made once, as runs that keep theirs are compared.
+    #[arg(long, value_enum, default_value_t = Vary::Both, conflicts_with = "runs")]
+    vary: Vary,
     /// Finished runs of one suite that differ in their seeds alone, in place of a suite.
     #[arg(long, value_name = "RUN", num_args = 1..)]
     runs: Vec<PathBuf>,
@@ -90,14 +94,19 @@ fn make_runs(
         arguments.out.with_file_name(format!("{stem}-runs"))
     });
     let tools = tools();
-    let mut folders = Vec::new();
+    let mut folders: Vec<PathBuf> = Vec::new();
     for round in 1..=arguments.seeds {
         let folder = keep.join(format!("seed-{round:02}"));
-        let suite = suite.reseeded(round)?;
+        let suite = suite.reseeded(round, arguments.vary)?;
         eprintln!("calibrate: run {round} of {}", arguments.seeds);
         let mut progress = Progress::new();
         let options = RunOptions::default();
-        let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);
+        let summary = match folders.first() {
+            Some(first) if arguments.vary == Vary::Method => {
+                suite::run_after(first, &suite, &folder, &options, &tools, &mut progress)
+            }
+            _ => suite::run(&suite, &folder, &options, &tools, &mut progress),
+        };
         progress.finish();
         let summary = summary?;
         for (name, reason) in &summary.failed {

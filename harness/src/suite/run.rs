@@ -19,7 +19,7 @@ use super::manifest::{Made, manifest};
 use super::plan::{Kind, Task, plan};
 use super::pool::{self, Work};
 use super::preflight;
-use super::program;
+use super::program::{self, copy_folder};
 use super::record::{Records, Times};
 use super::tools::{Observer, Tools};
 use super::workshop::{Contents, Workshop};
@@ -75,6 +75,29 @@ pub fn run(
     times.around.report = start.elapsed().as_secs_f64() / suite.cases.len().max(1) as f64;
     times.write()?;
     Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
+}
+
+/// Runs `suite` in the folder `out`, which begins with what the finished run `first` holds, unless it has been
+/// begun: what does not differ between the two is made once.
+pub fn run_after(
+    first: &Path,
+    suite: &Suite,
+    out: &Path,
+    options: &RunOptions,
+    tools: &Tools,
+    observer: &mut dyn Observer,
+) -> Result<RunSummary, RunError> {
+    let records = out.join("stages");
+    if !records.exists() {
+        let _lock = claim(suite, out)?;
+        for kind in Kind::ALL.iter().filter(|kind| first.join(kind.folder()).is_dir()) {
+            copy_folder(&first.join(kind.folder()), &out.join(kind.folder()))?;
+        }
+        fs::copy(first.join("timing.json"), out.join("timing.json"))?;
+        // Last: without a record, whatever a copy that was cut short left is made anew.
+        copy_folder(&first.join("stages"), &records)?;
+    }
+    run(suite, out, options, tools, observer)
 }
 
 /// Everything but the report.

@@ -1,7 +1,8 @@
-//! A suite whose random numbers differ and nothing else: of the renderer, and of the methods.
+//! A suite whose random numbers differ and nothing else: of the renderer and of the methods, or of these alone.
 
 use toml::{Table, Value};
 
+use super::cases::Case;
 use super::file::Suite;
 use super::method::MethodKind;
 use super::scene::SceneError;
@@ -9,17 +10,27 @@ use super::scene::SceneError;
 /// Environment variable that hands a program of one's own the seed.
 const VARIABLE: &str = "UNSHADE_SEED";
 
+/// Random numbers that differ from one run to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Vary {
+    /// Those of the renderer and of the methods.
+    Both,
+    /// Those of the methods: captures are made once and kept.
+    Method,
+}
+
 impl Suite {
-    /// This suite with other random numbers: `round` is added to every seed that its scenes, our solver's
-    /// configurations and competitors state; programs find it in the variable `UNSHADE_SEED`.
+    /// This suite with other random numbers: `round` is added to every seed that its scenes (with
+    /// [`Vary::Both`]), our solver's configurations and competitors state; programs find it in the variable `UNSHADE_SEED`.
     ///
     /// Photographs are what they are, and baselines draw no numbers.
-    pub fn reseeded(&self, round: u32) -> Result<Self, SceneError> {
+    pub fn reseeded(&self, round: u32, vary: Vary) -> Result<Self, SceneError> {
         let mut suite = self.clone();
         // Seeds far apart from those that anybody writes.
         let add = 7919 * i64::from(round);
         let added = |seed: Option<&Value>| seed.and_then(Value::as_integer).unwrap_or(0) + add;
-        for case in suite.cases.iter_mut().filter(|case| case.photographed.is_none()) {
+        let rendered = |case: &&mut Case| vary == Vary::Both && case.photographed.is_none();
+        for case in suite.cases.iter_mut().filter(rendered) {
             let render = case.scene.table.get("render").and_then(Value::as_table);
             let seed = added(render.and_then(|render| render.get("seed")));
             let changes = table("render", Value::Table(table("seed", Value::Integer(seed))));

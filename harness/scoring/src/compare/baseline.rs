@@ -153,13 +153,24 @@ impl Baseline {
     /// Intervals are those of the first: they say what the choice of pixels does, not what seeds do.
     pub fn mean(runs: &[Self]) -> Option<Self> {
         let mut mean = runs.first()?.clone();
-        mean.cases.values_mut().for_each(|case| case.capture = None);
+        let mut captures = Self::captures_in_all(runs);
+        mean.cases.iter_mut().for_each(|(id, case)| case.capture = captures.remove(id));
         mean.runs = runs.len() as u64;
         for (id, entry) in &mut mean.rows {
             let values: Option<Vec<f64>> = runs.iter().map(|run| run.rows.get(id)?.value).collect();
             entry.value = values.map(|values| values.iter().sum::<f64>() / values.len() as f64);
         }
         Some(mean)
+    }
+
+    /// Hash of the capture, of the cases that have the same in every run.
+    pub(super) fn captures_in_all(runs: &[Self]) -> BTreeMap<String, String> {
+        let hash = |run: &Self, id: &str| run.cases.get(id)?.capture.clone();
+        let first = runs.first().into_iter().flat_map(|run| run.cases.keys());
+        first
+            .filter_map(|id| Some((id.clone(), hash(&runs[0], id)?)))
+            .filter(|(id, kept)| runs.iter().all(|run| hash(run, id).as_ref() == Some(kept)))
+            .collect()
     }
 
     /// Adds the rows of one solver on one case, under `prefix`.

@@ -32,6 +32,10 @@ pub struct Calibration {
     pub suite: String,
     /// Hash of the suite's text.
     pub suite_hash: Option<String>,
+    /// Hash of the capture, of the cases that had the same in every run: their spread is of the methods' seeds
+    /// alone, and says nothing of other captures.
+    #[serde(default)]
+    pub captures: BTreeMap<String, String>,
     /// Versions that made the runs.
     #[serde(default)]
     pub versions: BTreeMap<String, Value>,
@@ -129,6 +133,15 @@ impl Calibration {
         for (name, version) in &self.versions {
             let version = version.as_str().map_or_else(|| version.to_string(), str::to_owned);
             let _ = writeln!(lines, "{} = {}", text(name), text(&version));
+        }
+        if !self.captures.is_empty() {
+            lines.push_str(
+                "\n# Captures that were kept: for comparisons of runs that have the same.\n\
+                 [calibration.captures]\n",
+            );
+        }
+        for (case, capture) in &self.captures {
+            let _ = writeln!(lines, "{} = {}", text(case), text(capture));
         }
         lines.push_str("\n[calibration.rows]\n");
         for (id, row) in &self.rows {

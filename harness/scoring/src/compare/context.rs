@@ -45,8 +45,28 @@ pub(super) fn differences(
         } else if differ(calibration.suite_hash.as_ref(), current.suite_hash.as_ref()) {
             found.push("tolerances measured on another state of the suite's file".to_owned());
         }
+        let capture = |id: &str| current.cases.get(id)?.capture.as_ref();
+        if calibration.captures.iter().any(|(id, kept)| differ(Some(kept), capture(id))) {
+            found.push("tolerances measured on other captures that were kept".to_owned());
+        }
     }
     found
+}
+
+/// A case whose tolerances were measured on a capture that was kept, while the run's is not the baseline's, or
+/// an earlier version's baseline does not say which it had.
+pub(super) fn other_capture<'a>(
+    current: &Baseline,
+    baseline: &Baseline,
+    tolerances: &'a Tolerances,
+) -> Option<&'a str> {
+    let mut kept = tolerances.calibration()?.captures.keys();
+    let other = kept.find(|id| match (current.cases.get(*id), baseline.cases.get(*id)) {
+        (Some(new), Some(old)) => new.capture.is_none() || new.capture != old.capture,
+        (new, None) => new.is_some() && baseline.cases.is_empty(),
+        (None, Some(_)) => false,
+    });
+    other.map(String::as_str)
 }
 
 fn differ<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {

@@ -49,6 +49,15 @@ pub enum CompareError {
         /// How many it takes.
         minimum: usize,
     },
+    /// The spread on kept captures says nothing of others.
+    #[error(
+        "{case}: the run's capture is not the baseline's, and the tolerances were measured on captures \
+         that are kept; keep them, or measure again with unshade calibrate --vary both"
+    )]
+    Captures {
+        /// The case.
+        case: String,
+    },
     /// A branch has no baseline that can be found.
     #[error("--baseline-branch {branch}: {reason}")]
     Branch {

@@ -47,6 +47,7 @@ impl Calibration {
         let mut calibration = Self {
             suite: first.suite.clone(),
             suite_hash: first.suite_hash.clone(),
+            captures: Baseline::captures_in_all(runs),
             versions: first.versions.clone(),
             runs: runs.len(),
             false_alarms,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::CompareError;
 use super::baseline::{Baseline, Entry};
 use super::calibration::{Limits, Spread};
-use super::context::differences;
+use super::context::{differences, other_capture};
 use super::row_id::RowId;
 use super::tolerance::{Rule, Tolerances};
 use crate::metrics::Metric;
@@ -107,6 +107,9 @@ pub fn compare(
     if current.suite != baseline.suite {
         let (run, baseline) = (current.suite.clone(), baseline.suite.clone());
         return Err(CompareError::Suites { run, baseline });
+    }
+    if let Some(case) = other_capture(current, baseline, tolerances) {
+        return Err(CompareError::Captures { case: CompareError::line(case) });
     }
     let mut rows = Vec::new();
     for (id, old) in &baseline.rows {
@@ -221,8 +224,9 @@ fn in_words(tolerances: &Tolerances, rows: &[Judged]) -> String {
     };
     let rate = 100.0 * calibration.false_alarms;
     let runs = calibration.runs;
+    let kept = if calibration.captures.is_empty() { "" } else { " on kept captures" };
     let mut words = format!(
-        "{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds"
+        "{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds{kept}"
     );
     let reasoned = rows.iter().filter(|row| !row.measured && row.baseline.is_some()).count();
     if reasoned > 0 {

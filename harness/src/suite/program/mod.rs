@@ -144,7 +144,7 @@ impl Program {
             None => Ok(()),
         };
         // Pictures come from the copy, in which no link leads to files that the program could not read.
-        let kept = left.and_then(|()| Ok(copy_below(&maps, output.path())?)).and_then(|()| {
+        let kept = left.and_then(|()| Ok(copy_folder(&maps, output.path())?)).and_then(|()| {
             let (size, scratch) = (self.texture_size, scratch.path());
             match self.gives {
                 Gives::Maps => Ok(()),
@@ -216,14 +216,14 @@ fn check(maps: &Path) -> Result<(), String> {
 }
 
 /// Copies what is in one folder into another, perhaps on another disk. Links are not followed.
-fn copy_below(from: &Path, to: &Path) -> io::Result<()> {
+pub(super) fn copy_folder(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {
         let entry = entry?;
         let target = to.join(entry.file_name());
         let kind = entry.file_type()?;
         if kind.is_dir() {
-            fs::create_dir_all(&target)?;
-            copy_below(&entry.path(), &target)?;
+            copy_folder(&entry.path(), &target)?;
         } else if kind.is_file() {
             fs::copy(entry.path(), &target)?;
         }
