@@ -3,6 +3,7 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
+use crate::config::TransportConfig;
 use crate::model::planes::Planes;
 use crate::optimise::highlights::{Found, Highlights};
 use crate::optimise::regression::Regression;
@@ -191,7 +192,9 @@ fn highlights_say_how_rough_skin_is() {
         let lamp = lamp(rougher);
         let stage = lamp.found(&lamp.state, SPECULAR, &lamp.samples);
         let light: Vec<f32> = stage.log_light.iter().map(|log| log.exp()).collect();
-        let transport = &lamp.transport;
+        let exponent = lamp.config.reflectance.roughness_light_exponent;
+        let t = TransportConfig { light_exponent: exponent, ..lamp.config.transport.clone() };
+        let transport = Transport::new(&testing::dome(24), &lamp.sky, &t, 0, Beside::Nearness);
         let (peak, nearness) = (transport.peak(&light), stage.nearness[0] * transport.near());
         let mut roughness = 1.0f32;
         for _ in 0..3 {
