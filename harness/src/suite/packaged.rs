@@ -33,7 +33,7 @@ pub(super) enum Kind {
 }
 
 /// The files beside the scenes that are none.
-const NO_SCENES: [&str; 2] = ["face-sets", "tolerances"];
+const NO_SCENES: [&str; 3] = ["ci-tolerances", "face-sets", "tolerances"];
 
 impl Kind {
     /// The kind of file that a key of a scene or suite file names.
