@@ -35,6 +35,10 @@ pub(super) struct Column {
 
 /// Standard deviation, with one degree of freedom taken by the mean.
 pub(super) fn deviation(values: &[f64]) -> f64 {
+    // The mean of equal values may be rounded to another, and the row would count as one that moves.
+    if values.windows(2).all(|pair| pair[0] == pair[1]) {
+        return 0.0;
+    }
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (squares / (values.len() - 1) as f64).sqrt()
@@ -186,6 +190,7 @@ mod tests {
     #[test]
     fn rows_that_do_not_move_are_left_out() {
         assert!(Column::new(&[1.0; 5], 0.1).is_none());
+        assert!(Column::new(&[0.1; 10], 0.1).is_none(), "ten times .1, summed, is not 1");
         assert!(critical(&[], 0.01, None, 100, 1).is_none());
     }
 
