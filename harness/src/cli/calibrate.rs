@@ -101,12 +101,10 @@ fn make_runs(
         eprintln!("calibrate: run {round} of {}", arguments.seeds);
         let mut progress = Progress::new();
         let options = RunOptions::default();
-        let summary = match folders.first() {
-            Some(first) if arguments.vary == Vary::Method => {
-                suite::run_after(first, &suite, &folder, &options, &tools, &mut progress)
-            }
-            _ => suite::run(&suite, &folder, &options, &tools, &mut progress),
-        };
+        if let (Some(first), Vary::Method) = (folders.first(), arguments.vary) {
+            suite::begin_from(first, &suite, &folder)?;
+        }
+        let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);
         progress.finish();
         let summary = summary?;
         for (name, reason) in &summary.failed {

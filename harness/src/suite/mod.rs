@@ -49,7 +49,7 @@ pub use method::{Method, MethodKind};
 pub use packaged::set_folder as set_scenes_folder;
 pub use part::{PartDone, adopt, run_part};
 pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
-pub use run::{RunOptions, RunSummary, report, run, run_after};
+pub use run::{RunOptions, RunSummary, begin_from, report, run};
 pub use scene::{Scene, SceneError};
 pub use seal::{Round, SealedCase, Sealing, seal};
 pub use seeds::Vary;

@@ -77,27 +77,20 @@ pub fn run(
     Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
 }
 
-/// Runs `suite` in the folder `out`, which begins with what the finished run `first` holds, unless it has been
-/// begun: what does not differ between the two is made once.
-pub fn run_after(
-    first: &Path,
-    suite: &Suite,
-    out: &Path,
-    options: &RunOptions,
-    tools: &Tools,
-    observer: &mut dyn Observer,
-) -> Result<RunSummary, RunError> {
+/// Begins the run of `suite` in the folder `out`, unless it has been begun, with what the finished run `first` holds:
+/// what does not differ between the two is made once.
+pub fn begin_from(first: &Path, suite: &Suite, out: &Path) -> Result<(), RunError> {
+    let _lock = claim(suite, out)?;
     let records = out.join("stages");
-    if !records.exists() {
-        let _lock = claim(suite, out)?;
-        for kind in Kind::ALL.iter().filter(|kind| first.join(kind.folder()).is_dir()) {
-            copy_folder(&first.join(kind.folder()), &out.join(kind.folder()))?;
-        }
-        fs::copy(first.join("timing.json"), out.join("timing.json"))?;
-        // Last: without a record, whatever a copy that was cut short left is made anew.
-        copy_folder(&first.join("stages"), &records)?;
+    if records.exists() {
+        return Ok(());
     }
-    run(suite, out, options, tools, observer)
+    for kind in Kind::ALL.iter().filter(|kind| first.join(kind.folder()).is_dir()) {
+        copy_folder(&first.join(kind.folder()), &out.join(kind.folder()))?;
+    }
+    fs::copy(first.join("timing.json"), out.join("timing.json"))?;
+    // Last: without a record, whatever a copy that was cut short left is made anew.
+    Ok(copy_folder(&first.join("stages"), &records)?)
 }
 
 /// Everything but the report.

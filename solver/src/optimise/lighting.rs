@@ -93,12 +93,10 @@ impl Lighting {
         }
     }
 
-    /// Replaces what regions mirror.
-    pub fn take_terms(&mut self, context: &SolveContext, terms: RegionTerms) {
-        if let Some(regions) = context.regions_on(self.state.size) {
-            self.skin_specular = terms.texture(&regions);
-            self.region_terms = Some(terms);
-        }
+    /// Replaces what regions mirror; `regions` are those of its own texture.
+    pub fn take_terms(&mut self, terms: RegionTerms, regions: &[u8]) {
+        self.skin_specular = terms.texture(regions);
+        self.region_terms = Some(terms);
     }
 
     /// How much shading and the networks' highlights say of relief: the squared contrast of the light, and

@@ -82,28 +82,16 @@ impl RegionTerms {
         regression: &Regression,
         regions: &[u8],
     ) {
-        // Skin, which has the stronger prior, is believed less.
-        let doubt = (1.0 - evenness).max(1e-3).recip();
-        let is_skin = |region: u8| self.skin.contains(&region);
-        let evidence =
-            |of: &dyn Fn(u8) -> bool| regression.fit(|texel| of(regions[texel]), 0..CHANNELS);
-        let skin = {
-            let (now, fit) = (self.of_skin(), evidence(&is_skin));
-            let said = Said { config, now, fit, power: config.relaxation, doubt: doubt * doubt };
-            SpecularTerm {
-                reflectance: said.reflectance(self.expected, config.skin_deviation),
-                ..now
-            }
-        };
-        let of = |region: u8| {
-            if is_skin(region) {
-                return skin;
-            }
-            let (now, fit) = (self.of(region), evidence(&|other| other == region));
-            let said = Said { config, now, fit, power: 1.0, doubt };
-            SpecularTerm { reflectance: said.reflectance(skin, config.region_deviation), ..now }
-        };
-        self.regions = (0..=u8::MAX).map(of).collect();
+        let doubt = doubt(evenness);
+        self.revise(regression, regions, |said, prior, is_skin| {
+            // Skin, which has the stronger prior, is believed less.
+            let (power, doubt, deviation) = match is_skin {
+                true => (config.relaxation, doubt * doubt, config.skin_deviation),
+                false => (1.0, doubt, config.region_deviation),
+            };
+            let reflectance = said.reflectance(prior, power, config.model_error * doubt, deviation);
+            SpecularTerm { reflectance, ..said.now }
+        });
     }
 
     /// Takes in the roughness that highlights show, likewise.
@@ -114,56 +102,71 @@ impl RegionTerms {
         regression: &Regression,
         regions: &[u8],
     ) {
-        let doubt = (1.0 - evenness).max(1e-3).recip();
-        let is_skin = |region: u8| self.skin.contains(&region);
-        let said = |now: SpecularTerm, of: &dyn Fn(u8) -> bool| {
-            let fit = regression.fit(|texel| of(regions[texel]), 0..CHANNELS);
-            Said { config, now, fit, power: 1.0, doubt }
+        let error = config.roughness_error * doubt(evenness);
+        self.revise(regression, regions, |said, prior, _| {
+            let roughness = said.roughness(prior, error, config.roughness_deviation);
+            SpecularTerm { roughness, ..said.now }
+        });
+    }
+
+    /// Every term by what is said of it and its prior: for skin, which is one (`true`), what is expected; for any
+    /// other region skin's new term.
+    fn revise(
+        &mut self,
+        regression: &Regression,
+        regions: &[u8],
+        revised: impl Fn(Said, SpecularTerm, bool) -> SpecularTerm,
+    ) {
+        let said = |now: SpecularTerm, within: &dyn Fn(u8) -> bool| Said {
+            now,
+            fit: regression.fit(|texel| within(regions[texel]), 0..CHANNELS),
         };
-        let skin = said(self.of_skin(), &is_skin).roughness(self.expected);
-        let of = |region: u8| {
-            let now = self.of(region);
-            let prior = SpecularTerm { roughness: skin, ..now };
-            let roughness = match is_skin(region) || !regions.contains(&region) {
-                true => skin,
-                false => said(now, &|other| other == region).roughness(prior),
-            };
-            SpecularTerm { roughness, ..now }
+        let is_skin = |region: u8| self.skin.contains(&region);
+        let skin = revised(said(self.of_skin(), &is_skin), self.expected, true);
+        let of = |region: u8| match is_skin(region) {
+            true => skin,
+            false => revised(said(self.of(region), &|other| other == region), skin, false),
         };
         self.regions = (0..=u8::MAX).map(of).collect();
     }
 }
 
-/// What highlights say of a region, whose term was taken to be `now`.
-struct Said<'a> {
-    config: &'a ReflectanceConfig,
-    now: SpecularTerm,
-    fit: Fit,
-    /// Of the slope, that counts.
-    power: f32,
-    /// Factor on the model's error.
-    doubt: f32,
+/// Factor on the errors of what is measured by highlights: under an even light they say little.
+fn doubt(evenness: f32) -> f32 {
+    (1.0 - evenness).max(1e-3).recip()
 }
 
-impl Said<'_> {
-    /// The reflectance, between `prior`, which `deviation` says how far to trust, relative, and what is said.
-    fn reflectance(&self, prior: SpecularTerm, deviation: f32) -> f32 {
+/// What highlights say of a region, whose term was taken to be `now`.
+struct Said {
+    now: SpecularTerm,
+    fit: Fit,
+}
+
+impl Said {
+    /// The reflectance, between `prior`, which `deviation` says how far to trust, and the slope's `power`, in which
+    /// `model_error` is; both relative.
+    fn reflectance(
+        &self,
+        prior: SpecularTerm,
+        power: f32,
+        model_error: f32,
+        deviation: f32,
+    ) -> f32 {
         let Some((slope, error)) = self.fit.slope() else { return prior.reflectance };
-        let error = error.hypot(f64::from(self.config.model_error * self.doubt) * slope);
+        let error = error.hypot(f64::from(model_error) * slope);
         let now = f64::from(self.now.reflectance);
-        let said = now * slope.max(0.0).powf(f64::from(self.power));
+        let said = now * slope.max(0.0).powf(f64::from(power));
         let prior = f64::from(prior.reflectance);
         posterior((said, now * error), (prior, f64::from(deviation) * prior)) as f32
     }
 
     /// The roughness, likewise, by its logarithm.
-    fn roughness(&self, prior: SpecularTerm) -> f32 {
-        let ReflectanceConfig { roughness_deviation, roughness_error, .. } = *self.config;
+    fn roughness(&self, prior: SpecularTerm, model_error: f32, deviation: f32) -> f32 {
         let Some((step, error)) = self.fit.rougher() else { return prior.roughness };
-        let error = error.hypot(f64::from(roughness_error * self.doubt));
+        let error = error.hypot(f64::from(model_error));
         let said = f64::from(self.now.roughness.ln()) + step.clamp(-LARGEST, LARGEST);
         let prior = f64::from(prior.roughness.ln());
-        posterior((said, error), (prior, f64::from(roughness_deviation))).exp() as f32
+        posterior((said, error), (prior, f64::from(deviation))).exp() as f32
     }
 }
 

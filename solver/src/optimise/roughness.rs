@@ -18,11 +18,13 @@ pub(super) fn roughness(context: &SolveContext, state: &State, lighting: &mut Li
     if config.roughness_rounds == 0 || !lighting.explained {
         return;
     }
-    let (Some(terms), Some(regions)) = (&lighting.region_terms, context.regions_on(state.size))
+    let sizes = [state.size, lighting.state.size];
+    let (Some(mut terms), [Some(regions), Some(coarse_regions)]) =
+        (lighting.region_terms.clone(), sizes.map(|size| context.regions_on(size)))
     else {
         return;
     };
-    let (mut terms, fine) = (terms.clone(), context.fine());
+    let fine = context.fine();
     let samples = &fine.samples.thinned_in_runs(config.roughness_samples);
     let sharp = fine.deviation.textures(&state.deviation).sharp;
     let sharp = samples.taps.sample::<3>(&sharp);
@@ -40,6 +42,6 @@ pub(super) fn roughness(context: &SolveContext, state: &State, lighting: &mut Li
         let shown = |i: usize| samples.target.sample(i, 0);
         let regression = Regression::new(samples, &samples.weight, rows, shown);
         terms.update_roughness(config, lighting.evenness(), &regression, &regions);
-        lighting.take_terms(context, terms.clone());
+        lighting.take_terms(terms.clone(), &coarse_regions);
     }
 }
