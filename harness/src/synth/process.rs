@@ -150,13 +150,19 @@ fn stop(child: &mut Child) {
 #[cfg(unix)]
 mod tests {
     use super::*;
-    use std::os::unix::fs::PermissionsExt;
+    use std::process::Command;
 
     fn run_script(script: &str, interrupt: &Interrupt) -> (Result<Value, StageError>, Vec<u64>) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("python");
-        std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
-        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+        // A process of its own writes the file: a test beside this one that forks while we held
+        // it open for writing would keep it open, and Linux runs no such file ("text file busy").
+        let written = Command::new("sh")
+            .args(["-c", r#"printf '%s\n' '#!/bin/sh' "$2" > "$1" && chmod +x "$1""#, "sh"])
+            .arg(&path)
+            .arg(script)
+            .status();
+        assert!(written.unwrap().success());
         let mut done = Vec::new();
         let result = run_stage(&Interpreter::at(&path), "synth", &[], interrupt, &mut |d, _, _| {
             done.push(d)
