@@ -38,7 +38,7 @@ def arguments(reference: ModuleType):
     """Prediction, truth and keywords of a metric, as the reference values were made."""
     truth, prediction, cause, mask, labels, confidence = reference.pictures()
     true_normal, normal = reference.normals()
-    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence}
+    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence, "area": confidence}
     beside |= {"mesh_normal": reference.mesh_normals(), "halves": reference.halves(prediction, truth)}
 
     def of(name: str):
@@ -172,6 +172,7 @@ def test_needs_are_those_that_the_metrics_state() -> None:
         "wcorr": "labels", "leakage_shading": "shading", "leakage_specular": "specular",
         "confidence_rank": "confidence", "sparsification": "confidence",
         "psnr_lin_unbiased": "halves", "psnr_srgb_unbiased": "halves", "relief_invented": "mesh_normal",
+        "psnr_srgb_area": "area", "normal_mean_deg_area": "area",
     }  # fmt: skip
     picture = np.random.default_rng(0).random((8, 8, 3))
     for name, argument in needs.items():

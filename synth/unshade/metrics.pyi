@@ -55,6 +55,8 @@ __all__ = [
     "detail_slope_1_2",
     "detail_slope_2_4",
     "relief_invented",
+    "psnr_srgb_area",
+    "normal_mean_deg_area",
     "direction_mean_deg",
     "orb_psnr_h",
     "orb_psnr_l",
@@ -441,6 +443,30 @@ def relief_invented(
 ) -> float | None:
     """Invented relief [°]: mean angle between p and the mesh's normal where g is within .5° of it;
     none where g is so nowhere"""
+
+def psnr_srgb_area(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    area: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """PSNR over the surface [dB]: -10 log10 of the mean over the surface, every texel by its area, and
+    over channels of (p-g)² of sRGB values clipped to [0, 1]; peak 1; at most 100"""
+
+def normal_mean_deg_area(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    area: ArrayLike,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """Mean angle over the surface [°]: mean angle between p and g over the surface, every texel by its
+    area; 90 where p has no length"""
 
 def direction_mean_deg(
     prediction: ArrayLike,

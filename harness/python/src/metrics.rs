@@ -82,7 +82,7 @@ pub(super) fn measure(
         let Some(given) = given(name)? else { return Ok::<_, PyErr>(None) };
         let picture = argument(name).picture(&given)?;
         check_size(name, (picture.width, picture.height), &truth)?;
-        let fits = if name == "confidence" { &[1][..] } else { &[1, 3] };
+        let fits = if matches!(name, "confidence" | "area") { &[1][..] } else { &[1, 3] };
         if !fits.contains(&picture.channels) {
             let reason = format!("has {} channels, expected {fits:?}", picture.channels);
             return Err(argument(name).refused(&reason));
@@ -95,6 +95,7 @@ pub(super) fn measure(
         labels,
         cause: cause.into_iter().flatten().next(),
         confidence: float("confidence")?,
+        area: float("area")?,
         halves: given("halves")?.map(|given| halves(&given, &truth)).transpose()?,
     };
     let value = || value(metric, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
@@ -106,6 +107,7 @@ struct Inputs {
     labels: Option<GrayImage>,
     cause: Option<Picture>,
     confidence: Option<Picture>,
+    area: Option<Picture>,
     halves: Option<[Picture; 2]>,
 }
 
@@ -152,6 +154,9 @@ fn value(
     }
     if let Some(confidence) = &inputs.confidence {
         pair = pair.with_confidence(confidence)?;
+    }
+    if let Some(area) = &inputs.area {
+        pair = pair.with_area(area)?;
     }
     if let Some([prediction, truth]) = &inputs.halves {
         pair = pair.with_halves(prediction, truth)?;

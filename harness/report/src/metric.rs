@@ -4,7 +4,7 @@ use scoring::metrics::ScaleMode;
 use scoring::score::Row;
 
 /// Subjects, with their words in the table, in its order.
-pub(super) const SUBJECTS: [(&str, &str); 22] = [
+pub(super) const SUBJECTS: [(&str, &str); 24] = [
     ("diffuse_albedo", "Diffuse albedo map"),
     ("confidence", "Confidence map, against the error of the diffuse albedo"),
     ("specular_albedo", "Specular albedo map"),
@@ -24,9 +24,11 @@ pub(super) const SUBJECTS: [(&str, &str); 22] = [
     ("view", "Withheld view, by the method itself"),
     ("view_diffuse_layer", "Withheld view, diffuse layer, by the method itself"),
     ("view_specular_layer", "Withheld view, specular layer, by the method itself"),
+    ("view_silhouette", "Withheld view, along its silhouette, by the method itself"),
     ("relit", "Withheld view, maps relit"),
     ("relit_diffuse_layer", "Withheld view, diffuse layer, maps relit"),
     ("relit_specular_layer", "Withheld view, specular layer, maps relit"),
+    ("relit_silhouette", "Withheld view, along its silhouette, maps relit"),
 ];
 
 /// Answers that need no pictures: their scores stand beside those of the map they answer for.
@@ -68,7 +70,7 @@ pub(super) fn is_chosen(row: &Row) -> bool {
 /// Whether a row covers its subject's whole region.
 pub(super) fn is_whole(row: &Row) -> bool {
     row.label.is_none()
-        && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "whole" | "sphere")
+        && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "mask-rim" | "whole" | "sphere")
 }
 
 /// A subject's name.
@@ -82,6 +84,7 @@ pub(super) fn region(id: &str, label: Option<&str>) -> String {
         "coverage-e5" => "seen texels, eroded 5×5",
         "coverage-e5-views2" => "texels seen by two views, eroded 5×5",
         "mask-e5" => "face mask, eroded 5×5",
+        "mask-rim" => "face mask, what erosion takes away",
         "whole" => "all of it",
         "sphere" => "its disc",
         other => other,

@@ -102,12 +102,14 @@ fn every_metric_agrees_with_an_independent_implementation() {
         .and_then(|pair| pair.with_labels(&p.labels))
         .and_then(|pair| pair.with_cause(&p.cause))
         .and_then(|pair| pair.with_confidence(&p.confidence))
+        .and_then(|pair| pair.with_area(&p.confidence))
         .unwrap();
     let mesh = picture(3, |x, y, c| {
         if (x + y) % 2 == 0 { p.true_normal.pixel(x, y)[c] } else { f32::from(u8::from(c == 2)) }
     });
     let normals = Pair::new(&p.normal, &p.true_normal, &region)
         .and_then(|pair| pair.with_cause(&mesh))
+        .and_then(|pair| pair.with_area(&p.confidence))
         .unwrap();
     // Halves of the samples: the pictures with noise of the same size, opposite in the other half.
     let shaken = |of: &Picture, seed: usize| {

@@ -21,8 +21,9 @@ pub(crate) fn gaussian(
     let mut across = vec![0.0; values.len()];
     across.par_chunks_exact_mut(width).zip(values.par_chunks_exact(width)).for_each(
         |(out, row)| {
-            for (x, out) in out.iter_mut().enumerate() {
-                *out = weights.iter().zip(&columns[x..]).map(|(w, &from)| w * row[from]).sum();
+            let padded: Vec<f64> = columns.iter().map(|from| row[*from]).collect();
+            for (shift, w) in weights.iter().enumerate() {
+                out.iter_mut().zip(&padded[shift..]).for_each(|(out, value)| *out += w * value);
             }
         },
     );

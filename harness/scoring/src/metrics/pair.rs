@@ -16,6 +16,7 @@ pub struct Pair<'a> {
     pub(super) cause: Option<&'a Picture>,
     pub(super) confidence: Option<&'a Picture>,
     pub(super) halves: Option<[&'a Picture; 2]>,
+    pub(super) area: Option<&'a Picture>,
 }
 
 impl<'a> Pair<'a> {
@@ -44,6 +45,7 @@ impl<'a> Pair<'a> {
             cause: None,
             confidence: None,
             halves: None,
+            area: None,
         })
     }
 
@@ -71,14 +73,25 @@ impl<'a> Pair<'a> {
 
     /// How far the method trusts each pixel of its prediction, one channel, larger for more.
     pub fn with_confidence(mut self, confidence: &'a Picture) -> Result<Self, MetricError> {
-        check_size("confidence", (confidence.width, confidence.height), self.truth)?;
-        if confidence.channels != 1 {
-            let found = confidence.channels;
-            return Err(MetricError::Channels { metric: "a confidence", expected: "1", found });
-        }
-        check_finite("confidence", confidence, self.region)?;
+        self.check_values("confidence", confidence)?;
         self.confidence = Some(confidence);
         Ok(self)
+    }
+
+    /// How much surface lies in each texel, one channel, any unit.
+    pub fn with_area(mut self, area: &'a Picture) -> Result<Self, MetricError> {
+        self.check_values("area", area)?;
+        self.area = Some(area);
+        Ok(self)
+    }
+
+    fn check_values(&self, what: &'static str, values: &Picture) -> Result<(), MetricError> {
+        check_size(what, (values.width, values.height), self.truth)?;
+        if values.channels != 1 {
+            let found = values.channels;
+            return Err(MetricError::Channels { metric: what, expected: "1", found });
+        }
+        check_finite(what, values, self.region)
     }
 
     /// The means of one half of the samples of prediction and truth, of pictures whose halves are
@@ -141,9 +154,9 @@ impl<'a> Pair<'a> {
         Some(pixels.map(move |i| luminance(self.channels(cause, *i))))
     }
 
-    /// The confidence over the region.
-    pub(super) fn confidences(&self) -> Option<Vec<f64>> {
-        let data = &self.confidence?.data;
+    /// The values of one channel over the region.
+    pub(super) fn over_region(&self, values: Option<&Picture>) -> Option<Vec<f64>> {
+        let data = &values?.data;
         Some(self.region.pixels().iter().map(|i| f64::from(data[*i])).collect())
     }
 

@@ -64,6 +64,10 @@ pub enum Quantity {
     Band(u8),
     /// (Angle between p and the mesh's normal where the truth has the mesh's, 1 there), else zeros.
     InventedRelief,
+    /// (Area times [`Self::SquaredErrorSrgb`], area), whose ratio is the mean over the surface.
+    AreaSquaredErrorSrgb,
+    /// (Area times [`Self::Angle`], area).
+    AreaAngle,
     /// The squared error of another benchmark's protocol.
     Compatible(Protocol),
 }
@@ -81,6 +85,7 @@ impl Quantity {
             Self::TrustAndErrorRanks | Self::TrustedAndWholeError => Some("confidence"),
             Self::CrossProduct | Self::CrossProductSrgb => Some("halves"),
             Self::InventedRelief => Some("mesh_normal"),
+            Self::AreaSquaredErrorSrgb | Self::AreaAngle => Some("area"),
             Self::SquaredError
             | Self::SquaredErrorSrgb
             | Self::RelativeSquaredError
@@ -113,10 +118,12 @@ impl Quantity {
             | Self::ColourAngle => "linear",
             Self::Compatible(Protocol::OrbHdr | Protocol::OrbAlbedo) => "linear, as there",
             Self::Compatible(_) => "gamma, as there",
-            Self::SquaredErrorSrgb | Self::CrossProductSrgb => "sRGB clipped to [0, 1]",
+            Self::SquaredErrorSrgb | Self::CrossProductSrgb | Self::AreaSquaredErrorSrgb => {
+                "sRGB clipped to [0, 1]"
+            }
             Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
             Self::ColourDifference | Self::Typology => "L*a*b*, D65",
-            Self::Angle | Self::InventedRelief => "object space",
+            Self::Angle | Self::AreaAngle | Self::InventedRelief => "object space",
             Self::HighPass
             | Self::WithinLabel
             | Self::LowPassError
@@ -141,7 +148,16 @@ impl Quantity {
         self.check_channels(pair, metric)?;
         Ok(match self {
             Self::SquaredError => per_channel(pair, |p, g| (p - g).powi(2)),
-            Self::SquaredErrorSrgb => per_channel(pair, |p, g| (srgb(p) - srgb(g)).powi(2)),
+            Self::SquaredErrorSrgb => squared_error_srgb(pair),
+            Self::AreaSquaredErrorSrgb | Self::AreaAngle => {
+                let area =
+                    pair.over_region(pair.area).ok_or_else(|| needs("the area of every texel"))?;
+                let values = match self {
+                    Self::AreaAngle => triples(pair, angle_degrees),
+                    _ => squared_error_srgb(pair),
+                };
+                area.into_iter().zip(values).flat_map(|(area, x)| [area * x, area]).collect()
+            }
             Self::RelativeSquaredError => {
                 per_channel(pair, |p, g| ((p - g) / (g + RELATIVE_OFFSET)).powi(2))
             }
@@ -221,12 +237,12 @@ impl Quantity {
                     .collect()
             }
             Self::TrustAndErrorRanks => {
-                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let trust = pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
                 let errors = ranks(&log_errors(pair));
                 ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
             }
             Self::TrustedAndWholeError => {
-                let trust = pair.confidences().ok_or_else(|| needs("a confidence"))?;
+                let trust = pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
                 let weights = upper_half(&trust);
                 let pairs = weights.into_iter().zip(log_errors(pair));
                 pairs.flat_map(|(weight, error)| [2.0 * weight * error, error]).collect()
@@ -239,6 +255,7 @@ impl Quantity {
         let (expected, right) = match self {
             Self::Flip
             | Self::Angle
+            | Self::AreaAngle
             | Self::ColourAngle
             | Self::InventedRelief
             | Self::Compatible(_)
@@ -246,6 +263,7 @@ impl Quantity {
             | Self::Typology => ("3", found == 3),
             Self::SquaredError
             | Self::SquaredErrorSrgb
+            | Self::AreaSquaredErrorSrgb
             | Self::RelativeSquaredError
             | Self::Ssim
             | Self::Luminance
@@ -280,6 +298,10 @@ fn per_channel(pair: &Pair, error: impl Fn(f64, f64) -> f64) -> Vec<f64> {
             both.map(|(p, g)| error(p, g)).sum::<f64>() / channels
         })
         .collect()
+}
+
+fn squared_error_srgb(pair: &Pair) -> Vec<f64> {
+    per_channel(pair, |p, g| (srgb(p) - srgb(g)).powi(2))
 }
 
 fn log_errors(pair: &Pair) -> Vec<f64> {

@@ -46,6 +46,14 @@ impl Region {
         })
     }
 
+    /// What erosion takes from a mask: the foreground within two pixels of its edge.
+    pub fn rim(name: &str, mask: &GrayImage) -> Result<Self, MetricError> {
+        let kept = Self::eroded(name, mask)?.pixels;
+        Self::new(name, mask.width, mask.height, |i| {
+            foreground(mask, i) && kept.binary_search(&i).is_err()
+        })
+    }
+
     /// The part of this region where `keep` holds of the row-major pixel index.
     pub fn part(&self, name: &str, keep: impl Fn(usize) -> bool) -> Result<Self, MetricError> {
         let pixels: Vec<usize> = self.pixels.iter().copied().filter(|i| keep(*i)).collect();
@@ -122,6 +130,9 @@ mod tests {
         let region = Region::eroded("e", &full).unwrap();
         assert_eq!(region.pixels().len(), 5 * 3);
         assert_eq!(region.pixels()[0], 2 * 9 + 2);
+        let rim = Region::rim("r", &full).unwrap();
+        assert_eq!(rim.pixels().len(), 63 - 15);
+        assert!(rim.pixels().iter().all(|i| region.pixels().binary_search(i).is_err()));
         let mut hole = full;
         hole.data[3 * 9 + 4] = 0;
         assert_eq!(

@@ -187,6 +187,12 @@ pub static METRICS: &[Metric] = metrics! {
     "relief_invented", "Invented relief", "°", Lower, Q::InventedRelief, S::Ratio,
         "mean angle between p and the mesh's normal where g is within .5° of it; none where g is so nowhere",
         "https://arxiv.org/abs/1411.4734";
+    "psnr_srgb_area", "PSNR over the surface", "dB", Higher, Q::AreaSquaredErrorSrgb, S::PsnrOfRatio,
+        "-10 log10 of the mean over the surface, every texel by its area, and over channels of (p-g)² of sRGB values clipped to [0, 1]; peak 1; at most 100",
+        "https://en.wikipedia.org/wiki/Peak_signal-to-noise_ratio";
+    "normal_mean_deg_area", "Mean angle over the surface", "°", Lower, Q::AreaAngle, S::Ratio,
+        "mean angle between p and g over the surface, every texel by its area; 90 where p has no length",
+        "https://arxiv.org/abs/1411.4734";
     "direction_mean_deg", "Direction error", "°", Lower, Q::Angle, S::Mean,
         "mean angle between two directions",
         "https://arxiv.org/abs/1411.4734";
@@ -226,6 +232,11 @@ pub(crate) mod scored {
         ["scale_global", "hc", "wcorr", "lp", "chromaticity_deg", "log_rmse"];
     /// Metrics of the diffuse albedo's skin that are blind to its scale.
     pub(crate) const DETAIL: [&str; 2] = ["detail_slope_1_2", "detail_slope_2_4"];
+    /// Metrics of the diffuse albedo and of a normal map by the area of the texels.
+    pub(crate) const ALBEDO_AREA: [&str; 1] = ["psnr_srgb_area"];
+    pub(crate) const NORMAL_AREA: [&str; 1] = ["normal_mean_deg_area"];
+    /// Metrics of a view or a relit picture along its silhouette, which erosion takes away.
+    pub(crate) const SILHOUETTE: [&str; 1] = ["psnr_srgb"];
     /// Metrics of a normal map beside the mesh's.
     pub(crate) const RELIEF: [&str; 1] = ["relief_invented"];
     /// Metrics of the roughness.

@@ -28,6 +28,8 @@ pub enum Statistic {
     UnbiasedPsnr,
     /// Mean over the pictures of the PSNR of each; its interval is that of faces, not of pixels.
     PsnrOfPictures,
+    /// -10 log10 of the sum of x / sum of y, peak 1.
+    PsnrOfRatio,
     /// Square root of the mean of x.
     RootMean,
     /// Standard deviation of x.
@@ -63,6 +65,7 @@ impl Statistic {
     pub fn arity(self) -> usize {
         match self {
             Self::MeanDifference
+            | Self::PsnrOfRatio
             | Self::Ratio
             | Self::Correlation
             | Self::Explained
@@ -135,7 +138,7 @@ impl Statistic {
         match self {
             Self::Below(limit) => [f64::from(x < limit), 0.0, 0.0, 0.0, 0.0],
             Self::Spread => [x, x * x, 0.0, 0.0, 0.0],
-            Self::MeanDifference | Self::Ratio => [x, value[1], 0.0, 0.0, 0.0],
+            Self::MeanDifference | Self::PsnrOfRatio | Self::Ratio => [x, value[1], 0.0, 0.0, 0.0],
             Self::Correlation | Self::Explained | Self::Slope => {
                 let y = value[1];
                 [x, y, x * x, y * y, x * y]
@@ -163,6 +166,9 @@ impl Statistic {
             Self::Spread => Some(variance(a, b).sqrt()),
             Self::MeanDifference => Some((a - b).abs()),
             Self::Ratio => (b != 0.0).then(|| a / b),
+            Self::PsnrOfRatio => {
+                (b > 0.0).then(|| (-10.0 * (a / b).log10()).min(MAX_PSNR))
+            }
             Self::Correlation | Self::Explained => {
                 let (x, y) = (variance(a, c), variance(b, d));
                 if x == 0.0 || y == 0.0 {

@@ -3,8 +3,9 @@
 
 use std::path::Path;
 
+use capture::Capture;
+use capture::gbuffer::texel_area_map;
 use capture::mean_texture::mean_texture;
-use capture::{Capture, Mesh};
 use formats::picture::Picture;
 
 use super::ScoreError;
@@ -22,6 +23,8 @@ pub(super) struct Geometry {
     pub shading: Picture,
     /// True specular layer.
     pub specular: Picture,
+    /// Surface in every texel, square millimetres.
+    pub texel_area: Picture,
     /// Side of a texel on the face, millimetres: the root of the mean area.
     pub texel_mm: f64,
 }
@@ -56,19 +59,10 @@ impl Geometry {
             *value /= albedo.max(DARKEST_ALBEDO);
         }
         let (specular, _) = reproject(specular)?;
-        let texel_mm = texel_side(&capture.mesh) * 1000.0 / side as f64;
-        Ok(Self { mesh_normal, shading, specular, texel_mm })
+        let texel_area = texel_area_map(&capture.mesh, side);
+        let areas = texel_area.data.iter().filter(|area| **area > 0.0);
+        let (sum, count) = areas.fold((0.0, 0.0), |(s, n), area| (s + f64::from(*area), n + 1.0));
+        let texel_mm = (sum / f64::max(count, 1.0)).sqrt();
+        Ok(Self { mesh_normal, shading, specular, texel_area, texel_mm })
     }
-}
-
-/// Side of the square on the surface that has as much area as the whole texture, if all of it were
-/// as the chart is, metres.
-fn texel_side(mesh: &Mesh) -> f64 {
-    let areas = mesh.triangles.iter().map(|corners| {
-        let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize].as_dvec3());
-        let [p, q, r] = corners.map(|corner| mesh.uvs[corner as usize].as_dvec2());
-        ((b - a).cross(c - a).length(), (q - p).perp_dot(r - p).abs())
-    });
-    let (surface, chart) = areas.fold((0.0, 0.0), |(s, c), (area, uv)| (s + area, c + uv));
-    if chart > 0.0 { (surface / chart).sqrt() } else { 0.0 }
 }

@@ -68,8 +68,11 @@ pub(super) fn rows_of_maps(
             let compared = [Compared { frame: None, pair }];
             let heading = heading(subject, ScaleMode::None);
             all.extend(rows(heading, &scored::RELIEF, &compared, &Floors::new())?);
+            all.extend(by_area(subject, &normal, true_normal, truth, geometry)?);
         }
-        all.extend(map_rows(trivial, &scored::NORMAL, &geometry.mesh_normal, true_normal, truth)?);
+        let mesh = &geometry.mesh_normal;
+        all.extend(map_rows(trivial, &scored::NORMAL, mesh, true_normal, truth)?);
+        all.extend(by_area(trivial, mesh, true_normal, truth, geometry)?);
     }
     Ok(all)
 }
@@ -142,6 +145,12 @@ fn albedo_rows(
         let pair = aligned.and_then(|pair| pair.with_cause(cause)).map_err(&wrong)?;
         add(&[*metric], ScaleMode::Global, None, pair)?;
     }
+    for mode in [ScaleMode::None, ScaleMode::Global] {
+        let pair = pair(&truth.region, mode)
+            .and_then(|pair| pair.with_area(&geometry.texel_area))
+            .map_err(&wrong)?;
+        add(&scored::ALBEDO_AREA, mode, None, pair)?;
+    }
     for (label, region) in &parts {
         for mode in [ScaleMode::None, ScaleMode::Global] {
             let metrics: &[&str] =
@@ -176,6 +185,21 @@ fn map_rows(
     let pair = Pair::new(map, true_map, &truth.region).map_err(ScoreError::of(subject))?;
     let compared = [Compared { frame: None, pair }];
     rows(heading(subject, ScaleMode::None), metrics, &compared, &Floors::new())
+}
+
+/// Rows of a normal map whose texels count by their area.
+fn by_area(
+    subject: &str,
+    normal: &Picture,
+    true_normal: &Picture,
+    truth: &Truth,
+    geometry: &Geometry,
+) -> Result<Vec<Row>, ScoreError> {
+    let pair = Pair::new(normal, true_normal, &truth.region)
+        .and_then(|pair| pair.with_area(&geometry.texel_area))
+        .map_err(ScoreError::of(subject))?;
+    let compared = [Compared { frame: None, pair }];
+    rows(heading(subject, ScaleMode::None), &scored::NORMAL_AREA, &compared, &Floors::new())
 }
 
 fn heading(subject: &str, mode: ScaleMode) -> Heading<'_> {

@@ -172,11 +172,35 @@ fn compare(
         let floors = if subject == heading.subject { &floors } else { &none };
         all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
     }
+    all.extend(silhouette_rows(frames, &found, &truths, heading)?);
     all.extend(unbiased_rows(frames, &found, &truths, heading)?);
     if heading.scale == "none" {
         all.extend(compatible_rows(frames, &found, &truths, heading)?);
     }
     Ok(all)
+}
+
+/// Rows of the rims that erosion takes away; none where a picture has none.
+fn silhouette_rows(
+    frames: &[Frame],
+    found: &[Render],
+    truths: &[Render],
+    heading: Heading,
+) -> Result<Vec<Row>, ScoreError> {
+    let subject = if heading.subject == "view" { "view_silhouette" } else { "relit_silhouette" };
+    let wrong = ScoreError::of(subject);
+    let rims = frames.iter().map(|frame| Region::rim("mask-rim", &frame.mask));
+    let rims: Vec<Region> = rims.collect::<Result<_, _>>().map_err(&wrong)?;
+    let pictures = frames.iter().zip(&rims).zip(found.iter().zip(truths));
+    let compared = pictures.filter_map(|((frame, rim), (found, truth))| {
+        let (found, truth) = (found.total.as_ref()?, truth.total.as_ref()?);
+        Some(Pair::new(found, truth, rim).map(|pair| Compared { frame: Some(&frame.name), pair }))
+    });
+    let compared: Vec<Compared> = compared.collect::<Result<_, _>>().map_err(&wrong)?;
+    if compared.len() < frames.len() || compared.is_empty() {
+        return Ok(Vec::new());
+    }
+    rows(Heading { subject, ..heading }, &scored::SILHOUETTE, &compared, &Floors::new())
 }
 
 /// Rows as other benchmarks score, which scale pictures themselves.

@@ -62,14 +62,14 @@ impl Protocol {
 
 const PHOTOGRAPHS: [&str; 5] = [
     "No truth is known: nothing is said of maps alone. Withheld photographs, linear, their lenses taken out, are what pictures are held against; their noise, clipping and exposure are in the error.",
-    "Pictures are compared on the mask eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask, which is a file's, or the mesh's silhouette where there was none.",
+    "Pictures are compared on the mask eroded once by 5x5: mask-e5; mask-rim is what erosion takes away. Both pictures are black outside the uneroded mask, which is a file's, or the mesh's silhouette where there was none.",
     "view: the method's own synthesis of a withheld view. relit: its maps path-traced in the light that it found, on the capture's mesh alone, which nothing else shadows. Both share the light, so a light that is wrong with an albedo that is wrong can still fit.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames; per_frame has each frame alone. No picture and no map is scaled.",
     "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation has fallen to 1/e.",
 ];
 
 const STATEMENTS: [&str; 13] = [
-    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. coverage-e5-views2 are those of them that at least two views see.",
+    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. Metrics named _area weigh every texel by the surface in it. coverage-e5-views2 are those of them that at least two views see.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
     "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",

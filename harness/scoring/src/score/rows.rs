@@ -54,6 +54,10 @@ pub(super) fn rows(
     Ok(metrics.par_iter().map(row).collect())
 }
 
+/// Blocks of one row, pooled over the frames: white errors ask for tens of thousands, which make an interval no
+/// better and the bootstrap ten times as slow.
+const MOST_BLOCKS: f64 = 2048.0;
+
 /// The values of every pair in blocks of one side, the largest that one of them asks for.
 fn sample(metric: &Metric, compared: &[Compared]) -> Result<(usize, Vec<Sample>), MetricError> {
     let values: Vec<Vec<f64>> =
@@ -62,7 +66,8 @@ fn sample(metric: &Metric, compared: &[Compared]) -> Result<(usize, Vec<Sample>)
     let regions = compared.iter().map(|compared| compared.pair.region());
     let sides =
         values.iter().zip(regions).map(|(values, region)| block_side(values, arity, region));
-    let side = sides.max().unwrap_or(1);
+    let pixels: usize = compared.iter().map(|compared| compared.pair.region().pixels().len()).sum();
+    let side = sides.max().unwrap_or(1).max((pixels as f64 / MOST_BLOCKS).sqrt().ceil() as usize);
     let in_blocks = |(compared, values): (&Compared, Vec<f64>)| Sample {
         values,
         blocks: compared.pair.region().blocks(side).collect(),

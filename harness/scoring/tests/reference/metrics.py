@@ -176,6 +176,8 @@ def references():
         "detail_slope_1_2": slope(1),
         "detail_slope_2_4": slope(2),
         "relief_invented": tilt(m)[flat].mean(),
+        "psnr_srgb_area": -10 * np.log10(np.average(((srgb(pm) - srgb(tm)) ** 2).mean(-1), weights=trust)),
+        "normal_mean_deg_area": np.average(degrees, weights=trust),
         "direction_mean_deg": degrees.mean(),
     }
     values |= compatible(truth, prediction, mask > 127, inside, srgb)

@@ -28,11 +28,7 @@ pub struct Atlas {
 impl Atlas {
     /// Rasterises the chart; where it overlaps itself, one of the triangles is taken.
     pub fn new(mesh: &Mesh, size: usize) -> Self {
-        let side = size as f64;
-        let corner =
-            |uv: &Vec2| DVec3::new(f64::from(uv.x) * side, (1.0 - f64::from(uv.y)) * side, 1.0);
-        let corners: Vec<DVec3> = mesh.uvs.iter().map(corner).collect();
-        let hits = raster::paint(size, size, &corners, &mesh.triangles).hits;
+        let hits = raster::paint(size, size, &corners(mesh, size), &mesh.triangles).hits;
         let inside: Vec<bool> = hits.iter().map(Option::is_some).collect();
         let nearest = fill::nearest_known(&inside, size, size);
         let at = |texel: &u32| hits[*texel as usize];
@@ -51,6 +47,28 @@ impl Atlas {
         let data = self.normals.iter().flat_map(|normal| normal.to_array()).collect();
         Picture { width: self.size, height: self.size, channels: 3, data }
     }
+}
+
+/// How much surface lies in every texel of a square map, square millimetres, one channel; 0 outside the chart.
+pub fn texel_area_map(mesh: &Mesh, size: usize) -> Picture {
+    let area_of = |hit: &Hit| {
+        let corners = mesh.triangles[hit.triangle as usize].map(|corner| corner as usize);
+        let [a, b, c] = corners.map(|corner| mesh.positions[corner].as_dvec3());
+        let [p, q, r] = corners.map(|corner| mesh.uvs[corner].as_dvec2());
+        let surface = (b - a).cross(c - a).length() * 1e6;
+        (surface / ((q - p).perp_dot(r - p).abs() * (size * size) as f64)) as f32
+    };
+    let hits = raster::paint(size, size, &corners(mesh, size), &mesh.triangles).hits;
+    let data = hits.par_iter().map(|hit| hit.as_ref().map_or(0.0, area_of)).collect();
+    Picture { width: size, height: size, channels: 1, data }
+}
+
+/// The mesh's texture coordinates in texels, from the upper left corner.
+fn corners(mesh: &Mesh, size: usize) -> Vec<DVec3> {
+    let side = size as f64;
+    let corner =
+        |uv: &Vec2| DVec3::new(f64::from(uv.x) * side, (1.0 - f64::from(uv.y)) * side, 1.0);
+    mesh.uvs.iter().map(corner).collect()
 }
 
 /// The mesh's own normals as a square map of `size` texels: unit vectors in object space.

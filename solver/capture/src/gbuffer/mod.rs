@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::{Camera, Mesh, View};
 
-pub use atlas::{Atlas, mesh_normal_map};
+pub use atlas::{Atlas, mesh_normal_map, texel_area_map};
 pub use raster::{Hit, Raster, rasterise};
 
 /// The surface behind every covered pixel of a camera, in the order of the pixels.

@@ -1,0 +1,92 @@
+"""What scoring costs beside the Python libraries that compute the same numbers.
+
+    python synth/bench/scoring.py [--views 12] [--size 512]
+
+Every metric of ``unshade.metrics`` of so many pictures, and its reference implementation by scikit-image,
+colour-science, flip-evaluator and SciPy (`harness/scoring/tests/reference/metrics.py`), on the same pictures and in
+the same run. The values must agree. Prints a table in Markdown, without and with other benchmarks' protocols, whose
+references search for a minimum.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import time
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+import unshade
+
+SCRIPT = Path(__file__).parents[2] / "harness/scoring/tests/reference/metrics.py"
+SPECULAR = ("rmse", "pearson", "spearman", "log_ratio_rms")
+VECTORS = ("relief_invented", "direction_mean_deg")
+WHOLE = ("owl_psnr", "nerfactor_albedo_psnr")
+COMPATIBLE = ("orb_", "owl_", "nerfactor_")
+TOLERANCE = 1e-3
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--views", type=int, default=12)
+    parser.add_argument("--size", type=int, default=512)
+    options = parser.parse_args()
+    reference = load(options.size)
+    print("| metrics | Python libraries, s | unshade, s | times |\n|---|---|---|---|")
+    compatible = reference.compatible
+    for title, protocols in (("own", False), ("own and other benchmarks'", True)):
+        reference.compatible = compatible if protocols else lambda *_: {}
+        theirs, expected = timed(lambda: reference.references()["values"], options.views)
+        inputs = arguments(reference)
+        names = [name for name in expected if protocols or not name.startswith(COMPATIBLE)]
+        ours, found = timed(lambda names=names, inputs=inputs: {name: measure(name, *inputs) for name in names},
+                            options.views)  # fmt: skip
+        for name in names:
+            if not np.isclose(found[name], expected[name], rtol=TOLERANCE):
+                raise SystemExit(f"{name}: {found[name]}, the reference has {expected[name]}")
+        print(f"| {len(names)} {title} | {theirs:.1f} | {ours:.2f} | {theirs / ours:.0f} |")
+
+
+def load(size: int) -> ModuleType:
+    """The reference script, with square pictures and a mask that fills half of them."""
+    spec = importlib.util.spec_from_file_location("metric_pictures", SCRIPT)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.WIDTH = module.HEIGHT = size  # type: ignore[attr-defined]
+    y, x = np.mgrid[0:size, 0:size]
+    disc = np.where((x - size / 2) ** 2 + (y - size / 2) ** 2 < (0.4 * size) ** 2, 255, 0).astype(np.uint8)
+    made = module.pictures()
+    module.pictures = lambda: (*made[:3], disc, *made[4:])  # type: ignore[attr-defined]
+    return module
+
+
+def arguments(reference: ModuleType) -> tuple:
+    truth, prediction, cause, mask, labels, confidence = reference.pictures()
+    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence, "area": confidence}
+    beside |= {"mesh_normal": reference.mesh_normals(), "halves": reference.halves(prediction, truth)}
+    return prediction, truth, mask, beside, reference.normals()
+
+
+def measure(name: str, prediction, truth, mask, beside, normals) -> float:
+    pair = prediction, truth
+    if name in SPECULAR:
+        pair = prediction[..., 1], truth[..., 0]
+    if name.startswith("normal") or name in VECTORS:
+        pair = normals[1], normals[0]
+    needs = unshade.metrics.DEFINITIONS[name].needs
+    keywords = {needs: beside[needs]} if needs else {}
+    return getattr(unshade.metrics, name)(*pair, mask, erode=name not in WHOLE, **keywords)
+
+
+def timed(work, views: int) -> tuple[float, dict[str, float]]:
+    start = time.perf_counter()
+    for _ in range(views):
+        values = work()
+    return time.perf_counter() - start, values
+
+
+if __name__ == "__main__":
+    main()
