@@ -25,8 +25,8 @@ pub(super) struct CalibrateArgs {
     #[arg(long, default_value_t = 8, value_name = "N",
           value_parser = clap::value_parser!(u32).range(MIN_RUNS as i64..=1000))]
     seeds: u32,
-    /// Whose seeds: those of the renderer and of the methods; or of the methods alone, on captures that are
-    /// made once, as runs that keep theirs are compared.
+    /// Whose seeds: those of the renderer and of the methods; of the methods alone, on captures that are made
+    /// once, as runs that keep theirs are compared; or none, and the last digits of what our solver reads.
     #[arg(long, value_enum, default_value_t = Vary::Both, conflicts_with = "runs")]
     vary: Vary,
     /// Finished runs of one suite that differ in their seeds alone, in place of a suite.
@@ -101,7 +101,7 @@ fn make_runs(
         eprintln!("calibrate: run {round} of {}", arguments.seeds);
         let mut progress = Progress::new();
         let options = RunOptions::default();
-        if let (Some(first), Vary::Method) = (folders.first(), arguments.vary) {
+        if let (Some(first), true) = (folders.first(), arguments.vary.keeps_captures()) {
             suite::begin_from(first, &suite, &folder)?;
         }
         let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);

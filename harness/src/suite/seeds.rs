@@ -1,4 +1,5 @@
-//! A suite whose random numbers differ and nothing else: of the renderer and of the methods, or of these alone.
+//! A suite whose random numbers differ and nothing else: of the renderer and of the methods, or of these alone; or
+//! whose numbers are the same, and their last digits differ.
 
 use toml::{Table, Value};
 
@@ -17,13 +18,23 @@ pub enum Vary {
     Both,
     /// Those of the methods: captures are made once and kept.
     Method,
+    /// None: our solver rounds otherwise, as after a change of the program that changes nothing; captures are kept.
+    Rounding,
+}
+
+impl Vary {
+    /// Whether captures are made once.
+    pub fn keeps_captures(self) -> bool {
+        self != Self::Both
+    }
 }
 
 impl Suite {
     /// This suite with other random numbers: `round` is added to every seed that its scenes (with
     /// [`Vary::Both`]), our solver's configurations and competitors state; programs find it in the variable `UNSHADE_SEED`.
     ///
-    /// Photographs are what they are, and baselines draw no numbers.
+    /// Photographs are what they are, and baselines draw no numbers. With [`Vary::Rounding`] every seed stays, and
+    /// our solver's pictures differ in their last digits.
     pub fn reseeded(&self, round: u32, vary: Vary) -> Result<Self, SceneError> {
         let mut suite = self.clone();
         // Seeds far apart from those that anybody writes.
@@ -42,21 +53,29 @@ impl Suite {
                     let unreadable = |error: String| {
                         SceneError::in_table(&self.path, &method.id, "config", error)
                     };
-                    let seed = solver::Config::from_toml(config)
-                        .map_err(|error| unreadable(error.to_string()))?
-                        .seed;
+                    let given = solver::Config::from_toml(config)
+                        .map_err(|error| unreadable(error.to_string()))?;
                     let mut values: Table = config
                         .parse()
                         .map_err(|error: toml::de::Error| unreadable(error.to_string()))?;
-                    let seed = Value::Integer((seed as i64).wrapping_add(add));
-                    values.insert("seed".to_owned(), seed);
+                    if vary == Vary::Rounding {
+                        let rendering = values.entry("rendering").or_insert(Table::new().into());
+                        if let Some(rendering) = rendering.as_table_mut() {
+                            rendering.insert("rounding_seed".to_owned(), add.into());
+                        }
+                    } else {
+                        let seed = Value::Integer((given.seed as i64).wrapping_add(add));
+                        values.insert("seed".to_owned(), seed);
+                    }
                     *config =
                         toml::to_string(&values).map_err(|error| unreadable(error.to_string()))?;
                 }
-                MethodKind::Program(program) => {
+                MethodKind::Program(program) if vary != Vary::Rounding => {
                     program.environment.insert(VARIABLE.to_owned(), add.to_string());
                 }
-                MethodKind::Competitor { competitor, settings } if competitor.has_seed() => {
+                MethodKind::Competitor { competitor, settings }
+                    if vary != Vary::Rounding && competitor.has_seed() =>
+                {
                     let unreadable = |error: serde_json::Error| {
                         SceneError::in_table(&self.path, &method.id, "set", error.to_string())
                     };
@@ -74,4 +93,24 @@ impl Suite {
 
 fn table(key: &str, value: Value) -> Table {
     Table::from_iter([(key.to_owned(), value)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_moves_no_seed() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/suites/ci.toml");
+        let suite = Suite::open(path.as_ref()).unwrap();
+        let config = |suite: &Suite| match &suite.methods[0].kind {
+            MethodKind::Fields { config, .. } => solver::Config::from_toml(config).unwrap(),
+            _ => panic!("the first method is no solve"),
+        };
+        let given = config(&suite);
+        let rounded = config(&suite.reseeded(2, Vary::Rounding).unwrap());
+        assert_eq!((rounded.seed, rounded.rendering.rounding_seed), (given.seed, 2 * 7919));
+        let other = config(&suite.reseeded(2, Vary::Method).unwrap());
+        assert_eq!((other.seed, other.rendering.rounding_seed), (given.seed + 2 * 7919, 0));
+    }
 }

@@ -18,7 +18,12 @@ impl Config {
                 normal_scale: 1.0,
                 reflection_scale: 1.0,
             },
-            rendering: RenderingConfig { fresnel: true, positive_albedo: false, exposure: 0.0 },
+            rendering: RenderingConfig {
+                fresnel: true,
+                positive_albedo: false,
+                exposure: 0.0,
+                rounding_seed: 0,
+            },
             skin: SkinConfig { f0: 0.04, roughness: [0.15, 0.35], weights: [0.5; 2] },
             view_weights: ViewWeightConfig {
                 depth: true,

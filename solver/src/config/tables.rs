@@ -32,6 +32,10 @@ pub struct RenderingConfig {
     /// back from in the end, so that no rate or weight depends on a capture's exposure. 0 takes them as they
     /// are, as in the paper.
     pub exposure: f32,
+    /// Other than 0, every value of the training pictures is multiplied with 1 + 1e-6 u, u from -1 to 1 drawn by
+    /// this seed: as much as another processor or another order of a sum may change. What becomes of it is how
+    /// far a change of the program that changes nothing moves the maps.
+    pub rounding_seed: u64,
 }
 
 /// The specular reflection of skin. The renderer's material has the same numbers.

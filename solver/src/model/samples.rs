@@ -3,6 +3,8 @@
 use capture::gbuffer::GBuffer;
 use capture::{Mesh, View};
 use glam::{Vec2, Vec3};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::planes::Planes;
 use super::taps::Taps;
@@ -45,7 +47,13 @@ pub struct SampleSpace {
     f0: Option<f32>,
     /// Factor on the pictures.
     gain: f32,
+    /// See [`crate::config::RenderingConfig::rounding_seed`].
+    rounding_seed: u64,
 }
+
+/// Largest relative change of a value by a rounding seed: a few units in the last place, times the sums that a
+/// solve makes of them.
+const ROUNDING: f32 = 1e-6;
 
 /// One sample before the samples are sorted and laid out.
 struct Sample {
@@ -69,6 +77,7 @@ impl SampleSpace {
             scale: config.networks.position_scale / half,
             f0: config.rendering.fresnel.then_some(config.skin.f0),
             gain: 1.0,
+            rounding_seed: config.rendering.rounding_seed,
         }
     }
 
@@ -91,8 +100,15 @@ impl SampleSpace {
                 true => view_weights::view_weights(gbuffer, weights),
                 false => view_weights::cosine_weights(gbuffer),
             };
-            let target =
-                |pixel: u32| self.gain * Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
+            let mut random = Pcg64Mcg::seed_from_u64(self.rounding_seed ^ ((number as u64) << 32));
+            let mut rounded = |value: f32| match self.rounding_seed {
+                0 => value,
+                _ => value * (1.0 + ROUNDING * (random.next_u32() as i32 as f32 / i32::MIN as f32)),
+            };
+            let mut target = |pixel: u32| {
+                let value = Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
+                Vec3::from_array(value.to_array().map(&mut rounded)) * self.gain
+            };
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
             samples.extend(usable.map(|(i, weight)| Sample {
                 view_index: number as u32,

@@ -328,3 +328,22 @@ fn the_start_that_comes_furthest_is_taken() {
     config.initialisation.start_iterations = 30;
     assert_eq!(&first_loss(&config), best);
 }
+
+#[test]
+fn a_rounding_seed_moves_the_last_digits_of_every_picture_and_no_more() {
+    let mut config = Config::default();
+    let mesh = testing::dome(12);
+    let views = views(2, 24);
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let mut targets = |seed: u64| {
+        config.rendering.rounding_seed = seed;
+        let space = SampleSpace::new(&mesh, &config);
+        let samples = space.training(&views, &gbuffers, &config.view_weights, SIDE);
+        (0..samples.len()).map(|i| samples.target.get(1, i)).collect::<Vec<f32>>()
+    };
+    let (given, one, other) = (targets(0), targets(1), targets(2));
+    let change = |a: &f32, b: &f32| (a / b - 1.0).abs();
+    assert!(given.iter().zip(&one).all(|(a, b)| change(a, b) < 1.5e-6));
+    let moved = |a: &[f32], b: &[f32]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+    assert!(moved(&given, &one) > given.len() / 2 && moved(&one, &other) > given.len() / 2);
+}
