@@ -93,7 +93,7 @@ def test_consumers_read_a_comparison(tiny_run: Path, darker: Path, tmp_path: Pat
     assert len(rows) == 1 + min(len(moved), 150)
 
     names = {path.name for path in files["pictures"].iterdir()} - {".unshade"}
-    shown = {f"01-quick-diffuse_albedo-{what}.png" for what in ("old", "new", "truth", "difference")}
+    shown = {f"01-quick-diffuse_albedo-{what}.png" for what in ("old", "new", "truth", "difference", "flip")}
     assert shown <= names
     assert all((files["pictures"] / name).stat().st_size < 300_000 for name in names)
 

@@ -8,13 +8,14 @@ use std::path::{Path, PathBuf};
 use formats::atomic::{self, Folder};
 use formats::picture::{Content, GrayImage, Picture};
 use scoring::compare::Finding;
+use scoring::metrics::black_outside;
 
 use super::comparison_figures::{Show, read_if_present, read_mask_if_present};
 use super::difference::{Measure, field, resample};
 use super::error::ReportError;
 use super::maps::MAPS;
 use super::run::{Case, Frames, Method, RunFile};
-use super::tone;
+use super::tone::{self, Field};
 use super::views::Layer;
 
 /// Findings that are shown: the largest first, as they come.
@@ -63,7 +64,8 @@ fn fill(
     let before = old.map(RunFile::open).transpose()?;
     let mut page = "# What changed\n\nEach row: the baseline's run, this run, the truth, the difference of \
                     the first two (of this run and the truth, where the baseline's pictures are not at \
-                    hand), from black (none) to pale yellow (the largest, as stated).\n"
+                    hand), from black (none) to pale yellow (the largest, as stated); of colours the same \
+                    two by FLIP, which is what an eye would see when it flips between them.\n"
         .to_owned();
     let mut count = 0;
     let mut seen = BTreeSet::new();
@@ -79,14 +81,15 @@ fn fill(
         let Shown { old, new, truth, mask, show, measure } = &shown;
         let other = old.as_ref().unwrap_or(truth);
         let Some(error) = field(new, other, mask.as_ref(), *measure, 1.0) else { continue };
-        let top =
-            error.values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f32::max);
+        let flip = flip(new, other, mask.as_ref(), *measure);
+        let seen_by = |field: &Field| tone::false_colour(field, largest(field));
         let stem = format!("{count:02}-{}-{}", finding.method, finding.subject);
         let pictures = [
             ("old", old.as_ref().map(|picture| show.raster(picture))),
             ("new", Some(show.raster(new))),
             ("truth", Some(show.raster(truth))),
-            ("difference", Some(tone::false_colour(&error, top.max(f32::MIN_POSITIVE)))),
+            ("difference", Some(seen_by(&error))),
+            ("flip", flip.as_ref().map(seen_by)),
         ];
         // Writing to a string cannot fail.
         let _ = writeln!(page, "\n{}\n", finding.sentence.replace('\n', " "));
@@ -97,7 +100,11 @@ fn fill(
             let _ = writeln!(page, "![{name}]({file})");
         }
         let (label, unit) = (measure.label(), measure.unit());
-        let _ = writeln!(page, "\n{label} up to {top:.4}{unit}");
+        let _ = write!(page, "\n{label} up to {:.4}{unit}", largest(&error));
+        let _ = match &flip {
+            Some(flip) => writeln!(page, "; FLIP up to {:.4}", largest(flip)),
+            None => writeln!(page),
+        };
         if count == SHOWN {
             break;
         }
@@ -105,6 +112,27 @@ fn fill(
     let index = root.join("index.md");
     fs::write(&index, page).map_err(|error| ReportError::write(&index, error))?;
     Ok(count)
+}
+
+/// The largest value of a field; above 0.
+fn largest(field: &Field) -> f32 {
+    let values = field.values.iter().copied().filter(|value| value.is_finite());
+    values.fold(f32::MIN_POSITIVE, f32::max)
+}
+
+/// FLIP of two pictures of colours; none of other quantities.
+fn flip(
+    new: &Picture,
+    other: &Picture,
+    mask: Option<&GrayImage>,
+    measure: Measure,
+) -> Option<Field> {
+    let colours = matches!(measure, Measure::Display | Measure::ColourDifference);
+    let masked = |picture: &Picture| {
+        mask.map_or_else(|| picture.clone(), |mask| black_outside(picture, mask))
+    };
+    let fits = colours && new.channels == 3;
+    fits.then(|| field(&masked(new), &masked(other), mask, Measure::Flip, 1.0)).flatten()
 }
 
 /// The pictures of a finding in its first case; none if it has no picture, or the method left none.

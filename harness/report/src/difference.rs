@@ -16,6 +16,8 @@ pub(super) enum Measure {
     Value,
     /// Angle between two vectors, degrees.
     Angle,
+    /// LDR-FLIP of two linear pictures that are black outside the mask, 0 to 1.
+    Flip,
 }
 
 impl Measure {
@@ -26,6 +28,7 @@ impl Measure {
             Measure::ColourDifference => 6.0,
             Measure::Value => 0.01,
             Measure::Angle => 5.0,
+            Measure::Flip => 0.2,
         }
     }
 
@@ -36,6 +39,7 @@ impl Measure {
             Measure::ColourDifference => "CIEDE2000",
             Measure::Value => "|Δ|",
             Measure::Angle => "angle",
+            Measure::Flip => "FLIP",
         }
     }
 
@@ -51,6 +55,7 @@ impl Measure {
             Measure::ColourDifference => ("ciede2000_mean", false),
             Measure::Value => ("rmse", true),
             Measure::Angle => ("normal_mean_deg", false),
+            Measure::Flip => ("flip_mean", false),
         }
     }
 }
