@@ -70,7 +70,10 @@ pub(super) fn is_chosen(row: &Row) -> bool {
 /// Whether a row covers its subject's whole region.
 pub(super) fn is_whole(row: &Row) -> bool {
     row.label.is_none()
-        && matches!(row.region.as_str(), "coverage-e5" | "mask-e5" | "mask-rim" | "whole" | "sphere")
+        && matches!(
+            row.region.as_str(),
+            "coverage-e5" | "mask-e5" | "mask-rim" | "whole" | "sphere"
+        )
 }
 
 /// A subject's name.

@@ -237,12 +237,14 @@ impl Quantity {
                     .collect()
             }
             Self::TrustAndErrorRanks => {
-                let trust = pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
+                let trust =
+                    pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
                 let errors = ranks(&log_errors(pair));
                 ranks(&trust).into_iter().zip(errors).flat_map(|(x, y)| [x, y]).collect()
             }
             Self::TrustedAndWholeError => {
-                let trust = pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
+                let trust =
+                    pair.over_region(pair.confidence).ok_or_else(|| needs("a confidence"))?;
                 let weights = upper_half(&trust);
                 let pairs = weights.into_iter().zip(log_errors(pair));
                 pairs.flat_map(|(weight, error)| [2.0 * weight * error, error]).collect()

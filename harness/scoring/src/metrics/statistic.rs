@@ -166,9 +166,7 @@ impl Statistic {
             Self::Spread => Some(variance(a, b).sqrt()),
             Self::MeanDifference => Some((a - b).abs()),
             Self::Ratio => (b != 0.0).then(|| a / b),
-            Self::PsnrOfRatio => {
-                (b > 0.0).then(|| (-10.0 * (a / b).log10()).min(MAX_PSNR))
-            }
+            Self::PsnrOfRatio => (b > 0.0).then(|| (-10.0 * (a / b).log10()).min(MAX_PSNR)),
             Self::Correlation | Self::Explained => {
                 let (x, y) = (variance(a, c), variance(b, d));
                 if x == 0.0 || y == 0.0 {
