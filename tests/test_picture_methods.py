@@ -136,8 +136,8 @@ def test_relit_views_alone_have_the_picture_rows_of_the_handed_lights_and_no_oth
     assert (run / "logs" / CASE / "relighter.txt").read_text().strip() == "lights: uniform.exr"
     found = rows(run, "relighter")
     # What is said of the mesh and of a constant is no row of the method.
-    of_method = [row for row in found.values() if not row.subject.startswith(("mesh_", "constant_"))]
-    assert {(row.subject, row.light) for row in of_method} == {("relit", "uniform")}
+    of_method = [row for row in found.values() if not row.subject.startswith(("mesh_", "constant_", "usual_"))]
+    assert {(row.subject, row.light) for row in of_method} == {("relit", "uniform"), ("relit_silhouette", "uniform")}
     none, scaled = (found[f"relit/uniform/psnr_srgb@mask-e5:{scale}"] for scale in ("none", "global"))
     assert 10 < none.value and scaled.value < 40
     assert none.floor is None

@@ -172,7 +172,10 @@ fn compare(
         let floors = if subject == heading.subject { &floors } else { &none };
         all.extend(rows(Heading { subject, ..heading }, metrics, &compared, floors)?);
     }
-    all.extend(silhouette_rows(frames, &found, &truths, heading)?);
+    // Photographs have no layers, and along a silhouette what lies behind the face.
+    if !subjects[1].is_empty() {
+        all.extend(silhouette_rows(frames, &found, &truths, heading)?);
+    }
     all.extend(unbiased_rows(frames, &found, &truths, heading)?);
     if heading.scale == "none" {
         all.extend(compatible_rows(frames, &found, &truths, heading)?);
