@@ -89,6 +89,7 @@ software-gpu:
 bench: build
 	@mkdir -p runs/bench
 	$(BIN)/unshade bench --json -o runs/bench/performance.json --markdown docs/performance.md
+	$(BIN)/python synth/bench/scoring.py
 	$(BIN)/python synth/bench/subsurface.py -o runs/bench/subsurface
 
 lint: build .venv/lint

@@ -17,10 +17,6 @@ from unshade.metrics import DEFINITIONS
 
 SCRIPT = Path(__file__).parents[1] / "harness" / "scoring" / "tests" / "reference" / "metrics.py"
 STORED = json.loads(SCRIPT.with_suffix(".json").read_text())["values"]
-SPECULAR = ("rmse", "pearson", "spearman", "log_ratio_rms")
-VECTORS = ("relief_invented", "direction_mean_deg")
-WHOLE = ("owl_psnr", "nerfactor_albedo_psnr")
-"""Scored on the mask as it is."""
 
 
 @pytest.fixture(scope="module")
@@ -36,19 +32,12 @@ def reference() -> ModuleType:
 @pytest.fixture
 def arguments(reference: ModuleType):
     """Prediction, truth and keywords of a metric, as the reference values were made."""
-    truth, prediction, cause, mask, labels, confidence = reference.pictures()
-    true_normal, normal = reference.normals()
-    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence, "area": confidence}
-    beside |= {"mesh_normal": reference.mesh_normals(), "halves": reference.halves(prediction, truth)}
+    truth, prediction, _, mask, *_ = pictures = reference.pictures()
+    made = pictures, reference.normals(), reference.mesh_normals(), reference.halves(prediction, truth)
 
     def of(name: str):
-        pair = prediction, truth
-        if name in SPECULAR:
-            pair = prediction[..., 1], truth[..., 0]
-        if name.startswith("normal") or name in VECTORS:
-            pair = normal, true_normal
-        needs = DEFINITIONS[name].needs
-        return *pair, mask, {needs: beside[needs]} if needs else {}
+        *pair, beside = reference.given(made, name, DEFINITIONS[name].needs)
+        return *pair, mask, beside
 
     return of
 
@@ -58,15 +47,15 @@ def close(name: str):
 
 
 @pytest.mark.parametrize("name", DEFINITIONS)
-def test_every_metric_has_the_value_of_independent_libraries(name: str, arguments) -> None:
+def test_every_metric_has_the_value_of_independent_libraries(name: str, reference: ModuleType, arguments) -> None:
     prediction, truth, mask, beside = arguments(name)
     metric = getattr(unshade.metrics, name)
-    assert metric(prediction, truth, mask, erode=name not in WHOLE, **beside) == close(name)
+    assert metric(prediction, truth, mask, erode=name not in reference.WHOLE, **beside) == close(name)
     assert list(inspect.signature(metric).parameters)[3:] == [*beside, "erode", "scale"]
 
 
 @pytest.mark.parametrize("name", DEFINITIONS)
-def test_what_lies_beside_the_mask_is_no_matter(name: str, arguments) -> None:
+def test_what_lies_beside_the_mask_is_no_matter(name: str, reference: ModuleType, arguments) -> None:
     prediction, truth, mask, beside = arguments(name)
     outside = np.random.default_rng(0)
     for fill in (lambda shape: outside.normal(size=shape), lambda shape: np.full(shape, np.nan)):
@@ -80,7 +69,7 @@ def test_what_lies_beside_the_mask_is_no_matter(name: str, arguments) -> None:
         for value in others.get("halves", list(others.values())):
             if value.dtype == np.float32:
                 value[mask == 0] = fill(value[mask == 0].shape)
-        assert getattr(unshade.metrics, name)(*pair, mask, erode=name not in WHOLE, **others) == close(name)
+        assert getattr(unshade.metrics, name)(*pair, mask, erode=name not in reference.WHOLE, **others) == close(name)
 
 
 def test_every_kind_of_array_gives_the_same_value(arguments) -> None:

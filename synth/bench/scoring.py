@@ -21,9 +21,6 @@ import numpy as np
 import unshade
 
 SCRIPT = Path(__file__).parents[2] / "harness/scoring/tests/reference/metrics.py"
-SPECULAR = ("rmse", "pearson", "spearman", "log_ratio_rms")
-VECTORS = ("relief_invented", "direction_mean_deg")
-WHOLE = ("owl_psnr", "nerfactor_albedo_psnr")
 COMPATIBLE = ("orb_", "owl_", "nerfactor_")
 TOLERANCE = 1e-3
 
@@ -34,15 +31,17 @@ def main() -> None:
     parser.add_argument("--size", type=int, default=512)
     options = parser.parse_args()
     reference = load(options.size)
+    pictures = reference.pictures()
+    truth, prediction = pictures[:2]
+    made = pictures, reference.normals(), reference.mesh_normals(), reference.halves(prediction, truth)
     print("| metrics | Python libraries, s | unshade, s | times |\n|---|---|---|---|")
     compatible = reference.compatible
     for title, protocols in (("own", False), ("own and other benchmarks'", True)):
         reference.compatible = compatible if protocols else lambda *_: {}
         theirs, expected = timed(lambda: reference.references()["values"], options.views)
-        inputs = arguments(reference)
         names = [name for name in expected if protocols or not name.startswith(COMPATIBLE)]
-        ours, found = timed(lambda names=names, inputs=inputs: {name: measure(name, *inputs) for name in names},
-                            options.views)  # fmt: skip
+        values = lambda names=names: {name: measure(reference, made, name) for name in names}
+        ours, found = timed(values, options.views)
         for name in names:
             if not np.isclose(found[name], expected[name], rtol=TOLERANCE):
                 raise SystemExit(f"{name}: {found[name]}, the reference has {expected[name]}")
@@ -63,22 +62,9 @@ def load(size: int) -> ModuleType:
     return module
 
 
-def arguments(reference: ModuleType) -> tuple:
-    truth, prediction, cause, mask, labels, confidence = reference.pictures()
-    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence, "area": confidence}
-    beside |= {"mesh_normal": reference.mesh_normals(), "halves": reference.halves(prediction, truth)}
-    return prediction, truth, mask, beside, reference.normals()
-
-
-def measure(name: str, prediction, truth, mask, beside, normals) -> float:
-    pair = prediction, truth
-    if name in SPECULAR:
-        pair = prediction[..., 1], truth[..., 0]
-    if name.startswith("normal") or name in VECTORS:
-        pair = normals[1], normals[0]
-    needs = unshade.metrics.DEFINITIONS[name].needs
-    keywords = {needs: beside[needs]} if needs else {}
-    return getattr(unshade.metrics, name)(*pair, mask, erode=name not in WHOLE, **keywords)
+def measure(reference: ModuleType, made: tuple, name: str) -> float:
+    prediction, truth, beside = reference.given(made, name, unshade.metrics.DEFINITIONS[name].needs)
+    return getattr(unshade.metrics, name)(prediction, truth, made[0][3], erode=name not in reference.WHOLE, **beside)
 
 
 def timed(work, views: int) -> tuple[float, dict[str, float]]:

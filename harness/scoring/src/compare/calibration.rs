@@ -1,4 +1,5 @@
-//! How far scores move when nothing but seeds differs, measured on runs: what a change is held against.
+//! How far scores move when nothing but seeds, or the last digits, differ, measured on runs: what a change is
+//! held against.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -39,7 +40,7 @@ pub struct Calibration {
     /// Versions that made the runs.
     #[serde(default)]
     pub versions: BTreeMap<String, Value>,
-    /// Runs that differed in their seeds alone.
+    /// Runs that differed in nothing else.
     pub runs: usize,
     /// Probability that a comparison of two such runs calls any row better or worse.
     pub false_alarms: f64,
@@ -115,8 +116,8 @@ impl Calibration {
         // A text of JSON is one of TOML.
         let text = |text: &str| Value::from(text).to_string();
         let mut lines = format!(
-            "# How far the scores of a suite move when nothing but seeds differs, as `unshade calibrate` \
-             measured it.\n# sd: standard deviation; matters: the reasoned tolerance; sees: what a \
+            "# How far the scores of a suite move when nothing but seeds, or the last digits, differ, as\n# \
+             `unshade calibrate` measured it.\n# sd: standard deviation; matters: the reasoned tolerance; sees: what a \
              comparison sees with\n# probability {POWER}; power: the probability of seeing what matters; \
              relative: as shares of the value.\nformat = 2\n\n[calibration]\nsuite = {}\n",
             text(&self.suite)

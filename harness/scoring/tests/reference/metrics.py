@@ -16,6 +16,8 @@ from scipy import ndimage, optimize, stats
 from skimage.metrics import peak_signal_noise_ratio, structural_similarity
 
 WIDTH, HEIGHT = 96, 64
+WHOLE = ("owl_psnr", "nerfactor_albedo_psnr")
+"""Scored on the mask as it is."""
 STORED = Path(__file__).with_suffix(".json")
 
 
@@ -69,6 +71,22 @@ def mesh_normals():
     """The true normals in every other pixel, +Z in the others, float32."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH].astype(np.int64)
     return np.where(((x + y) % 2 == 0)[..., None], normals()[0], np.array([0.0, 0.0, 1.0], np.float32))
+
+
+def given(made, name, needs):
+    """Prediction, truth, and what the metric ``name`` needs beside them.
+
+    ``made``: results of `pictures`, `normals`, `mesh_normals` and `halves`.
+    """
+    (truth, prediction, cause, _, labels, confidence), (true_normal, normal), mesh, half = made
+    beside = {"labels": labels, "shading": cause, "specular": cause, "confidence": confidence}
+    beside |= {"area": confidence, "mesh_normal": mesh, "halves": half}
+    pair = prediction, truth
+    if name in ("rmse", "pearson", "spearman", "log_ratio_rms"):
+        pair = prediction[..., 1], truth[..., 0]
+    if name.startswith("normal") or name in ("relief_invented", "direction_mean_deg"):
+        pair = normal, true_normal
+    return *pair, {needs: beside[needs]} if needs else {}
 
 
 def references():

@@ -28,7 +28,7 @@ pub struct Atlas {
 impl Atlas {
     /// Rasterises the chart; where it overlaps itself, one of the triangles is taken.
     pub fn new(mesh: &Mesh, size: usize) -> Self {
-        let hits = raster::paint(size, size, &corners(mesh, size), &mesh.triangles).hits;
+        let hits = raster::paint(size, size, &texel_corners(mesh, size), &mesh.triangles).hits;
         let inside: Vec<bool> = hits.iter().map(Option::is_some).collect();
         let nearest = fill::nearest_known(&inside, size, size);
         let at = |texel: &u32| hits[*texel as usize];
@@ -58,13 +58,13 @@ pub fn texel_area_map(mesh: &Mesh, size: usize) -> Picture {
         let surface = (b - a).cross(c - a).length() * 1e6;
         (surface / ((q - p).perp_dot(r - p).abs() * (size * size) as f64)) as f32
     };
-    let hits = raster::paint(size, size, &corners(mesh, size), &mesh.triangles).hits;
+    let hits = raster::paint(size, size, &texel_corners(mesh, size), &mesh.triangles).hits;
     let data = hits.par_iter().map(|hit| hit.as_ref().map_or(0.0, area_of)).collect();
     Picture { width: size, height: size, channels: 1, data }
 }
 
 /// The mesh's texture coordinates in texels, from the upper left corner.
-fn corners(mesh: &Mesh, size: usize) -> Vec<DVec3> {
+fn texel_corners(mesh: &Mesh, size: usize) -> Vec<DVec3> {
     let side = size as f64;
     let corner =
         |uv: &Vec2| DVec3::new(f64::from(uv.x) * side, (1.0 - f64::from(uv.y)) * side, 1.0);

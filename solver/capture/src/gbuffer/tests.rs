@@ -152,3 +152,18 @@ fn the_atlas_is_the_surface_at_the_texels_centres() {
     assert!(corner.x < -0.6 && corner.y > 0.6, "the rim nearest to the upper left: {corner}");
     assert_eq!(dome.normal_map(), mesh_normal_map(&testing::dome(40), 64));
 }
+
+#[test]
+fn the_texels_of_a_chart_have_the_area_of_the_surface() {
+    for mesh in [testing::square(), testing::dome(40)] {
+        let corners = |triangle: &[u32; 3]| triangle.map(|corner| mesh.positions[corner as usize]);
+        let doubled = mesh.triangles.iter().map(|triangle| {
+            let [a, b, c] = corners(triangle);
+            f64::from((b - a).cross(c - a).length())
+        });
+        let surface = 0.5e6 * doubled.sum::<f64>();
+        let texels = texel_area_map(&mesh, 512).data;
+        let sum: f64 = texels.iter().map(|area| f64::from(*area)).sum();
+        assert!((sum / surface - 1.0).abs() < 5e-3, "{sum} instead of {surface}");
+    }
+}
