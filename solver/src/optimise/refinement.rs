@@ -29,9 +29,11 @@ pub(super) fn refinement(
 ) -> Result<(), SolveError> {
     if let (Some(lighting), None) = (&mut solve.lighting, &solve.diffuse_reflectance) {
         solve.state.resize(context.size);
+        // By the lobes that the light was found with: it has taken up a part of what differs from them.
+        let refined = refined(context, runner, &solve.state, lighting)?;
         roughness(context, &solve.state, lighting);
         runner.lap("roughness");
-        solve.diffuse_reflectance = Some(refined(context, runner, &solve.state, lighting)?);
+        solve.diffuse_reflectance = Some(refined);
     }
     Ok(())
 }
