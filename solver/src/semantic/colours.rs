@@ -5,6 +5,8 @@
 //! two regions must be an edge: where colours change slowly it is the light that changes, and the two
 //! are one.
 
+use std::collections::BTreeMap;
+
 use capture::Mesh;
 use capture::gbuffer::Atlas;
 use capture::projection::{Observation, Projection, per_texel};
@@ -69,7 +71,7 @@ impl ColourRegions {
                 colours.iter().zip(shading).map(|(colour, shading)| *colour / shading).collect();
             regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
         }
-        let regions = merged(config, &seen, &albedo, regions);
+        let regions = merged(config, &seen, &albedo, &regions);
         let mut map = vec![0; known.len()];
         seen.iter().zip(&regions).for_each(|(at, region)| map[*at] = *region);
         let nearest = fill::nearest_known(&known, side, side);
@@ -175,57 +177,83 @@ fn shading(
     shading.into_iter().map(|s| (s / mean).max(Vec3::splat(config.shading_floor))).collect()
 }
 
-/// The regions without boundaries that are no edges.
-fn merged(
-    config: &ColourRegionConfig,
-    seen: &[usize],
-    albedo: &[Vec3],
-    regions: Vec<u8>,
-) -> Vec<u8> {
-    let ColourRegionConfig { count, texture_size: side, edge_distance: across, edge, .. } = *config;
+/// The regions without boundaries that are no edges. What is tested are the connected parts of regions: hair
+/// ends in an edge where the shadow of a chin, of the same region so far, does not. The smaller of two parts
+/// takes the region of the larger one, and specks that of a neighbour.
+fn merged(config: &ColourRegionConfig, seen: &[usize], albedo: &[Vec3], regions: &[u8]) -> Vec<u8> {
+    let ColourRegionConfig { texture_size: side, edge_distance: across, edge, .. } = *config;
     let dark = dark(albedo, config.dark).unwrap_or(f32::MIN_POSITIVE);
-    let mut texels = vec![None; side * side];
-    for ((at, albedo), region) in seen.iter().zip(albedo).zip(&regions) {
-        texels[*at] = Some((*region as usize, log(*albedo, dark)));
-    }
-    // By first and second region: the sum of differences across their boundary, and their number.
-    let mut jumps = vec![vec![(Vec3::ZERO, 0.0_f32); count]; count];
-    for at in 0..texels.len() {
+    let mut region = vec![None; side * side];
+    seen.iter().zip(regions).for_each(|(at, r)| region[*at] = Some(*r));
+    let part = parts(&region, side);
+    let logs: BTreeMap<usize, Vec3> =
+        seen.iter().zip(albedo).map(|(at, albedo)| (*at, log(*albedo, dark))).collect();
+    // By first and second part: the sum of differences across their boundary, and their number.
+    let mut jumps: BTreeMap<(usize, usize), (Vec3, f32)> = BTreeMap::new();
+    for (at, here) in &logs {
         let right = (at % side + across < side).then(|| at + across);
         let below = (at / side + across < side).then(|| at + across * side);
         for other in right.into_iter().chain(below) {
-            if let (Some((a, here)), Some((b, there))) = (texels[at], texels[other])
-                && a != b
-            {
-                let jump = &mut jumps[a][b];
-                *jump = (jump.0 + there - here, jump.1 + 1.0);
+            let (a, b) = (part[*at], part[other]);
+            if let Some(there) = logs.get(&other).filter(|_| a != b) {
+                let (pair, jump) =
+                    if a < b { ((a, b), *there - *here) } else { ((b, a), *here - *there) };
+                let sum = jumps.entry(pair).or_default();
+                *sum = (sum.0 + jump, sum.1 + 1.0);
             }
         }
     }
-    let mut joined: Vec<usize> = (0..count).collect();
+    let mut sizes = vec![0; part.len()];
+    seen.iter().for_each(|at| sizes[part[*at]] += 1);
+    let mut joined: Vec<usize> = (0..part.len()).collect();
     loop {
-        let mut least = (edge, None);
-        for a in 0..count {
-            for b in a + 1..count {
-                let mut jump = (Vec3::ZERO, 0.0);
-                for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
-                    let sign = match (joined[i], joined[j]) {
-                        (from, to) if (from, to) == (a, b) => 1.0,
-                        (from, to) if (from, to) == (b, a) => -1.0,
-                        _ => continue,
-                    };
-                    jump = (jump.0 + sign * jumps[i][j].0, jump.1 + jumps[i][j].1);
-                }
-                let height = jump.0.length() / jump.1;
-                if jump.1 >= config.edge_pairs as f32 && height < least.0 {
-                    least = (height, Some((a, b)));
+        let height = |(jump, pairs): &(Vec3, f32)| jump.length() / pairs;
+        let joins = |((a, b), jump): &(&(usize, usize), &(Vec3, f32))| {
+            let small = sizes[*a].min(sizes[*b]) < config.edge_pairs;
+            small || jump.1 >= config.edge_pairs as f32 && height(jump) < edge
+        };
+        let least = jumps.iter().filter(joins).min_by(|a, b| height(a.1).total_cmp(&height(b.1)));
+        let Some((&(a, b), _)) = least else { break };
+        let (into, from) = if sizes[a] < sizes[b] { (b, a) } else { (a, b) };
+        sizes[into] += sizes[from];
+        joined.iter_mut().filter(|part| **part == from).for_each(|part| *part = into);
+        let renamed = std::mem::take(&mut jumps);
+        for ((a, b), (jump, pairs)) in renamed {
+            let [x, y] = [a, b].map(|part| if part == from { into } else { part });
+            if x != y {
+                let (pair, jump) = if x < y { ((x, y), jump) } else { ((y, x), -jump) };
+                let sum = jumps.entry(pair).or_default();
+                *sum = (sum.0 + jump, sum.1 + pairs);
+            }
+        }
+    }
+    seen.iter().map(|at| region[joined[part[*at]]].unwrap_or(0)).collect()
+}
+
+/// The connected part of its region that every texel belongs to, named by its first texel.
+fn parts(region: &[Option<u8>], side: usize) -> Vec<usize> {
+    let mut part: Vec<usize> = (0..region.len()).collect();
+    for first in 0..region.len() {
+        if region[first].is_none() || part[first] != first {
+            continue;
+        }
+        let mut open = vec![first];
+        while let Some(at) = open.pop() {
+            let beside = [
+                (at % side > 0).then(|| at - 1),
+                (at % side + 1 < side).then_some(at + 1),
+                at.checked_sub(side),
+                (at + side < region.len()).then_some(at + side),
+            ];
+            for next in beside.into_iter().flatten() {
+                if next > first && part[next] == next && region[next] == region[first] {
+                    part[next] = first;
+                    open.push(next);
                 }
             }
         }
-        let Some((a, b)) = least.1 else { break };
-        joined.iter_mut().filter(|region| **region == b).for_each(|region| *region = a);
     }
-    regions.into_iter().map(|region| joined[region as usize] as u8).collect()
+    part
 }
 
 #[cfg(test)]
@@ -283,6 +311,24 @@ mod tests {
         let colour = |hair: bool| Vec3::from_slice(&albedo.data[3 * of(hair).next().unwrap().0..]);
         let ratio = colour(true) / colour(false) / (HAIR / SKIN);
         assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
+    }
+
+    /// Hair ends in an edge at the right, skin grows as dark as hair at the left, with a speck in the middle.
+    #[test]
+    fn a_shadow_is_no_hair_where_no_edge_parts_it_from_skin() {
+        let side = 32;
+        let texture_size = side;
+        let config = ColourRegionConfig { texture_size, ..Config::default().colour_regions };
+        let seen: Vec<usize> = (0..side * side).collect();
+        let column = |at: &usize| at % side;
+        let shade = |x: usize| HAIR.lerp(SKIN, (x as f32 / 14.0).min(1.0));
+        let albedo: Vec<Vec3> =
+            seen.iter().map(column).map(|x| if x < 24 { shade(x) } else { HAIR }).collect();
+        let speck = 16 * side + 18;
+        let dark = |at: &usize| u8::from(!(5..24).contains(&column(at)) || *at == speck);
+        let regions: Vec<u8> = seen.iter().map(dark).collect();
+        let found = merged(&config, &seen, &albedo, &regions);
+        assert!(found.iter().zip(&seen).all(|(found, at)| *found == u8::from(column(at) >= 24)));
     }
 
     #[test]
