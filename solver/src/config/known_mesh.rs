@@ -31,9 +31,10 @@ pub struct ColourRegionConfig {
     pub shading_floor: f32,
     /// Distance over which a boundary is looked at, texels.
     pub edge_distance: usize,
-    /// Smallest mean difference in the three log colours, as a vector, across the boundary of two regions.
+    /// Smallest mean difference in the three log colours, as a vector, across the boundary of two connected parts.
     pub edge: f32,
-    /// Pairs of texels without which a boundary says nothing.
+    /// Pairs of texels without which a boundary says nothing, and texels without which a connected part is no
+    /// region of its own.
     pub edge_pairs: usize,
 }
 
