@@ -1,8 +1,12 @@
 //! Semantic initialisation of the diffuse albedo (paper, section 5.3): the mean colour of every
 //! face region, painted over the region.
 
+mod chart;
 mod clusters;
-pub mod colours;
+mod colours;
+pub mod found;
+mod hair;
+mod parts;
 
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::projection::{Observation, Projection, per_texel};

@@ -38,6 +38,29 @@ pub struct ColourRegionConfig {
     pub edge_pairs: usize,
 }
 
+/// Hair inside of what labels call skin, a beard; not in the paper. It is sought on the chart of
+/// [`ColourRegionConfig`], among parts of the skin that are too dark under a light of few unknowns.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HairInSkinConfig {
+    /// Seek it; false believes the labels.
+    pub enabled: bool,
+    /// Width of the lobes that the light of few unknowns is made of, radians.
+    pub lobe_width: f32,
+    /// Standard deviation of the blur before anything is called dark, texels.
+    pub blur: f32,
+    /// Log luminances below the median of skin from which on a texel is dark. All are tried, the one that leaves
+    /// the least residual is kept.
+    pub depths: [f32; 4],
+    /// Texels of a part, relative to those of the skin, without which it is too small to tell.
+    pub least_share: f32,
+    /// A part is hair if its own colour, under a light of all unknowns, leaves at most so much of the residual: of
+    /// all skin, and of the part.
+    pub most_left: [f32; 2],
+    /// And if its colour over skin's is at least so strong in blue, relative to red: shadows are redder.
+    pub least_blue: f32,
+}
+
 /// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light
 /// is an RGB environment of `rows` x `2 rows` cells, positive by its exponential parametrisation,
 /// and starts as 1 from everywhere.

@@ -34,6 +34,8 @@ pub struct Config {
     pub initialisation: InitialisationConfig,
     /// Regions of the face without labels.
     pub colour_regions: ColourRegionConfig,
+    /// Hair that labels call skin.
+    pub hair_in_skin: HairInSkinConfig,
     /// Networks and albedos together, at low resolution.
     pub warm_up: WarmUpConfig,
     /// Textures alone, at full resolution.
@@ -145,6 +147,7 @@ impl Config {
         }
         self.skin.validate()?;
         self.colour_regions.validate()?;
+        self.hair_in_skin.validate()?;
         self.transport.validate()?;
         self.model_error.validate()?;
         self.reflectance.validate()?;

@@ -53,6 +53,15 @@ impl Config {
                 edge: 0.8,
                 edge_pairs: 25,
             },
+            hair_in_skin: HairInSkinConfig {
+                enabled: false,
+                lobe_width: 0.7,
+                blur: 2.0,
+                depths: [0.2, 0.35, 0.5, 0.8],
+                least_share: 0.02,
+                most_left: [0.87, 0.85],
+                least_blue: 0.85,
+            },
             warm_up: WarmUpConfig {
                 iterations: 2000,
                 texture_size: 128,
@@ -185,6 +194,7 @@ impl Config {
         config.initialisation.starts = 4;
         config.initialisation.skin_labels = SKIN.map(str::to_owned).to_vec();
         config.colour_regions.count = 4;
+        config.hair_in_skin.enabled = true;
         config.initialisation.start_iterations = 400;
         config.warm_up.network_rate = 5e-3;
         config.warm_up.diffuse_rate = 3e-4;

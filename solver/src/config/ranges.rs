@@ -2,8 +2,8 @@
 
 use super::error::ConfigError;
 use super::{
-    ColourRegionConfig, HeightConfig, ModelErrorConfig, ReflectanceConfig, SkinConfig,
-    TransportConfig,
+    ColourRegionConfig, HairInSkinConfig, HeightConfig, ModelErrorConfig, ReflectanceConfig,
+    SkinConfig, TransportConfig,
 };
 
 /// Refuses a value outside its range, which `range` states in words.
@@ -73,6 +73,22 @@ impl ColourRegionConfig {
             ("colour_regions.luminance_weights", self.luminance_weights[1]),
             ("colour_regions.edge", self.edge),
         ])
+    }
+}
+
+impl HairInSkinConfig {
+    pub(super) fn validate(&self) -> Result<(), ConfigError> {
+        let share = |x: f32| (0.0..=1.0).contains(&x);
+        range("hair_in_skin.lobe_width", self.lobe_width, |x| x > 0.0 && x < 7.0, "0 to 7")?;
+        range("hair_in_skin.least_share", self.least_share, share, "0 to 1")?;
+        for left in self.most_left {
+            range("hair_in_skin.most_left", left, share, "0 to 1")?;
+        }
+        not_negative(&[
+            ("hair_in_skin.blur", self.blur),
+            ("hair_in_skin.least_blue", self.least_blue),
+        ])?;
+        positive(&self.depths.map(|depth| ("hair_in_skin.depths", depth)))
     }
 }
 

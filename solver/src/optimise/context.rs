@@ -15,7 +15,7 @@ use crate::config::{Config, TransportConfig, ViewWeightConfig, texture_size};
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::samples::{SampleSpace, Samples};
-use crate::semantic::{self, colours::ColourRegions};
+use crate::semantic::{self, found::FoundRegions};
 use crate::transport::{Beside, CHANNELS, LUMINANCE, Sky, Transport};
 
 /// Capture, configuration, backend, and what steps share that follows from them.
@@ -37,7 +37,7 @@ pub(super) struct SolveContext<'a> {
     transport: OnceCell<Transport>,
     coarse: OnceCell<Samples>,
     fine: OnceCell<Fine>,
-    colour_regions: OnceCell<Option<ColourRegions>>,
+    found_regions: OnceCell<FoundRegions>,
 }
 
 /// Where the light is, and what bounces: what a transport is cast for.
@@ -74,7 +74,7 @@ impl<'a> SolveContext<'a> {
             transport: OnceCell::new(),
             coarse: OnceCell::new(),
             fine: OnceCell::new(),
-            colour_regions: OnceCell::new(),
+            found_regions: OnceCell::new(),
         }
     }
 
@@ -148,34 +148,19 @@ impl<'a> SolveContext<'a> {
         self.transport.take();
     }
 
-    /// Regions by colour in a capture without labels, if the configuration says so.
-    fn colour_regions(&self) -> Option<&ColourRegions> {
-        let views = &self.capture.train;
-        let find = || {
-            let config = &self.config.colour_regions;
+    /// What the pictures show of regions, if the configuration asks for it.
+    fn found_regions(&self) -> &FoundRegions {
+        self.found_regions.get_or_init(|| {
+            let views = &self.capture.train;
+            let projections = Projection::of_views(views, &self.gbuffers);
             let labelled = several_labels(views);
-            let projections = || Projection::of_views(views, &self.gbuffers);
-            (config.count > 0 && !labelled)
-                .then(|| {
-                    ColourRegions::new(
-                        &self.capture.mesh,
-                        &projections(),
-                        &self.config.transport,
-                        config,
-                    )
-                })
-                .flatten()
-        };
-        self.colour_regions.get_or_init(find).as_ref()
+            FoundRegions::new(self.capture, &projections, self.config, labelled, self.skin())
+        })
     }
 
     /// The region of every texel, by labels or else by colour; `None` if the face is one region.
     pub fn regions(&self, atlas: &Atlas, projections: &[Projection]) -> Option<Vec<u8>> {
-        if let Some(regions) = self.colour_regions() {
-            return Some(regions.map(atlas.size));
-        }
-        let labels = semantic::region_map(atlas, projections);
-        labels.iter().any(|region| *region != 0).then_some(labels)
+        self.found_regions().map(atlas, projections)
     }
 
     /// [`Self::regions`] of a texture of side `size`.
@@ -197,8 +182,9 @@ impl<'a> SolveContext<'a> {
             &unlabelled
         };
         let mesh = &self.capture.mesh;
-        let diffuse = match self.colour_regions().filter(|_| config.initialisation.semantic) {
-            Some(regions) => regions.albedo(size),
+        let found = config.initialisation.semantic.then(|| self.found_regions());
+        let diffuse = match found.and_then(|found| found.albedo(size)) {
+            Some(albedo) => albedo,
             None => semantic::initial_diffuse_albedo(
                 mesh,
                 views,
@@ -209,6 +195,9 @@ impl<'a> SolveContext<'a> {
             ),
         };
         let mut diffuse = diffuse.data;
+        if let Some((found, regions)) = found.zip(self.regions_on(size)) {
+            found.paint_hair(&regions, &mut diffuse);
+        }
         diffuse.iter_mut().for_each(|value| *value *= self.gain);
         let grey: Vec<f32> =
             diffuse.chunks_exact(3).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();

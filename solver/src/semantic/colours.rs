@@ -7,17 +7,13 @@
 
 use std::collections::BTreeMap;
 
-use capture::Mesh;
-use capture::gbuffer::Atlas;
-use capture::projection::{Observation, Projection, per_texel};
-use formats::fill;
 use formats::picture::Picture;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
-use super::clusters::{centres, clusters, lloyd};
-use crate::config::{ColourRegionConfig, TransportConfig};
-use crate::model::blur::Blur;
-use crate::transport::{self, Beside, CHANNELS, Sky, Transport};
+use super::chart::{Chart, Lobes, dark, log, luminance, means};
+use super::clusters::{clusters, lloyd};
+use super::parts::parts;
+use crate::config::ColourRegionConfig;
 
 /// The regions of a chart and their colours.
 #[derive(Clone, Debug)]
@@ -32,54 +28,20 @@ pub struct ColourRegions {
 
 impl ColourRegions {
     /// `None` if the pictures are mostly black.
-    pub fn new(
-        mesh: &Mesh,
-        projections: &[Projection],
-        transport: &TransportConfig,
-        config: &ColourRegionConfig,
-    ) -> Option<Self> {
-        let ColourRegionConfig { count, texture_size: side, rows, blur, luminance_weights, .. } =
-            *config;
-        let atlas = Atlas::new(mesh, side);
-        let texel = |seen: &[(usize, Observation)]| {
-            let colour = |(view, seen): &(usize, Observation)| {
-                (seen.cosine * projections[*view].colour(seen)).extend(seen.cosine)
-            };
-            seen.iter().map(colour).sum::<glam::Vec4>().to_array()
-        };
-        let sums: Vec<[f32; 4]> = per_texel(&atlas, projections, texel);
-        let smooth = Blur::new(side, 4, blur).apply(sums.as_flattened());
-        let known: Vec<bool> = sums.iter().map(|sum| sum[3] > 0.0).collect();
-        let seen: Vec<usize> = (0..known.len()).filter(|at| known[*at]).collect();
-        let colour = |at: &usize| Vec3::from_slice(&smooth[4 * at..]) / smooth[4 * at + 3];
-        let colours: Vec<Vec3> = seen.iter().map(colour).collect();
-        let transport = TransportConfig { texture_size: side, rows, ..transport.clone() };
-        let transport = Transport::new(mesh, &Sky::even(rows), &transport, 0, Beside::Nothing);
-
+    pub(super) fn new(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
+        let ColourRegionConfig { count, texture_size: side, luminance_weights, .. } = *config;
+        let Chart { seen, colours, .. } = chart;
+        let cells = Lobes::new(config.rows, 0.0);
         let mut albedo = colours.clone();
         let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
         for _ in 0..config.rounds {
-            let shading = shading(
-                config,
-                &transport,
-                &seen,
-                &colours,
-                &means(&albedo, &regions, config),
-                &regions,
-            );
-            albedo =
-                colours.iter().zip(shading).map(|(colour, shading)| *colour / shading).collect();
+            let means = means(&albedo, &regions, config.dark);
+            albedo = chart.divided(&chart.shading(config, &cells, &means, &regions));
             regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
         }
-        let regions = merged(config, &seen, &albedo, &regions);
-        let mut map = vec![0; known.len()];
-        seen.iter().zip(&regions).for_each(|(at, region)| map[*at] = *region);
-        let nearest = fill::nearest_known(&known, side, side);
-        Some(Self {
-            side,
-            regions: nearest.into_iter().map(|at| map[at as usize]).collect(),
-            colours: means(&albedo, &regions, config),
-        })
+        let regions = merged(config, seen, &albedo, &regions);
+        let colours = means(&albedo, &regions, config.dark);
+        Some(Self { side, regions: chart.filled(&regions), colours })
     }
 
     /// Every texel in the colour of its region, on a square map of `size` texels.
@@ -89,26 +51,17 @@ impl ColourRegions {
         Picture { width: size, height: size, channels: 3, data }
     }
 
+    /// The region with most texels.
+    pub fn largest(&self) -> u8 {
+        let texels = |region: &u8| self.regions.iter().filter(|other| *other == region).count();
+        (0..self.colours.len() as u8).max_by_key(texels).unwrap_or(0)
+    }
+
     /// The region of every texel of a chart of side `size`.
     pub fn map(&self, size: usize) -> Vec<u8> {
         let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
         (0..size * size).map(|i| self.regions[at(i / size) * self.side + at(i % size)]).collect()
     }
-}
-
-fn luminance(colour: &Vec3) -> f32 {
-    colour.dot(Vec3::from_array(transport::LUMINANCE)).max(0.0)
-}
-
-fn log(colour: Vec3, dark: f32) -> Vec3 {
-    (colour.max(Vec3::ZERO) + dark).map(f32::ln)
-}
-
-/// [`ColourRegionConfig::dark`] in the unit of the colours; `None` of nothing but black.
-fn dark(colours: &[Vec3], relative: f32) -> Option<f32> {
-    let mut sorted: Vec<f32> = colours.iter().map(luminance).collect();
-    sorted.sort_by(f32::total_cmp);
-    sorted.get(sorted.len() / 2).filter(|median| **median > 0.0).map(|median| relative * median)
 }
 
 /// Points whose distances say how alike colours are.
@@ -119,62 +72,6 @@ fn features(colours: &[Vec3], weight: f32, relative: f32) -> Option<Vec<Vec3>> {
         Vec3::new(log.x - log.y, log.z - log.y, weight * (luminance(colour) + dark).ln())
     };
     Some(colours.iter().map(feature).collect())
-}
-
-/// The mean colour of every region; logarithmic, so that highlights have little say.
-fn means(colours: &[Vec3], regions: &[u8], config: &ColourRegionConfig) -> Vec<Vec3> {
-    let dark = dark(colours, config.dark).unwrap_or(f32::MIN_POSITIVE);
-    let logs: Vec<Vec3> = colours.iter().map(|colour| log(*colour, dark)).collect();
-    centres(&logs, regions, config.count).into_iter().map(|log| log.map(f32::exp)).collect()
-}
-
-/// The shading of the texels `seen` under the light that explains their colours best, of mean 1 in
-/// every channel.
-///
-/// Least squares with weights towards L1, over light that is not negative, by multiplicative updates
-/// (Lee and Seung 2001).
-fn shading(
-    config: &ColourRegionConfig,
-    transport: &Transport,
-    seen: &[usize],
-    colours: &[Vec3],
-    means: &[Vec3],
-    regions: &[u8],
-) -> Vec<Vec3> {
-    let wanted: Vec<Vec3> = colours
-        .iter()
-        .zip(regions)
-        .map(|(c, region)| c.max(Vec3::ZERO) / means[*region as usize])
-        .collect();
-    let mut light = vec![1.0_f32; 3 * transport.cells()];
-    let of = |light: &[f32]| -> Vec<Vec3> {
-        let all = transport.shading(light);
-        seen.iter().map(|at| Vec3::from_slice(&all[3 * at..])).collect()
-    };
-    let back = |values: &dyn Fn(usize) -> Vec3| {
-        let mut all = vec![0.0; CHANNELS * transport.size().pow(2)];
-        for (i, at) in seen.iter().enumerate() {
-            all[3 * at..][..3].copy_from_slice(&values(i).to_array());
-        }
-        transport.adjoint(&all)
-    };
-    let most = means.iter().fold(0.0f32, |m, a| m.max(luminance(a)));
-    let share = |i: usize| luminance(&means[regions[i] as usize]) / most;
-    for _ in 0..config.light_steps {
-        let found = of(&light);
-        let weight =
-            |i: usize| share(i) * ((wanted[i] - found[i]).abs() + config.residual_floor).recip();
-        let up = back(&|i| weight(i) * wanted[i]);
-        let down = back(&|i| weight(i) * found[i]);
-        for (light, (up, down)) in light.iter_mut().zip(up.iter().zip(&down)) {
-            *light *= up / down.max(f32::MIN_POSITIVE);
-        }
-    }
-    let shading = of(&light);
-    let mean = shading.iter().map(|s| s.as_dvec3()).sum::<DVec3>() / shading.len() as f64;
-    let mean = mean.as_vec3().max(Vec3::splat(f32::MIN_POSITIVE));
-    // What the light hardly reaches says nothing of its colour.
-    shading.into_iter().map(|s| (s / mean).max(Vec3::splat(config.shading_floor))).collect()
 }
 
 /// The regions without boundaries that are no edges. What is tested are the connected parts of regions: hair
@@ -230,36 +127,11 @@ fn merged(config: &ColourRegionConfig, seen: &[usize], albedo: &[Vec3], regions:
     seen.iter().map(|at| region[joined[part[*at]]].unwrap_or(0)).collect()
 }
 
-/// The connected part of its region that every texel belongs to, named by its first texel.
-fn parts(region: &[Option<u8>], side: usize) -> Vec<usize> {
-    let mut part: Vec<usize> = (0..region.len()).collect();
-    for first in 0..region.len() {
-        if region[first].is_none() || part[first] != first {
-            continue;
-        }
-        let mut open = vec![first];
-        while let Some(at) = open.pop() {
-            let beside = [
-                (at % side > 0).then(|| at - 1),
-                (at % side + 1 < side).then_some(at + 1),
-                at.checked_sub(side),
-                (at + side < region.len()).then_some(at + side),
-            ];
-            for next in beside.into_iter().flatten() {
-                if next > first && part[next] == next && region[next] == region[first] {
-                    part[next] = first;
-                    open.push(next);
-                }
-            }
-        }
-    }
-    part
-}
-
 #[cfg(test)]
 mod tests {
     use capture::View;
     use capture::gbuffer::GBuffer;
+    use capture::projection::Projection;
 
     use super::*;
     use crate::Config;
@@ -277,7 +149,8 @@ mod tests {
         let gbuffers = GBuffer::of_views(&mesh, &views);
         let projections = Projection::of_views(&views, &gbuffers);
         let config = Config::default();
-        ColourRegions::new(&mesh, &projections, &config.transport, &config.colour_regions)
+        let chart = Chart::new(&mesh, &projections, &config.transport, &config.colour_regions);
+        ColourRegions::new(&chart, &config.colour_regions)
     }
 
     /// The texels of the chart's disc, with where they lie from its centre.

@@ -1,0 +1,191 @@
+//! The mean colours of a face on a chart, and the light that explains them with one reflectance for each region.
+
+use capture::Mesh;
+use capture::gbuffer::Atlas;
+use capture::projection::{Observation, Projection, per_texel};
+use formats::fill;
+use glam::{DVec3, Vec3};
+
+use super::clusters::centres;
+use crate::config::{ColourRegionConfig, TransportConfig};
+use crate::model::blur::Blur;
+use crate::transport::{self, Beside, CHANNELS, Sky, Transport};
+
+/// What the pictures show of a chart.
+pub(super) struct Chart {
+    /// The texels that they show.
+    pub seen: Vec<usize>,
+    /// Mean colours of these, linear RGB in the unit of the pictures.
+    pub colours: Vec<Vec3>,
+    /// Side of the chart, texels.
+    pub side: usize,
+    transport: Transport,
+}
+
+impl Chart {
+    pub fn new(
+        mesh: &Mesh,
+        projections: &[Projection],
+        transport: &TransportConfig,
+        config: &ColourRegionConfig,
+    ) -> Self {
+        let ColourRegionConfig { texture_size: side, rows, blur, .. } = *config;
+        let atlas = Atlas::new(mesh, side);
+        let texel = |seen: &[(usize, Observation)]| {
+            let colour = |(view, seen): &(usize, Observation)| {
+                (seen.cosine * projections[*view].colour(seen)).extend(seen.cosine)
+            };
+            seen.iter().map(colour).sum::<glam::Vec4>().to_array()
+        };
+        let sums: Vec<[f32; 4]> = per_texel(&atlas, projections, texel);
+        let smooth = Blur::new(side, 4, blur).apply(sums.as_flattened());
+        let seen: Vec<usize> = (0..sums.len()).filter(|at| sums[*at][3] > 0.0).collect();
+        let colour = |at: &usize| Vec3::from_slice(&smooth[4 * at..]) / smooth[4 * at + 3];
+        let transport = TransportConfig { texture_size: side, rows, ..transport.clone() };
+        Self {
+            colours: seen.iter().map(colour).collect(),
+            side,
+            transport: Transport::new(mesh, &Sky::even(rows), &transport, 0, Beside::Nothing),
+            seen,
+        }
+    }
+
+    /// The colours divided by the shading of the light that explains them best with one reflectance for each of
+    /// the `regions`.
+    pub fn albedo(&self, config: &ColourRegionConfig, lobes: &Lobes, regions: &[u8]) -> Vec<Vec3> {
+        let mut albedo = self.colours.clone();
+        for _ in 0..config.rounds {
+            let means = means(&albedo, regions, config.dark);
+            albedo = self.divided(&self.shading(config, lobes, &means, regions));
+        }
+        albedo
+    }
+
+    /// What is known of the texels seen, on the whole chart: any other takes the nearest one's.
+    pub fn filled<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        let mut known = vec![None; self.side * self.side];
+        self.seen.iter().zip(values).for_each(|(at, value)| known[*at] = Some(*value));
+        let is_known: Vec<bool> = known.iter().map(Option::is_some).collect();
+        let nearest = fill::nearest_known(&is_known, self.side, self.side);
+        nearest.into_iter().filter_map(|at| known[at as usize]).collect()
+    }
+
+    /// The colours divided by a `shading`.
+    pub fn divided(&self, shading: &[Vec3]) -> Vec<Vec3> {
+        self.colours.iter().zip(shading).map(|(colour, shading)| *colour / *shading).collect()
+    }
+
+    /// The shading of the texels seen under the light that explains their colours best, of mean 1 in
+    /// every channel.
+    ///
+    /// Least squares with weights towards L1, over light that is not negative, by multiplicative updates
+    /// (Lee and Seung 2001).
+    pub fn shading(
+        &self,
+        config: &ColourRegionConfig,
+        lobes: &Lobes,
+        means: &[Vec3],
+        regions: &[u8],
+    ) -> Vec<Vec3> {
+        let Self { seen, colours, transport, .. } = self;
+        let wanted: Vec<Vec3> = colours
+            .iter()
+            .zip(regions)
+            .map(|(c, region)| c.max(Vec3::ZERO) / means[*region as usize])
+            .collect();
+        let mut light = vec![1.0_f32; 3 * transport.cells()];
+        let of = |light: &[f32]| -> Vec<Vec3> {
+            let all = transport.shading(&lobes.light(light));
+            seen.iter().map(|at| Vec3::from_slice(&all[3 * at..])).collect()
+        };
+        let back = |values: &dyn Fn(usize) -> Vec3| {
+            let mut all = vec![0.0; CHANNELS * transport.size().pow(2)];
+            for (i, at) in seen.iter().enumerate() {
+                all[3 * at..][..3].copy_from_slice(&values(i).to_array());
+            }
+            lobes.adjoint(transport.adjoint(&all))
+        };
+        let most = means.iter().fold(0.0f32, |m, a| m.max(luminance(a)));
+        let share = |i: usize| luminance(&means[regions[i] as usize]) / most;
+        for _ in 0..config.light_steps {
+            let found = of(&light);
+            let weight = |i: usize| {
+                share(i) * ((wanted[i] - found[i]).abs() + config.residual_floor).recip()
+            };
+            let up = back(&|i| weight(i) * wanted[i]);
+            let down = back(&|i| weight(i) * found[i]);
+            for (light, (up, down)) in light.iter_mut().zip(up.iter().zip(&down)) {
+                *light *= up / down.max(f32::MIN_POSITIVE);
+            }
+        }
+        let shading = of(&light);
+        let mean = shading.iter().map(|s| s.as_dvec3()).sum::<DVec3>() / shading.len() as f64;
+        let mean = mean.as_vec3().max(Vec3::splat(f32::MIN_POSITIVE));
+        // What the light hardly reaches says nothing of its colour.
+        shading.into_iter().map(|s| (s / mean).max(Vec3::splat(config.shading_floor))).collect()
+    }
+}
+
+/// What the light of a [`Chart`] is made of: its cells, or lobes around them.
+pub(super) struct Lobes {
+    /// By lobe and cell, the radiance of a lobe there; empty if every lobe is a cell.
+    radiance: Vec<f32>,
+    cells: usize,
+}
+
+impl Lobes {
+    /// Lobes as wide as `width` radians on a sky of `rows` rows; 0 for the cells.
+    pub fn new(rows: usize, width: f32) -> Self {
+        let cells = Sky::even(rows).centres();
+        let radiance = |lobe: &Vec3| -> Vec<f32> {
+            let of = |cell: &Vec3| ((lobe.dot(*cell) - 1.0) / width.powi(2)).exp();
+            cells.iter().map(of).collect()
+        };
+        let radiance = if width > 0.0 { cells.iter().flat_map(radiance).collect() } else { vec![] };
+        Self { radiance, cells: cells.len() }
+    }
+
+    /// The radiance of the cells, R, G, B each, of that of the lobes.
+    fn light(&self, lobes: &[f32]) -> Vec<f32> {
+        // Lobes are as wide in one direction as in the other.
+        self.adjoint(lobes.to_vec())
+    }
+
+    /// The derivative by the lobes' radiances of one by the cells'.
+    fn adjoint(&self, by_cell: Vec<f32>) -> Vec<f32> {
+        if self.radiance.is_empty() {
+            return by_cell;
+        }
+        let mut by_lobe = vec![0.0; by_cell.len()];
+        let (lobes, _) = by_lobe.as_chunks_mut::<CHANNELS>();
+        for (lobe, radiance) in lobes.iter_mut().zip(self.radiance.chunks_exact(self.cells)) {
+            for (cell, radiance) in by_cell.chunks_exact(CHANNELS).zip(radiance) {
+                lobe.iter_mut().zip(cell).for_each(|(lobe, cell)| *lobe += radiance * cell);
+            }
+        }
+        by_lobe
+    }
+}
+
+pub(super) fn luminance(colour: &Vec3) -> f32 {
+    colour.dot(Vec3::from_array(transport::LUMINANCE)).max(0.0)
+}
+
+/// Logarithms of a colour, brightened by `dark`.
+pub(super) fn log(colour: Vec3, dark: f32) -> Vec3 {
+    (colour.max(Vec3::ZERO) + dark).map(f32::ln)
+}
+
+/// `relative` to the median luminance, in the unit of the colours; `None` of nothing but black.
+pub(super) fn dark(colours: &[Vec3], relative: f32) -> Option<f32> {
+    let mut sorted: Vec<f32> = colours.iter().map(luminance).collect();
+    sorted.sort_by(f32::total_cmp);
+    sorted.get(sorted.len() / 2).filter(|median| **median > 0.0).map(|median| relative * median)
+}
+
+/// The mean colour of every region; logarithmic, so that highlights have little say.
+pub(super) fn means(colours: &[Vec3], regions: &[u8], relative: f32) -> Vec<Vec3> {
+    let dark = dark(colours, relative).unwrap_or(f32::MIN_POSITIVE);
+    let logs: Vec<Vec3> = colours.iter().map(|colour| log(*colour, dark)).collect();
+    centres(&logs, regions, 256).into_iter().map(|log| log.map(f32::exp)).collect()
+}

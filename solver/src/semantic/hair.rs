@@ -1,0 +1,174 @@
+//! Hair inside of what labels call skin: a beard.
+//!
+//! Where skin is darker than it should be under a light of few unknowns, either light is missing or skin is
+//! covered by hair. A light of all unknowns tells the two apart: it explains a shadow, but hair only where no
+//! bare skin is turned the same way. And what little light a shadow gets has come from skin and is red, while
+//! hair takes all colours alike.
+
+use glam::Vec3;
+
+use super::chart::{Chart, Lobes, luminance, means};
+use super::parts::parts;
+use crate::config::{ColourRegionConfig, HairInSkinConfig};
+use crate::model::blur::Blur;
+
+/// A part of the skin of a chart that is hair.
+#[derive(Clone, Debug)]
+pub struct HairInSkin {
+    /// Side of the chart, texels.
+    side: usize,
+    /// Whether a texel is hair, if it is skin by its label.
+    inside: Vec<bool>,
+    /// Its reflectance over that of skin: linear R, G, B.
+    pub ratio: Vec3,
+}
+
+impl HairInSkin {
+    /// Of the `labels` of the chart's texels, those in `skin` are skin. `None` if no part of it is hair.
+    pub(super) fn new(
+        chart: &Chart,
+        regions: &ColourRegionConfig,
+        config: &HairInSkinConfig,
+        labels: &[u8],
+        skin: &[u8],
+    ) -> Option<Self> {
+        let first = *skin.first()?;
+        let of = |at: &usize| if skin.contains(&labels[*at]) { first } else { labels[*at] };
+        let labels: Vec<u8> = chart.seen.iter().map(of).collect();
+        let is_skin: Vec<bool> = labels.iter().map(|label| *label == first).collect();
+        let count = is_skin.iter().filter(|skin| **skin).count();
+        let free = (1..=u8::MAX).find(|label| !labels.contains(label))?;
+        let lobes = Lobes::new(regions.rows, config.lobe_width);
+        let darkness = darkness(chart, config, &chart.albedo(regions, &lobes, &labels), &is_skin)?;
+        let cells = Lobes::new(regions.rows, 0.0);
+        let explain = |labels: &[u8]| {
+            let albedo = chart.albedo(regions, &cells, labels);
+            let means = means(&albedo, labels, regions.dark);
+            (residuals(&albedo, &means, labels), means)
+        };
+        let (before, _) = explain(&labels);
+        let sum = |residuals: &[f32], of: &[bool]| -> f32 {
+            residuals.iter().zip(of).filter(|(_, of)| **of).map(|(residual, _)| residual).sum()
+        };
+        let mut best = (f32::INFINITY, None);
+        for depth in config.depths {
+            let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
+            for inside in large_parts(chart, &is_skin, &dark, config.least_share * count as f32) {
+                let split: Vec<u8> = labels
+                    .iter()
+                    .zip(&inside)
+                    .map(|(l, hair)| if *hair { free } else { *l })
+                    .collect();
+                let (after, means) = explain(&split);
+                let ratio = means[usize::from(free)] / means[usize::from(first)];
+                let left = |of: &[bool]| sum(&after, of) / sum(&before, of);
+                let is_hair = left(&is_skin) < config.most_left[0]
+                    && left(&inside) < config.most_left[1]
+                    && ratio.z > config.least_blue * ratio.x;
+                if is_hair && sum(&after, &is_skin) < best.0 {
+                    best = (sum(&after, &is_skin), Some((inside, ratio)));
+                }
+            }
+        }
+        let (inside, ratio) = best.1?;
+        Some(Self { side: chart.side, inside: chart.filled(&inside), ratio })
+    }
+
+    /// Whether every texel of a chart of side `size` is hair, if it is skin by its label.
+    pub fn map(&self, size: usize) -> Vec<bool> {
+        let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
+        (0..size * size).map(|i| self.inside[at(i / size) * self.side + at(i % size)]).collect()
+    }
+}
+
+/// By how much the log luminance of every texel seen, blurred within the skin, is below its median there;
+/// negative infinity outside of the skin.
+fn darkness(
+    chart: &Chart,
+    config: &HairInSkinConfig,
+    albedo: &[Vec3],
+    is_skin: &[bool],
+) -> Option<Vec<f32>> {
+    let log = |albedo: &Vec3| luminance(albedo).max(f32::MIN_POSITIVE).ln();
+    let mut sums = vec![0.0; 2 * chart.side * chart.side];
+    let skin = || chart.seen.iter().zip(albedo).zip(is_skin).filter(|(_, skin)| **skin);
+    skin().for_each(|((at, albedo), _)| sums[2 * at..][..2].copy_from_slice(&[log(albedo), 1.0]));
+    let mut logs: Vec<f32> = skin().map(|((_, albedo), _)| log(albedo)).collect();
+    logs.sort_by(f32::total_cmp);
+    let median = logs.get(logs.len() / 2)?;
+    let smooth = Blur::new(chart.side, 2, config.blur).apply(&sums);
+    let below = |(at, skin): (&usize, &bool)| match skin {
+        true => median - smooth[2 * at] / smooth[2 * at + 1],
+        false => f32::NEG_INFINITY,
+    };
+    Some(chart.seen.iter().zip(is_skin).map(below).collect())
+}
+
+/// How far every texel is from the mean of its region: the mean relative difference of its channels, at most 1.
+fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
+    let residual = |(albedo, label): (&Vec3, &u8)| {
+        ((*albedo / means[usize::from(*label)] - 1.0).abs().element_sum() / 3.0).min(1.0)
+    };
+    albedo.iter().zip(labels).map(residual).collect()
+}
+
+/// The connected parts of what is skin and dark, of at least `least` texels: which of the texels seen are in each.
+fn large_parts(chart: &Chart, is_skin: &[bool], dark: &[bool], least: f32) -> Vec<Vec<bool>> {
+    let mut map = vec![None; chart.side * chart.side];
+    for ((at, skin), dark) in chart.seen.iter().zip(is_skin).zip(dark) {
+        map[*at] = skin.then_some(u8::from(*dark));
+    }
+    let part = parts(&map, chart.side);
+    let mut sizes = vec![0_usize; part.len()];
+    part.iter().zip(&map).filter(|(_, of)| **of == Some(1)).for_each(|(part, _)| sizes[*part] += 1);
+    let large = (0..sizes.len()).filter(|part| sizes[*part] > 0 && sizes[*part] as f32 >= least);
+    large.map(|large| chart.seen.iter().map(|at| part[*at] == large).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use capture::View;
+    use capture::gbuffer::GBuffer;
+    use capture::projection::Projection;
+
+    use super::*;
+    use crate::Config;
+    use crate::testing;
+
+    const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
+
+    /// Hair in the skin of a dome in light from one side, whose skin is as dark as `share` says.
+    fn found(share: impl Fn(Vec3) -> Vec3) -> Option<HairInSkin> {
+        let mesh = testing::dome(24);
+        let colour = |p: Vec3| (share(p) * SKIN * (0.625 + 0.375 * p.y), 1);
+        let views: Vec<View> =
+            testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
+        let projections = Projection::of_views(&views, &GBuffer::of_views(&mesh, &views));
+        let config = Config::default();
+        let regions = &config.colour_regions;
+        let chart = Chart::new(&mesh, &projections, &config.transport, regions);
+        let labels = vec![1; chart.side * chart.side];
+        HairInSkin::new(&chart, regions, &config.hair_in_skin, &labels, &[1])
+    }
+
+    fn is_patch(p: Vec3) -> bool {
+        (p.x - 0.3).hypot(p.y) < 0.25
+    }
+
+    #[test]
+    fn a_patch_that_no_light_explains_is_hair_of_its_own_colour() {
+        let hair = found(|p| Vec3::splat(if is_patch(p) { 0.4 } else { 1.0 })).unwrap();
+        assert!((hair.ratio - 0.4).abs().max_element() < 0.08, "{}", hair.ratio);
+        let inside = hair.map(64);
+        let share = inside.iter().filter(|hair| **hair).count() as f32 / inside.len() as f32;
+        // The patch covers 0.019 of the chart.
+        assert!((0.013..0.025).contains(&share), "{share}");
+    }
+
+    #[test]
+    fn neither_a_lack_of_light_nor_a_red_shadow_is_hair() {
+        assert!(found(|p| Vec3::splat(1.0 - 0.6 * (p.x + 0.2).clamp(0.0, 1.0))).is_none());
+        let red = Vec3::new(0.5, 0.35, 0.25);
+        assert!(found(|p| if is_patch(p) { red } else { Vec3::ONE }).is_none());
+    }
+}
