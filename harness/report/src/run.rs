@@ -75,6 +75,14 @@ impl Method {
         self.kind != Kind::Oracle && self.class == Class::Passive
     }
 
+    /// Its title, with the class of its inputs if it is not ranked for them.
+    pub fn title_and_role(&self) -> String {
+        if self.is_ranked() || self.kind == Kind::Oracle {
+            return self.title().to_owned();
+        }
+        format!("{} ({})", self.title(), self.role())
+    }
+
     /// Text below its title: the part it plays, or the class of its inputs.
     pub fn role(&self) -> &'static str {
         match (self.kind, self.class) {

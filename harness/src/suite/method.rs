@@ -205,7 +205,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     };
     let title = table.title.unwrap_or_else(|| match kind {
         MethodKind::Oracle => "oracle (true maps)".to_owned(),
-        MethodKind::LabelMeans => "true mean of each label (privileged)".to_owned(),
+        MethodKind::LabelMeans => "true mean of each label".to_owned(),
         MethodKind::Baseline { baseline, .. } => baseline.title().to_owned(),
         MethodKind::Competitor { competitor, .. } => competitor.title.to_owned(),
         MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),

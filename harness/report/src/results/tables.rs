@@ -72,10 +72,7 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
                     line.faces.push(&case.face);
                 }
                 None => {
-                    let mut title = escape(method.title());
-                    if !method.is_ranked() && method.kind != Kind::Oracle {
-                        title = format!("{title} ({})", method.role());
-                    }
+                    let title = escape(&method.title_and_role());
                     let (kind, ranked) = (method.kind, method.is_ranked());
                     let faces = vec![case.face.as_str()];
                     let line = Line { title, kind, ranked, columns: vec![column], faces };
@@ -273,7 +270,7 @@ pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
                 let cells = figures
                     .iter()
                     .map(|figure| cell_of_face(figure, figure.find(&column, &case.light)));
-                let names = [escape(&light), escape(column.method.title())];
+                let names = [escape(&light), escape(&column.method.title_and_role())];
                 text.push_str(&row(names.into_iter().chain(cells)));
             }
         }
