@@ -54,7 +54,7 @@ impl ColourRegions {
     /// The region with most texels.
     pub fn largest(&self) -> u8 {
         let texels = |region: &u8| self.regions.iter().filter(|other| *other == region).count();
-        (0..self.colours.len() as u8).max_by_key(texels).unwrap_or(0)
+        (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
     }
 
     /// The region of every texel of a chart of side `size`.
@@ -177,6 +177,7 @@ mod tests {
         let of = |hair: bool| clear.iter().filter(move |(_, x, _)| (*x > edge) == hair);
         let region = |hair: bool| regions[of(hair).next().unwrap().0];
         assert_ne!(region(true), region(false));
+        assert_eq!(found.largest(), region(false));
         for hair in [true, false] {
             let wrong = of(hair).filter(|(at, ..)| regions[*at] != region(hair)).count();
             assert!(50 * wrong < of(hair).count(), "{wrong} of {}", of(hair).count());
