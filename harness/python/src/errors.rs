@@ -77,7 +77,7 @@ impl Named for RunError {
             Self::Scene(_) => "SceneError",
             Self::Interpreter(_) | Self::Stage(_) => "RendererError",
             Self::Capture(error) => error.class(),
-            Self::Config(error) => error.class(),
+            Self::Config(error) | Self::ConfigFile { reason: error, .. } => error.class(),
             Self::Backend(error) => error.class(),
             Self::Solve(error) => error.class(),
             Self::Maps(error) => error.class(),

@@ -121,8 +121,11 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let mut config = if arguments.config.ends_with(".toml") {
         let path = PathBuf::from(&arguments.config);
-        let text = fs::read_to_string(&path);
-        solver::Config::from_toml(&text.map_err(|reason| RunError::File { path, reason })?)?
+        match fs::read_to_string(&path) {
+            Ok(text) => solver::Config::from_toml(&text)
+                .map_err(|reason| RunError::ConfigFile { path, reason })?,
+            Err(reason) => return Err(RunError::File { path, reason }),
+        }
     } else {
         solver::Config::preset(&arguments.config)?
     };

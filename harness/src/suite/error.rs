@@ -56,6 +56,8 @@ pub enum RunError {
     Output(#[from] FolderError),
     #[error("{path}: {reason}", path = path.display())]
     File { path: PathBuf, reason: io::Error },
+    #[error("{path}: {reason}", path = path.display())]
+    ConfigFile { path: PathBuf, reason: solver::ConfigError },
     #[error("the run folder cannot be used: {0}; make room or choose another")]
     Folder(#[from] io::Error),
     #[error("--redo: the suite has no method {name:?}; there are {known}")]

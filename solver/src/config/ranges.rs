@@ -79,7 +79,12 @@ impl ColourRegionConfig {
 impl HairInSkinConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         let share = |x: f32| (0.0..=1.0).contains(&x);
-        range("hair_in_skin.lobe_width", self.lobe_width, |x| x > 0.0 && x < 7.0, "0 to 7")?;
+        range(
+            "hair_in_skin.lobe_width",
+            self.lobe_width,
+            |x| x > 0.0 && x < 7.0,
+            "above 0 and below 7",
+        )?;
         range("hair_in_skin.least_share", self.least_share, share, "0 to 1")?;
         for left in self.most_left {
             range("hair_in_skin.most_left", left, share, "0 to 1")?;
