@@ -39,7 +39,7 @@ pub use markdown::markdown;
 pub use report::{PaperSize, Report, Torch, TorchRow};
 pub use solves::Solved;
 pub use steps::{Kind, Reach, Step};
-pub use torch::{MEND, TorchError, TorchStep};
+pub use torch::{MEND, TorchDevice, TorchError, TorchStep};
 
 use paper::{COARSE, PAPER_DIVISORS, PAPER_STEPS, Paper};
 use synthetic::Problem;
@@ -99,9 +99,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     let paper = bench.paper_size(device, *reach_of_best, progress);
     // Not looked for before: its driver takes memory, which would count as that of the steps.
     let adapter = if options.gpu { adapter()? } else { None };
-    let gpu = adapter
-        .map(|adapter| bench.gpu(&adapter, device, &options.captures, progress))
-        .transpose()?;
+    let gpu = adapter.map(|adapter| bench.gpu(&adapter, device, options, progress)).transpose()?;
     let torch = match &options.torch {
         None => Torch::Absent { mend: MEND.to_owned() },
         Some(python) => {
@@ -217,7 +215,7 @@ impl Bench {
         &self,
         adapter: &Adapter,
         cpu: &dyn Backend,
-        captures: &[PathBuf],
+        options: &Options,
         progress: &mut dyn FnMut(&str),
     ) -> Result<GpuReport, BenchError> {
         progress(&format!("what {} reaches", adapter.name));
@@ -227,10 +225,18 @@ impl Bench {
         for (kind, (pixels, texture)) in self.sizes() {
             progress(&format!("{}, {pixels} pixels, {}", kind.name(), device.name()));
             let problem = Problem::new(pixels, texture);
-            steps.push(device.step(kind, &problem, &losses(kind, &problem, cpu))?);
+            let mut step = device.step(kind, &problem, &losses(kind, &problem, cpu))?;
+            if let Some(python) = options.torch.as_ref().filter(|_| !device.software) {
+                // Not every GPU has CUDA, nor every PyTorch.
+                match torch::measure(python, TorchDevice::Cuda, kind, &problem, TORCH_STEPS) {
+                    Ok(there) => step.torch = Some(there),
+                    Err(error) => progress(&format!("no row for PyTorch on the GPU: {error}")),
+                }
+            }
+            steps.push(step);
         }
         let mut solves = vec![];
-        for capture in captures {
+        for capture in &options.captures {
             progress(&format!("solving {}, {}", capture.display(), device.name()));
             solves.extend(device.solves(capture)?);
         }
@@ -253,7 +259,7 @@ fn torch_row(
     steps: &[Step],
 ) -> Result<TorchRow, TorchError> {
     let problem = Problem::new(pixels, texture);
-    let torch = torch::measure(python, kind, &problem, TORCH_STEPS)?;
+    let torch = torch::measure(python, TorchDevice::Cpu, kind, &problem, TORCH_STEPS)?;
     let ours = losses(kind, &problem, device);
     let difference = ours.iter().zip(&torch.losses).map(|(a, b)| (a / b - 1.0).abs());
     let same = |step: &&Step| (step.kind, step.pixels, step.texture) == (kind, pixels, texture);
@@ -313,7 +319,8 @@ mod tests {
         }
         let adapter = adapters.swap_remove(software);
         let bench = Bench { quick: true };
-        let report = bench.gpu(&adapter, &Cpu::new(), &[], &mut |_| {}).unwrap();
+        let options = Options { quick: true, gpu: true, torch: None, captures: vec![] };
+        let report = bench.gpu(&adapter, &Cpu::new(), &options, &mut |_| {}).unwrap();
         assert_eq!(report.software, adapter.software);
         assert_eq!(report.steps.len(), 3);
         for step in &report.steps {
@@ -338,7 +345,9 @@ mod tests {
     fn a_python_without_torch_is_named_with_the_mend() {
         let problem = Problem::new(100, 8);
         let python = std::path::Path::new("/nowhere/python");
-        let error = torch::measure(python, Kind::WarmUp, &problem, 1).unwrap_err().to_string();
+        let error = torch::measure(python, TorchDevice::Cpu, Kind::WarmUp, &problem, 1)
+            .unwrap_err()
+            .to_string();
         assert!(
             error.contains("/nowhere/python") && error.contains("pip install torch"),
             "{error}"

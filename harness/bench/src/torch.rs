@@ -28,7 +28,7 @@ pub struct TorchStep {
     pub milliseconds: f64,
     /// The loss before every step.
     pub losses: Vec<f64>,
-    /// Largest resident set of the Python process, bytes.
+    /// Largest resident set of the Python process, or what its tensors took on the GPU, bytes.
     pub peak_memory: u64,
     /// PyTorch's version.
     pub version: String,
@@ -50,9 +50,20 @@ pub enum TorchError {
     },
 }
 
-/// Runs `steps` eager steps of `kind` on `problem`, on as many threads as this process has.
+/// Where PyTorch computes.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TorchDevice {
+    /// As many threads as this process has.
+    Cpu,
+    /// The GPU that CUDA lists first.
+    Cuda,
+}
+
+/// Runs `steps` eager steps of `kind` on `problem`.
 pub fn measure(
     python: &Path,
+    device: TorchDevice,
     kind: Kind,
     problem: &Problem,
     steps: usize,
@@ -62,7 +73,7 @@ pub fn measure(
     write(&file, problem)?;
     let arguments = serde_json::json!({
         "kind": kind, "file": file, "pixels": problem.samples.len(), "size": problem.state.size,
-        "steps": steps, "threads": rayon::current_num_threads(),
+        "steps": steps, "device": device, "threads": rayon::current_num_threads(),
         "prior": problem.config.warm_up.prior, "rate": problem.config.warm_up.diffuse_rate,
         "range": problem.config.fine_tuning.deviation_range,
         "blur": problem.config.fine_tuning.deviation_blur,

@@ -5,9 +5,9 @@ precision.
 """
 
 import json
-import resource
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import torch
@@ -17,8 +17,12 @@ from torch.nn import functional
 def main() -> None:
     given = json.loads(sys.argv[1])
     torch.set_num_threads(given["threads"])
+    device = torch.device(given["device"])
+    if device.type == "cuda":
+        # As on the processor: single precision throughout.
+        torch.backends.cuda.matmul.allow_tf32 = torch.backends.cudnn.allow_tf32 = False
     pixels, size = given["pixels"], given["size"]
-    rest = torch.from_numpy(np.fromfile(given["file"], "<f4"))
+    rest = torch.from_numpy(np.fromfile(given["file"], "<f4")).to(device)
     lengths = [3 * pixels, 3 * pixels, 3 * pixels, pixels, 3 * pixels, pixels, 2 * pixels, 1416, 3 * size**2, size**2]
     position, normal, view, fresnel, colour, weight, place, networks, diffuse, specular = rest.split(lengths)
     position, normal, view, colour = (part.reshape(pixels, 3) for part in (position, normal, view, colour))
@@ -28,7 +32,7 @@ def main() -> None:
         "networks": networks.clone(),
         "diffuse": diffuse.reshape(1, size, size, 3).permute(0, 3, 1, 2).contiguous(),
         "specular": specular.reshape(1, 1, size, size).clone(),
-        "deviation": torch.zeros(1, 3, size, size),
+        "deviation": torch.zeros(1, 3, size, size, device=device),
     }
 
     def sampled(texture: torch.Tensor) -> torch.Tensor:
@@ -66,8 +70,8 @@ def main() -> None:
         levels += 1
     sigma = (sigma**2 - (4**levels - 1) / 2) ** 0.5 / 2**levels
     reach = int(np.ceil(3 * sigma))
-    tap = torch.exp(-0.5 * (torch.arange(-reach, reach + 1) / sigma) ** 2)
-    half = torch.tensor([0.25, 0.75, 0.75, 0.25])
+    tap = torch.exp(-0.5 * (torch.arange(-reach, reach + 1, device=device) / sigma) ** 2)
+    half = torch.tensor([0.25, 0.75, 0.75, 0.25], device=device)
 
     def separable(texture: torch.Tensor, weights: torch.Tensor, stride: int) -> torch.Tensor:
         channels, reach = texture.shape[1], (len(weights) - 1) // 2 if stride == 1 else 0
@@ -83,7 +87,7 @@ def main() -> None:
             texture = functional.interpolate(texture, scale_factor=2, mode="bilinear", align_corners=False)
         return texture
 
-    norm = smooth(torch.ones(1, 3, size, size))
+    norm = smooth(torch.ones(1, 3, size, size, device=device))
 
     def warm_up() -> torch.Tensor:
         light = network(0, position).exp()
@@ -124,9 +128,16 @@ def main() -> None:
         value = loss()
         value.backward()
         optimiser.step()
+        if device.type == "cuda":
+            torch.cuda.synchronize()
         times.append(time.perf_counter() - begin)
         losses.append(value.item())
-    peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    if device.type == "cuda":
+        peak = torch.cuda.max_memory_allocated()
+    else:
+        # Not getrusage's, which counts what the process before `exec` had.
+        status = Path("/proc/self/status").read_text(encoding="ascii")
+        peak = 1024 * int(status.split("VmHWM:")[1].split()[0])
     print(
         json.dumps(
             {"milliseconds": 1e3 * min(times), "losses": losses, "peak_memory": peak, "version": torch.__version__}

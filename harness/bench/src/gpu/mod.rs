@@ -31,7 +31,8 @@ const SOFTWARE_DIVISOR: usize = 256;
 /// A GPU that is measured.
 pub struct Device {
     gpu: Gpu,
-    software: bool,
+    /// A processor plays it.
+    pub software: bool,
     reach: Reach,
     budget: Duration,
 }

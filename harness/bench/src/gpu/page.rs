@@ -34,6 +34,7 @@ pub fn write_gpu(page: &mut String, report: Option<&GpuReport>) -> std::fmt::Res
          processor's.\n"
     )?;
     write_steps(page, &report.steps)?;
+    write_torch(page, &report.steps)?;
     if !report.solves.is_empty() {
         writeln!(page)?;
         write_solves(page, &report.solves)?;
@@ -106,6 +107,37 @@ fn write_steps(page: &mut String, steps: &[GpuStep]) -> std::fmt::Result {
             step.milliseconds / compute.max(memory),
             step.memory.map_or(String::new(), size),
             step.loss_difference.map_or(String::new(), |difference| format!("{difference:.1e}")),
+        )?;
+    }
+    Ok(())
+}
+
+/// Eager PyTorch on the same numbers and the same GPU, where it was asked for.
+fn write_torch(page: &mut String, steps: &[GpuStep]) -> std::fmt::Result {
+    let rows: Vec<_> = steps.iter().filter_map(|step| Some((step, step.torch.as_ref()?))).collect();
+    if rows.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        page,
+        "\nThe same steps in eager PyTorch on the same numbers and the same GPU (single precision, no \
+         TF32).\n\n\
+         | step | pixels | textures | PyTorch, ms | memory of its tensors | faster | losses differ by |\n\
+         |---|---|---|---|---|---|---|"
+    )?;
+    for (step, torch) in rows {
+        let pairs = step.losses.iter().zip(&torch.losses);
+        let difference = pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+        writeln!(
+            page,
+            "| {} | {} | {}² | {:.2} ({}) | {} | {:.1} x | {difference:.1e} |",
+            step.kind.name(),
+            count(step.pixels),
+            step.texture,
+            torch.milliseconds,
+            torch.version,
+            size(torch.peak_memory),
+            torch.milliseconds / step.milliseconds,
         )?;
     }
     Ok(())

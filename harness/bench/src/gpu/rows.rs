@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::solves::Solved;
 use crate::steps::{Kind, Reach};
+use crate::torch::TorchStep;
 
 /// A GPU's rows.
 #[derive(Debug, Serialize)]
@@ -43,6 +44,8 @@ pub struct GpuStep {
     pub losses: Vec<f64>,
     /// Their largest relative difference to the processor's, where those were taken too.
     pub loss_difference: Option<f64>,
+    /// The same in PyTorch on the same GPU, where that was asked for.
+    pub torch: Option<TorchStep>,
 }
 
 /// All dispatches of one name within a step.

@@ -116,6 +116,7 @@ impl<'a> Running<'a> {
             passes,
             losses,
             loss_difference: None,
+            torch: None,
         })
     }
 }
