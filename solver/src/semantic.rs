@@ -4,8 +4,10 @@
 mod chart;
 mod clusters;
 mod colours;
+mod explanation;
 pub mod found;
 mod hair;
+mod lamps;
 mod parts;
 
 use capture::gbuffer::{Atlas, GBuffer};

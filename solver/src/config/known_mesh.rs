@@ -45,6 +45,10 @@ pub struct ColourRegionConfig {
 pub struct HairInSkinConfig {
     /// Seek it; false believes the labels.
     pub enabled: bool,
+    /// Inverse distances of a lamp from the head's centre that are tried, per metre.
+    pub lamp_nearness: [f32; 4],
+    /// What a lamp shines on gets at least so much of its light, relative to skin in full light.
+    pub lit: f32,
     /// Width of the lobes that the light of few unknowns is made of, radians.
     pub lobe_width: f32,
     /// Standard deviation of the blur before anything is called dark, texels.

@@ -55,6 +55,8 @@ impl Config {
             },
             hair_in_skin: HairInSkinConfig {
                 enabled: false,
+                lamp_nearness: [0.4, 0.8, 1.2, 1.6],
+                lit: 0.15,
                 lobe_width: 0.7,
                 blur: 2.0,
                 depths: [0.2, 0.35, 0.5, 0.8],

@@ -85,6 +85,7 @@ impl HairInSkinConfig {
             |x| x > 0.0 && x < 7.0,
             "above 0 and below 7",
         )?;
+        range("hair_in_skin.lit", self.lit, share, "0 to 1")?;
         range("hair_in_skin.least_share", self.least_share, share, "0 to 1")?;
         for left in self.most_left {
             range("hair_in_skin.most_left", left, share, "0 to 1")?;
@@ -93,6 +94,11 @@ impl HairInSkinConfig {
             ("hair_in_skin.blur", self.blur),
             ("hair_in_skin.least_blue", self.least_blue),
         ])?;
+        // Nearer ones could be inside of the head.
+        for nearness in self.lamp_nearness {
+            let far = |x: f32| (0.0..=3.0).contains(&x);
+            range("hair_in_skin.lamp_nearness", nearness, far, "0 to 3")?;
+        }
         positive(&self.depths.map(|depth| ("hair_in_skin.depths", depth)))
     }
 }

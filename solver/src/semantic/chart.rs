@@ -61,13 +61,32 @@ impl Chart {
         albedo
     }
 
-    /// What is known of the texels seen, on the whole chart: any other takes the nearest one's.
-    pub fn filled<T: Copy>(&self, values: &[T]) -> Vec<T> {
-        let mut known = vec![None; self.side * self.side];
-        self.seen.iter().zip(values).for_each(|(at, value)| known[*at] = Some(*value));
-        let is_known: Vec<bool> = known.iter().map(Option::is_some).collect();
+    /// Of texels seen, those that have all others within so many texels in both directions among them, of those seen.
+    pub fn eroded(&self, of: &[bool], reach: usize) -> Vec<bool> {
+        let mut outside = vec![false; self.side * self.side];
+        self.seen.iter().zip(of).for_each(|(at, of)| outside[*at] = !of);
+        let span = |x: usize| x.saturating_sub(reach)..=(x + reach).min(self.side - 1);
+        let near = |at: &usize| {
+            let at = *at;
+            span(at / self.side).flat_map(move |y| span(at % self.side).map(move |x| (x, y)))
+        };
+        self.seen.iter().map(|at| near(at).all(|(x, y)| !outside[y * self.side + x])).collect()
+    }
+
+    /// What is known of the texels seen that are `known`, on the whole chart: any other takes the nearest one's.
+    pub fn filled<T: Copy>(&self, values: &[T], known: &[bool]) -> Vec<T> {
+        let mut map = vec![None; self.side * self.side];
+        let some = self.seen.iter().zip(values).zip(known).filter(|(_, known)| **known);
+        some.for_each(|((at, value), _)| map[*at] = Some(*value));
+        let is_known: Vec<bool> = map.iter().map(Option::is_some).collect();
         let nearest = fill::nearest_known(&is_known, self.side, self.side);
-        nearest.into_iter().filter_map(|at| known[at as usize]).collect()
+        nearest.into_iter().filter_map(|at| map[at as usize]).collect()
+    }
+
+    /// The shading of the texels seen under a light of 1 from everywhere.
+    pub fn even(&self) -> Vec<f32> {
+        let all = self.transport.shading(&vec![1.0; CHANNELS * self.transport.cells()]);
+        self.seen.iter().map(|at| all[CHANNELS * at]).collect()
     }
 
     /// The colours divided by a `shading`.

@@ -41,7 +41,7 @@ impl ColourRegions {
         }
         let regions = merged(config, seen, &albedo, &regions);
         let colours = means(&albedo, &regions, config.dark);
-        Some(Self { side, regions: chart.filled(&regions), colours })
+        Some(Self { side, regions: chart.filled(&regions, &vec![true; regions.len()]), colours })
     }
 
     /// Every texel in the colour of its region, on a square map of `size` texels.

@@ -42,8 +42,7 @@ impl FoundRegions {
             Some(colours) => (colours.map(side), vec![colours.largest()]),
             None => (region_map(&Atlas::new(&capture.mesh, side), projections), skin),
         };
-        let hair =
-            split.then(|| HairInSkin::new(&chart, regions, &config.hair_in_skin, &labels, &skin));
+        let hair = split.then(|| HairInSkin::new(&capture.mesh, &chart, config, &labels, &skin));
         let free = (1..=u8::MAX).rev().find(|label| {
             let views = capture.train.iter().filter_map(|view| view.labels.as_ref());
             !labels.contains(label) && !views.flat_map(|l| &l.data).any(|other| other == label)

@@ -3,13 +3,16 @@
 //! Where skin is darker than it should be under a light of few unknowns, either light is missing or skin is
 //! covered by hair. A light of all unknowns tells the two apart: it explains a shadow, but hair only where no
 //! bare skin is turned the same way. And what little light a shadow gets has come from skin and is red, while
-//! hair takes all colours alike.
+//! hair takes all colours alike. Under a flash no sky of cells does this; there the light is one lamp.
 
+use capture::Mesh;
 use glam::Vec3;
 
-use super::chart::{Chart, Lobes, luminance, means};
+use super::chart::{Chart, luminance};
+use super::explanation::{Explanation, sum};
 use super::parts::parts;
-use crate::config::{ColourRegionConfig, HairInSkinConfig};
+use crate::Config;
+use crate::config::HairInSkinConfig;
 use crate::model::blur::Blur;
 
 /// A part of the skin of a chart that is hair.
@@ -26,52 +29,38 @@ pub struct HairInSkin {
 impl HairInSkin {
     /// Of the `labels` of the chart's texels, those in `skin` are skin. `None` if no part of it is hair.
     pub(super) fn new(
+        mesh: &Mesh,
         chart: &Chart,
-        regions: &ColourRegionConfig,
-        config: &HairInSkinConfig,
+        config: &Config,
         labels: &[u8],
         skin: &[u8],
     ) -> Option<Self> {
-        let first = *skin.first()?;
-        let of = |at: &usize| if skin.contains(&labels[*at]) { first } else { labels[*at] };
-        let labels: Vec<u8> = chart.seen.iter().map(of).collect();
-        let is_skin: Vec<bool> = labels.iter().map(|label| *label == first).collect();
+        let explanation = Explanation::new(mesh, chart, config, labels, skin)?;
+        let config = &config.hair_in_skin;
+        let Explanation { labels, is_skin, skin_and_free: [first, free], .. } = &explanation;
+        let before = explanation.with(labels).residuals;
         let count = is_skin.iter().filter(|skin| **skin).count();
-        let free = (1..=u8::MAX).find(|label| !labels.contains(label))?;
-        let lobes = Lobes::new(regions.rows, config.lobe_width);
-        let darkness = darkness(chart, config, &chart.albedo(regions, &lobes, &labels), &is_skin)?;
-        let cells = Lobes::new(regions.rows, 0.0);
-        let explain = |labels: &[u8]| {
-            let albedo = chart.albedo(regions, &cells, labels);
-            let means = means(&albedo, labels, regions.dark);
-            (residuals(&albedo, &means, labels), means)
-        };
-        let (before, _) = explain(&labels);
-        let sum = |residuals: &[f32], of: &[bool]| -> f32 {
-            residuals.iter().zip(of).filter(|(_, of)| **of).map(|(residual, _)| residual).sum()
-        };
+        let albedo = explanation.smooth_albedo(config.lobe_width);
+        let darkness = darkness(chart, config, &albedo, is_skin)?;
         let mut best = (f32::INFINITY, None);
         for depth in config.depths {
             let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
-            for inside in large_parts(chart, &is_skin, &dark, config.least_share * count as f32) {
-                let split: Vec<u8> = labels
-                    .iter()
-                    .zip(&inside)
-                    .map(|(l, hair)| if *hair { free } else { *l })
-                    .collect();
-                let (after, means) = explain(&split);
-                let ratio = means[usize::from(free)] / means[usize::from(first)];
-                let left = |of: &[bool]| sum(&after, of) / sum(&before, of);
-                let is_hair = left(&is_skin) < config.most_left[0]
+            for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
+                let own = |(label, hair): (&u8, &bool)| if *hair { *free } else { *label };
+                let split: Vec<u8> = labels.iter().zip(&inside).map(own).collect();
+                let after = explanation.with(&split);
+                let ratio = after.means[usize::from(*free)] / after.means[usize::from(*first)];
+                let left = |of: &[bool]| sum(&after.residuals, of) / sum(&before, of);
+                let is_hair = left(is_skin) < config.most_left[0]
                     && left(&inside) < config.most_left[1]
                     && ratio.z > config.least_blue * ratio.x;
-                if is_hair && sum(&after, &is_skin) < best.0 {
-                    best = (sum(&after, &is_skin), Some((inside, ratio)));
+                if is_hair && sum(&after.residuals, is_skin) < best.0 {
+                    best = (sum(&after.residuals, is_skin), Some((inside, ratio)));
                 }
             }
         }
         let (inside, ratio) = best.1?;
-        Some(Self { side: chart.side, inside: chart.filled(&inside), ratio })
+        Some(Self { side: chart.side, inside: explanation.filled(&inside), ratio })
     }
 
     /// Whether every texel of a chart of side `size` is hair, if it is skin by its label.
@@ -104,14 +93,6 @@ fn darkness(
     Some(chart.seen.iter().zip(is_skin).map(below).collect())
 }
 
-/// How far every texel is from the mean of its region: the mean relative difference of its channels, at most 1.
-fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
-    let residual = |(albedo, label): (&Vec3, &u8)| {
-        ((*albedo / means[usize::from(*label)] - 1.0).abs().element_sum() / 3.0).min(1.0)
-    };
-    albedo.iter().zip(labels).map(residual).collect()
-}
-
 /// The connected parts of what is skin and dark, of at least `least` texels: which of the texels seen are in each.
 fn large_parts(chart: &Chart, is_skin: &[bool], dark: &[bool], least: f32) -> Vec<Vec<bool>> {
     let mut map = vec![None; chart.side * chart.side];
@@ -132,15 +113,18 @@ mod tests {
     use capture::projection::Projection;
 
     use super::*;
-    use crate::Config;
     use crate::testing;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
 
     /// Hair in the skin of a dome in light from one side, whose skin is as dark as `share` says.
     fn found(share: impl Fn(Vec3) -> Vec3) -> Option<HairInSkin> {
+        found_in(share, |p| 0.625 + 0.375 * p.y)
+    }
+
+    fn found_in(share: impl Fn(Vec3) -> Vec3, shading: impl Fn(Vec3) -> f32) -> Option<HairInSkin> {
         let mesh = testing::dome(24);
-        let colour = |p: Vec3| (share(p) * SKIN * (0.625 + 0.375 * p.y), 1);
+        let colour = |p: Vec3| (share(p) * SKIN * shading(p), 1);
         let views: Vec<View> =
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
         let projections = Projection::of_views(&views, &GBuffer::of_views(&mesh, &views));
@@ -148,7 +132,7 @@ mod tests {
         let regions = &config.colour_regions;
         let chart = Chart::new(&mesh, &projections, &config.transport, regions);
         let labels = vec![1; chart.side * chart.side];
-        HairInSkin::new(&chart, regions, &config.hair_in_skin, &labels, &[1])
+        HairInSkin::new(&mesh, &chart, &config, &labels, &[1])
     }
 
     fn is_patch(p: Vec3) -> bool {
@@ -170,5 +154,22 @@ mod tests {
         assert!(found(|p| Vec3::splat(1.0 - 0.6 * (p.x + 0.2).clamp(0.0, 1.0))).is_none());
         let red = Vec3::new(0.5, 0.35, 0.25);
         assert!(found(|p| if is_patch(p) { red } else { Vec3::ONE }).is_none());
+    }
+
+    /// One lamp 2.5 m from the dome's centre, at its side, in an even surrounding: half of the dome is in the dark.
+    fn lamp(p: Vec3) -> f32 {
+        let (direction, place) = (Vec3::new(0.8, 0.3, 0.5).normalize(), p - 0.6 * Vec3::Z);
+        let towards = direction - 0.4 * place;
+        let facing = 1.0 - 0.4 * direction.dot(place);
+        0.05 + facing * p.dot(towards).max(0.0) / towards.length_squared().powi(2)
+    }
+
+    #[test]
+    fn hair_is_found_in_the_light_of_a_lamp_and_not_where_it_does_not_shine() {
+        let hair = found_in(|p| Vec3::splat(if is_patch(p) { 0.4 } else { 1.0 }), lamp).unwrap();
+        assert!((hair.ratio - 0.4).abs().max_element() < 0.08, "{}", hair.ratio);
+        assert!(found_in(|_| Vec3::ONE, lamp).is_none());
+        let behind = |p: Vec3| (p.x + 0.7).hypot(p.y + 0.2) < 0.2;
+        assert!(found_in(|p| Vec3::splat(if behind(p) { 0.4 } else { 1.0 }), lamp).is_none());
     }
 }

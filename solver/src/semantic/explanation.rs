@@ -1,0 +1,118 @@
+//! How well one reflectance for the skin, and another for a part of it, explain a chart under the light that
+//! does it best.
+
+use capture::Mesh;
+use glam::Vec3;
+
+use super::chart::{Chart, Lobes, means};
+use super::lamps::Lamps;
+use crate::Config;
+use crate::config::ColourRegionConfig;
+
+/// A light, and the skin that it tells something of.
+pub(super) struct Explanation<'a> {
+    chart: &'a Chart,
+    regions: &'a ColourRegionConfig,
+    cells: Lobes,
+    lamps: Option<Lamps>,
+    /// Of the texels seen.
+    pub labels: Vec<u8>,
+    /// Whether they are skin that the light shines on.
+    pub is_skin: Vec<bool>,
+    /// The label of skin, and one that no texel has.
+    pub skin_and_free: [u8; 2],
+}
+
+/// What a light makes of a chart with some labels.
+pub(super) struct Explained {
+    /// Of the texels seen, linear R, G, B, up to one factor each.
+    pub albedo: Vec<Vec3>,
+    /// Of every label.
+    pub means: Vec<Vec3>,
+    /// Of the texels seen, see [`residuals`].
+    pub residuals: Vec<f32>,
+}
+
+impl<'a> Explanation<'a> {
+    /// By free cells, or by one lamp in an even surrounding if that leaves less. `None` without skin.
+    pub fn new(
+        mesh: &Mesh,
+        chart: &'a Chart,
+        config: &'a Config,
+        labels: &[u8],
+        skin: &[u8],
+    ) -> Option<Self> {
+        let regions = &config.colour_regions;
+        let first = *skin.first()?;
+        let of = |at: &usize| if skin.contains(&labels[*at]) { first } else { labels[*at] };
+        let labels: Vec<u8> = chart.seen.iter().map(of).collect();
+        let mut unused = (1..=u8::MAX).filter(|label| !labels.contains(label));
+        let (free, unlit) = (unused.next()?, unused.next()?);
+        let is_skin: Vec<bool> = labels.iter().map(|label| *label == first).collect();
+        let cells = Lobes::new(regions.rows, 0.0);
+        let skin_and_free = [first, free];
+        let lamps = Lamps::new(mesh, chart, &config.transport, &config.hair_in_skin, &is_skin);
+        let by_cells = Self { chart, regions, cells, lamps: None, labels, is_skin, skin_and_free };
+        let Some(lamps) = lamps else { return Some(by_cells) };
+        let left = |by: &Self| sum(&by.with(&by.labels).residuals, &by.is_skin);
+        let left_by_cells = left(&by_cells);
+        let mut by_lamp = Self { lamps: Some(lamps), ..by_cells };
+        if left(&by_lamp) >= left_by_cells {
+            return Some(Self { lamps: None, ..by_lamp });
+        }
+        // Where the lamp does not shine nothing is known; nor at the edges, which it blurs.
+        let lit = by_lamp.lamps.as_ref().map(|lamps| chart.eroded(&lamps.lit, 1))?;
+        let labels = by_lamp.labels.iter_mut().zip(&lit);
+        labels
+            .filter(|(label, lit)| **label == first && !**lit)
+            .for_each(|(label, _)| *label = unlit);
+        by_lamp.is_skin = lit;
+        Some(by_lamp)
+    }
+
+    /// With these labels.
+    pub fn with(&self, labels: &[u8]) -> Explained {
+        let albedo = match &self.lamps {
+            None => self.chart.albedo(self.regions, &self.cells, labels),
+            Some(lamps) => {
+                let second: Vec<bool> =
+                    labels.iter().map(|label| *label == self.skin_and_free[1]).collect();
+                lamps.albedo(self.chart, &self.is_skin, &second)
+            }
+        };
+        let means = means(&albedo, labels, self.regions.dark);
+        Explained { residuals: residuals(&albedo, &means, labels), means, albedo }
+    }
+
+    /// The albedo of one skin under a light of few unknowns: the lamp's, or lobes so wide, radians.
+    pub fn smooth_albedo(&self, lobe_width: f32) -> Vec<Vec3> {
+        match &self.lamps {
+            Some(_) => self.with(&self.labels).albedo,
+            None => {
+                let lobes = Lobes::new(self.regions.rows, lobe_width);
+                self.chart.albedo(self.regions, &lobes, &self.labels)
+            }
+        }
+    }
+
+    /// What is known of skin that the light shines on, on the whole chart: any other texel takes the nearest one's.
+    pub fn filled(&self, inside: &[bool]) -> Vec<bool> {
+        match &self.lamps {
+            Some(_) => self.chart.filled(inside, &self.is_skin),
+            None => self.chart.filled(inside, &vec![true; inside.len()]),
+        }
+    }
+}
+
+/// The sum of the residuals `of` some texels.
+pub(super) fn sum(residuals: &[f32], of: &[bool]) -> f32 {
+    residuals.iter().zip(of).filter(|(_, of)| **of).map(|(residual, _)| residual).sum()
+}
+
+/// How far every texel is from the mean of its region: the mean relative difference of its channels, at most 1.
+fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
+    let residual = |(albedo, label): (&Vec3, &u8)| {
+        ((*albedo / means[usize::from(*label)] - 1.0).abs().element_sum() / 3.0).min(1.0)
+    };
+    albedo.iter().zip(labels).map(residual).collect()
+}
