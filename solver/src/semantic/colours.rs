@@ -7,12 +7,16 @@
 
 use std::collections::BTreeMap;
 
+use capture::Mesh;
 use formats::picture::Picture;
 use glam::Vec3;
 
 use super::chart::{Chart, Lobes, dark, log, luminance, means};
 use super::clusters::{clusters, lloyd};
+use super::explanation::Explanation;
+use super::lamps::Lamps;
 use super::parts::parts;
+use crate::Config;
 use crate::config::ColourRegionConfig;
 
 /// The regions of a chart and their colours.
@@ -27,21 +31,19 @@ pub struct ColourRegions {
 }
 
 impl ColourRegions {
-    /// `None` if the pictures are mostly black.
-    pub(super) fn new(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
-        let ColourRegionConfig { count, texture_size: side, luminance_weights, .. } = *config;
-        let Chart { seen, colours, .. } = chart;
-        let cells = Lobes::new(config.rows, 0.0);
-        let mut albedo = colours.clone();
-        let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
-        for _ in 0..config.rounds {
-            let means = means(&albedo, &regions, config.dark);
-            albedo = chart.divided(&chart.shading(config, &cells, &means, &regions));
-            regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
-        }
-        let regions = merged(config, seen, &albedo, &regions);
-        let colours = means(&albedo, &regions, config.dark);
-        Some(Self { side, regions: chart.filled(&regions, &vec![true; regions.len()]), colours })
+    /// Under a light of cells, or of one lamp where that leaves less. `None` if the pictures are mostly black.
+    pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Config) -> Option<Self> {
+        let whole = vec![1; chart.side * chart.side];
+        let one = Explanation::new(mesh, chart, config, &whole, &[1])?;
+        let under = match one.lamps() {
+            Some((lamps, lit)) => Under::lamp(mesh, chart, config, lamps, lit)?,
+            None => Under::cells(chart, &config.colour_regions)?,
+        };
+        Some(Self {
+            side: chart.side,
+            regions: chart.filled(&under.regions, &under.known),
+            colours: under.means,
+        })
     }
 
     /// Every texel in the colour of its region, on a square map of `size` texels.
@@ -53,8 +55,7 @@ impl ColourRegions {
 
     /// The region with most texels.
     pub fn largest(&self) -> u8 {
-        let texels = |region: &u8| self.regions.iter().filter(|other| *other == region).count();
-        (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
+        largest(&self.regions)
     }
 
     /// The region of every texel of a chart of side `size`.
@@ -62,6 +63,78 @@ impl ColourRegions {
         let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
         (0..size * size).map(|i| self.regions[at(i / size) * self.side + at(i % size)]).collect()
     }
+}
+
+/// The regions of the texels seen under one light.
+struct Under {
+    regions: Vec<u8>,
+    means: Vec<Vec3>,
+    /// Whether the light tells something of a texel.
+    known: Vec<bool>,
+}
+
+impl Under {
+    fn cells(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
+        let ColourRegionConfig { count, luminance_weights, .. } = *config;
+        let Chart { seen, colours, .. } = chart;
+        let cells = Lobes::new(config.rows, 0.0);
+        let mut albedo = colours.clone();
+        let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
+        for _ in 0..config.rounds {
+            let means = means(&albedo, &regions, config.dark);
+            albedo = chart.divided(&chart.shading(config, &cells, &means, &regions));
+            regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
+        }
+        let regions = merged(config, seen, &albedo, &regions);
+        let means = means(&albedo, &regions, config.dark);
+        Some(Self { known: vec![true; regions.len()], regions, means })
+    }
+
+    /// First the lamp explains all that it shines on, then its largest region alone. What it does not shine on has
+    /// no say.
+    fn lamp(
+        mesh: &Mesh,
+        chart: &Chart,
+        all_config: &Config,
+        first: &Lamps,
+        known: &[bool],
+    ) -> Option<Self> {
+        let Config { colour_regions: config, hair_in_skin, transport, .. } = all_config;
+        let ColourRegionConfig { count, luminance_weights, .. } = *config;
+        let lit: Vec<usize> = (0..known.len()).filter(|at| known[*at]).collect();
+        let seen: Vec<usize> = lit.iter().map(|at| chart.seen[*at]).collect();
+        let mut counted = known.to_vec();
+        let mut found = (vec![], vec![]);
+        for round in 0..2 {
+            let of_largest = match round {
+                0 => None,
+                _ => Lamps::new(mesh, chart, transport, hair_in_skin, &counted),
+            };
+            let lamps = of_largest.as_ref().unwrap_or(first);
+            let all = lamps.albedo(chart, &counted, &vec![false; known.len()]);
+            let albedo: Vec<Vec3> = lit.iter().map(|at| all[*at]).collect();
+            let start = clusters(&features(&albedo, luminance_weights[1], config.dark)?, count);
+            let regions = merged(config, &seen, &albedo, &start);
+            let largest = largest(&regions);
+            counted.fill(false);
+            lit.iter().zip(&regions).for_each(|(at, region)| counted[*at] = *region == largest);
+            found = (albedo, regions);
+        }
+        let (albedo, of_lit) = found;
+        let mut regions = vec![0; known.len()];
+        lit.iter().zip(&of_lit).for_each(|(at, region)| regions[*at] = *region);
+        // In the unit of the pictures, for a shading of mean 1, as under the cells.
+        let shading = lit.iter().zip(&albedo).map(|(at, albedo)| chart.colours[*at] / *albedo);
+        let unit = shading.sum::<Vec3>() / lit.len() as f32;
+        let means = means(&albedo, &of_lit, config.dark).into_iter().map(|mean| mean * unit);
+        Some(Self { regions, means: means.collect(), known: known.to_vec() })
+    }
+}
+
+/// The region with most texels.
+fn largest(regions: &[u8]) -> u8 {
+    let texels = |region: &u8| regions.iter().filter(|other| *other == region).count();
+    (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
 }
 
 /// Points whose distances say how alike colours are.
@@ -133,8 +206,8 @@ mod tests {
     use capture::gbuffer::GBuffer;
     use capture::projection::Projection;
 
+    use super::super::lamps::testing::lamp;
     use super::*;
-    use crate::Config;
     use crate::testing;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
@@ -142,15 +215,22 @@ mod tests {
 
     /// A dome in light from one side, four times as bright there as on the other.
     fn found(albedo: impl Fn(Vec3) -> Vec3) -> Option<ColourRegions> {
+        found_in(albedo, |p| 0.625 + 0.375 * p.y)
+    }
+
+    fn found_in(
+        albedo: impl Fn(Vec3) -> Vec3,
+        shading: impl Fn(Vec3) -> f32,
+    ) -> Option<ColourRegions> {
         let mesh = testing::dome(24);
-        let colour = |p: Vec3| (albedo(p) * (0.625 + 0.375 * p.y), 0);
+        let colour = |p: Vec3| (albedo(p) * shading(p), 0);
         let views: Vec<View> =
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
         let projections = Projection::of_views(&views, &gbuffers);
         let config = Config::default();
         let chart = Chart::new(&mesh, &projections, &config.transport, &config.colour_regions);
-        ColourRegions::new(&chart, &config.colour_regions)
+        ColourRegions::new(&mesh, &chart, &config)
     }
 
     /// The texels of the chart's disc, with where they lie from its centre.
@@ -184,6 +264,22 @@ mod tests {
         }
         let colour = |hair: bool| Vec3::from_slice(&albedo.data[3 * of(hair).next().unwrap().0..]);
         let ratio = colour(true) / colour(false) / (HAIR / SKIN);
+        assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
+    }
+
+    #[test]
+    fn the_dark_side_under_a_lamp_is_no_region() {
+        let found = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lamp).unwrap();
+        let regions = found.map(64);
+        let at = |x: usize, y: usize| regions[64 * y + x];
+        // The chart's rows go down; its centre is the dome's top.
+        let (lit, dark) = (at(40, 32), at(17, 34));
+        assert_eq!(lit, dark);
+        assert_eq!(found.largest(), lit);
+        assert!(at(38, 18) != lit || at(38, 46) != lit);
+        let colour = |region: u8| found.colours[usize::from(region)];
+        let hair = if at(38, 18) == lit { at(38, 46) } else { at(38, 18) };
+        let ratio = colour(hair) / colour(lit) / (HAIR / SKIN);
         assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
     }
 

@@ -70,6 +70,11 @@ impl<'a> Explanation<'a> {
         Some(by_lamp)
     }
 
+    /// The lamps, and the skin that they shine on, if they explain it best.
+    pub fn lamps(&self) -> Option<(&Lamps, &[bool])> {
+        self.lamps.as_ref().map(|lamps| (lamps, self.is_skin.as_slice()))
+    }
+
     /// With these labels.
     pub fn with(&self, labels: &[u8]) -> Explained {
         let albedo = match &self.lamps {

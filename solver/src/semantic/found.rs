@@ -36,7 +36,8 @@ impl FoundRegions {
             return Self::default();
         }
         let chart = Chart::new(&capture.mesh, projections, &config.transport, regions);
-        let colours = by_colour.then(|| ColourRegions::new(&chart, regions)).flatten();
+        let colours =
+            by_colour.then(|| ColourRegions::new(&capture.mesh, &chart, config)).flatten();
         let side = regions.texture_size;
         let (labels, skin) = match &colours {
             Some(colours) => (colours.map(side), vec![colours.largest()]),

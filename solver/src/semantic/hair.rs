@@ -112,6 +112,7 @@ mod tests {
     use capture::gbuffer::GBuffer;
     use capture::projection::Projection;
 
+    use super::super::lamps::testing::lamp;
     use super::*;
     use crate::testing;
 
@@ -154,14 +155,6 @@ mod tests {
         assert!(found(|p| Vec3::splat(1.0 - 0.6 * (p.x + 0.2).clamp(0.0, 1.0))).is_none());
         let red = Vec3::new(0.5, 0.35, 0.25);
         assert!(found(|p| if is_patch(p) { red } else { Vec3::ONE }).is_none());
-    }
-
-    /// One lamp 2.5 m from the dome's centre, at its side, in an even surrounding: half of the dome is in the dark.
-    fn lamp(p: Vec3) -> f32 {
-        let (direction, place) = (Vec3::new(0.8, 0.3, 0.5).normalize(), p - 0.6 * Vec3::Z);
-        let towards = direction - 0.4 * place;
-        let facing = 1.0 - 0.4 * direction.dot(place);
-        0.05 + facing * p.dot(towards).max(0.0) / towards.length_squared().powi(2)
     }
 
     #[test]

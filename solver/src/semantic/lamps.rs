@@ -246,3 +246,16 @@ fn median(mut values: Vec<f32>) -> f32 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f32::total_cmp).1
 }
+
+#[cfg(test)]
+pub(super) mod testing {
+    use glam::Vec3;
+
+    /// The shading by one lamp 2.5 m from the dome's centre, at its side, in an even surrounding: half of the dome is in the dark.
+    pub fn lamp(p: Vec3) -> f32 {
+        let (direction, place) = (Vec3::new(0.8, 0.3, 0.5).normalize(), p - 0.6 * Vec3::Z);
+        let towards = direction - 0.4 * place;
+        let facing = 1.0 - 0.4 * direction.dot(place);
+        0.05 + facing * p.dot(towards).max(0.0) / towards.length_squared().powi(2)
+    }
+}
