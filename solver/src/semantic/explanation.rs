@@ -21,9 +21,12 @@ pub(super) struct Explanation<'a> {
     pub is_skin: Vec<bool>,
     /// The label of skin, and one that no texel has.
     pub skin_and_free: [u8; 2],
+    /// With these labels.
+    pub before: Explained,
 }
 
 /// What a light makes of a chart with some labels.
+#[derive(Default)]
 pub(super) struct Explained {
     /// Of the texels seen, linear R, G, B, up to one factor each.
     pub albedo: Vec<Vec3>,
@@ -52,22 +55,29 @@ impl<'a> Explanation<'a> {
         let cells = Lobes::new(regions.rows, 0.0);
         let skin_and_free = [first, free];
         let lamps = Lamps::new(mesh, chart, &config.transport, &config.hair_in_skin, &is_skin);
-        let by_cells = Self { chart, regions, cells, lamps: None, labels, is_skin, skin_and_free };
-        let Some(lamps) = lamps else { return Some(by_cells) };
-        let left = |by: &Self| sum(&by.with(&by.labels).residuals, &by.is_skin);
-        let left_by_cells = left(&by_cells);
-        let mut by_lamp = Self { lamps: Some(lamps), ..by_cells };
-        if left(&by_lamp) >= left_by_cells {
-            return Some(Self { lamps: None, ..by_lamp });
+        let mut it = Self {
+            chart,
+            regions,
+            cells,
+            lamps: None,
+            labels,
+            is_skin,
+            skin_and_free,
+            before: Explained::default(),
+        };
+        it.before = it.with(&it.labels);
+        let Some(lamps) = lamps else { return Some(it) };
+        let (left, lit) = (sum(&it.before.residuals, &it.is_skin), chart.eroded(&lamps.lit, 1));
+        it.lamps = Some(lamps);
+        if sum(&it.with(&it.labels).residuals, &it.is_skin) >= left {
+            return Some(Self { lamps: None, ..it });
         }
         // Where the lamp does not shine nothing is known; nor at the edges, which it blurs.
-        let lit = by_lamp.lamps.as_ref().map(|lamps| chart.eroded(&lamps.lit, 1))?;
-        let labels = by_lamp.labels.iter_mut().zip(&lit);
-        labels
-            .filter(|(label, lit)| **label == first && !**lit)
-            .for_each(|(label, _)| *label = unlit);
-        by_lamp.is_skin = lit;
-        Some(by_lamp)
+        let dark = it.labels.iter_mut().zip(&lit).filter(|(label, lit)| **label == first && !**lit);
+        dark.for_each(|(label, _)| *label = unlit);
+        it.is_skin = lit;
+        it.before = it.with(&it.labels);
+        Some(it)
     }
 
     /// The lamps, and the skin that they shine on, if they explain it best.
@@ -75,7 +85,7 @@ impl<'a> Explanation<'a> {
         self.lamps.as_ref().map(|lamps| (lamps, self.is_skin.as_slice()))
     }
 
-    /// With these labels.
+    /// With some labels.
     pub fn with(&self, labels: &[u8]) -> Explained {
         let albedo = match &self.lamps {
             None => self.chart.albedo(self.regions, &self.cells, labels),
@@ -92,7 +102,7 @@ impl<'a> Explanation<'a> {
     /// The albedo of one skin under a light of few unknowns: the lamp's, or lobes so wide, radians.
     pub fn smooth_albedo(&self, lobe_width: f32) -> Vec<Vec3> {
         match &self.lamps {
-            Some(_) => self.with(&self.labels).albedo,
+            Some(_) => self.before.albedo.clone(),
             None => {
                 let lobes = Lobes::new(self.regions.rows, lobe_width);
                 self.chart.albedo(self.regions, &lobes, &self.labels)

@@ -38,7 +38,7 @@ impl HairInSkin {
         let explanation = Explanation::new(mesh, chart, config, labels, skin)?;
         let config = &config.hair_in_skin;
         let Explanation { labels, is_skin, skin_and_free: [first, free], .. } = &explanation;
-        let before = explanation.with(labels).residuals;
+        let before = &explanation.before.residuals;
         let count = is_skin.iter().filter(|skin| **skin).count();
         let albedo = explanation.smooth_albedo(config.lobe_width);
         let darkness = darkness(chart, config, &albedo, is_skin)?;
@@ -50,7 +50,7 @@ impl HairInSkin {
                 let split: Vec<u8> = labels.iter().zip(&inside).map(own).collect();
                 let after = explanation.with(&split);
                 let ratio = after.means[usize::from(*free)] / after.means[usize::from(*first)];
-                let left = |of: &[bool]| sum(&after.residuals, of) / sum(&before, of);
+                let left = |of: &[bool]| sum(&after.residuals, of) / sum(before, of);
                 let is_hair = left(is_skin) < config.most_left[0]
                     && left(&inside) < config.most_left[1]
                     && ratio.z > config.least_blue * ratio.x;
