@@ -35,6 +35,8 @@ const NAMED: [&str; 3] = ["face", "light", "rig"];
 struct Variant {
     name: String,
     changes: Table,
+    /// Tables of which nothing but the name stays: those that the variant takes from a file.
+    replaced: Vec<&'static str>,
 }
 
 impl Variant {
@@ -52,6 +54,15 @@ impl Variant {
             let reason = format!("{unknown} is unknown; there are name, {}", VARIED.join(", "));
             return Err(SceneError::value(path, &key, reason));
         }
+        let mut replaced = Vec::new();
+        for section in NAMED {
+            if let Some(file @ Value::String(_)) = changes.get(section) {
+                let mut table = scene::resolve(path, section, file.clone())?;
+                table.remove("name");
+                changes.insert(section.to_owned(), Value::Table(table));
+                replaced.push(section);
+            }
+        }
         if let Some((name, _)) = changes.iter().find(|(_, value)| !value.is_table()) {
             let reason = format!("{name} must be a table; write [variant.{name}]");
             return Err(SceneError::value(path, &key, reason));
@@ -64,7 +75,17 @@ impl Variant {
             }
             scene::resolve_files(path, table);
         }
-        Ok(Self { name, changes })
+        Ok(Self { name, changes, replaced })
+    }
+
+    /// The scene with what the variant changes.
+    fn over(&self, mut scene: Scene) -> Scene {
+        for section in &self.replaced {
+            let name = Value::String(scene.name_of(section).to_owned());
+            let bare = Table::from_iter([("name".to_owned(), name)]);
+            scene.table.insert((*section).to_owned(), Value::Table(bare));
+        }
+        scene.with_changes(&self.changes)
     }
 
     /// As ids of cases carry it.
@@ -132,7 +153,7 @@ fn case(
     let mut id = format!("{}-{}", scene.name_of("face"), scene.name_of("light"));
     if let Some(variant) = variant {
         id = format!("{id}-{}", variant.id());
-        scene = scene.with_changes(&variant.changes);
+        scene = variant.over(scene);
     }
     if let Some(seed) = seed {
         id = format!("{id}-seed{seed}");

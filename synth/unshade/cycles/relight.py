@@ -44,6 +44,8 @@ def relight(
     blender = interpreter.command()
     chart_maps = read_maps(maps, warn)
     render = scene.render
+    if render.material != "skin":
+        warn(f"material {render.material}: Cycles renders the skin; compare with a capture of that material")
     if render.tier != "opaque":
         warn(f"tier {render.tier}: Cycles renders the opaque skin; compare with a capture of that tier")
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
@@ -54,8 +56,8 @@ def relight(
     meter = Meter(progress, pictures, render.width * render.height * samples_each(render.samples))
     meter.note("face")
     face = build_head(scene.face)
-    chart = face.chart
-    surface = Surface(Mesh(chart.vertices, chart.normals, chart.uv, chart.triangles.astype(np.int64)), chart_maps)
+    chart, raised = face.chart, face.surface
+    surface = Surface(Mesh(raised.vertices, raised.normals, raised.uv, raised.triangles.astype(np.int64)), chart_maps)
     exposed = {light.name: lights.exposed(light, chart.vertices, chart.normals) for light in scene.lights}
     first: dict[float, str] = {}
     for scale, factor in scales.items():

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from .cache import load_head
+from .displacement import displaced
 from .eyes import make_eyes
 from .geometry import Chart, Geometry, Part, part_mesh, place
 from .hair import HairStyle, hair_style
@@ -43,6 +44,13 @@ class Face:
     def maps(self) -> Maps:
         """Painted when first asked for: relighting needs the shapes alone."""
         return self.paint()
+
+    @cached_property
+    def surface(self) -> Chart:
+        """What is rendered: the chart, or with `displacement` a finer one that is raised by the painted relief."""
+        if not getattr(self.spec, "displacement", False):
+            return self.chart
+        return displaced(self.chart, self.maps.height)
 
 
 def build_face(spec: FaceSpec) -> Face:

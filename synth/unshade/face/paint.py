@@ -34,7 +34,9 @@ class Maps:
     `specular_albedo` (N,N) f32, reflectance at normal incidence, 0 to 0.05; `specular_normal`
     and `diffuse_normal` (N,N,3) f32 unit vectors in object space (= world); `labels` (N,N) u8,
     ids of `Label`, 0 outside; `inside` (N,N) bool: the texel's centre lies in the chart;
-    `roughness` (N,N,3) f32: GGX alphas of the two specular lobes and the share of the first.
+    `roughness` (N,N,3) f32: GGX alphas of the two specular lobes and the share of the first; `height` (N,N) f32: the
+    relief over the smooth mesh in metres, which the specular normals show, but none on the lids, which are too
+    thin to be moved (None for a head without).
     """
 
     diffuse_albedo: np.ndarray
@@ -44,11 +46,15 @@ class Maps:
     labels: np.ndarray
     inside: np.ndarray
     roughness: np.ndarray
+    height: np.ndarray | None = None
 
 
 # Detail of the chart fades out over this distance (mm) from its outer rim.
 _RIM_FADE_MM = 18.0
 _HAIR_FADE_MM = 5.0
+
+# Between these distances (mm) from the eyeballs skin comes to be more than a lid.
+_LID_MM = (3.0, 7.0)
 
 
 def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec) -> Maps:
@@ -131,6 +137,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
         labels=texels.image(labels),
         inside=texels.inside,
         roughness=extended(roughness),
+        height=extended((metres * _thick(texels.sample(positions), geometry.eyes)).astype(np.float32)),
     )
 
 
@@ -145,6 +152,12 @@ def _ground(head: Head) -> Ground:
     corner = head.template[head.part_chart]
     doubled = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
     return Ground(head.chart_uv, head.chart_triangles, 0.5 * doubled)
+
+
+def _thick(positions: np.ndarray, eyes: np.ndarray) -> np.ndarray:
+    """0 where skin at positions (M,3) m lies close over an eyeball, 1 where it can be raised and sunk."""
+    over = [1000 * (np.linalg.norm(positions - eye[:3], axis=1) - eye[3]) for eye in eyes]
+    return smoothstep(*_LID_MM, np.minimum(*over))
 
 
 def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:

@@ -51,7 +51,8 @@ class FaceSpec:
     `expression` is what the face does, nothing by default: it moves the surface and leaves
     the identity, the chart's UV and the colours alone; `detail` one of `DETAILS`: the same person
     with even or with natural skin, hair and sheen; `specular_scale` and `roughness_scale` multiply
-    the specular albedo (at most 0.05 in all) and the lobes' alphas on top of all that is painted.
+    the specular albedo (at most 0.05 in all) and the lobes' alphas on top of all that is painted; with
+    `displacement` the relief is geometry too, which shadows itself, and solvers still get the smooth mesh.
     """
 
     name: str
@@ -66,6 +67,7 @@ class FaceSpec:
     detail: str = "smooth"
     specular_scale: float = 1.0
     roughness_scale: float = 1.0
+    displacement: bool = False
 
     @property
     def years(self) -> float:
@@ -120,6 +122,7 @@ class FaceSpec:
             texture_size=size,
             expression=_expression(table.get("expression", {}), place),
             detail=detail,
+            displacement=_switch(table, "displacement", place),
             **{key: _number(table[key], key, 0.25, 4.0, place) for key in _SCALES if key in table},
         )
 
@@ -131,7 +134,7 @@ class FaceSpec:
         if not self.expression:
             del table["expression"]
         # A default is not written, so that scenes from before there was a choice stay as they were.
-        for key in ("detail", *_SCALES):
+        for key in ("detail", "displacement", *_SCALES):
             if table[key] == getattr(type(self), key):
                 del table[key]
         return table
@@ -149,6 +152,13 @@ def _whole(table: Mapping[str, Any], key: str, low: int, high: int, place: str) 
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         said = "missing" if value is None else repr(value)
         raise FaceError(f"{key} in {place} is {said}; use a whole number from {low} to {high}")
+    return value
+
+
+def _switch(table: Mapping[str, Any], key: str, place: str) -> bool:
+    value = table.get(key, False)
+    if not isinstance(value, bool):
+        raise FaceError(f"{key} in {place} is {value!r}; use true or false")
     return value
 
 

@@ -182,7 +182,7 @@ class Capture:
         return self.truth / "relit" / light.name / f"{camera.name}.exr"
 
     def _write_coverage(self, face: Face, shots: Shots) -> None:
-        visibility = TexelVisibility(shots.head, face.chart, self.scene.face.texture_size)
+        visibility = TexelVisibility(shots.head, face.surface, self.scene.face.texture_size)
         views = sum(
             visibility.seen_by(camera, read_gray(self.path / "masks" / f"{name}.png") > 0).astype(int)
             for name, camera in self.real.items()

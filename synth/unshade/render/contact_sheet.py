@@ -107,7 +107,7 @@ def contact_sheet(
 def _portrait(sitter: Sitter) -> np.ndarray:
     """8-bit sRGB picture (SIDE, SIDE, 3)."""
     face = build_face(sitter.spec)
-    head = HeadScene(face.chart, face.parts, ChartMaps.truth(face))
+    head = HeadScene(face.surface, face.parts, ChartMaps.truth(face))
     light = lights.exposed(Light(sitter.light, sitter.light), face.chart.vertices, face.chart.normals)
     azimuth, elevation = np.radians([sitter.azimuth, sitter.elevation])
     away = [math.cos(elevation) * math.sin(azimuth), math.sin(elevation), math.cos(elevation) * math.cos(azimuth)]

@@ -205,6 +205,8 @@ def activate(choice: Choice) -> None:
                 f"drjit was imported first and took LLVM {taken}, not {choice.llvm.path}; "
                 f"import unshade before drjit and mitsuba, or set DRJIT_LIBLLVM_PATH={choice.llvm.path}"
             )
+    from .principled_skin import PrincipledSkinBSDF
     from .skin_bsdf import SkinBSDF
 
     mi.register_bsdf("skin", SkinBSDF)
+    mi.register_bsdf("principled_skin", PrincipledSkinBSDF)

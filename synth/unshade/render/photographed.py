@@ -44,6 +44,10 @@ class Photographed:
     chart: Chart
     parts: tuple[()] = ()
 
+    @property
+    def surface(self) -> Chart:
+        return self.chart
+
 
 @dataclass(frozen=True)
 class Pinhole:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..face import Chart, Face, Part
 from .lights import AnyLight
+from .principled_skin import principled_roughness
 from .split import LambertLight
 
 WET_ALPHA = 0.06
@@ -50,10 +51,11 @@ class LitHead:
 class HeadScene:
     """All shapes of a head, built once and shared by a scene without light and one per light.
 
-    ``dark`` answers what a camera or a texel sees; pictures are traced in ``lit``.
+    ``dark`` answers what a camera or a texel sees; pictures are traced in ``lit``. ``material`` of the chart is one
+    of `scene_file.render.MATERIALS`; the other parts are always ``skin``.
     """
 
-    def __init__(self, chart: Chart, parts: list[Part], maps: ChartMaps) -> None:
+    def __init__(self, chart: Chart, parts: list[Part], maps: ChartMaps, material: str = "skin") -> None:
         skin = {
             "type": "skin",
             "diffuse": _texture(maps.diffuse_albedo),
@@ -64,6 +66,11 @@ class HeadScene:
         }
         if maps.roughness is not None:
             skin["roughness"] = _texture(maps.roughness)
+        if material == "principled":
+            skin |= {
+                "type": "principled_skin",
+                "principled_roughness": _texture(principled_roughness(maps.roughness)),
+            }
         self.skin = mi.load_dict(skin)
         self._join(mesh_shape("chart", chart, self.skin, uv=chart.uv), parts)
 

@@ -34,12 +34,12 @@ class Shots:
         self._store = store
         self._models: dict[str, lights.AnyLight | CellSphere] = {}
         self._lit: dict[str, LitHead] = {}
-        self._shapes_key = content_key(fingerprint(), face.chart, face.parts, render)
+        self._shapes_key = content_key(fingerprint(), face.surface, face.parts, render)
         self._maps_key = content_key(maps)
 
     @cached_property
     def head(self) -> HeadScene:
-        return HeadScene(self._face.chart, self._face.parts, self._maps)
+        return HeadScene(self._face.surface, self._face.parts, self._maps, self._render.material)
 
     def light(self, light: Light) -> lights.AnyLight | CellSphere:
         """The light, exposed for this face."""

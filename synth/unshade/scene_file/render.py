@@ -11,6 +11,7 @@ from ..errors import SceneError
 from .checks import choice, known_keys, whole
 
 VARIANTS = ("auto", "llvm_ad_rgb", "scalar_rgb")
+MATERIALS = ("skin", "principled")
 TIERS = ("opaque", "diffusion", "volume")
 DENOISERS = ("none", "oidn")
 
@@ -32,6 +33,9 @@ class Render:
     tiers but ``opaque``. A path between two scatterings, which are isotropic; the width of a
     profile follows from it and the albedo.
 
+    ``material`` of the chart, for truth and relit maps alike: the one that solvers assume, or Mitsuba's ``principled``
+    (`render.principled_skin`).
+
     ``denoise``: what takes the noise out of every picture, true and relit (`render.denoise`).
     """
 
@@ -44,6 +48,7 @@ class Render:
     tier: str = "opaque"
     subsurface_mm: tuple[float, float, float] = SKIN1_MM
     denoise: str = "none"
+    material: str = "skin"
 
     def to_table(self) -> dict[str, Any]:
         """All keys; those of tier and denoiser only where there is one."""
@@ -52,6 +57,8 @@ class Render:
             del table["tier"], table["subsurface_mm"]
         if self.denoise == "none":
             del table["denoise"]
+        if self.material == "skin":
+            del table["material"]
         return table
 
 
@@ -67,7 +74,12 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
         tier=choice(table, "tier", TIERS, place) if "tier" in table else Render.tier,
         subsurface_mm=_mean_free_paths(table, place),
         denoise=choice(table, "denoise", DENOISERS, place) if "denoise" in table else Render.denoise,
+        material=choice(table, "material", MATERIALS, place) if "material" in table else Render.material,
     )
+    if render.material != "skin" and render.tier != "opaque":
+        raise SceneError(
+            f'material = "{render.material}" in {place} is opaque; leave tier = "{render.tier}" out, or the material'
+        )
     if render.tier == "opaque" and "subsurface_mm" in table:
         raise SceneError(
             f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out'

@@ -98,6 +98,10 @@ def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
             raise SceneError(f"{place}: two lights are named {one!r}; give each its own name")
     rig = parse_rig(subtable(table, "rig", place), f"[rig] of {place}")
     render = parse_render(subtable(table, "render", place), f"[render] of {place}")
+    if getattr(face, "displacement", False) and render.tier == "volume":
+        raise SceneError(
+            f'{place}: tier = "volume" fills the smooth head; leave displacement out, or set tier = "diffusion"'
+        )
     formation = parse_formation(table.get("image_formation", {}), f"[image_formation] of {place}")
     captured_mesh = parse_captured_mesh(table.get("captured_mesh", {}), f"[captured_mesh] of {place}")
     labels = parse_labels(table.get("labels", {}), f"[labels] of {place}")

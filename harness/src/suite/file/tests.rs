@@ -41,6 +41,25 @@ fn what_relights_is_one_of_the_renderers() {
 }
 
 #[test]
+fn a_variant_takes_another_face_from_a_file_and_keeps_the_name_of_the_case() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    write(root.path(), "heads/other.toml", "name = \"other\"\nmesh = \"other.obj\"\n");
+    let text = "format = 1\nname = \"s\"\nscene = \"scene.toml\"\n[face]\ndetail = \"natural\"\n\
+                [[variant]]\nname = \"matched\"\n\
+                [[variant]]\nname = \"another\"\nface = \"heads/other.toml\"\n\
+                [[method]]\nname = \"oracle\"\n";
+    let suite = Suite::open(&write(root.path(), "suite.toml", text)).unwrap();
+    let face = |case: usize| suite.cases[case].scene.table["face"].as_table().unwrap().clone();
+    assert_eq!(face(0)["detail"].as_str(), Some("natural"));
+    let mesh = root.path().join("heads/other.obj");
+    assert_eq!(face(1)["mesh"].as_str().map(Path::new), Some(mesh.as_path()));
+    assert_eq!(face(1)["name"].as_str(), Some("ada"));
+    assert_eq!(face(1).len(), 2, "nothing of the other face stays");
+    assert_eq!(suite.cases[1].id, "ada-key-another");
+}
+
+#[test]
 fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());
