@@ -52,6 +52,25 @@ def test_the_chart_is_one_island_with_even_scale(head):
     assert np.percentile(scale, 99) / np.percentile(scale, 1) < 2.5
 
 
+def test_a_wide_chart_holds_head_neck_and_shoulders_in_two_islands(head):
+    wide = cache.load_head(True)
+    area = chart.signed_areas(wide.chart_uv, wide.chart_triangles)
+    assert (area > 0).all()
+    assert wide.chart_uv.min() > 0.01 and wide.chart_uv.max() < 0.99
+    covered = texels.rasterise(wide.chart_uv, wide.chart_triangles, 1024).inside.mean()
+    assert covered == pytest.approx(area.sum(), rel=1e-3) and covered > 0.5
+    np.testing.assert_array_equal(wide.template, head.template)
+    np.testing.assert_array_equal(wide.chart_vertices[wide.chart_triangles], wide.part_chart)
+    assert len(wide.part_rest) == 0 and len(wide.part_chart) == len(head.part_chart) + len(head.part_rest)
+    # Two islands: a rim of either, two eyes and the mouth. Of the surface one rim is left, the cut through the shoulders.
+    assert len(chart.boundary_loops(wide.chart_triangles)) == 5
+    assert wide.template[wide.chart_vertices][wide.rim_mm < 0.1][:, 1].max() < -150
+    corner = wide.template[wide.part_chart]
+    world = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    scale = np.sqrt(world / (2 * area))
+    assert np.percentile(scale, 99) / np.percentile(scale, 1) < 2.5
+
+
 def test_texels_know_their_own_centres(head):
     grid = texels.rasterise(head.chart_uv, head.chart_triangles, 256)
     row, column = np.nonzero(grid.inside)
@@ -73,7 +92,7 @@ def test_angle_weighted_normals_of_a_sphere():
 def test_cache_keeps_the_head_and_survives_a_broken_file(head, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     made = []
-    monkeypatch.setattr(cache, "make_head", lambda: made.append(1) or head)
+    monkeypatch.setattr(cache, "make_head", lambda wide: made.append(1) or head)
     load = cache.load_head.__wrapped__
     load()
     again = load()
@@ -89,5 +108,5 @@ def test_cache_keeps_the_head_and_survives_a_broken_file(head, tmp_path, monkeyp
 def test_cache_does_without_a_folder_it_can_write(head, tmp_path, monkeypatch):
     (tmp_path / "unshade").write_text("a file where the folder should be")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(cache, "make_head", lambda: head)
+    monkeypatch.setattr(cache, "make_head", lambda wide: head)
     assert cache.load_head.__wrapped__() is head

@@ -58,14 +58,18 @@ def build_face(spec: FaceSpec) -> Face:
 
     Raises `FaceError` where the head data is missing.
     """
-    head = load_head()
+    head = load_head(spec.chart == "wide")
     geometry = place(head, shape(head, spec), pose(head, spec))
     folds = [sunken_fold(geometry.positions, head.part_chart, *eye) for eye in zip(geometry.eyes, geometry.gaze)]
     style = hair_style(spec)
-    _, mesh = part_mesh(geometry, head.part_chart)
     return Face(
         spec=spec,
-        chart=Chart(uv=head.chart_uv.astype(np.float32), **mesh),
+        chart=Chart(
+            vertices=geometry.positions[head.chart_vertices].astype(np.float32),
+            normals=geometry.normals[head.chart_vertices].astype(np.float32),
+            uv=head.chart_uv.astype(np.float32),
+            triangles=head.chart_triangles.astype(np.uint32),
+        ),
         parts=[
             *_occluders(head, geometry, style, spec),
             *make_mouth(head, geometry, spec),
@@ -81,6 +85,8 @@ def _occluders(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     parts = []
     for name in ("rest", "mouth", "sockets"):
         used, mesh = part_mesh(geometry, getattr(head, f"part_{name}"))
+        if not len(used):
+            continue  # a wide chart leaves no rest
         regions = find_regions(head.template[used].astype(np.float32))
         if name == "rest":
             diffuse, specular = head_colour(regions, style, spec)

@@ -35,18 +35,18 @@ def _key() -> str:
 
 
 @functools.cache
-def load_head() -> Head:
-    """The shared head: from the cache, else made and, where the folder can be written, kept.
+def load_head(wide: bool = False) -> Head:
+    """The shared head (see `make_head`): from the cache, else made and, where the folder can be written, kept.
 
     The key holds the sources that make the head and the versions of what they use. A
     file that cannot be read is made anew; a folder that cannot be written costs time only.
     """
-    path = cache_folder() / f"head-{_key()}.npz"
+    path = cache_folder() / f"head-{'wide-' if wide else ''}{_key()}.npz"
     try:
         with np.load(path, allow_pickle=False) as stored:
             return Head(**{field.name: stored[field.name] for field in dataclasses.fields(Head)})
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-        made = make_head()
+        made = make_head(wide)
     partial = path.with_name(f"{path.name}.{os.getpid()}.partial")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from . import base_mesh
-from .chart import boundary_loops, unwrap
+from .chart import boundary_loops, packed, unwrap
 from .expression import UNITS, target
 from .subdivide import subdivide, triangulate
 
@@ -50,7 +50,8 @@ class Head:
     (T,3B) of the morph targets in metres; `template` (V,3) and `eye_template` (2,4: centre,
     radius) the average young head in PAINT coordinates: millimetres from the midpoint of
     the eyes' centres. `part_<name>` (F,3) triangles of subdivided vertices. The chart:
-    `chart_vertices` (C,) subdivided indices, ascending; `chart_uv` (C,2); `native_uv` (C,2)
+    `chart_vertices` (C,) subdivided indices, ascending, twice where a seam runs; `chart_triangles`
+    those of `part_chart` as indices into the C vertices; `chart_uv` (C,2); `native_uv` (C,2)
     of the base mesh, where the region masks live; `rim_mm` (C,) distance to its outer rim.
     """
 
@@ -72,6 +73,7 @@ class Head:
     part_mouth: np.ndarray
     part_sockets: np.ndarray
     chart_vertices: np.ndarray
+    chart_triangles: np.ndarray
     chart_uv: np.ndarray
     native_uv: np.ndarray
     rim_mm: np.ndarray
@@ -91,11 +93,6 @@ class Head:
         targets = sp.csr_matrix((self.targets_data, self.targets_indices, self.targets_indptr), shape=shape)
         return self.base + (targets.T @ dense).reshape(-1, 3)
 
-    @property
-    def chart_triangles(self) -> np.ndarray:
-        """Chart triangles (F,3) as indices into the C chart vertices."""
-        return np.searchsorted(self.chart_vertices, self.part_chart)
-
 
 def average_weights() -> dict[str, float]:
     """Morph weights of the template: young, of average build, every ethnicity and gender alike."""
@@ -112,10 +109,15 @@ def fit_sphere(points: np.ndarray) -> np.ndarray:
     return np.array([x, y, z, np.sqrt(rest + x * x + y * y + z * z)])
 
 
-def make_head() -> Head:
-    """Build everything from the head data; slow (see `cache.load_head`)."""
+def make_head(wide: bool = False) -> Head:
+    """Build everything from the head data; slow (see `cache.load_head`).
+
+    The chart is the face to behind the ears or, if `wide`, head, neck and shoulders.
+    """
     mesh = base_mesh.read_base_mesh()
     quads, uv_quads, part = _select(mesh)
+    if wide:
+        part[part == "rest"] = "chart"
     eyes = np.stack([np.unique(mesh.quads[mesh.groups == f"helper-{s}-eye"]) for s in "lr"])
     arches, tongue = _dental_arches(mesh), mesh.quads[mesh.groups == "helper-tongue"]
     used = np.unique(np.concatenate([part.ravel() for part in (quads, eyes, arches, tongue)]))
@@ -135,7 +137,7 @@ def make_head() -> Head:
     blank = np.zeros(0)
     head = Head(
         base, refine.data, refine.indices, refine.indptr, eyes, arches, tongue, names, targets.data, targets.indices, targets.indptr,
-        np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), blank, blank, blank, blank,
+        np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), blank, blank, blank, blank, blank,
     )  # fmt: skip
     young = head.morph(average_weights())
     spheres = np.stack([fit_sphere(young[e]) for e in eyes])
@@ -144,20 +146,21 @@ def make_head() -> Head:
     template = 1000 * (head.refine(young) - middle)
 
     chart = part == "chart"
-    vertices, uv, native = _chart(young, quads[chart], uv_quads[chart], mesh.uv)
-    fine = np.unique(head.part_chart)
-    local = np.searchsorted(vertices, quads[chart])
-    spread, fine_local = subdivide(local, len(vertices), LEVELS)
-    # Row of every subdivided chart vertex in the chart's own subdivision.
-    own = np.empty(len(fine), dtype=np.int64)
-    own[np.searchsorted(fine, fine_quads[fine_part == "chart"])] = fine_local
-    rim = fine[boundary_loops(np.searchsorted(fine, head.part_chart))[0]]
+    local, uv, native = _chart(young, quads[chart], uv_quads[chart], mesh.uv, wide)
+    spread, fine_local = subdivide(local, len(uv), LEVELS)
+    # Subdivided vertex of every vertex in the chart's own subdivision.
+    joined = np.empty(spread.shape[0], dtype=np.int64)
+    joined[fine_local] = fine_quads[fine_part == "chart"]
+    own = np.argsort(joined, kind="stable")
+    fine = joined[own]
+    rim = _outer_rim(template, head.part_chart)
     distance = cKDTree(template[rim]).query(template[fine])[0]
     return dataclasses.replace(
         head,
         template=template,
         eye_template=1000 * spheres,
         chart_vertices=fine,
+        chart_triangles=np.argsort(own)[triangulate(fine_local)],
         chart_uv=(spread @ uv)[own],
         native_uv=(spread @ native)[own],
         rim_mm=distance,
@@ -198,15 +201,42 @@ def _dental_arches(mesh: base_mesh.BaseMesh) -> np.ndarray:
     return np.array(arches).reshape(2, 2, -1)
 
 
-def _chart(young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Base vertices of the chart (N,), ascending, their chart UV and their native UV (N,2)."""
-    vertices, first = np.unique(quads, return_index=True)
-    local = np.searchsorted(vertices, quads)
+def _chart(
+    young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray, wide: bool
+) -> tuple[np.ndarray, ...]:
+    """Quads (F,4) of the chart's own vertices, their UV in the chart and in the base mesh (N,2).
+
+    A wide chart is cut open along the base mesh's seams; of them the front has but the end of one, in a rim.
+    """
+    seams = uv_quads.ravel() if wide else np.zeros(uv_quads.size, dtype=uv_quads.dtype)
+    corners, first, local = np.unique(
+        np.stack([quads.ravel(), seams], axis=1), axis=0, return_index=True, return_inverse=True
+    )
     guess = native[uv_quads.ravel()[first]]
-    loops = boundary_loops(triangulate(local))
-    # The mouth is the inner loop on the midline; the other inner loops are the eyes.
-    mouth = min(loops[1:], key=lambda loop: abs(young[vertices[loop], 0].mean()))
-    return vertices, unwrap(young[vertices], local, guess, mouth), guess
+    local = local.reshape(quads.shape)
+    sides = np.stack([local, np.roll(local, -1, axis=1)], axis=-1).reshape(-1, 2)
+    graph = sp.coo_matrix((np.ones(len(sides)), sides.T), shape=(len(corners),) * 2)
+    count, island = connected_components(graph, directed=False)
+    # The face comes first: it has most vertices.
+    members = sorted((np.flatnonzero(island == k) for k in range(count)), key=len, reverse=True)
+    islands = []
+    for own in members:
+        inner = np.searchsorted(own, local[island[local[:, 0]] == island[own[0]]])
+        points = young[corners[own, 0]]
+        loops = boundary_loops(triangulate(inner))[1:]
+        # The mouth is the inner loop on the midline; the other inner loops are the eyes.
+        mouth = min(loops, key=lambda loop: abs(points[loop, 0].mean())) if loops else None
+        islands.append(unwrap(points, inner, guess[own], mouth))
+    uv = np.empty((len(corners), 2))
+    uv[np.concatenate(members)] = np.concatenate(packed(islands))
+    return local, uv, guess
+
+
+def _outer_rim(template: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The vertices of the chart's widest rim: not that of an eye or of the mouth."""
+    used, local = np.unique(triangles, return_inverse=True)
+    loops = [used[loop] for loop in boundary_loops(local.reshape(-1, 3))]
+    return max(loops, key=lambda loop: np.ptp(template[loop], axis=0).max())
 
 
 def _targets(compact: np.ndarray, count: int) -> tuple[np.ndarray, sp.csr_matrix]:

@@ -68,12 +68,12 @@ class Tone:
         return {"ita_degrees": round(self.angle, 2), "group": self.group, "lab_d65": sites}
 
 
-def face_ita(maps: Maps) -> Tone:
+def face_ita(maps: Maps, chart: str = "face") -> Tone:
     """Tone of a generated face from its diffuse albedo: mean of forehead and cheeks, skin alone.
 
-    Maps of any size do; the sites are found through the chart, which all generated faces share.
+    Maps of any size do; the sites are found through the chart (of `spec.CHARTS`), which all generated faces share.
     """
-    head = load_head()
+    head = load_head(chart == "wide")
     points = head.template[head.chart_vertices].astype(np.float32)
     size = len(maps.labels)
     column = np.clip((head.chart_uv[:, 0] * size).astype(int), 0, size - 1)

@@ -24,6 +24,9 @@ DETAILS = ("smooth", "natural")
 """How much a face shows: even skin and painted hair, or what photographed faces have (`natural`)."""
 
 
+CHARTS = ("face", "wide")
+"""How far the chart reaches: the face to behind the ears, or head, neck and shoulders, as scans have them."""
+
 _SCALES = ("specular_scale", "roughness_scale")
 
 
@@ -52,7 +55,8 @@ class FaceSpec:
     the identity, the chart's UV and the colours alone; `detail` one of `DETAILS`: the same person
     with even or with natural skin, hair and sheen; `specular_scale` and `roughness_scale` multiply
     the specular albedo (at most 0.05 in all) and the lobes' alphas on top of all that is painted; with
-    `displacement` the relief is geometry too, which shadows itself, and solvers still get the smooth mesh.
+    `displacement` the relief is geometry too, which shadows itself, and solvers still get the smooth mesh; `chart` is
+    one of `CHARTS`.
     """
 
     name: str
@@ -68,6 +72,7 @@ class FaceSpec:
     specular_scale: float = 1.0
     roughness_scale: float = 1.0
     displacement: bool = False
+    chart: str = "face"
 
     @property
     def years(self) -> float:
@@ -110,6 +115,9 @@ class FaceSpec:
         detail = table.get("detail", cls.detail)
         if detail not in DETAILS:
             raise FaceError(f"detail in {place} is {detail!r}; use one of {', '.join(DETAILS)}")
+        chart = table.get("chart", cls.chart)
+        if chart not in CHARTS:
+            raise FaceError(f"chart in {place} is {chart!r}; use one of {', '.join(CHARTS)}")
         size = _whole(table, "texture_size", 64, 8192, place) if "texture_size" in table else cls.texture_size
         return cls(
             name=name,
@@ -122,6 +130,7 @@ class FaceSpec:
             texture_size=size,
             expression=_expression(table.get("expression", {}), place),
             detail=detail,
+            chart=chart,
             displacement=_switch(table, "displacement", place),
             **{key: _number(table[key], key, 0.25, 4.0, place) for key in _SCALES if key in table},
         )
@@ -134,7 +143,7 @@ class FaceSpec:
         if not self.expression:
             del table["expression"]
         # A default is not written, so that scenes from before there was a choice stay as they were.
-        for key in ("detail", "displacement", *_SCALES):
+        for key in ("detail", "displacement", "chart", *_SCALES):
             if table[key] == getattr(type(self), key):
                 del table[key]
         return table

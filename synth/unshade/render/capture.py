@@ -122,7 +122,8 @@ class Capture:
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
         if isinstance(face.spec, FaceSpec):
             _write_json(
-                self.truth / "skin_tone.json", {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps).to_table()
+                self.truth / "skin_tone.json",
+                {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps, face.spec.chart).to_table(),
             )
         else:
             keep(face.spec, self.truth / _HEAD)
