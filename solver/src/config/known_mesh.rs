@@ -238,6 +238,9 @@ pub struct HeightConfig {
     pub unseen_damping: f32,
     /// Weight of squared relative changes of the diffuse albedo.
     pub albedo_damping: f32,
+    /// Relief that the views of one side find is held against the highlights of the other side's. Where those
+    /// show this share of it or less, none is believed; where they show all, all. 0 believes all.
+    pub doubt: f32,
 }
 
 /// The side of the texture on which [`HeightConfig::steps`] are taken.

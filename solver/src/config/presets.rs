@@ -178,6 +178,7 @@ impl Config {
                 smoothness: 300.0,
                 unseen_damping: 1e-3,
                 albedo_damping: 300.0,
+                doubt: 0.0,
             },
             records: RecordConfig { stages: true, layers: true },
         }
@@ -210,6 +211,7 @@ impl Config {
         config.transport.enabled = true;
         config.height.enabled = true;
         config.height.highlights = true;
+        config.height.doubt = 0.5;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
         config.normalisation.specular_skin = 0.028;

@@ -180,6 +180,8 @@ impl HeightConfig {
         let within = |x: f32| (0.0..=1.0).contains(&x);
         range("height.coarsest", self.coarsest, within, "0 to 1")?;
         range("height.diffuse_doubt", self.diffuse_doubt, within, "0 to 1")?;
+        let below = |x: f32| (0.0..1.0).contains(&x);
+        range("height.doubt", self.doubt, below, "at least 0 and below 1")?;
         range("height.rim", self.rim, |x: usize| x <= 16, "0 to 16")?;
         not_negative(&[
             ("height.usual_deviation", self.usual_deviation),

@@ -7,6 +7,7 @@
 //! gradients on the normal equations; linearised anew on every texture, coarse to fine.
 
 mod conjugate_gradients;
+mod shown;
 
 use capture::gbuffer::{Atlas, GBuffer};
 use glam::Vec3;

@@ -10,10 +10,15 @@ use super::height_solve::HeightSolve;
 use super::lighting::Lighting;
 use super::stage::State;
 use crate::config::HeightConfig;
+use crate::model::planes::Planes;
+use crate::model::samples::Samples;
 use crate::model::texture::resample;
 
 /// Least side of a texture of heights.
 const LEAST_SIDE: usize = 16;
+
+/// Views on a side, below which their means over a texel leave nothing.
+const LEAST_VIEWS: usize = 2;
 
 /// The deviation of the normals, 3 channels per texel of a texture of side `context.size`. `step` hears of
 /// every conjugate-gradient step; if it stops the solve with [`SolveError::Interrupted`], the deviation is
@@ -24,41 +29,139 @@ pub(super) fn heights(
     lighting: Option<&Lighting>,
     step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
 ) -> Result<Vec<f32>, SolveError> {
-    let config = &context.config.height;
-    let sides = sides(config, context.size);
-    let (mut unknowns, mut of) = (vec![], sides[0]);
-    let mut deviation = vec![0.0; 3 * of * of];
-    for (round, side) in sides.into_iter().enumerate() {
-        let atlas = Atlas::new(&context.capture.mesh, side);
-        let samples = context.samples(side);
-        let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
-        let exponent = config.transport.light_exponent;
-        let solve = HeightSolve::new(config, backend, &samples, views, &atlas, state, lighting);
-        let solve = match lighting
-            .and_then(|lighting| DeviatedHighlights::new(context, lighting, &samples, exponent))
-        {
-            Some(highlights) => solve.with(highlights),
-            None => solve,
-        };
-        unknowns = match round {
-            0 => vec![0.0; solve.unknowns()],
-            _ => enlarged(&unknowns, of, side),
+    let sides = sides(&context.config.height, context.size);
+    let first = sides[0];
+    let mut unknowns = vec![];
+    let mut deviation = vec![0.0; 3 * first * first];
+    let (mut of, mut believed) = (first, 1.0);
+    for side in sides {
+        let level = Level::new(context, state, lighting, side);
+        let solve = level.solve(&level.samples);
+        unknowns = match unknowns.is_empty() {
+            true => vec![0.0; solve.unknowns()],
+            false => enlarged(&unknowns, of, side),
         };
         of = side;
-        let done = solve.solve(&mut unknowns, step);
+        let mut last = 0.0;
+        let done = solve.solve(&mut unknowns, &mut |residual| {
+            last = residual;
+            step(residual)
+        });
         deviation = solve.deviation(&unknowns);
+        let done = done.and_then(|()| {
+            if side == first {
+                believed = level.believed(&mut |_| step(last))?;
+            }
+            Ok(())
+        });
         match done {
             Err(SolveError::Interrupted) => break,
             done => done?,
         }
     }
-    Ok(resample(&deviation, of, 3, context.size))
+    let mut deviation = resample(&deviation, of, 3, context.size);
+    deviation.iter_mut().for_each(|channel| *channel *= believed);
+    Ok(deviation)
+}
+
+/// The problem on a texture of one side.
+struct Level<'a> {
+    context: &'a SolveContext<'a>,
+    state: &'a State,
+    lighting: Option<&'a Lighting>,
+    atlas: Atlas,
+    samples: Samples,
+}
+
+impl<'a> Level<'a> {
+    fn new(
+        context: &'a SolveContext,
+        state: &'a State,
+        lighting: Option<&'a Lighting>,
+        side: usize,
+    ) -> Self {
+        let (atlas, samples) = (Atlas::new(&context.capture.mesh, side), context.samples(side));
+        Self { context, state, lighting, atlas, samples }
+    }
+
+    fn solve(&'a self, samples: &'a Samples) -> HeightSolve<'a> {
+        let Self { context, state, lighting, atlas, .. } = self;
+        let (config, backend, views) = (context.config, context.backend, &context.gbuffers);
+        let exponent = config.transport.light_exponent;
+        let solve = HeightSolve::new(config, backend, samples, views, atlas, state, *lighting);
+        match lighting
+            .and_then(|lighting| DeviatedHighlights::new(context, lighting, samples, exponent))
+        {
+            Some(highlights) => solve.with(highlights),
+            None => solve,
+        }
+    }
+
+    /// The share of the relief to believe: 1 where the views of either side show all that those of the other
+    /// find, or more, since flatness finds too little; 0 where they show [`HeightConfig::doubt`] of it, as they
+    /// do of errors of the model that repeat from view to view. 1 without highlights by the light, or with
+    /// fewer than two views on a side.
+    fn believed(
+        &self,
+        step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
+    ) -> Result<f32, SolveError> {
+        let doubt = f64::from(self.context.config.height.doubt);
+        let sides = self.sides();
+        if doubt == 0.0 || sides.len() < 2 * LEAST_VIEWS {
+            return Ok(1.0);
+        }
+        let halves = [false, true].map(|side| self.one_side(&sides, side));
+        let solves = [0, 1].map(|side: usize| self.solve(&halves[side]));
+        let (mut common, mut relief) = (0.0, 0.0);
+        for (own, other) in [(0, 1), (1, 0)] {
+            if !solves[own].has_highlights() {
+                return Ok(1.0);
+            }
+            let mut unknowns = vec![0.0; solves[own].unknowns()];
+            solves[own].solve(&mut unknowns, step)?;
+            if let Some([product, square]) = solves[other].shown(&unknowns) {
+                common += product;
+                relief += square;
+            }
+        }
+        let shown = if relief > 0.0 { common / relief } else { 1.0 };
+        Ok(((shown - doubt) / (1.0 - doubt)).clamp(0.0, 1.0) as f32)
+    }
+
+    /// For every training view the side that it is on, along the axis over which they spread most.
+    fn sides(&self) -> Vec<bool> {
+        let places: Vec<[f32; 3]> =
+            self.context.capture.train.iter().map(|v| v.camera.position().to_array()).collect();
+        let spread = |axis: usize| {
+            let along = places.iter().map(|place| place[axis]);
+            along.clone().fold(f32::MIN, f32::max) - along.fold(f32::MAX, f32::min)
+        };
+        let widest = |axis: usize| (0..3).all(|other| spread(axis) >= spread(other));
+        let axis = (0..3).find(|axis| widest(*axis)).unwrap_or(0);
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by(|a, b| places[*a][axis].total_cmp(&places[*b][axis]));
+        let mut sides = vec![false; places.len()];
+        order[places.len() / 2..].iter().for_each(|view| sides[*view] = true);
+        sides
+    }
+
+    /// The samples, of which those of one side's views alone count.
+    fn one_side(&self, sides: &[bool], side: bool) -> Samples {
+        let samples = &self.samples;
+        let weight = Planes::from_fn(samples.len(), |i| {
+            let counts = sides[samples.view_index[i] as usize] == side;
+            [if counts { samples.weight.get(0, i) } else { 0.0 }]
+        });
+        Samples { weight, ..samples.clone() }
+    }
 }
 
 /// Conjugate-gradient steps for textures of side `size`.
 pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
+    let sides = sides(config, size);
     let of_side = |side: &usize| config.reweightings * config.steps_on(*side);
-    sides(config, size).iter().map(of_side).sum()
+    let halves = if config.doubt > 0.0 && config.highlights { 2 * of_side(&sides[0]) } else { 0 };
+    sides.iter().map(of_side).sum::<usize>() + halves
 }
 
 /// The sides of the textures of heights, one for every linearisation.

@@ -125,6 +125,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
             if self.cut.is_some() { Err(SolveError::Interrupted) } else { Ok(()) }
         })?;
         self.lap(name);
+        self.spare(of.saturating_sub(losses.len()));
         self.log.stages.push(StageRecord { name: name.to_owned(), loss: losses });
         Ok(deviation)
     }
