@@ -37,7 +37,8 @@ pub(super) fn heights(
     for side in sides {
         let level = Level::new(context, state, lighting, side);
         let solve = level.solve(&level.samples);
-        unknowns = match unknowns.is_empty() {
+        let coarsest = unknowns.is_empty();
+        unknowns = match coarsest {
             true => vec![0.0; solve.unknowns()],
             false => enlarged(&unknowns, of, side),
         };
@@ -48,8 +49,9 @@ pub(super) fn heights(
             step(residual)
         });
         deviation = solve.deviation(&unknowns);
+        drop(solve);
         let done = done.and_then(|()| {
-            if side == first {
+            if coarsest {
                 believed = level.believed(&mut |_| step(last))?;
             }
             Ok(())
@@ -110,16 +112,20 @@ impl<'a> Level<'a> {
         if doubt == 0.0 || sides.len() < 2 * LEAST_VIEWS {
             return Ok(1.0);
         }
-        let halves = [false, true].map(|side| self.one_side(&sides, side));
-        let solves = [0, 1].map(|side: usize| self.solve(&halves[side]));
         let (mut common, mut relief) = (0.0, 0.0);
-        for (own, other) in [(0, 1), (1, 0)] {
-            if !solves[own].has_highlights() {
+        for side in [false, true] {
+            // One side at a time, for their memory.
+            let samples = self.one_side(&sides, side);
+            let solve = self.solve(&samples);
+            if !solve.has_highlights() {
                 return Ok(1.0);
             }
-            let mut unknowns = vec![0.0; solves[own].unknowns()];
-            solves[own].solve(&mut unknowns, step)?;
-            if let Some([product, square]) = solves[other].shown(&unknowns) {
+            let mut unknowns = vec![0.0; solve.unknowns()];
+            solve.solve(&mut unknowns, step)?;
+            drop(solve);
+            drop(samples);
+            let other = self.one_side(&sides, !side);
+            if let Some([product, square]) = self.solve(&other).shown(&unknowns) {
                 common += product;
                 relief += square;
             }

@@ -20,10 +20,10 @@ impl HeightSolve<'_> {
     pub(in crate::optimise) fn shown(&self, x: &[f32]) -> Option<[f64; 2]> {
         let light = self.highlights.as_ref()?;
         let samples = self.samples;
+        let (slopes, _) = self.linearise(x);
         let unknowns = self.sampled(x);
         let flat = light.at(samples, &Planes::new(UNKNOWNS, samples.len()));
         let bent = light.at(samples, &unknowns);
-        let (slopes, _) = self.linearise(x);
         let relief = Planes::from_fn(samples.len(), |i| {
             std::array::from_fn::<f32, 3, _>(|c| bent.get(c, i) - flat.get(c, i))
         });
@@ -33,6 +33,7 @@ impl HeightSolve<'_> {
                 samples.target.get(c, i) - diffuse - flat.get(c, i)
             })
         });
+        drop((flat, bent, unknowns));
         let (relief, picture) =
             (self.nearby.without_coarse(&relief), self.nearby.without_coarse(&picture));
         let left = Planes::from_fn(samples.len(), |i| {
