@@ -12,18 +12,20 @@
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
 //!   cells for each of the samples whose highlights are followed.
 //! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
-//!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture.
+//!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture; 100 bytes a sample more
+//!   where one side's views are asked what they show of the other's relief.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
 //!   keeps) and 190 bytes a texel (7 values of the state, 8 moments, 8 as samples see them, 8 gradients, 12 of
 //!   the blur; the rest again the allocator's); 170 where heights have been before and nothing is moved.
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
-//! Estimated and measured peaks (largest resident set of `unshade solve --backend cpu`, ten views):
+//! Estimated and measured peaks (largest resident set of `unshade solve --backend cpu`, ten views; those of
+//! `unshade` but the first without what sides of views need):
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
-//! | `unshade` | 251 thousand | 512² | 258 MB | 257 MB |
+//! | `unshade` | 256 thousand | 512² | 284 MB | 285 MB |
 //! | `unshade` | 251 thousand | 1024² | 299 MB | 304 MB |
 //! | `unshade` | 251 thousand | 2048² | 833 MB | 824 MB |
 //! | `unshade` | 1.0 million | 512² | 645 MB | 648 MB |
@@ -53,6 +55,7 @@ const WARM_UP_SAMPLE: f64 = 180.0;
 const WARM_UP_TEXEL: f64 = 130.0;
 const TRANSPORT_SAMPLE: f64 = 280.0;
 const HEIGHT_SAMPLE: f64 = 490.0;
+const SIDES_SAMPLE: f64 = 100.0;
 const HEIGHT_TEXEL: f64 = 100.0;
 const FINE_SAMPLE: f64 = 190.0;
 const FINE_TEXEL: f64 = 190.0;
@@ -130,7 +133,8 @@ impl Estimate {
         let height = match config.height.enabled {
             true => {
                 let side = size as f64 * f64::from(config.height.texture_scale);
-                covered * HEIGHT_SAMPLE + side * side * HEIGHT_TEXEL + texels * 28.0
+                let sides = if config.height.doubt > 0.0 { SIDES_SAMPLE } else { 0.0 };
+                covered * (HEIGHT_SAMPLE + sides) + side * side * HEIGHT_TEXEL + texels * 28.0
             }
             false => 0.0,
         };
