@@ -31,7 +31,7 @@ def captured(folder: Path, samples: int = 16) -> Path:
     out = folder / "capture"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(capture, "build_head", render_toy.toy_face)
-        patch.setattr(capture, "face_ita", lambda maps: Tone({}, 20.0, "tan"))
+        patch.setattr(capture, "face_ita", lambda maps, chart: Tone({}, 20.0, "tan"))
         choice = llvm.choose("llvm_ad_rgb")
         capture.synthesise(parse_scene(render_toy.toy_table(samples=samples), "toy", Path()), out, choice, no_progress)
     return out

@@ -28,7 +28,7 @@ def toy(monkeypatch):
     monkeypatch.setattr(capture, "face_ita", toy_tone)
 
 
-def toy_tone(maps):
+def toy_tone(maps, chart):
     """The toy has neither forehead nor cheeks."""
     return Tone({}, 20.0, "tan")
 

@@ -17,8 +17,8 @@ use crate::model::texture::resample;
 /// Least side of a texture of heights.
 const LEAST_SIDE: usize = 16;
 
-/// Views on a side, below which their means over a texel leave nothing.
-const LEAST_VIEWS: usize = 2;
+/// Views on a side, below which their means over a texel leave too little.
+const LEAST_VIEWS: usize = 3;
 
 /// The deviation of the normals, 3 channels per texel of a texture of side `context.size`. `step` hears of
 /// every conjugate-gradient step; if it stops the solve with [`SolveError::Interrupted`], the deviation is
@@ -102,7 +102,7 @@ impl<'a> Level<'a> {
     /// The share of the relief to believe: 1 where the views of either side show all that those of the other
     /// find, or more, since flatness finds too little; 0 where they show [`HeightConfig::doubt`] of it, as they
     /// do of errors of the model that repeat from view to view. 1 without highlights by the light, or with
-    /// fewer than two views on a side.
+    /// fewer than three views on a side.
     fn believed(
         &self,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
@@ -162,12 +162,12 @@ impl<'a> Level<'a> {
     }
 }
 
-/// Conjugate-gradient steps for textures of side `size`.
-pub(super) fn steps(config: &HeightConfig, size: usize) -> usize {
+/// Conjugate-gradient steps for textures of side `size` and so many training views.
+pub(super) fn steps(config: &HeightConfig, size: usize, views: usize) -> usize {
     let sides = sides(config, size);
     let of_side = |side: &usize| config.reweightings * config.steps_on(*side);
-    let halves = if config.doubt > 0.0 && config.highlights { 2 * of_side(&sides[0]) } else { 0 };
-    sides.iter().map(of_side).sum::<usize>() + halves
+    let asked = config.doubt > 0.0 && config.highlights && views >= 2 * LEAST_VIEWS;
+    sides.iter().map(of_side).sum::<usize>() + if asked { 2 * of_side(&sides[0]) } else { 0 }
 }
 
 /// The sides of the textures of heights, one for every linearisation.

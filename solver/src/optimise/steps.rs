@@ -88,7 +88,9 @@ impl Step {
             Self::Transport => config.transport.iterations,
             Self::Distance(round) => distance_steps(config, *round),
             Self::Highlights => config.transport.highlights,
-            Self::Heights => heights::steps(&config.height, context.size),
+            Self::Heights => {
+                heights::steps(&config.height, context.size, context.capture.train.len())
+            }
             Self::NormalsAndSpecular(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
         }

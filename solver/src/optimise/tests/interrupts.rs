@@ -54,8 +54,8 @@ fn stop_at(step: usize) -> impl FnMut(&crate::Progress) -> ControlFlow<()> {
 }
 
 /// The steps: two starts of 8, warm-up of 20 with the best one's, light of 10, its distance
-/// of 5, transport of 16, highlights of 5, heights of 8 and twice 8 of one side's views, specular of 6, diffuse of 6, albedo of 6.
-const CUTS: [(usize, &str); 15] = [
+/// of 5, transport of 16, highlights of 5, heights of 8, specular of 6, diffuse of 6, albedo of 6.
+const CUTS: [(usize, &str); 14] = [
     (1, "start 1 at step 1 of 8"),
     (11, "start 2 at step 3 of 8"),
     (16, "start 2 at step 8 of 8"),
@@ -66,11 +66,10 @@ const CUTS: [(usize, &str); 15] = [
     (46, "transport at step 3 of 16"),
     (54, "transport at step 11 of 16"),
     (62, "highlights at step 3 of 5"),
-    (67, "heights at step 3 of 24"),
-    (78, "heights at step 14 of 24"),
-    (91, "specular 1 at step 3 of 6"),
-    (98, "diffuse 1 at step 4 of 6"),
-    (105, "albedo at step 5 of 6"),
+    (67, "heights at step 3 of 8"),
+    (75, "specular 1 at step 3 of 6"),
+    (82, "diffuse 1 at step 4 of 6"),
+    (89, "albedo at step 5 of 6"),
 ];
 
 #[test]
@@ -89,7 +88,7 @@ fn an_interrupt_leaves_valid_maps_and_the_solve_goes_on_to_the_same_bytes() {
     })
     .unwrap();
     assert_eq!(solution.record.interrupted, None);
-    assert_eq!(heard, (1..=106).map(|step| (step, 106)).collect::<Vec<_>>());
+    assert_eq!(heard, (1..=90).map(|step| (step, 90)).collect::<Vec<_>>());
     assert!(!folder.path().join("whole.checkpoint").exists());
     layers_show_the_pictures(&whole, &capture);
 
@@ -235,9 +234,8 @@ fn where_the_face_is_one_region_the_steps_with_highlights_are_spared() {
         ControlFlow::Continue(())
     });
     let total = |step| match step {
-        ..=38 => 106,
-        39..=54 => 101,
-        55..=62 => 96,
+        ..=38 => 90,
+        39..=54 => 85,
         _ => 80,
     };
     assert_eq!(heard, (1..=80).map(|step| (step, total(step))).collect::<Vec<_>>());
