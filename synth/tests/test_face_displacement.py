@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from unshade.errors import SceneError
-from unshade.face import Chart, FaceSpec, Label, build_face
+from unshade.face import Chart, FaceSpec, Label, build_face, displacement
 from unshade.face.displacement import displaced
 from unshade.face.geometry import unit, vertex_normals
 from unshade.face.texels import rasterise
@@ -69,6 +69,12 @@ def test_a_ridge_casts_its_shadow():
     shaded = np.array(scene.ray_test(mi.Ray3f(origins, mi.Vector3f(-1, 0, 1))))
     lit_side, shadow = shaded[x < 0.45], shaded[(x > 0.53) & (x < 0.59)]
     assert not lit_side.any() and shadow.all() and not shaded[x > 0.63].any()
+
+
+def test_no_texture_is_so_large_that_triangles_fill_the_memory(monkeypatch, face):
+    monkeypatch.setattr(displacement, "_MOST_TRIANGLES", 4 * len(face.chart.triangles) + 1)
+    raised = displaced(face.chart, np.zeros((8192, 8192), np.float32))
+    assert len(raised.triangles) == 4 * len(face.chart.triangles)
 
 
 def test_a_scene_states_it_and_volume_refuses_it():

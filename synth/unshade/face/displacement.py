@@ -13,6 +13,9 @@ from .chart import boundary_loops, signed_areas
 from .geometry import Chart, unit
 from .regions import smoothstep
 
+_MOST_TRIANGLES = 8_000_000
+"""More are not cut: those of a wide chart of 1024 texels."""
+
 _SEAM_MM = 2.0
 """Over this distance from its rims (lids, mouth, outer rim) the surface sinks back to the smooth one: there other
 parts of the head meet it."""
@@ -22,11 +25,12 @@ def displaced(chart: Chart, height: np.ndarray) -> Chart:
     """The chart raised along its normals by ``height`` [N, N] in metres, bilinear, row 0 at v = 1.
 
     Its triangles are cut in four, where they lie, until over half of its area they are smaller than half a
-    texel. UV are those of the chart; so are the normals, which a normal map replaces.
+    texel, or there would be too many. UV are those of the chart; so are the normals, which a normal map replaces.
     """
     texels = np.sort(np.abs(signed_areas(chart.uv.astype(float), chart.triangles.astype(np.int64)))) * height.size
     median = texels[np.searchsorted(np.cumsum(texels), texels.sum() / 2)]
-    levels = max(0, math.ceil(math.log(2 * median, 4)))
+    most = math.floor(math.log(_MOST_TRIANGLES / len(chart.triangles), 4))
+    levels = max(0, min(math.ceil(math.log(2 * median, 4)), most))
     corners = np.column_stack([chart.vertices, chart.normals, chart.uv]).astype(np.float64)
     fine, triangles = igl.upsample(corners, chart.triangles.astype(np.int64), levels)
     positions, normals, uv = fine[:, :3], unit(fine[:, 3:6]), fine[:, 6:]
