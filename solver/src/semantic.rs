@@ -1,6 +1,7 @@
 //! Semantic initialisation of the diffuse albedo (paper, section 5.3): the mean colour of every
 //! face region, painted over the region.
 
+mod cell_light;
 mod chart;
 mod clusters;
 mod colours;
@@ -8,6 +9,7 @@ mod explanation;
 pub mod found;
 mod hair;
 mod lamps;
+mod merging;
 mod parts;
 
 use capture::gbuffer::{Atlas, GBuffer};

@@ -23,12 +23,16 @@ pub struct ColourRegionConfig {
     pub dark: f32,
     /// Times that the light is found, and the regions under it.
     pub rounds: usize,
-    /// Multiplicative updates of the light in each.
+    /// Weighted least squares of the light in each.
+    pub reweightings: usize,
+    /// Multiplicative updates of the light under which hair is sought inside of skin.
     pub light_steps: usize,
     /// Residuals of the shading below this count squared.
     pub residual_floor: f32,
     /// Shading, relative to the mean, below which the light says nothing of a colour.
     pub shading_floor: f32,
+    /// Shading, relative to the mean, at which a texel's own colour counts as much as that of the largest region.
+    pub shading_prior: f32,
     /// Distance over which a boundary is looked at, texels.
     pub edge_distance: usize,
     /// Smallest mean difference in the three log colours, as a vector, across the boundary of two connected parts.

@@ -66,6 +66,7 @@ impl ColourRegionConfig {
             ("colour_regions.dark", self.dark),
             ("colour_regions.residual_floor", self.residual_floor),
             ("colour_regions.shading_floor", self.shading_floor),
+            ("colour_regions.shading_prior", self.shading_prior),
         ])?;
         not_negative(&[
             ("colour_regions.blur", self.blur),

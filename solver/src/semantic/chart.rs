@@ -83,6 +83,11 @@ impl Chart {
         nearest.into_iter().filter_map(|at| map[at as usize]).collect()
     }
 
+    /// What a light of 1 from every cell adds to the shading of a texel, by its place among those seen.
+    pub fn cells(&self, at: usize) -> &[f32] {
+        self.transport.cells_of(self.seen[at])
+    }
+
     /// The shading of the texels seen under a light of 1 from everywhere.
     pub fn even(&self) -> Vec<f32> {
         let all = self.transport.shading(&vec![1.0; CHANNELS * self.transport.cells()]);

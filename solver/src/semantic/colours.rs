@@ -5,17 +5,16 @@
 //! two regions must be an edge: where colours change slowly it is the light that changes, and the two
 //! are one.
 
-use std::collections::BTreeMap;
-
 use capture::Mesh;
 use formats::picture::Picture;
 use glam::Vec3;
 
-use super::chart::{Chart, Lobes, dark, log, luminance, means};
+use super::cell_light::CellLight;
+use super::chart::{Chart, dark, log, luminance, means};
 use super::clusters::{clusters, lloyd};
 use super::explanation::Explanation;
 use super::lamps::Lamps;
-use super::parts::parts;
+use super::merging::merged;
 use crate::Config;
 use crate::config::ColourRegionConfig;
 
@@ -77,16 +76,15 @@ impl Under {
     fn cells(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
         let ColourRegionConfig { count, luminance_weights, .. } = *config;
         let Chart { seen, colours, .. } = chart;
-        let cells = Lobes::new(config.rows, 0.0);
+        let mut light = CellLight::new(chart, config);
         let mut albedo = colours.clone();
         let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
         for _ in 0..config.rounds {
-            let means = means(&albedo, &regions, config.dark);
-            albedo = chart.divided(&chart.shading(config, &cells, &means, &regions));
+            albedo = light.albedo(&regions);
             regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
         }
-        let regions = merged(config, seen, &albedo, &regions);
-        let means = means(&albedo, &regions, config.dark);
+        let regions = merged(config, seen, &albedo, &regions, |parts| Some(light.albedo(parts)));
+        let means = means(&light.divided, &regions, config.dark);
         Some(Self { known: vec![true; regions.len()], regions, means })
     }
 
@@ -114,7 +112,7 @@ impl Under {
             let all = lamps.albedo(chart, &counted, &vec![false; known.len()]);
             let albedo: Vec<Vec3> = lit.iter().map(|at| all[*at]).collect();
             let start = clusters(&features(&albedo, luminance_weights[1], config.dark)?, count);
-            let regions = merged(config, &seen, &albedo, &start);
+            let regions = merged(config, &seen, &albedo, &start, |_| None);
             let largest = largest(&regions);
             counted.fill(false);
             lit.iter().zip(&regions).for_each(|(at, region)| counted[*at] = *region == largest);
@@ -132,7 +130,7 @@ impl Under {
 }
 
 /// The region with most texels.
-fn largest(regions: &[u8]) -> u8 {
+pub(super) fn largest(regions: &[u8]) -> u8 {
     let texels = |region: &u8| regions.iter().filter(|other| *other == region).count();
     (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
 }
@@ -145,59 +143,6 @@ fn features(colours: &[Vec3], weight: f32, relative: f32) -> Option<Vec<Vec3>> {
         Vec3::new(log.x - log.y, log.z - log.y, weight * (luminance(colour) + dark).ln())
     };
     Some(colours.iter().map(feature).collect())
-}
-
-/// The regions without boundaries that are no edges. What is tested are the connected parts of regions: hair
-/// ends in an edge where the shadow of a chin, of the same region so far, does not. The smaller of two parts
-/// takes the region of the larger one, and specks that of a neighbour.
-fn merged(config: &ColourRegionConfig, seen: &[usize], albedo: &[Vec3], regions: &[u8]) -> Vec<u8> {
-    let ColourRegionConfig { texture_size: side, edge_distance: across, edge, .. } = *config;
-    let dark = dark(albedo, config.dark).unwrap_or(f32::MIN_POSITIVE);
-    let mut region = vec![None; side * side];
-    seen.iter().zip(regions).for_each(|(at, r)| region[*at] = Some(*r));
-    let part = parts(&region, side);
-    let logs: BTreeMap<usize, Vec3> =
-        seen.iter().zip(albedo).map(|(at, albedo)| (*at, log(*albedo, dark))).collect();
-    // By first and second part: the sum of differences across their boundary, and their number.
-    let mut jumps: BTreeMap<(usize, usize), (Vec3, f32)> = BTreeMap::new();
-    for (at, here) in &logs {
-        let right = (at % side + across < side).then(|| at + across);
-        let below = (at / side + across < side).then(|| at + across * side);
-        for other in right.into_iter().chain(below) {
-            let (a, b) = (part[*at], part[other]);
-            if let Some(there) = logs.get(&other).filter(|_| a != b) {
-                let (pair, jump) =
-                    if a < b { ((a, b), *there - *here) } else { ((b, a), *here - *there) };
-                let sum = jumps.entry(pair).or_default();
-                *sum = (sum.0 + jump, sum.1 + 1.0);
-            }
-        }
-    }
-    let mut sizes = vec![0; part.len()];
-    seen.iter().for_each(|at| sizes[part[*at]] += 1);
-    let mut joined: Vec<usize> = (0..part.len()).collect();
-    loop {
-        let height = |(jump, pairs): &(Vec3, f32)| jump.length() / pairs;
-        let joins = |((a, b), jump): &(&(usize, usize), &(Vec3, f32))| {
-            let small = sizes[*a].min(sizes[*b]) < config.edge_pairs;
-            small || jump.1 >= config.edge_pairs as f32 && height(jump) < edge
-        };
-        let least = jumps.iter().filter(joins).min_by(|a, b| height(a.1).total_cmp(&height(b.1)));
-        let Some((&(a, b), _)) = least else { break };
-        let (into, from) = if sizes[a] < sizes[b] { (b, a) } else { (a, b) };
-        sizes[into] += sizes[from];
-        joined.iter_mut().filter(|part| **part == from).for_each(|part| *part = into);
-        let renamed = std::mem::take(&mut jumps);
-        for ((a, b), (jump, pairs)) in renamed {
-            let [x, y] = [a, b].map(|part| if part == from { into } else { part });
-            if x != y {
-                let (pair, jump) = if x < y { ((x, y), jump) } else { ((y, x), -jump) };
-                let sum = jumps.entry(pair).or_default();
-                *sum = (sum.0 + jump, sum.1 + pairs);
-            }
-        }
-    }
-    seen.iter().map(|at| region[joined[part[*at]]].unwrap_or(0)).collect()
 }
 
 #[cfg(test)]
@@ -281,24 +226,6 @@ mod tests {
         let hair = if at(38, 18) == lit { at(38, 46) } else { at(38, 18) };
         let ratio = colour(hair) / colour(lit) / (HAIR / SKIN);
         assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
-    }
-
-    /// Hair ends in an edge at the right, skin grows as dark as hair at the left, with a speck in the middle.
-    #[test]
-    fn a_shadow_is_no_hair_where_no_edge_parts_it_from_skin() {
-        let side = 32;
-        let texture_size = side;
-        let config = ColourRegionConfig { texture_size, ..Config::default().colour_regions };
-        let seen: Vec<usize> = (0..side * side).collect();
-        let column = |at: &usize| at % side;
-        let shade = |x: usize| HAIR.lerp(SKIN, (x as f32 / 14.0).min(1.0));
-        let albedo: Vec<Vec3> =
-            seen.iter().map(column).map(|x| if x < 24 { shade(x) } else { HAIR }).collect();
-        let speck = 16 * side + 18;
-        let dark = |at: &usize| u8::from(!(5..24).contains(&column(at)) || *at == speck);
-        let regions: Vec<u8> = seen.iter().map(dark).collect();
-        let found = merged(&config, &seen, &albedo, &regions);
-        assert!(found.iter().zip(&seen).all(|(found, at)| *found == u8::from(column(at) >= 24)));
     }
 
     #[test]

@@ -106,7 +106,7 @@ fn bounced(bounces: &[Bounces], rows: &[f32], cells: usize) -> Vec<f32> {
 }
 
 widened! {
-    pub(super) fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
+    pub(crate) fn add_scaled(sum: &mut [f32], values: &[f32], factor: f32) {
         for (sum, value) in sum.iter_mut().zip(values) {
             *sum += factor * value;
         }

@@ -33,6 +33,7 @@ pub use channels::CHANNELS;
 pub(crate) use channels::LUMINANCE;
 pub use highlights::{HIGHLIGHT_ROWS, SkinHighlights};
 pub(crate) use light_colour::light_colour;
+pub(crate) use matrix::add_scaled;
 use matrix::{Bounces, Matrix};
 pub use rays::{Impact, Occluder};
 pub use reflection::Reflection;
@@ -142,6 +143,11 @@ impl Transport {
     /// Cells of the sky.
     pub fn cells(&self) -> usize {
         self.matrix.cells
+    }
+
+    /// What a light of 1 from every cell adds to the shading of a texel of the square.
+    pub fn cells_of(&self, texel: usize) -> &[f32] {
+        &self.matrix.rows[self.row[texel] as usize * self.cells()..][..self.cells()]
     }
 
     /// Whether the chart covers no texel.
