@@ -58,7 +58,7 @@ impl ColourRegionConfig {
         range("colour_regions.count", self.count, |x| x <= 64, "0 to 64")?;
         let side = |x: usize| (16..=512).contains(&x);
         range("colour_regions.texture_size", self.texture_size, side, "16 to 512")?;
-        range("colour_regions.rows", self.rows, |x| (2..=64).contains(&x), "2 to 64")?;
+        range("colour_regions.rows", self.rows, |x| (2..=16).contains(&x), "2 to 16")?;
         let distance = |x: usize| x > 0 && x < self.texture_size;
         let within = "1 to below texture_size";
         range("colour_regions.edge_distance", self.edge_distance, distance, within)?;

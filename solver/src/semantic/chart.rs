@@ -83,8 +83,13 @@ impl Chart {
         nearest.into_iter().filter_map(|at| map[at as usize]).collect()
     }
 
+    /// Cells of the light.
+    pub fn cells(&self) -> usize {
+        self.transport.cells()
+    }
+
     /// What a light of 1 from every cell adds to the shading of a texel, by its place among those seen.
-    pub fn cells(&self, at: usize) -> &[f32] {
+    pub fn row(&self, at: usize) -> &[f32] {
         self.transport.cells_of(self.seen[at])
     }
 
