@@ -10,6 +10,7 @@ pub mod found;
 mod hair;
 mod lamps;
 mod merging;
+mod part_of_skin;
 mod parts;
 
 use capture::gbuffer::{Atlas, GBuffer};

@@ -64,7 +64,8 @@ impl Variant {
             }
         }
         if let Some((name, _)) = changes.iter().find(|(_, value)| !value.is_table()) {
-            let reason = format!("{name} must be a table; write [variant.{name}]");
+            let file = if NAMED.contains(&name.as_str()) { " or a file's name" } else { "" };
+            let reason = format!("{name} must be a table{file}; write [variant.{name}]");
             return Err(SceneError::value(path, &key, reason));
         }
         for section in NAMED {

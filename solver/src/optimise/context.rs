@@ -196,7 +196,7 @@ impl<'a> SolveContext<'a> {
         };
         let mut diffuse = diffuse.data;
         if let Some((found, regions)) = found.zip(self.regions_on(size)) {
-            found.paint_hair(&regions, &mut diffuse);
+            found.paint_parts(&regions, &mut diffuse);
         }
         diffuse.iter_mut().for_each(|value| *value *= self.gain);
         let grey: Vec<f32> =

@@ -1,22 +1,28 @@
 //! Regions that the pictures show, beside what labels say.
 
+use std::collections::HashSet;
+
 use capture::Capture;
 use capture::gbuffer::Atlas;
 use capture::projection::Projection;
 use formats::picture::Picture;
 
 use super::chart::Chart;
-use super::colours::ColourRegions;
-use super::hair::HairInSkin;
+use super::colours::{ColourRegions, other_colours_in_skin};
+use super::explanation::Explanation;
+use super::hair::hair_in_skin;
+use super::part_of_skin::PartOfSkin;
 use super::region_map;
 use crate::Config;
 
-/// Regions by colour in place of labels, and hair inside of what is called skin.
+/// Regions by colour in place of labels, and parts of what is called skin that are none.
 #[derive(Clone, Debug, Default)]
 pub struct FoundRegions {
     colours: Option<ColourRegions>,
-    /// With the labels that are skin, and one that nothing else has.
-    hair: Option<(HairInSkin, Vec<u8>, u8)>,
+    /// The labels that are skin.
+    skin: Vec<u8>,
+    /// Each with a label that nothing else has.
+    parts: Vec<(PartOfSkin, u8)>,
 }
 
 impl FoundRegions {
@@ -43,12 +49,40 @@ impl FoundRegions {
             Some(colours) => (colours.map(side), vec![colours.largest()]),
             None => (region_map(&Atlas::new(&capture.mesh, side), projections), skin),
         };
-        let hair = split.then(|| HairInSkin::new(&capture.mesh, &chart, config, &labels, &skin));
-        let free = (1..=u8::MAX).rev().find(|label| {
-            let views = capture.train.iter().filter_map(|view| view.labels.as_ref());
-            !labels.contains(label) && !views.flat_map(|l| &l.data).any(|other| other == label)
-        });
-        Self { colours, hair: hair.flatten().zip(free).map(|(hair, free)| (hair, skin, free)) }
+        let mut it = Self { colours, skin, parts: vec![] };
+        if split {
+            it.split(capture, &chart, config, labels);
+        }
+        it
+    }
+
+    /// Finds the parts of the skin of `labels`.
+    fn split(&mut self, capture: &Capture, chart: &Chart, config: &Config, mut labels: Vec<u8>) {
+        let views = capture.train.iter().filter_map(|view| view.labels.as_ref());
+        let mut used: HashSet<u8> = views.flat_map(|labels| labels.data.iter().copied()).collect();
+        used.extend(&labels);
+        let free: Vec<u8> = (1..=u8::MAX).rev().filter(|label| !used.contains(label)).collect();
+        let mut free = free.into_iter();
+        let explain =
+            |labels: &[u8]| Explanation::new(&capture.mesh, chart, config, labels, &self.skin);
+        let Some(mut explanation) = explain(&labels) else { return };
+        if self.colours.is_none()
+            && config.colour_regions.count > 0
+            && explanation.lamps().is_none()
+        {
+            let other = other_colours_in_skin(chart, config, &labels, &self.skin);
+            for (part, label) in other.into_iter().zip(&mut free) {
+                let inside = labels.iter_mut().zip(&part.inside).filter(|(_, inside)| **inside);
+                inside.filter(|(l, _)| self.skin.contains(l)).for_each(|(l, _)| *l = label);
+                self.parts.push((part, label));
+            }
+            if !self.parts.is_empty() {
+                let Some(without) = explain(&labels) else { return };
+                explanation = without;
+            }
+        }
+        let hair = hair_in_skin(&explanation, chart, &config.hair_in_skin);
+        self.parts.extend(hair.into_iter().zip(free));
     }
 
     /// The region of every texel: by these, by labels otherwise; `None` if the face is one region.
@@ -57,9 +91,10 @@ impl FoundRegions {
             Some(colours) => colours.map(atlas.size),
             None => region_map(atlas, projections),
         };
-        if let Some((hair, skin, label)) = &self.hair {
-            let hair = regions.iter_mut().zip(hair.map(atlas.size)).filter(|(_, hair)| *hair);
-            hair.filter(|(region, _)| skin.contains(region))
+        for (part, label) in &self.parts {
+            let inside = regions.iter_mut().zip(part.map(atlas.size)).filter(|(_, inside)| *inside);
+            inside
+                .filter(|(region, _)| self.skin.contains(region))
                 .for_each(|(region, _)| *region = *label);
         }
         let one = self.colours.is_none() && regions.iter().all(|region| *region == 0);
@@ -71,13 +106,13 @@ impl FoundRegions {
         self.colours.as_ref().map(|colours| colours.albedo(size))
     }
 
-    /// Gives hair inside of skin its colour, in an `albedo` of these `regions` where it still has skin's.
-    pub fn paint_hair(&self, regions: &[u8], albedo: &mut [f32]) {
-        let Some((hair, _, label)) = &self.hair else { return };
-        let texels =
-            albedo.chunks_exact_mut(3).zip(regions).filter(|(_, region)| **region == *label);
-        texels.for_each(|(texel, _)| {
-            texel.iter_mut().zip(hair.ratio.to_array()).for_each(|(value, ratio)| *value *= ratio);
-        });
+    /// Gives parts of skin their colours, in an `albedo` of these `regions` where they still have skin's.
+    pub fn paint_parts(&self, regions: &[u8], albedo: &mut [f32]) {
+        for (texel, region) in albedo.chunks_exact_mut(3).zip(regions) {
+            if let Some((part, _)) = self.parts.iter().find(|(_, label)| label == region) {
+                let ratio = part.ratio.to_array();
+                texel.iter_mut().zip(ratio).for_each(|(value, ratio)| *value *= ratio);
+            }
+        }
     }
 }

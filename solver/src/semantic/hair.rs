@@ -5,69 +5,44 @@
 //! bare skin is turned the same way. And what little light a shadow gets has come from skin and is red, while
 //! hair takes all colours alike. Under a flash no sky of cells does this; there the light is one lamp.
 
-use capture::Mesh;
 use glam::Vec3;
 
 use super::chart::{Chart, luminance};
 use super::explanation::{Explanation, sum};
-use super::parts::parts;
-use crate::Config;
+use super::part_of_skin::{PartOfSkin, large_parts};
 use crate::config::HairInSkinConfig;
 use crate::model::blur::Blur;
 
-/// A part of the skin of a chart that is hair.
-#[derive(Clone, Debug)]
-pub struct HairInSkin {
-    /// Side of the chart, texels.
-    side: usize,
-    /// Whether a texel is hair, if it is skin by its label.
-    inside: Vec<bool>,
-    /// Its reflectance over that of skin: linear R, G, B.
-    pub ratio: Vec3,
-}
-
-impl HairInSkin {
-    /// Of the `labels` of the chart's texels, those in `skin` are skin. `None` if no part of it is hair.
-    pub(super) fn new(
-        mesh: &Mesh,
-        chart: &Chart,
-        config: &Config,
-        labels: &[u8],
-        skin: &[u8],
-    ) -> Option<Self> {
-        let explanation = Explanation::new(mesh, chart, config, labels, skin)?;
-        let config = &config.hair_in_skin;
-        let Explanation { labels, is_skin, skin_and_free: [first, free], .. } = &explanation;
-        let before = &explanation.before.residuals;
-        let count = is_skin.iter().filter(|skin| **skin).count();
-        let albedo = explanation.smooth_albedo(config.lobe_width);
-        let darkness = darkness(chart, config, &albedo, is_skin)?;
-        let mut best = (f32::INFINITY, None);
-        for depth in config.depths {
-            let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
-            for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
-                let own = |(label, hair): (&u8, &bool)| if *hair { *free } else { *label };
-                let split: Vec<u8> = labels.iter().zip(&inside).map(own).collect();
-                let after = explanation.with(&split);
-                let ratio = after.means[usize::from(*free)] / after.means[usize::from(*first)];
-                let left = |of: &[bool]| sum(&after.residuals, of) / sum(before, of);
-                let is_hair = left(is_skin) < config.most_left[0]
-                    && left(&inside) < config.most_left[1]
-                    && ratio.z > config.least_blue * ratio.x;
-                if is_hair && sum(&after.residuals, is_skin) < best.0 {
-                    best = (sum(&after.residuals, is_skin), Some((inside, ratio)));
-                }
+/// The hair of a chart's skin. `None` if no part of it is hair.
+pub(super) fn hair_in_skin(
+    explanation: &Explanation,
+    chart: &Chart,
+    config: &HairInSkinConfig,
+) -> Option<PartOfSkin> {
+    let Explanation { labels, is_skin, skin_and_free: [first, free], .. } = explanation;
+    let before = &explanation.before.residuals;
+    let count = is_skin.iter().filter(|skin| **skin).count();
+    let albedo = explanation.smooth_albedo(config.lobe_width);
+    let darkness = darkness(chart, config, &albedo, is_skin)?;
+    let mut best = (f32::INFINITY, None);
+    for depth in config.depths {
+        let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
+        for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
+            let own = |(label, hair): (&u8, &bool)| if *hair { *free } else { *label };
+            let split: Vec<u8> = labels.iter().zip(&inside).map(own).collect();
+            let after = explanation.with(&split);
+            let ratio = after.means[usize::from(*free)] / after.means[usize::from(*first)];
+            let left = |of: &[bool]| sum(&after.residuals, of) / sum(before, of);
+            let is_hair = left(is_skin) < config.most_left[0]
+                && left(&inside) < config.most_left[1]
+                && ratio.z > config.least_blue * ratio.x;
+            if is_hair && sum(&after.residuals, is_skin) < best.0 {
+                best = (sum(&after.residuals, is_skin), Some((inside, ratio)));
             }
         }
-        let (inside, ratio) = best.1?;
-        Some(Self { side: chart.side, inside: explanation.filled(&inside), ratio })
     }
-
-    /// Whether every texel of a chart of side `size` is hair, if it is skin by its label.
-    pub fn map(&self, size: usize) -> Vec<bool> {
-        let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
-        (0..size * size).map(|i| self.inside[at(i / size) * self.side + at(i % size)]).collect()
-    }
+    let (inside, ratio) = best.1?;
+    Some(PartOfSkin { side: chart.side, inside: explanation.filled(&inside), ratio })
 }
 
 /// By how much the log luminance of every texel seen, blurred within the skin, is below its median there;
@@ -93,19 +68,6 @@ fn darkness(
     Some(chart.seen.iter().zip(is_skin).map(below).collect())
 }
 
-/// The connected parts of what is skin and dark, of at least `least` texels: which of the texels seen are in each.
-fn large_parts(chart: &Chart, is_skin: &[bool], dark: &[bool], least: f32) -> Vec<Vec<bool>> {
-    let mut map = vec![None; chart.side * chart.side];
-    for ((at, skin), dark) in chart.seen.iter().zip(is_skin).zip(dark) {
-        map[*at] = skin.then_some(u8::from(*dark));
-    }
-    let part = parts(&map, chart.side);
-    let mut sizes = vec![0_usize; part.len()];
-    part.iter().zip(&map).filter(|(_, of)| **of == Some(1)).for_each(|(part, _)| sizes[*part] += 1);
-    let large = (0..sizes.len()).filter(|part| sizes[*part] > 0 && sizes[*part] as f32 >= least);
-    large.map(|large| chart.seen.iter().map(|at| part[*at] == large).collect()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use capture::View;
@@ -114,16 +76,17 @@ mod tests {
 
     use super::super::lamps::testing::lamp;
     use super::*;
+    use crate::Config;
     use crate::testing;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
 
     /// Hair in the skin of a dome in light from one side, whose skin is as dark as `share` says.
-    fn found(share: impl Fn(Vec3) -> Vec3) -> Option<HairInSkin> {
+    fn found(share: impl Fn(Vec3) -> Vec3) -> Option<PartOfSkin> {
         found_in(share, |p| 0.625 + 0.375 * p.y)
     }
 
-    fn found_in(share: impl Fn(Vec3) -> Vec3, shading: impl Fn(Vec3) -> f32) -> Option<HairInSkin> {
+    fn found_in(share: impl Fn(Vec3) -> Vec3, shading: impl Fn(Vec3) -> f32) -> Option<PartOfSkin> {
         let mesh = testing::dome(24);
         let colour = |p: Vec3| (share(p) * SKIN * shading(p), 1);
         let views: Vec<View> =
@@ -133,7 +96,8 @@ mod tests {
         let regions = &config.colour_regions;
         let chart = Chart::new(&mesh, &projections, &config.transport, regions);
         let labels = vec![1; chart.side * chart.side];
-        HairInSkin::new(&mesh, &chart, &config, &labels, &[1])
+        let explanation = Explanation::new(&mesh, &chart, &config, &labels, &[1])?;
+        hair_in_skin(&explanation, &chart, &config.hair_in_skin)
     }
 
     fn is_patch(p: Vec3) -> bool {

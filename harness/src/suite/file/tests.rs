@@ -304,6 +304,10 @@ fn errors_name_the_file_the_key_and_the_mend() {
             &*format!("{head}[[variant]]\nname = \"a\"\nlabels = 1\n"),
             "labels must be a table; write [variant.labels]",
         ),
+        (
+            &*format!("{head}[[variant]]\nname = \"a\"\nface = 1\n"),
+            "face must be a table or a file's name; write [variant.face]",
+        ),
         (&*format!("{head}[[variant]]\nname = \"a/b\"\n"), "cannot name a folder"),
         (
             &*format!("{head}[[variant]]\nname = \"a b\"\n[[variant]]\nname = \"a-b\"\n"),
