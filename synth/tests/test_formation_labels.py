@@ -8,6 +8,7 @@ import pytest
 import render_toy
 
 from unshade.errors import SceneError
+from unshade.face import Label
 from unshade.formation import stated_labels
 from unshade.render.rigs import cameras
 from unshade.scene_file import LabelFaults, Scene, parse_scene
@@ -113,7 +114,7 @@ def test_the_table_survives_writing_and_reading():
 
     from unshade.render.scene_text import scene_text
 
-    for table in ({"boundary_error": 0.1}, {"omit": True}):
+    for table in ({"boundary_error": 0.1}, {"omit": True}, {"hair_is_skin": True}):
         full = scene(**table)
         assert full.labels == LabelFaults(**table)
         assert parse_scene(tomllib.loads(scene_text(full)), "again", Path()) == full
@@ -127,6 +128,19 @@ def test_one_label_covers_all_that_has_any_in_training_views_alone():
     np.testing.assert_array_equal(stated_labels(perfect, training, scene(one=True)), perfect > 0)
     assert not withheld.train
     np.testing.assert_array_equal(stated_labels(perfect, withheld, scene(one=True)), perfect)
-    for other in ({"omit": True}, {"boundary_error": 0.2}):
+    for other in ({"omit": True}, {"boundary_error": 0.2}, {"hair_is_skin": True}):
         with pytest.raises(SceneError, match="one = true in .* keep one of them"):
             scene(one=True, **other)
+
+
+def test_hair_is_called_skin_in_training_views_alone_and_its_edge_is_none():
+    perfect = np.where(np.arange(SIZE)[None] < SIZE // 2, Label.SKIN, Label.SCALP).repeat(SIZE, 0).astype(np.uint8)
+    perfect[:4] = Label.BROW
+    views = cameras(scene().rig, SIZE, SIZE)
+    stated = stated_labels(perfect, views[0], scene(hair_is_skin=True))
+    assert set(np.unique(stated)) == {Label.SKIN, Label.BROW} and (stated[:4] == Label.BROW).all()
+    np.testing.assert_array_equal(stated_labels(perfect, views[-1], scene(hair_is_skin=True)), perfect)
+    mistaken = stated_labels(perfect, views[0], scene(hair_is_skin=True, boundary_error=1.0))
+    assert np.argwhere(mistaken != stated)[:, 0].max() < 6
+    with pytest.raises(SceneError, match="omit = true in .* leaves nothing to hair_is_skin"):
+        scene(hair_is_skin=True, omit=True)

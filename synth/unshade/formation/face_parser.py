@@ -21,6 +21,8 @@ def stated_labels(labels: np.ndarray, camera: Camera, scene: Scene) -> np.ndarra
         return None
     if scene.labels.one and camera.train:
         return np.where(labels > 0, np.uint8(Label.SKIN), labels)
+    if scene.labels.hair_is_skin and camera.train:
+        labels = np.where(labels == Label.SCALP, np.uint8(Label.SKIN), labels)
     fraction = scene.labels.boundary_error
     return _mistaken(labels, fraction, generator("labels", scene, camera)) if fraction and camera.train else labels
 

@@ -27,6 +27,9 @@ class LabelFaults:
     one: bool = False
     """Everything that has a label is "skin", as where nobody outlined lips, brows and hair."""
 
+    hair_is_skin: bool = False
+    """What is "scalp" is "skin", as where a parser knows the features of a face alone."""
+
     def to_table(self) -> dict[str, Any]:
         """Keys that differ from the defaults, with their values, as the scene file has them."""
         return {key: value for key, value in asdict(self).items() if value != getattr(LabelFaults(), key)}
@@ -37,11 +40,15 @@ def parse_labels(table: Mapping[str, Any], place: str) -> LabelFaults:
     error = number(table, "boundary_error", place, LabelFaults.boundary_error)
     if not 0 <= error <= 1:
         raise SceneError(f"boundary_error in {place} is {error:g}; use a number from 0 to 1")
-    omit = yes_or_no(table, "omit", place, LabelFaults.omit)
+    omit, one, hair_is_skin = (
+        yes_or_no(table, key, place, getattr(LabelFaults, key)) for key in ("omit", "one", "hair_is_skin")
+    )
     if omit and "boundary_error" in table:
         raise SceneError(f"boundary_error in {place} does nothing where omit = true leaves no labels; keep one")
-    one = yes_or_no(table, "one", place, LabelFaults.one)
-    if one and (omit or error):
-        other = "omit" if omit else "boundary_error"
+    others = {"omit": omit, "boundary_error": error, "hair_is_skin": hair_is_skin}
+    if one and any(others.values()):
+        other = next(key for key, value in others.items() if value)
         raise SceneError(f"one = true in {place} leaves nothing to {other}; keep one of them")
-    return LabelFaults(error, omit, one)
+    if omit and hair_is_skin:
+        raise SceneError(f"omit = true in {place} leaves nothing to hair_is_skin; keep one of them")
+    return LabelFaults(error, omit, one, hair_is_skin)
