@@ -60,10 +60,14 @@ def test_what_solvers_get_is_described(described, monkeypatch):
     text = describe(parse_scene(render_toy.toy_table() | faults, "scene", None))
     assert row(text, "labels")[1] == "10 % of the boundary pixels have the label of the other side"
     assert row(text, "mesh")[1] == "smoothing_mm 2" and row(text, "image formation")[1] == "perfect"
-    assert (
-        row(describe(parse_scene(render_toy.toy_table() | {"labels": {"omit": True}}, "scene", None)), "labels")[1]
-        == "none"
-    )
+    for faults, said in (
+        ({"omit": True}, "none"),
+        ({"one": True}, "one for everything"),
+        ({"hair_is_skin": True}, "hair is called skin"),
+    ):
+        assert (
+            row(describe(parse_scene(render_toy.toy_table() | {"labels": faults}, "scene", None)), "labels")[1] == said
+        )
 
 
 def test_cameras_and_sizes_are_described(described):

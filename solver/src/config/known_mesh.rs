@@ -3,12 +3,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Regions of like reflectance that take the place of labels in a capture without any; not in the paper. All
-/// values were found on rendered faces.
+/// Regions of like reflectance that take the place of labels in a capture without any, and part what labels call
+/// skin (with [`HairInSkinConfig::enabled`]); not in the paper. All values were found on rendered faces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ColourRegionConfig {
-    /// At most so many; 0: none take the place of labels.
+    /// At most so many; 0: none are sought.
     pub count: usize,
     /// Side of the chart on which they are found, texels.
     pub texture_size: usize,
@@ -23,9 +23,9 @@ pub struct ColourRegionConfig {
     pub dark: f32,
     /// Times that the light is found, and the regions under it.
     pub rounds: usize,
-    /// Weighted least squares of the light in each.
+    /// Weighted least squares of the light in each, and after each joining of two parts.
     pub reweightings: usize,
-    /// Multiplicative updates of the light under which hair is sought inside of skin.
+    /// Multiplicative updates of the light under which hair is sought inside of skin, and which a lamp has to beat.
     pub light_steps: usize,
     /// Residuals of the shading below this count squared.
     pub residual_floor: f32,
@@ -42,8 +42,8 @@ pub struct ColourRegionConfig {
     pub edge_pairs: usize,
 }
 
-/// Hair inside of what labels call skin, a beard; not in the paper. It is sought on the chart of
-/// [`ColourRegionConfig`], among parts of the skin that are too dark under a light of few unknowns.
+/// Hair inside of what labels call skin; not in the paper. It is sought on the chart of [`ColourRegionConfig`], as
+/// parts of another colour, and as a beard among parts that are too dark under a light of few unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HairInSkinConfig {

@@ -58,7 +58,12 @@ impl ColourRegionConfig {
         range("colour_regions.count", self.count, |x| x <= 64, "0 to 64")?;
         let side = |x: usize| (16..=512).contains(&x);
         range("colour_regions.texture_size", self.texture_size, side, "16 to 512")?;
+        // Normal equations of more cells would not fit into memory.
         range("colour_regions.rows", self.rows, |x| (2..=16).contains(&x), "2 to 16")?;
+        // The light is solved for after each joining of two parts that are no specks.
+        let many = |x: usize| (1..=20).contains(&x);
+        range("colour_regions.reweightings", self.reweightings, many, "1 to 20")?;
+        range("colour_regions.edge_pairs", self.edge_pairs, |x| x >= 4, "at least 4")?;
         let distance = |x: usize| x > 0 && x < self.texture_size;
         let within = "1 to below texture_size";
         range("colour_regions.edge_distance", self.edge_distance, distance, within)?;

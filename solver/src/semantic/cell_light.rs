@@ -35,20 +35,20 @@ impl<'a> CellLight<'a> {
     pub fn albedo(&mut self, regions: &[u8]) -> Vec<Vec3> {
         let ColourRegionConfig { dark, shading_floor, shading_prior: prior, .. } = *self.config;
         let of_regions = means(&self.divided, regions, dark);
-        let shading = self.find(&of_regions, regions);
+        let shading = self.solve(&of_regions, regions);
         let lit: Vec<Vec3> = shading.iter().map(|s| s.max(Vec3::splat(shading_floor))).collect();
         self.divided = self.chart.divided(&lit);
-        let largest = means(&self.divided, regions, dark)[usize::from(largest(regions))];
-        let texel = |(colour, shading)| (colour + prior * largest) / (shading + prior);
+        let of_largest = means(&self.divided, regions, dark)[usize::from(largest(regions))];
+        let texel = |(colour, shading)| (colour + prior * of_largest) / (shading + prior);
         self.chart.colours.iter().copied().zip(shading).map(texel).collect()
     }
 
     /// Least squares with weights towards L1, over light that is not negative: of the normal equations, one cell
     /// after the other. Gives the shading of the texels seen.
-    fn find(&mut self, means: &[Vec3], regions: &[u8]) -> Vec<Vec3> {
+    fn solve(&mut self, of_regions: &[Vec3], regions: &[u8]) -> Vec<Vec3> {
         let (chart, config) = (self.chart, self.config);
-        let mean = |region: &u8| means[usize::from(*region)];
-        let most = means.iter().map(luminance).fold(0.0, f32::max);
+        let mean = |region: &u8| of_regions[usize::from(*region)];
+        let most = of_regions.iter().map(luminance).fold(0.0, f32::max);
         let share: Vec<f32> =
             regions.iter().map(|region| luminance(&mean(region)) / most).collect();
         let wanted: Vec<Vec3> = chart
@@ -58,7 +58,7 @@ impl<'a> CellLight<'a> {
             .map(|(colour, region)| colour.max(Vec3::ZERO) / mean(region))
             .collect();
         for _ in 0..config.reweightings {
-            let found = self.found();
+            let found = self.shading();
             let weight = |at: usize| {
                 let residual = (wanted[at] - found[at]).abs().element_sum() / 3.0;
                 share[at] / (residual + config.residual_floor)
@@ -66,14 +66,14 @@ impl<'a> CellLight<'a> {
             let texel = |at: usize| (chart.row(at), weight(at), wanted[at]);
             Equations::new(chart.cells(), wanted.len(), texel).solve(&mut self.light);
         }
-        let found = self.found();
+        let found = self.shading();
         let mean = found.iter().map(|s| s.as_dvec3()).sum::<DVec3>() / found.len() as f64;
         let mean = mean.as_vec3().max(Vec3::splat(f32::MIN_POSITIVE));
         found.into_iter().map(|shading| shading / mean).collect()
     }
 
     /// The shading of the texels seen.
-    fn found(&self) -> Vec<Vec3> {
+    fn shading(&self) -> Vec<Vec3> {
         let light: Vec<Vec3> = self.light.iter().map(|light| light.as_vec3()).collect();
         let texel = |at: usize| self.chart.row(at).iter().zip(&light).map(|(c, l)| *c * *l).sum();
         (0..self.chart.seen.len()).into_par_iter().map(texel).collect()

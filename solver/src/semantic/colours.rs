@@ -15,7 +15,6 @@ use super::clusters::{clusters, lloyd};
 use super::explanation::Explanation;
 use super::lamps::Lamps;
 use super::merging::merged;
-use super::part_of_skin::{PartOfSkin, large_parts};
 use crate::Config;
 use crate::config::ColourRegionConfig;
 
@@ -65,35 +64,19 @@ impl ColourRegions {
     }
 }
 
-/// The parts of the `skin` of the chart's `labels` that are of another colour than most of it, one for each colour.
-pub(super) fn other_colours_in_skin(
-    chart: &Chart,
-    config: &Config,
-    labels: &[u8],
-    skin: &[u8],
-) -> Vec<PartOfSkin> {
-    let Some(Under { regions, means, .. }) = Under::cells(chart, &config.colour_regions) else {
-        return vec![];
-    };
-    let is_skin: Vec<bool> = chart.seen.iter().map(|at| skin.contains(&labels[*at])).collect();
-    let of_skin: Vec<u8> = regions
-        .iter()
-        .zip(&is_skin)
-        .filter(|(_, skin)| **skin)
-        .map(|(region, _)| *region)
-        .collect();
-    let (most, least) = (largest(&of_skin), config.hair_in_skin.least_share * of_skin.len() as f32);
-    let part = |region: u8| {
-        let of: Vec<bool> = regions.iter().map(|other| *other == region).collect();
-        let large = large_parts(chart, &is_skin, &of, least);
-        let any = |at: usize| large.iter().any(|part| part[at]);
-        let inside: Vec<bool> = (0..of.len()).map(any).collect();
-        let inside = chart.filled(&inside, &vec![true; inside.len()]);
-        let ratio = means[usize::from(region)] / means[usize::from(most)];
-        (!large.is_empty()).then_some(PartOfSkin { side: chart.side, inside, ratio })
-    };
-    let others = (0..config.colour_regions.count as u8).filter(|region| *region != most);
-    others.filter_map(part).collect()
+/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading.
+pub(super) fn by_cells(chart: &Chart, config: &ColourRegionConfig) -> Option<(Vec<u8>, Vec<Vec3>)> {
+    let ColourRegionConfig { count, luminance_weights, .. } = *config;
+    let mut light = CellLight::new(chart, config);
+    let mut albedo = chart.colours.clone();
+    let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
+    for _ in 0..config.rounds {
+        albedo = light.albedo(&regions);
+        regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
+    }
+    let relit = |parts: &[u8]| Some(light.albedo(parts));
+    let regions = merged(config, &chart.seen, &albedo, &regions, relit);
+    Some((regions, light.divided))
 }
 
 /// The regions of the texels seen under one light.
@@ -106,17 +89,8 @@ struct Under {
 
 impl Under {
     fn cells(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
-        let ColourRegionConfig { count, luminance_weights, .. } = *config;
-        let Chart { seen, colours, .. } = chart;
-        let mut light = CellLight::new(chart, config);
-        let mut albedo = colours.clone();
-        let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
-        for _ in 0..config.rounds {
-            albedo = light.albedo(&regions);
-            regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
-        }
-        let regions = merged(config, seen, &albedo, &regions, |parts| Some(light.albedo(parts)));
-        let means = means(&light.divided, &regions, config.dark);
+        let (regions, albedo) = by_cells(chart, config)?;
+        let means = means(&albedo, &regions, config.dark);
         Some(Self { known: vec![true; regions.len()], regions, means })
     }
 
@@ -199,14 +173,6 @@ mod tests {
         albedo: impl Fn(Vec3) -> Vec3,
         shading: impl Fn(Vec3) -> f32,
     ) -> Option<ColourRegions> {
-        on_dome(albedo, shading, |mesh, chart, config| ColourRegions::new(mesh, chart, config))
-    }
-
-    fn on_dome<T>(
-        albedo: impl Fn(Vec3) -> Vec3,
-        shading: impl Fn(Vec3) -> f32,
-        of: impl Fn(&Mesh, &Chart, &Config) -> T,
-    ) -> T {
         let mesh = testing::dome(24);
         let colour = |p: Vec3| (albedo(p) * shading(p), 0);
         let views: Vec<View> =
@@ -215,7 +181,7 @@ mod tests {
         let projections = Projection::of_views(&views, &gbuffers);
         let config = Config::default();
         let chart = Chart::new(&mesh, &projections, &config.transport, &config.colour_regions);
-        of(&mesh, &chart, &config)
+        ColourRegions::new(&mesh, &chart, &config)
     }
 
     /// The texels of the chart's disc, with where they lie from its centre.
@@ -249,26 +215,6 @@ mod tests {
         }
         let colour = |hair: bool| Vec3::from_slice(&albedo.data[3 * of(hair).next().unwrap().0..]);
         let ratio = colour(true) / colour(false) / (HAIR / SKIN);
-        assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
-    }
-
-    #[test]
-    fn hair_that_a_label_calls_skin_is_a_part_of_its_own() {
-        let in_skin = |albedo: &dyn Fn(Vec3) -> Vec3| {
-            let parts = |_: &Mesh, chart: &Chart, config: &Config| {
-                other_colours_in_skin(chart, config, &vec![1; chart.side * chart.side], &[1])
-            };
-            on_dome(albedo, |p| 0.625 + 0.375 * p.y, parts)
-        };
-        assert!(in_skin(&|_| SKIN).is_empty());
-        let parts = in_skin(&|p| if p.x > 0.3 { HAIR } else { SKIN });
-        let [hair] = parts.as_slice() else { panic!("{} parts", parts.len()) };
-        let edge = 0.4 * 0.3_f32.asin() / 0.2_f32.acos();
-        let inside = hair.map(64);
-        let clear = self::inside().filter(|(_, x, _)| (x - edge).abs() > 0.06);
-        let wrong = clear.filter(|(at, x, _)| inside[*at] != (*x > edge)).count();
-        assert!(wrong < 20, "{wrong} texels");
-        let ratio = hair.ratio / (HAIR / SKIN);
         assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
     }
 

@@ -8,10 +8,10 @@ use capture::projection::Projection;
 use formats::picture::Picture;
 
 use super::chart::Chart;
-use super::colours::{ColourRegions, other_colours_in_skin};
+use super::colours::ColourRegions;
 use super::explanation::Explanation;
 use super::hair::hair_in_skin;
-use super::part_of_skin::PartOfSkin;
+use super::part_of_skin::{PartOfSkin, other_colours};
 use super::region_map;
 use crate::Config;
 
@@ -66,17 +66,16 @@ impl FoundRegions {
         let explain =
             |labels: &[u8]| Explanation::new(&capture.mesh, chart, config, labels, &self.skin);
         let Some(mut explanation) = explain(&labels) else { return };
-        if self.colours.is_none()
-            && config.colour_regions.count > 0
-            && explanation.lamps().is_none()
-        {
-            let other = other_colours_in_skin(chart, config, &labels, &self.skin);
+        let by_colour = self.colours.is_none() && config.colour_regions.count > 0;
+        // Under a lamp, no sky of cells explains the face, and shadows would be colours.
+        if by_colour && explanation.lamps().is_none() {
+            let other = other_colours(chart, config, &labels, &self.skin);
             for (part, label) in other.into_iter().zip(&mut free) {
-                let inside = labels.iter_mut().zip(&part.inside).filter(|(_, inside)| **inside);
-                inside.filter(|(l, _)| self.skin.contains(l)).for_each(|(l, _)| *l = label);
+                part.name(&mut labels, chart.side, &self.skin, label);
                 self.parts.push((part, label));
             }
             if !self.parts.is_empty() {
+                // The skin that is left is explained better.
                 let Some(without) = explain(&labels) else { return };
                 explanation = without;
             }
@@ -92,10 +91,7 @@ impl FoundRegions {
             None => region_map(atlas, projections),
         };
         for (part, label) in &self.parts {
-            let inside = regions.iter_mut().zip(part.map(atlas.size)).filter(|(_, inside)| *inside);
-            inside
-                .filter(|(region, _)| self.skin.contains(region))
-                .for_each(|(region, _)| *region = *label);
+            part.name(&mut regions, atlas.size, &self.skin, *label);
         }
         let one = self.colours.is_none() && regions.iter().all(|region| *region == 0);
         (!one).then_some(regions)
@@ -114,5 +110,70 @@ impl FoundRegions {
                 texel.iter_mut().zip(ratio).for_each(|(value, ratio)| *value *= ratio);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use capture::View;
+    use capture::gbuffer::GBuffer;
+    use glam::Vec3;
+
+    use super::*;
+    use crate::testing;
+
+    const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
+    const HAIR: Vec3 = Vec3::new(0.08, 0.06, 0.05);
+    const LIPS: Vec3 = Vec3::new(0.4, 0.15, 0.12);
+
+    /// A dome in light from one side, with hair from x = 0.3 on and lips below x = -0.5.
+    fn colour(p: Vec3) -> Vec3 {
+        match p.x {
+            x if x > 0.3 => HAIR,
+            x if x < -0.5 => LIPS,
+            _ => SKIN,
+        }
+    }
+
+    /// Regions of a chart of 64 texels a side and its albedo of 1 with parts painted, where labels say so.
+    fn found(label: impl Fn(Vec3) -> u8) -> (Vec<u8>, Vec<f32>) {
+        let folder = tempfile::tempdir().unwrap();
+        let mesh = testing::dome(24);
+        let shade = |p: Vec3| (colour(p) * (0.625 + 0.375 * p.y), label(p));
+        let views: Vec<View> =
+            testing::rig(4, 96).iter().map(|c| testing::view(&mesh, c, shade)).collect();
+        testing::write_capture(folder.path(), &mesh, &views, 1);
+        let capture = Capture::open(folder.path()).unwrap();
+        let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
+        let projections = Projection::of_views(&capture.train, &gbuffers);
+        let found = FoundRegions::new(&capture, &projections, &Config::default(), true, vec![1]);
+        let regions = found.map(&Atlas::new(&capture.mesh, 64), &projections).unwrap();
+        let mut albedo = vec![1.0; 3 * regions.len()];
+        found.paint_parts(&regions, &mut albedo);
+        (regions, albedo)
+    }
+
+    #[test]
+    fn hair_that_a_label_calls_skin_is_a_region_of_its_own_and_lips_stay() {
+        let (regions, albedo) = found(|p| if p.x < -0.5 { 2 } else { 1 });
+        let at = |x: usize| 64 * 32 + x;
+        // The chart's columns go along x.
+        let (lips, skin, hair) = (at(18), at(32), at(47));
+        assert_eq!([regions[lips], regions[skin]], [2, 1]);
+        assert!(![1, 2].contains(&regions[hair]));
+        assert_eq!(albedo[3 * skin..][..3], [1.0; 3]);
+        let ratio = Vec3::from_slice(&albedo[3 * hair..]) / (HAIR / SKIN);
+        assert!((ratio - 1.0).abs().max_element() < 0.4, "{ratio}");
+    }
+
+    #[test]
+    fn labels_that_are_right_stay_as_they_are() {
+        let (regions, albedo) = found(|p| match p.x {
+            x if x > 0.3 => 3,
+            x if x < -0.5 => 2,
+            _ => 1,
+        });
+        assert!(regions.iter().all(|region| (1..=3).contains(region)));
+        assert!(albedo.iter().all(|value| *value == 1.0));
     }
 }

@@ -98,7 +98,7 @@ impl Boundaries {
         }
     }
 
-    /// The lowest of some boundaries, which the texels of the parts and what lies between them tell.
+    /// The lowest of the boundaries that `of` picks by the texels of both parts and by what lies across.
     fn least(&self, of: impl Fn([usize; 2], &Boundary) -> bool) -> Option<(usize, usize)> {
         let some = self
             .between

@@ -142,7 +142,7 @@ def _faults(scene: Scene) -> list[str]:
     if scene.labels.one:
         labels = "one for everything"
     if scene.labels.hair_is_skin:
-        labels += "; hair is called skin"
+        labels = "hair is called skin" + (f"; {labels}" if fraction else "")
     formation, mesh = (
         _words(table) if table else "perfect" for table in (scene.formation.to_table(), scene.captured_mesh.to_table())
     )
