@@ -3,8 +3,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::chart::{Chart, luminance, means};
-use super::colours::largest;
+use super::chart::{Chart, largest, luminance, means};
 use crate::config::ColourRegionConfig;
 use crate::transport::add_scaled;
 

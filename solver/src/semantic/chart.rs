@@ -213,6 +213,12 @@ pub(super) fn dark(colours: &[Vec3], relative: f32) -> Option<f32> {
     sorted.get(sorted.len() / 2).filter(|median| **median > 0.0).map(|median| relative * median)
 }
 
+/// The region with most texels.
+pub(super) fn largest(regions: &[u8]) -> u8 {
+    let texels = |region: &u8| regions.iter().filter(|other| *other == region).count();
+    (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
+}
+
 /// The mean colour of every region; logarithmic, so that highlights have little say.
 pub(super) fn means(colours: &[Vec3], regions: &[u8], relative: f32) -> Vec<Vec3> {
     let dark = dark(colours, relative).unwrap_or(f32::MIN_POSITIVE);

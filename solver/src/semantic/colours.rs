@@ -10,7 +10,7 @@ use formats::picture::Picture;
 use glam::Vec3;
 
 use super::cell_light::CellLight;
-use super::chart::{Chart, dark, log, luminance, means};
+use super::chart::{Chart, dark, largest, log, luminance, means};
 use super::clusters::{clusters, lloyd};
 use super::explanation::Explanation;
 use super::lamps::Lamps;
@@ -133,12 +133,6 @@ impl Under {
         let means = means(&albedo, &of_lit, config.dark).into_iter().map(|mean| mean * unit);
         Some(Self { regions, means: means.collect(), known: known.to_vec() })
     }
-}
-
-/// The region with most texels.
-pub(super) fn largest(regions: &[u8]) -> u8 {
-    let texels = |region: &u8| regions.iter().filter(|other| *other == region).count();
-    (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
 }
 
 /// Points whose distances say how alike colours are.

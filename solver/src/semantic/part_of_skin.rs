@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::chart::{Chart, means};
-use super::colours::{by_cells, largest};
+use super::chart::{Chart, largest, means};
+use super::colours::by_cells;
 use super::parts::parts;
 use crate::Config;
 
