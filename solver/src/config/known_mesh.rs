@@ -166,7 +166,7 @@ pub struct TransportConfig {
 }
 
 /// Standard deviations of the model's errors in a pixel under a known light, by which the refinement of the albedo
-/// weighs pixels; not in the paper.
+/// and the reflectance of regions weigh pixels; not in the paper.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelErrorConfig {

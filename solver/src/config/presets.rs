@@ -145,10 +145,10 @@ impl Config {
             },
             reflectance: ReflectanceConfig {
                 rounds: 2,
-                relaxation: 1.5,
                 skin_deviation: 0.5,
                 region_deviation: 0.5,
                 model_error: 0.1,
+                region_error: 0.3,
                 roughness_rounds: 2,
                 roughness_samples: 400_000,
                 roughness_deviation: 0.5,

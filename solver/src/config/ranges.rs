@@ -34,13 +34,13 @@ impl SkinConfig {
 impl ReflectanceConfig {
     pub(super) fn validate(&self) -> Result<(), ConfigError> {
         range("reflectance.rounds", self.rounds, |x| x <= 20, "0 to 20")?;
-        range("reflectance.relaxation", self.relaxation, |x| (0.1..=3.0).contains(&x), "0.1 to 3")?;
         let deviation = |x: f32| (1e-3..=10.0).contains(&x);
         let wide = "0.001 to 10";
         range("reflectance.skin_deviation", self.skin_deviation, deviation, wide)?;
         range("reflectance.region_deviation", self.region_deviation, deviation, wide)?;
         let error = |x: f32| (0.0..=1.0).contains(&x);
         range("reflectance.model_error", self.model_error, error, "0 to 1")?;
+        range("reflectance.region_error", self.region_error, error, "0 to 1")?;
         range("reflectance.roughness_rounds", self.roughness_rounds, |x| x <= 20, "0 to 20")?;
         let exponent = |x: i32| (1..=4096).contains(&x);
         let of_light = self.roughness_light_exponent;
@@ -58,7 +58,7 @@ impl ColourRegionConfig {
         range("colour_regions.count", self.count, |x| x <= 64, "0 to 64")?;
         let side = |x: usize| (16..=512).contains(&x);
         range("colour_regions.texture_size", self.texture_size, side, "16 to 512")?;
-        // Normal equations of more cells would not fit into memory.
+        // The time of the normal equations grows with the fourth power.
         range("colour_regions.rows", self.rows, |x| (2..=16).contains(&x), "2 to 16")?;
         // The light is solved for after each joining of two parts that are no specks.
         let many = |x: usize| (1..=20).contains(&x);
@@ -92,7 +92,9 @@ impl HairInSkinConfig {
             "above 0 and below 7",
         )?;
         range("hair_in_skin.lit", self.lit, share, "0 to 1")?;
-        range("hair_in_skin.least_share", self.least_share, share, "0 to 1")?;
+        // Every part larger than that is tried.
+        let least = |x: f32| (0.005..=1.0).contains(&x);
+        range("hair_in_skin.least_share", self.least_share, least, "0.005 to 1")?;
         for left in self.most_left {
             range("hair_in_skin.most_left", left, share, "0 to 1")?;
         }

@@ -225,15 +225,14 @@ pub struct ReflectanceConfig {
     /// Rounds of [`TransportConfig::distance`], with the reflectances measured after each. 0 leaves them at
     /// [`NormalisationConfig::specular_skin`].
     pub rounds: usize,
-    /// Power of skin's slope that counts: the light was found by skin's highlights and has bent halfway to a
-    /// reflectance that was wrong, so that a slope shows about half of what is wrong in it.
-    pub relaxation: f32,
     /// Standard deviation of skin's reflectance among people, relative.
     pub skin_deviation: f32,
     /// Standard deviation of another region's around that of skin, relative.
     pub region_deviation: f32,
-    /// Standard error of every measurement, relative: of the light and the normals that it goes by.
+    /// Standard error of every measurement of skin, relative: of the light and the normals that it goes by.
     pub model_error: f32,
+    /// That of other regions: the light was not found by their highlights.
+    pub region_error: f32,
     /// Rounds in which the roughness is measured once the relief is found; 0 leaves the lobes of [`SkinConfig`].
     pub roughness_rounds: usize,
     /// Samples that it is measured by, about; more than that tell no more.

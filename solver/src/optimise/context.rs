@@ -105,11 +105,16 @@ impl<'a> SolveContext<'a> {
 
     /// The labels that are skin, as far as the capture names them.
     pub fn skin(&self) -> Vec<u8> {
-        let labelled = several_labels(&self.capture.train);
+        let labelled = several_labels(&self.capture.train, &self.gbuffers);
         if !labelled || !self.config.initialisation.semantic {
             return vec![];
         }
         self.capture.labels_named(&self.config.initialisation.skin_labels)
+    }
+
+    /// The regions that are skin: labels, or the largest region by colour; none if labels have no names.
+    pub fn skin_regions(&self) -> Vec<u8> {
+        self.found_regions().skin.clone()
     }
 
     /// Gives back the memory of [`SolveContext::coarse`].
@@ -153,7 +158,7 @@ impl<'a> SolveContext<'a> {
         self.found_regions.get_or_init(|| {
             let views = &self.capture.train;
             let projections = Projection::of_views(views, &self.gbuffers);
-            let labelled = several_labels(views);
+            let labelled = several_labels(views, &self.gbuffers);
             FoundRegions::new(self.capture, &projections, self.config, labelled, self.skin())
         })
     }
@@ -213,10 +218,13 @@ impl<'a> SolveContext<'a> {
     }
 }
 
-/// Whether labels part the face: one label for everything says no more than none.
-fn several_labels(views: &[View]) -> bool {
-    let labels = views.iter().filter_map(|view| view.labels.as_ref());
-    let mut seen = labels.flat_map(|labels| &labels.data).filter(|label| **label != 0);
+/// Whether labels part the face, where pictures show it: one label for everything says no more than none.
+fn several_labels(views: &[View], gbuffers: &[GBuffer]) -> bool {
+    let labels = views.iter().zip(gbuffers).filter_map(|(view, gbuffer)| {
+        let labels = view.labels.as_ref()?;
+        Some(gbuffer.pixels.iter().map(|pixel| labels.data[*pixel as usize]))
+    });
+    let mut seen = labels.flatten().filter(|label| *label != 0);
     let first = seen.next();
     seen.any(|label| Some(label) != first)
 }

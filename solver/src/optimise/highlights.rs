@@ -15,11 +15,16 @@ use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
 use crate::backend::Backend;
 use crate::backend::resident::{HighlightsJob, Job, Variable};
-use crate::config::{Config, TransportConfig};
+use crate::config::{Config, ModelErrorConfig, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, contrast, light_colour};
+
+/// The channel that the weights of samples go by.
+const GREEN: usize = 1;
+/// Radiance that a model errs by at least.
+const LEAST_ERROR: f32 = 1e-5;
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
@@ -64,7 +69,8 @@ pub(super) fn distance(
     let config = &context.config.reflectance;
     if config.rounds > 0 {
         let evenness = evenness(contrast(t.rows, &stage.light()), t.even_contrast);
-        region_terms.update(config, evenness, &stage.regression(&state, &weight), &regions);
+        let regression = stage.regression(&state, &weight, Some(&context.config.model_error));
+        region_terms.update(config, evenness, &regression, &regions);
     }
     if t.tint && round == config.rounds() {
         light_estimate.tint = stage.take_tint(&state);
@@ -201,7 +207,7 @@ impl<'a> Highlights<'a> {
     /// it was multiplied; the albedo of `state`, with which the light was found, is to be divided by it.
     pub(super) fn take_tint(&mut self, state: &State) -> [f32; CHANNELS] {
         let light = self.light();
-        let tint = self.regression(state, &self.samples.weight).tint(self.config);
+        let tint = self.regression(state, &self.samples.weight, None).tint(self.config);
         let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
         let [before, after] = [&light, &tinted].map(|light| self.transport.peak(light));
         if before == 0.0 {
@@ -212,16 +218,32 @@ impl<'a> Highlights<'a> {
         tint
     }
 
-    /// Of what the samples show besides the diffuse layer, on the highlights.
-    fn regression(&self, state: &State, weight: &Planes) -> Regression {
+    /// Of what the samples show besides the diffuse layer, on the highlights. With `errors` a sample weighs by how
+    /// far these may be off there: a strong highlight counts for no more than a weak one, of which there are many.
+    pub(super) fn regression(
+        &self,
+        state: &State,
+        weight: &Planes,
+        errors: Option<&ModelErrorConfig>,
+    ) -> Regression {
         let light = self.light();
         let (shading, _) = self.transport.shading_nearer(&light, self.nearness[0]);
         let layer = self.layer(state, &shading);
         let shown =
             |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
         let predicted = self.reflection.radiance(&light);
-        let predicted = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        Regression::new(&self.samples, weight, predicted, shown)
+        let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
+        let Some(errors) = errors.filter(|errors| errors.shadow > 0.0) else {
+            return Regression::new(&self.samples, weight, rows, shown);
+        };
+        let mean = shading.iter().sum::<f32>() / shading.len() as f32;
+        let albedo = self.samples.taps.sample::<CHANNELS>(&state.diffuse);
+        let weight = Planes::from_fn(self.samples.len(), |i| {
+            let diffuse = errors.shadow * mean * albedo.get(GREEN, i);
+            let error = diffuse.hypot(errors.highlights * predicted[i][GREEN]);
+            [weight.get(0, i) / error.max(LEAST_ERROR).powi(2)]
+        });
+        Regression::new(&self.samples, &weight, rows, shown)
     }
 
     /// The diffuse layer of every sample.

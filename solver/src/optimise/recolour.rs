@@ -11,7 +11,7 @@ use crate::transport::{CHANNELS, Transport};
 
 /// Gives every region that is no skin, in the diffuse albedo of `state`, the one colour that explains
 /// what the samples show of it besides highlights, in the mean, under `light` (R, G, B per cell). Without
-/// [`SolveContext::skin`] the albedo stays.
+/// [`SolveContext::skin_regions`] the albedo stays.
 pub(super) fn recolour(
     context: &SolveContext,
     transport: &Transport,
@@ -20,7 +20,7 @@ pub(super) fn recolour(
     skin_specular: Option<&RegionTerms>,
     state: &mut State,
 ) {
-    let skin = context.skin();
+    let skin = context.skin_regions();
     if skin.is_empty() {
         return;
     }

@@ -24,7 +24,7 @@ impl RegionTerms {
     /// That of skin, everywhere; `regions` are those of a texture.
     pub fn expected(context: &SolveContext, regions: &[u8]) -> Self {
         let reflectance = context.gain * context.config.normalisation.specular_skin;
-        let mut skin = context.skin();
+        let mut skin = context.skin_regions();
         if skin.is_empty() {
             let mut counts = [0usize; 256];
             regions.iter().for_each(|region| counts[usize::from(*region)] += 1);
@@ -84,12 +84,13 @@ impl RegionTerms {
     ) {
         let doubt = doubt(evenness);
         self.revise(regression, regions, |said, prior, is_skin| {
-            // Skin, which has the stronger prior, is believed less.
-            let (power, doubt, deviation) = match is_skin {
-                true => (config.relaxation, doubt * doubt, config.skin_deviation),
-                false => (1.0, doubt, config.region_deviation),
+            // Skin, which has the stronger prior, is believed less under an even light; elsewhere more, since the light
+            // was found by its highlights.
+            let (error, deviation) = match is_skin {
+                true => (config.model_error * doubt * doubt, config.skin_deviation),
+                false => (config.region_error * doubt, config.region_deviation),
             };
-            let reflectance = said.reflectance(prior, power, config.model_error * doubt, deviation);
+            let reflectance = said.reflectance(prior, error, deviation);
             SpecularTerm { reflectance, ..said.now }
         });
     }
@@ -143,19 +144,13 @@ struct Said {
 }
 
 impl Said {
-    /// The reflectance, between `prior`, which `deviation` says how far to trust, and the slope's `power`, in which
+    /// The reflectance, between `prior`, which `deviation` says how far to trust, and what the slope says, in which
     /// `model_error` is; both relative.
-    fn reflectance(
-        &self,
-        prior: SpecularTerm,
-        power: f32,
-        model_error: f32,
-        deviation: f32,
-    ) -> f32 {
+    fn reflectance(&self, prior: SpecularTerm, model_error: f32, deviation: f32) -> f32 {
         let Some((slope, error)) = self.fit.slope() else { return prior.reflectance };
         let error = error.hypot(f64::from(model_error) * slope);
         let now = f64::from(self.now.reflectance);
-        let said = now * slope.max(0.0).powf(f64::from(power));
+        let said = now * slope.max(0.0);
         let prior = f64::from(prior.reflectance);
         posterior((said, now * error), (prior, f64::from(deviation) * prior)) as f32
     }
@@ -204,8 +199,7 @@ mod tests {
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
         let regression = Regression::new(&samples, &samples.weight, rows, shown);
         let mut all = everywhere(SKIN);
-        let config = ReflectanceConfig { relaxation: 1.0, ..Config::default().reflectance };
-        all.update(&config, 0.0, &regression, &regions);
+        all.update(&Config::default().reflectance, 0.0, &regression, &regions);
         [1, 2].map(|region| all.of(region).reflectance)
     }
 

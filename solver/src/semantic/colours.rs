@@ -128,7 +128,10 @@ impl Under {
         let mut regions = vec![0; known.len()];
         lit.iter().zip(&of_lit).for_each(|(at, region)| regions[*at] = *region);
         // In the unit of the pictures, for a shading of mean 1, as under the cells.
-        let shading = lit.iter().zip(&albedo).map(|(at, albedo)| chart.colours[*at] / *albedo);
+        // What has nothing of a channel says nothing of its light.
+        let finite = |shading: f32| if shading.is_finite() { shading } else { 0.0 };
+        let shading = |(at, albedo): (&usize, &Vec3)| (chart.colours[*at] / *albedo).map(finite);
+        let shading = lit.iter().zip(&albedo).map(shading);
         let unit = shading.sum::<Vec3>() / lit.len() as f32;
         let means = means(&albedo, &of_lit, config.dark).into_iter().map(|mean| mean * unit);
         Some(Self { regions, means: means.collect(), known: known.to_vec() })

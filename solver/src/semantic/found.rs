@@ -19,8 +19,8 @@ use crate::Config;
 #[derive(Clone, Debug, Default)]
 pub struct FoundRegions {
     colours: Option<ColourRegions>,
-    /// The labels that are skin.
-    skin: Vec<u8>,
+    /// The regions that are skin.
+    pub skin: Vec<u8>,
     /// Each with a label that nothing else has.
     parts: Vec<(PartOfSkin, u8)>,
 }
@@ -39,7 +39,7 @@ impl FoundRegions {
         let by_colour = regions.count > 0 && !labelled;
         let split = config.hair_in_skin.enabled && (by_colour || !skin.is_empty());
         if !by_colour && !split {
-            return Self::default();
+            return Self { skin, ..Self::default() };
         }
         let chart = Chart::new(&capture.mesh, projections, &config.transport, regions);
         let colours =

@@ -194,7 +194,7 @@ impl Scene {
     }
 }
 
-/// Directions around one, half of a row of the first ones apart.
+/// Directions around one, a quarter of a row of the first ones apart.
 fn around(direction: Vec3) -> Vec<Vec3> {
     let step = std::f32::consts::PI / (2 * ROWS * (AROUND / 2)) as f32;
     let (across, up) = direction.any_orthonormal_pair();

@@ -186,6 +186,32 @@ fn highlights_say_what_colour_the_lamp_has() {
     }
 }
 
+/// The brightest show half of what is predicted there, the many others what is predicted.
+#[test]
+fn strong_highlights_count_for_no_more_than_weak_ones_in_what_a_region_mirrors() {
+    let lamp = lamp(1.0);
+    let stage = lamp.found(&lamp.state, SPECULAR, &lamp.samples);
+    let nearness = stage.nearness[0] * lamp.transport.near();
+    let texels = lamp.transport.size() * lamp.transport.size();
+    let skin_specular = SpecularTerm::usual(SPECULAR).channels().repeat(texels);
+    let weight = lamp.samples.thinned(lamp.config.transport.highlight_samples).weight;
+    let slope = |samples: &Samples, errors| {
+        let log_light = &stage.log_light;
+        let found = Found { log_light, nearness, skin_specular: &skin_specular };
+        let new = Highlights::new(&lamp.config, &lamp.transport, samples, &lamp.state, found);
+        let regression = new.unwrap().regression(&lamp.state, &weight, errors);
+        regression.fit(|_| true, 0..CHANNELS).slope().unwrap().0
+    };
+    let all = |i: usize| lamp.samples.target.sample::<CHANNELS>(i, 0);
+    let brightest = (0..lamp.samples.len()).map(|i| all(i)[1]).fold(0.0, f32::max);
+    let halved = |t: f32| if t > 0.3 * brightest { 0.5 * (t + 0.3 * brightest) } else { t };
+    let mut wrong = lamp.samples.clone();
+    wrong.target = Planes::from_fn(wrong.len(), |i| all(i).map(halved));
+    let lost = |errors| slope(&wrong, errors) / slope(&lamp.samples, errors);
+    let (alike, by_error) = (lost(None), lost(Some(&Config::default().model_error)));
+    assert!(alike < 0.8 && 1.0 - by_error < 0.75 * (1.0 - alike), "{alike} {by_error}");
+}
+
 #[test]
 fn highlights_say_how_rough_skin_is() {
     let found = |rougher: f32| {
