@@ -22,7 +22,7 @@ pub(super) struct ExportArgs {
     /// asset is compared.
     #[arg(long, required_unless_present = "mesh")]
     capture: Option<PathBuf>,
-    /// The mesh of maps without a capture: an OBJ with UV; nothing is compared then.
+    /// The mesh of maps without a capture: an OBJ with UV; compared alone then, in even light.
     #[arg(long, conflicts_with = "capture")]
     mesh: Option<PathBuf>,
     /// Bits of the PNGs that hold normals, and of all maps of `png`.

@@ -40,7 +40,7 @@ def recover(capture: unshade.Capture) -> unshade.Maps:
     albedo = np.zeros_like(colour)
     albedo[seen] = np.clip(colour[seen] / (shading / np.percentile(shading, 99))[:, None], 0, 1)
 
-    # All texels of the face are scored: those that no view shows take on what is next to them.
+    # Texels are scored at the truth's size: those without data here take on what is next to them.
     maps, known = [layer.reshape(SIZE, SIZE, 3) for layer in (albedo, normal)], seen.reshape(SIZE, SIZE).copy()
     while not known.all():
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
