@@ -213,7 +213,7 @@ impl Config {
         config.transport.enabled = true;
         config.height.enabled = true;
         config.height.highlights = true;
-        config.height.doubt = 0.5;
+        config.height.doubt = 0.65;
         config.normalisation.diffuse_percentile = 99.9;
         config.normalisation.specular_percentile = 99.0;
         config.normalisation.specular_skin = 0.028;
