@@ -220,11 +220,11 @@ impl<'a> SolveContext<'a> {
 
 /// Whether labels part the face, where pictures show it: one label for everything says no more than none.
 fn several_labels(views: &[View], gbuffers: &[GBuffer]) -> bool {
-    let labels = views.iter().zip(gbuffers).filter_map(|(view, gbuffer)| {
-        let labels = view.labels.as_ref()?;
-        Some(gbuffer.pixels.iter().map(|pixel| labels.data[*pixel as usize]))
-    });
-    let mut seen = labels.flatten().filter(|label| *label != 0);
+    let of_view = |(view, gbuffer): (&View, &GBuffer)| -> Vec<u8> {
+        gbuffer.pixels.iter().map(|pixel| view.label(*pixel as usize)).collect()
+    };
+    let labels = views.iter().zip(gbuffers).flat_map(of_view);
+    let mut seen = labels.filter(|label| *label != 0);
     let first = seen.next();
     seen.any(|label| Some(label) != first)
 }
