@@ -141,9 +141,11 @@ pub struct TransportConfig {
     /// more of what it predicts of them is taken out, and the less its shading says of the normals.
     pub even_contrast: f32,
     /// Steps after the probe that seek the light and its distance once more, the albedo held, with the
-    /// highlights that the light itself makes on skin; need what `specular_floor` needs. 0 leaves both as the probe
-    /// has found them, with the networks' highlights.
+    /// highlights that the light itself makes on skin, as far as they explain what they have not seen; needs what
+    /// `specular_floor` needs. 0 leaves both as the probe has found them, with the networks' highlights.
     pub distance: usize,
+    /// Learning rate of the light's logarithm meanwhile.
+    pub distance_rate: f32,
     /// Steps of light and albedo together with such highlights, in the end. 0 leaves highlights to the
     /// networks; then little of the specular floor is taken out where the light has contrast.
     pub highlights: usize,

@@ -126,7 +126,8 @@ impl Config {
                 specular_floor: true,
                 specular_floor_blur: 1.5,
                 even_contrast: 0.3,
-                distance: 150,
+                distance: 600,
+                distance_rate: 0.2,
                 highlights: 150,
                 highlight_samples: 40_000,
                 light_exponent: 64,
@@ -260,7 +261,7 @@ impl Config {
         config.transport.probe = 100;
         config.transport.iterations = 200;
         config.transport.albedo_frozen_steps = 75;
-        config.transport.distance = 75;
+        config.transport.distance = 200;
         config.transport.highlights = 75;
         config.transport.refinement = 50;
         config.height.linearisations = 1;

@@ -144,6 +144,7 @@ impl TransportConfig {
             ("transport.grey_mean", self.grey_mean),
             ("transport.grey_texel", self.grey_texel),
             ("transport.light_rate", self.light_rate),
+            ("transport.distance_rate", self.distance_rate),
             ("transport.nearness_rate", self.nearness_rate),
             ("transport.diffuse_rate", self.diffuse_rate),
             ("transport.specular_rate", self.specular_rate),

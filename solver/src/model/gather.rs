@@ -50,8 +50,8 @@ mod tests {
     use glam::Vec2;
 
     use super::*;
+    use crate::model::kept::Kept;
     use crate::model::planes::CHUNK_BLOCKS;
-    use crate::model::thinning::Thinning;
 
     fn points(count: usize) -> Vec<Vec2> {
         let noise = |i: usize, k: f32| ((i as f32 + 1.0) * k).sin().abs().fract();
@@ -64,11 +64,12 @@ mod tests {
         let taps = Taps::sorted(size, &points(1000)).0;
         let texture: Vec<f32> = (0..size * size).map(|i| (i as f32 * 0.7).sin()).collect();
         let values = taps.sample::<1>(&texture);
-        let thin = taps.thinned(Thinning { step, run: 1 });
-        assert_eq!(thin.sample::<1>(&texture), values.thinned(Thinning { step, run: 1 }));
+        let every = Kept::those(1000, |i| i.is_multiple_of(step));
+        let thin = taps.kept(&every);
+        assert_eq!(thin.sample::<1>(&texture), values.kept(&every));
         let kept = |i: usize| if i.is_multiple_of(step) { values.get(0, i) } else { 0.0 };
         let kept = Planes::from_fn(1000, |i| [kept(i)]);
-        let sums = thin.gather::<1>(&values.thinned(Thinning { step, run: 1 }), 0).into_iter();
+        let sums = thin.gather::<1>(&values.kept(&every), 0).into_iter();
         for (sum, expected) in sums.zip(taps.gather::<1>(&kept, 0)) {
             assert!((sum - expected).abs() < 1e-5, "{sum} not {expected}");
         }

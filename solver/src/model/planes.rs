@@ -5,9 +5,9 @@ use std::mem::MaybeUninit;
 
 use rayon::prelude::*;
 
+use super::kept::Kept;
 use super::rows::Rows;
 pub use super::rows::{BLOCK, Row, first_rows, first_rows_mut};
-use super::thinning::Thinning;
 
 /// Blocks that one task works through; sums are formed per chunk and added in chunk order, so that
 /// results do not depend on the number of threads.
@@ -79,13 +79,13 @@ impl Planes {
     }
 
     /// The samples that are kept.
-    pub fn thinned(&self, thinning: Thinning) -> Self {
-        let len = thinning.kept(self.len);
+    pub fn kept(&self, kept: &Kept) -> Self {
+        let len = kept.len();
         Self::from_blocks(self.rows, len, |block, rows| {
             let first = block * BLOCK;
             for (number, row) in rows.iter_mut().enumerate() {
                 for (at, value) in row.0.iter_mut().enumerate().take(len - first) {
-                    *value = self.get(number, thinning.source(first + at));
+                    *value = self.get(number, kept.source(first + at));
                 }
             }
         })

@@ -6,9 +6,9 @@ use glam::{Vec2, Vec3};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
+use super::kept::Kept;
 use super::planes::Planes;
 use super::taps::Taps;
-use super::thinning::Thinning;
 use crate::config::{Config, ViewWeightConfig};
 use crate::transport::skin::schlick;
 use crate::view_weights;
@@ -170,25 +170,26 @@ impl Samples {
 
     /// As many as fit into `count`, evenly spread over the texels.
     pub fn thinned(&self, count: usize) -> Self {
-        self.kept(Thinning::to(count, self.len(), 1))
+        self.kept(&Kept::spread(count, self.len(), 1))
     }
 
     /// Likewise, but in runs, so that most of what several views see of one texel stays together.
     pub fn thinned_in_runs(&self, count: usize) -> Self {
-        self.kept(Thinning::to(count, self.len(), RUN))
+        self.kept(&Kept::spread(count, self.len(), RUN))
     }
 
-    fn kept(&self, thinning: Thinning) -> Self {
+    /// The samples that are kept.
+    pub fn kept(&self, kept: &Kept) -> Self {
         Self {
-            position: self.position.thinned(thinning),
-            normal: self.normal.thinned(thinning),
-            view: self.view.thinned(thinning),
-            fresnel: self.fresnel.thinned(thinning),
-            target: self.target.thinned(thinning),
-            weight: self.weight.thinned(thinning),
-            taps: self.taps.thinned(thinning),
-            pixel: thinning.of(&self.pixel),
-            view_index: thinning.of(&self.view_index),
+            position: self.position.kept(kept),
+            normal: self.normal.kept(kept),
+            view: self.view.kept(kept),
+            fresnel: self.fresnel.kept(kept),
+            target: self.target.kept(kept),
+            weight: self.weight.kept(kept),
+            taps: self.taps.kept(kept),
+            pixel: kept.of(&self.pixel),
+            view_index: kept.of(&self.view_index),
         }
     }
 

@@ -9,8 +9,8 @@ use std::ops::Range;
 use glam::Vec2;
 use rayon::prelude::*;
 
+use super::kept::Kept;
 use super::planes::{BLOCK, Planes, Row};
-use super::thinning::Thinning;
 use crate::simd::widened;
 
 /// The four texels around each sample, with bilinear weights; outside the texture it is clamped.
@@ -46,12 +46,12 @@ impl Taps {
     }
 
     /// The samples that are kept.
-    pub fn thinned(&self, thinning: Thinning) -> Self {
+    pub fn kept(&self, kept: &Kept) -> Self {
         Self {
             size: self.size,
-            cell: thinning.of(&self.cell),
-            fraction: thinning.of(&self.fraction),
-            row_start: self.row_start.iter().map(|start| thinning.kept(*start)).collect(),
+            cell: kept.of(&self.cell),
+            fraction: kept.of(&self.fraction),
+            row_start: self.row_start.iter().map(|start| kept.before(*start)).collect(),
         }
     }
 

@@ -8,6 +8,7 @@
 use super::adam::Adam;
 use super::context::{SolveContext, TransportSetup};
 use super::error::SolveError;
+use super::halves::{Halves, mean};
 use super::light_estimate::{LightEstimate, bounce_albedo};
 use super::lighting::{Lighting, evenness};
 use super::regression::Regression;
@@ -26,7 +27,7 @@ const GREEN: usize = 1;
 /// Radiance that a model errs by at least.
 const LEAST_ERROR: f32 = 1e-5;
 
-/// Light and distance again, the albedo held, from those that the networks' highlights led to; by skin
+/// Light and distance again, the albedo held, from those that the networks' highlights led to, as [`Halves`]; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
 /// several, from 1: after each, the regions' reflectance by their highlights; after the last, the colour of the
 /// light by them. The number of steps that are not taken: without regions nothing predicts highlights.
@@ -56,16 +57,22 @@ pub(super) fn distance(
         samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
     }
     let skin_specular = region_terms.texture(&regions);
-    let found = Found {
-        log_light: &light_estimate.log_light,
-        nearness: light_estimate.setup.nearness,
-        skin_specular: &skin_specular,
+    let nearness = light_estimate.setup.nearness;
+    let of = |log_light| Found { log_light, nearness, skin_specular: &skin_specular };
+    let found = of(&light_estimate.log_light);
+    let all = Highlights::new(context.config, transport, &samples, &state, found);
+    let started = match &light_estimate.halves {
+        Some(halves) => halves.each_ref().map(|half| of(half)),
+        None => [found; 2],
     };
-    let stage = Highlights::new(context.config, transport, &samples, &state, found);
-    let Some(stage) = stage else { return Ok(iterations) };
     let name = format!("distance {round}");
-    let mut stage = Highlights { name, iterations, frozen_steps: iterations, ..stage };
-    runner.stage(&mut stage, &mut state)?;
+    let halves =
+        Halves::new(context.config, transport, &samples, &state, started, name, iterations);
+    let (Some(mut stage), Some(mut halves)) = (all, halves) else { return Ok(iterations) };
+    runner.stage(&mut halves, &mut state)?;
+    let (lights, nearness) = halves.best();
+    (stage.log_light, stage.nearness) = (mean(&lights), vec![nearness]);
+    light_estimate.halves = Some(lights);
     let config = &context.config.reflectance;
     if config.rounds > 0 {
         let evenness = evenness(contrast(t.rows, &stage.light()), t.even_contrast);
@@ -145,7 +152,7 @@ pub struct Highlights<'a> {
     pub(super) nearness: Vec<f32>,
     name: String,
     iterations: usize,
-    pub(super) frozen_steps: usize,
+    frozen_steps: usize,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -191,6 +198,17 @@ impl<'a> Highlights<'a> {
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
         })
+    }
+
+    /// For light and nearness alone, the light at another rate.
+    pub(super) fn of_light_alone(self, rate: f32) -> Self {
+        let by_light = Adam::new(self.by_light.config(), rate, self.log_light.len());
+        Self { by_light, frozen_steps: usize::MAX, ..self }
+    }
+
+    /// Steps done.
+    pub(super) fn steps(&self) -> usize {
+        self.by_light.steps()
     }
 
     /// Weight and softness of the light's colours.

@@ -20,6 +20,8 @@ pub(super) struct DiffuseReflectance {
 #[derive(Serialize, Deserialize)]
 pub(super) struct LightEstimate {
     pub log_light: Vec<f32>,
+    /// Likewise, of either half of the face; see [`super::halves`].
+    pub halves: Option<[Vec<f32>; 2]>,
     pub setup: TransportSetup,
     pub networks: Networks,
     /// By which the light makes highlights; none if the networks make them.

@@ -11,6 +11,7 @@ pub mod diffuse;
 pub(crate) mod error;
 mod finish;
 mod found;
+mod halves;
 pub mod height_solve;
 mod heights;
 pub mod highlights;

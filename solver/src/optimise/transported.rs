@@ -43,7 +43,8 @@ pub(super) fn light(
         .flatten();
     let region_terms = regions.map(|regions| RegionTerms::expected(context, &regions));
     let networks = start.networks;
-    Ok(LightEstimate { log_light, setup, networks, region_terms, tint: [1.0; CHANNELS] })
+    let (halves, tint) = (None, [1.0; CHANNELS]);
+    Ok(LightEstimate { log_light, halves, setup, networks, region_terms, tint })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of

@@ -5,10 +5,11 @@ use std::f32::consts::{FRAC_1_PI, PI};
 use super::*;
 use crate::config::TransportConfig;
 use crate::model::planes::Planes;
+use crate::optimise::halves::{Halves, mean};
 use crate::optimise::highlights::{Found, Highlights};
 use crate::optimise::regression::Regression;
 use crate::transport::skin::schlick;
-use crate::transport::{Beside, CHANNELS, Sky, SpecularTerm, Transport};
+use crate::transport::{Beside, CHANNELS, Sky, SpecularTerm, Transport, contrast};
 
 /// Specular reflectance of skin at normal incidence.
 const SPECULAR: f32 = 0.04;
@@ -136,8 +137,7 @@ impl Lamp {
         let skin_specular = SpecularTerm::usual(skin_specular).channels().repeat(texels);
         let found = Found { log_light: &log_light, nearness: 0.1, skin_specular: &skin_specular };
         let new = Highlights::new(&self.config, &self.transport, samples, state, found);
-        let mut stage = new.unwrap();
-        stage.frozen_steps = usize::MAX;
+        let mut stage = new.unwrap().of_light_alone(self.config.transport.light_rate);
         for _ in 0..400 {
             stage.step(&mut state.clone(), &Cpu::new(), 1.0);
         }
@@ -159,6 +159,47 @@ fn highlights_say_where_the_lamp_is() {
     // A cell is 11 degrees wide, and shading is taken as linear in the inverse distance.
     assert!(with.1 < 12.0 && (with.0 - RADIUS).abs() < 0.35 * RADIUS, "{with:?}");
     assert!(without.1 > 45.0 && without.0 < 0.5 * RADIUS, "shading alone would do: {without:?}");
+}
+
+/// A light of that many cells explains both.
+#[test]
+fn what_one_half_of_the_face_says_of_light_but_not_of_mottled_skin_holds_on_the_other() {
+    let lamp = lamp(1.0);
+    let even = vec![1.0; CHANNELS * lamp.sky.len()];
+    let (shading, _) = lamp.transport.shading_nearer(&even, 0.0);
+    let layer: Vec<f32> = shading.iter().zip(&lamp.state.diffuse).map(|(s, a)| s * a).collect();
+    let layer = lamp.samples.taps.sample::<CHANNELS>(&layer);
+    let mut mottled = lamp.samples.clone();
+    mottled.target = Planes::from_fn::<CHANNELS>(mottled.len(), |i| {
+        let [x, y, z]: [f32; 3] = mottled.position.sample(i, 0);
+        let pigment = 1.0 + 0.3 * (7.0 * x + 3.0 * z).sin() * (8.0 * y - 2.0 * x).sin();
+        layer.sample::<CHANNELS>(i, 0).map(|colour| pigment * colour)
+    });
+    let contrasts = |skin_specular: f32, samples: &Samples| {
+        let (transport, state) = (&lamp.transport, &mut lamp.state.clone());
+        let log_light = vec![0.0; even.len()];
+        let texels = transport.size() * transport.size();
+        let skin_specular = SpecularTerm::usual(skin_specular).channels().repeat(texels);
+        let found = Found { log_light: &log_light, nearness: 0.1, skin_specular: &skin_specular };
+        let (config, steps) = (&lamp.config, 200);
+        let halves =
+            Halves::new(config, transport, samples, state, [found; 2], String::new(), steps);
+        let mut halves = halves.unwrap();
+        let whole = Highlights::new(config, transport, samples, state, found).unwrap();
+        let mut whole = whole.of_light_alone(config.transport.distance_rate);
+        for _ in 0..steps {
+            halves.step(state, &Cpu::new(), 1.0);
+            whole.step(state, &Cpu::new(), 1.0);
+        }
+        [mean(&halves.best().0), whole.log_light].map(|log_light| {
+            let light: Vec<f32> = log_light.iter().map(|log| log.exp()).collect();
+            contrast(lamp.config.transport.rows, &light)
+        })
+    };
+    let [halves, whole] = contrasts(0.0, &mottled);
+    assert!(halves < 0.5 * whole, "an even sky: {halves}, by the whole face {whole}");
+    let [halves, whole] = contrasts(SPECULAR, &lamp.samples);
+    assert!(halves > 0.9 * whole, "a lamp: {halves}, by the whole face {whole}");
 }
 
 /// Skin is said to be less red and more blue than it is, and so the light comes out too red.
