@@ -9,7 +9,7 @@ impl Kept {
     /// of a texel together.
     pub fn spread(count: usize, samples: usize, run: usize) -> Self {
         let step = samples.div_ceil(count.max(1)).max(1);
-        Self::those(samples, |i| i / run % step == 0)
+        Self::those(samples, |i| (i / run).is_multiple_of(step))
     }
 
     /// Of `samples` those that are `wanted`.

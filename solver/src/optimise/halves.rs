@@ -17,13 +17,15 @@ use crate::transport::Transport;
 const FIELDS: usize = 4;
 /// Steps after which the halves judge each other.
 const EACH: usize = 10;
+/// Steps without a better light after which none is sought any more.
+const PATIENCE: usize = 60;
 
 /// A light and its nearness by each half, the albedo held.
 pub(super) struct Halves<'a> {
     name: String,
     iterations: usize,
     halves: [Highlights<'a>; 2],
-    /// As they were when they were best: their loss on each other, one value.
+    /// As they were when they were best: their loss on each other, and after how many steps.
     least: Vec<f32>,
     lights: [Vec<f32>; 2],
     nearness: Vec<f32>,
@@ -49,7 +51,7 @@ impl<'a> Halves<'a> {
         let halves = [half(0)?, half(1)?];
         let lights = [0, 1].map(|side: usize| found[side].log_light.to_vec());
         let nearness = halves.iter().map(|half| half.nearness[0]).collect();
-        Some(Self { name, iterations, halves, least: vec![f32::INFINITY], lights, nearness })
+        Some(Self { name, iterations, halves, least: vec![f32::INFINITY, 0.0], lights, nearness })
     }
 
     /// The logarithms of both lights where they were best, and how near they are in the transport's unit.
@@ -108,12 +110,16 @@ impl Stage for Halves<'_> {
         if self.halves[0].steps().is_multiple_of(EACH) {
             let loss = self.judged(state);
             if loss < self.least[0] {
-                self.least[0] = loss;
+                self.least = vec![loss, self.halves[0].steps() as f32];
                 self.lights = self.halves.each_ref().map(|half| half.log_light.clone());
                 self.nearness = self.halves.iter().map(|half| half.nearness[0]).collect();
             }
         }
         0.5 * losses.iter().sum::<f64>()
+    }
+
+    fn is_over(&self) -> bool {
+        self.halves[0].steps() >= self.least[1] as usize + PATIENCE
     }
 
     fn memory(&mut self) -> Memory<'_> {

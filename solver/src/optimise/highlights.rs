@@ -60,17 +60,18 @@ pub(super) fn distance(
     let nearness = light_estimate.setup.nearness;
     let of = |log_light| Found { log_light, nearness, skin_specular: &skin_specular };
     let found = of(&light_estimate.log_light);
-    let all = Highlights::new(context.config, transport, &samples, &state, found);
     let started = match &light_estimate.halves {
         Some(halves) => halves.each_ref().map(|half| of(half)),
         None => [found; 2],
     };
-    let name = format!("distance {round}");
-    let halves =
-        Halves::new(context.config, transport, &samples, &state, started, name, iterations);
-    let (Some(mut stage), Some(mut halves)) = (all, halves) else { return Ok(iterations) };
+    let (config, name) = (context.config, format!("distance {round}"));
+    let halves = Halves::new(config, transport, &samples, &state, started, name, iterations);
+    let Some(mut halves) = halves else { return Ok(iterations) };
     runner.stage(&mut halves, &mut state)?;
     let (lights, nearness) = halves.best();
+    // For the peak, which reflectances are relative to, by the light that the halves began with.
+    let whole = Highlights::new(config, transport, &samples, &state, found);
+    let Some(mut stage) = whole else { return Ok(0) };
     (stage.log_light, stage.nearness) = (mean(&lights), vec![nearness]);
     light_estimate.halves = Some(lights);
     let config = &context.config.reflectance;

@@ -62,6 +62,10 @@ pub trait Stage {
     fn iterations(&self) -> usize;
     /// One step, by `decay` of the learning rates; the loss before it.
     fn step(&mut self, state: &mut State, backend: &dyn Backend, decay: f32) -> f64;
+    /// Whether more steps lead nowhere; asked before each.
+    fn is_over(&self) -> bool {
+        false
+    }
     /// For checkpoints: with the state, all that is needed to go on with the same bits.
     fn memory(&mut self) -> Memory<'_>;
     /// For a device that may take the stage in; nothing if there is no program for it.

@@ -178,7 +178,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         // Steps that the host's copy of a device's values has seen, and when it was made.
         let (mut known, mut fetched) = (losses.len(), Instant::now());
         let mut pace = Pace::default();
-        while losses.len() < of && self.cut.is_none() {
+        while losses.len() < of && self.cut.is_none() && !stage.is_over() {
             let first = losses.len() + 1;
             let decay = |step: usize| decay(self.final_decay, step, of);
             let batch = match &mut device {
@@ -217,6 +217,9 @@ impl<'a, 'b> StageRunner<'a, 'b> {
                 (known, fetched) = (losses.len(), Instant::now());
             }
             self.remember(name, &losses, stage, state);
+        }
+        if self.cut.is_none() {
+            self.spare(of - losses.len());
         }
         Ok(losses)
     }
