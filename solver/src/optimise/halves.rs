@@ -87,10 +87,11 @@ fn halves(config: &TransportConfig, samples: &Samples) -> [Samples; 2] {
     parts.map(|part| if either { samples.clone() } else { samples.kept(&part) })
 }
 
-/// The mean of two lights, as a logarithm.
+/// The mean of two lights, all as logarithms; finite also where both are darker than a float can say.
 pub(super) fn mean(lights: &[Vec<f32>; 2]) -> Vec<f32> {
     let [a, b] = lights;
-    a.iter().zip(b).map(|(a, b)| (0.5 * (a.exp() + b.exp())).ln()).collect()
+    let mean = |(a, b): (&f32, &f32)| a.max(*b) + (0.5 * (1.0 + (-(a - b).abs()).exp())).ln();
+    a.iter().zip(b).map(mean).collect()
 }
 
 impl Stage for Halves<'_> {

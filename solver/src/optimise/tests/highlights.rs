@@ -196,6 +196,8 @@ fn what_one_half_of_the_face_says_of_light_but_not_of_mottled_skin_holds_on_the_
             contrast(lamp.config.transport.rows, &light)
         })
     };
+    let dark = mean(&[vec![3.0f32.ln(), -200.0], vec![0.0, -200.0]]);
+    assert!((dark[0] - 2.0f32.ln()).abs() < 1e-6 && dark[1] == -200.0, "{dark:?}");
     let [halves, whole] = contrasts(0.0, &mottled);
     assert!(halves < 0.5 * whole, "an even sky: {halves}, by the whole face {whole}");
     let [halves, whole] = contrasts(SPECULAR, &lamp.samples);
