@@ -6,11 +6,9 @@
 //! what colour the lamp has, and what glows at the sides of a face is no light from behind.
 
 use super::adam::Adam;
-use super::context::{SolveContext, TransportSetup};
+use super::context::SolveContext;
 use super::error::SolveError;
-use super::halves::{Halves, mean};
-use super::light_estimate::{LightEstimate, bounce_albedo};
-use super::lighting::{Lighting, evenness};
+use super::lighting::Lighting;
 use super::regression::Regression;
 use super::stage::{Memory, Stage, State};
 use super::stage_runner::StageRunner;
@@ -20,86 +18,14 @@ use crate::config::{Config, ModelErrorConfig, TransportConfig};
 use crate::model::planes::Planes;
 use crate::model::prior::prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, contrast, light_colour};
+use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, light_colour};
 
 /// The channel that the weights of samples go by.
 const GREEN: usize = 1;
 /// Radiance that a model errs by at least.
 const LEAST_ERROR: f32 = 1e-5;
 
-/// Light and distance again, the albedo held, from those that the networks' highlights led to, as [`Halves`]; by skin
-/// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
-/// several, from 1: after each, the regions' reflectance by their highlights; after the last, the colour of the
-/// light by them. The number of steps that are not taken: without regions nothing predicts highlights.
-pub(super) fn distance(
-    runner: &mut StageRunner,
-    context: &SolveContext,
-    mut state: State,
-    light_estimate: &mut LightEstimate,
-    round: usize,
-) -> Result<usize, SolveError> {
-    let t = &context.config.transport;
-    let iterations = distance_steps(context.config, round);
-    let transport = context.far_transport();
-    let size = transport.size();
-    let (Some(region_terms), Some(regions)) =
-        (&mut light_estimate.region_terms, context.regions_on(size))
-    else {
-        return Ok(iterations);
-    };
-    state.resize(size);
-    let mut samples = context.pictures().samples(&context.space, size);
-    let weight = samples.thinned(t.highlight_samples).weight;
-    let skin = context.skin();
-    if !skin.is_empty() {
-        let of_skin = |i: usize| skin.contains(&regions[samples.taps.nearest(i)]);
-        let weight = |i: usize| if of_skin(i) { samples.weight.get(0, i) } else { 0.0 };
-        samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
-    }
-    let skin_specular = region_terms.texture(&regions);
-    let nearness = light_estimate.setup.nearness;
-    let of = |log_light| Found { log_light, nearness, skin_specular: &skin_specular };
-    let found = of(&light_estimate.log_light);
-    let started = match &light_estimate.halves {
-        Some(halves) => halves.each_ref().map(|half| of(half)),
-        None => [found; 2],
-    };
-    let (config, name) = (context.config, format!("distance {round}"));
-    let halves = Halves::new(config, transport, &samples, &state, started, name, iterations);
-    let Some(mut halves) = halves else { return Ok(iterations) };
-    runner.stage(&mut halves, &mut state)?;
-    let (lights, nearness) = halves.best();
-    // For the peak, which reflectances are relative to, by the light that the halves began with.
-    let whole = Highlights::new(config, transport, &samples, &state, found);
-    let Some(mut stage) = whole else { return Ok(0) };
-    (stage.log_light, stage.nearness) = (mean(&lights), vec![nearness]);
-    light_estimate.halves = Some(lights);
-    let config = &context.config.reflectance;
-    if config.rounds > 0 {
-        let evenness = evenness(contrast(t.rows, &stage.light()), t.even_contrast);
-        let regression = stage.regression(&state, &weight, Some(&context.config.model_error));
-        region_terms.update(config, evenness, &regression, &regions);
-    }
-    if t.tint && round == config.rounds() {
-        light_estimate.tint = stage.take_tint(&state);
-        let texels = state.diffuse.iter_mut().zip(light_estimate.tint.iter().cycle());
-        texels.for_each(|(albedo, tint)| *albedo /= tint);
-    }
-    light_estimate.setup = TransportSetup {
-        nearness: stage.nearness[0] * transport.near(),
-        bounce_albedo: bounce_albedo(transport, &stage.light(), &state.diffuse),
-    };
-    light_estimate.log_light = stage.log_light;
-    Ok(0)
-}
-
-/// The steps of a round of [`distance`], from 1.
-pub(super) fn distance_steps(config: &Config, round: usize) -> usize {
-    let (steps, rounds) = (config.transport.distance, config.reflectance.rounds());
-    steps * round / rounds - steps * (round - 1) / rounds
-}
-
-/// Light and diffuse albedo again, as [`distance`].
+/// Light and diffuse albedo again, as [`super::distance`].
 pub(super) fn highlights(
     runner: &mut StageRunner,
     context: &SolveContext,
@@ -218,7 +144,7 @@ impl<'a> Highlights<'a> {
     }
 
     /// The light, R, G, B per cell.
-    fn light(&self) -> Vec<f32> {
+    pub(super) fn light(&self) -> Vec<f32> {
         self.log_light.iter().map(|log| log.exp()).collect()
     }
 

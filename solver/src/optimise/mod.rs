@@ -8,6 +8,7 @@ mod context;
 mod deviated_highlights;
 mod deviation_penalty;
 pub mod diffuse;
+mod distance;
 pub(crate) mod error;
 mod finish;
 mod found;

@@ -3,10 +3,11 @@
 use super::clock::Work;
 use super::context::SolveContext;
 use super::diffuse::Diffuse;
+use super::distance::{distance, distance_steps};
 use super::error::SolveError;
 use super::found::{Solve, Start};
 use super::heights;
-use super::highlights::{distance, distance_steps, highlights};
+use super::highlights::highlights;
 use super::normals::Normals;
 use super::refinement::refinement;
 use super::snapshot::{Snapshot, Unit};
