@@ -77,9 +77,8 @@ pub struct Highlights<'a> {
     /// How near the light is, in the transport's unit; one value, which only moves if the transport says
     /// what that changes.
     pub(super) nearness: Vec<f32>,
-    name: String,
     iterations: usize,
-    frozen_steps: usize,
+    albedo_held: bool,
     by_light: Adam,
     by_nearness: Adam,
     by_diffuse: Adam,
@@ -118,9 +117,8 @@ impl<'a> Highlights<'a> {
             reflection,
             log_light: found.log_light.to_vec(),
             nearness: vec![found.nearness / transport.near()],
-            name: "highlights".to_owned(),
             iterations: t.highlights,
-            frozen_steps: 0,
+            albedo_held: false,
             by_light: Adam::new(adam, t.light_rate, light.len()),
             by_nearness: Adam::new(adam, t.nearness_rate, 1),
             by_diffuse: Adam::new(adam, t.diffuse_rate, state.diffuse.len()),
@@ -130,7 +128,7 @@ impl<'a> Highlights<'a> {
     /// For light and nearness alone, the light at another rate.
     pub(super) fn of_light_alone(self, rate: f32) -> Self {
         let by_light = Adam::new(self.by_light.config(), rate, self.log_light.len());
-        Self { by_light, frozen_steps: usize::MAX, ..self }
+        Self { by_light, albedo_held: true, ..self }
     }
 
     /// Steps done.
@@ -239,7 +237,7 @@ impl<'a> Highlights<'a> {
 
 impl Stage for Highlights<'_> {
     fn name(&self) -> String {
-        self.name.clone()
+        "highlights".to_owned()
     }
 
     fn iterations(&self) -> usize {
@@ -253,7 +251,7 @@ impl Stage for Highlights<'_> {
             self.by_nearness.step(&mut self.nearness, &[by_nearness], decay, 0.0);
             self.nearness[0] = self.nearness[0].min(self.transport.nearest());
         }
-        if self.by_light.steps() > self.frozen_steps {
+        if !self.albedo_held {
             self.by_diffuse.step(&mut state.diffuse, &gradient.diffuse, decay, 0.0);
         }
         gradient.loss
@@ -275,7 +273,7 @@ impl Stage for Highlights<'_> {
         vec![
             Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
             Variable { maximum: self.transport.nearest(), ..nearness },
-            Variable { frozen_steps: self.frozen_steps, ..diffuse },
+            diffuse,
         ]
     }
 
