@@ -163,6 +163,7 @@ impl ModelErrorConfig {
             ("model_error.normal", self.normal),
             ("model_error.highlights", self.highlights),
             ("model_error.shadow", self.shadow),
+            ("model_error.doubt", self.doubt),
         ])?;
         let albedo = |x: f32| x > 0.0 && x <= 1.0;
         range("model_error.darkest_albedo", self.darkest_albedo, albedo, "above 0, to 1")

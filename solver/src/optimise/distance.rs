@@ -10,7 +10,7 @@ use super::stage::State;
 use super::stage_runner::StageRunner;
 use crate::config::Config;
 use crate::model::planes::Planes;
-use crate::transport::contrast;
+use crate::transport::{Transport, contrast};
 
 /// Light and distance again, the albedo held, from those that the networks' highlights led to, as [`Halves`]; by skin
 /// alone if the capture names it, since the rest has but the mean colours of the pictures. One `round` of
@@ -58,6 +58,7 @@ pub(super) fn distance(
     let whole = Highlights::new(config, transport, &samples, &state, found);
     let Some(mut stage) = whole else { return Ok(0) };
     (stage.log_light, stage.nearness) = (mean(&lights), vec![nearness]);
+    light_estimate.doubt = Some(doubt(transport, &lights, nearness));
     light_estimate.halves = Some(lights);
     let config = &context.config.reflectance;
     if config.rounds > 0 {
@@ -76,6 +77,18 @@ pub(super) fn distance(
     };
     light_estimate.log_light = stage.log_light;
     Ok(0)
+}
+
+/// See [`LightEstimate::doubt`].
+fn doubt(transport: &Transport, log_lights: &[Vec<f32>; 2], nearness: f32) -> f32 {
+    let [a, b] = log_lights.each_ref().map(|log_light| {
+        let light: Vec<f32> = log_light.iter().map(|light| light.exp()).collect();
+        transport.shading_nearer(&light, nearness).0
+    });
+    let (apart, sum) = a.iter().zip(&b).fold((0.0, 0.0), |(apart, sum), (a, b)| {
+        (apart + f64::from((a - b).abs()), sum + f64::from(a + b))
+    });
+    if sum > 0.0 { (apart / sum) as f32 } else { 0.0 }
 }
 
 /// The steps of a round of [`distance`], from 1.

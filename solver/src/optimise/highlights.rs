@@ -50,8 +50,9 @@ pub(super) fn highlights(
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
     let region_terms = lighting.region_terms.take();
-    *lighting = Lighting::new(context, &samples, state, region_terms, lighting.setup, light);
-    lighting.explained = true;
+    let (setup, doubt) = (lighting.setup, lighting.doubt);
+    *lighting = Lighting::new(context, &samples, state, region_terms, setup, light);
+    (lighting.explained, lighting.doubt) = (true, doubt);
     Ok(0)
 }
 

@@ -22,6 +22,8 @@ pub(super) struct LightEstimate {
     pub log_light: Vec<f32>,
     /// Likewise, of either half of the face; see [`super::halves`].
     pub halves: Option<[Vec<f32>; 2]>,
+    /// How far the shading by either half is from that by both, in the mean, over its mean.
+    pub doubt: Option<f32>,
     pub setup: TransportSetup,
     pub networks: Networks,
     /// By which the light makes highlights; none if the networks make them.

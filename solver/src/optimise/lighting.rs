@@ -35,6 +35,8 @@ pub(super) struct Lighting {
     pub exposure: f32,
     /// Whether the light has been solved for with its highlights.
     pub explained: bool,
+    /// See [`super::light_estimate::LightEstimate::doubt`].
+    pub doubt: Option<f32>,
     /// See [`crate::config::TransportConfig::even_contrast`].
     even_contrast: f32,
     pub setup: TransportSetup,
@@ -87,6 +89,7 @@ impl Lighting {
             region_terms,
             exposure,
             explained: false,
+            doubt: None,
             even_contrast: config.transport.even_contrast,
             setup,
             light: RecoveredLight { rows: config.transport.rows, distance, radiance },

@@ -74,7 +74,7 @@ fn refined(
     let model = Model { shading: &shading, changes: &sampled, albedo: &albedo, target: &target };
     // What the stage reads, and no more.
     let rest = Samples {
-        weight: model.weights(&config.model_error, samples),
+        weight: model.weights(&config.model_error, lighting.doubt, samples),
         target,
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
@@ -109,15 +109,20 @@ struct Model<'a> {
 }
 
 impl Model<'_> {
-    /// The weights of the samples, over how much the shading that explains them is likely to be wrong. Where all is
-    /// well that makes a residual one of the albedo, so that the prior has the same strength in dim light as in
-    /// bright; where light grazes, where highlights are strong and in shadows, pictures say less.
-    fn weights(&self, errors: &ModelErrorConfig, samples: &Samples) -> Planes {
+    /// The weights of the samples, over how far the layer that explains them is likely to be off: the albedo times
+    /// the error of its shading. Shading errs by about as much in shadow as in light, and by the more the further
+    /// the lights of both halves of the face are apart ([`super::halves`], `doubt`); where normals matter and
+    /// highlights are strong, by more. So the prior is strong where a light explains little, and hair keeps its
+    /// strands beside skin that is ten times as bright.
+    fn weights(&self, errors: &ModelErrorConfig, doubt: Option<f32>, samples: &Samples) -> Planes {
         if errors.shadow == 0.0 {
             return samples.weight.clone();
         }
         let count = samples.len().max(1) as f32;
         let mean = (0..samples.len()).map(|i| self.shading.get(GREEN, i)).sum::<f32>() / count;
+        let shadow = doubt.map_or(errors.shadow, |doubt| errors.doubt * doubt);
+        let albedo = |i: usize| self.albedo.get(GREEN, i).max(errors.darkest_albedo);
+        let usual = (0..samples.len()).map(albedo).sum::<f32>() / count;
         Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(samples.normal.sample(i, 0));
             let changes: [f32; SHADING_ROWS] = self.changes.sample(i, 0);
@@ -127,12 +132,11 @@ impl Model<'_> {
             let squares = [
                 errors.shading * self.shading.get(GREEN, i),
                 errors.normal * change,
-                errors.highlights * highlight
-                    / self.albedo.get(GREEN, i).max(errors.darkest_albedo),
-                errors.shadow * mean,
+                errors.highlights * highlight / albedo(i),
+                shadow * mean,
             ];
             let error = squares.map(|error| error * error).iter().sum::<f32>().sqrt();
-            [samples.weight.get(0, i) * errors.shadow * mean / error]
+            [samples.weight.get(0, i) * errors.shadow * mean / error * usual / albedo(i)]
         })
     }
 }

@@ -43,8 +43,8 @@ pub(super) fn light(
         .flatten();
     let region_terms = regions.map(|regions| RegionTerms::expected(context, &regions));
     let networks = start.networks;
-    let (halves, tint) = (None, [1.0; CHANNELS]);
-    Ok(LightEstimate { log_light, halves, setup, networks, region_terms, tint })
+    let (halves, doubt, tint) = (None, None, [1.0; CHANNELS]);
+    Ok(LightEstimate { log_light, halves, doubt, setup, networks, region_terms, tint })
 }
 
 /// Light and diffuse albedo under explicit transport, from the light of [`light`] and the textures of
@@ -80,8 +80,10 @@ pub(super) fn light_and_albedo(
         Transported::new(context.config, transport, &samples, &state, light_estimate.log_light);
     runner.stage(&mut stage, &mut state)?;
     let light = stage.light();
-    let LightEstimate { region_terms, setup, .. } = light_estimate;
-    Ok(Lighting::new(context, &samples, state, region_terms, setup, light))
+    let LightEstimate { region_terms, setup, doubt, .. } = light_estimate;
+    let mut lighting = Lighting::new(context, &samples, state, region_terms, setup, light);
+    lighting.doubt = doubt;
+    Ok(lighting)
 }
 
 /// Light, diffuse albedo and specular layer on the transport's texture.
