@@ -182,8 +182,8 @@ pub struct ModelErrorConfig {
     /// pixels alike.
     pub shadow: f32,
     /// Of the diffuse shading, over its mean, in place of `shadow` in the refinement: times how far the lights that
-    /// either half of the face shows are apart in the shading that they make. `shadow` remains the error at which
-    /// the prior has the weight that it is given.
+    /// either half of the face shows are apart in the shading that they make, at least `shading`; 0 leaves `shadow`,
+    /// which remains the error at which the prior has the weight that it is given.
     pub doubt: f32,
     /// Diffuse albedo that counts as the least where errors or highlights are compared with it.
     pub darkest_albedo: f32,

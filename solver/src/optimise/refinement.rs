@@ -98,6 +98,13 @@ fn less(target: &Planes, specular: impl Fn(usize) -> [f32; CHANNELS] + Sync) -> 
     })
 }
 
+/// Error of the shading over its mean, whatever light reaches a texel. Halves that do not differ were not parted or
+/// never moved: that says nothing.
+fn shadow_error(errors: &ModelErrorConfig, doubt: Option<f32>) -> f32 {
+    let apart = doubt.map(|doubt| errors.doubt * doubt).filter(|apart| *apart > 0.0);
+    apart.map_or(errors.shadow, |apart| apart.max(errors.shading))
+}
+
 /// What is known of every sample before the refinement.
 struct Model<'a> {
     shading: &'a Planes,
@@ -120,7 +127,7 @@ impl Model<'_> {
         }
         let count = samples.len().max(1) as f32;
         let mean = (0..samples.len()).map(|i| self.shading.get(GREEN, i)).sum::<f32>() / count;
-        let shadow = doubt.map_or(errors.shadow, |doubt| errors.doubt * doubt);
+        let shadow = shadow_error(errors, doubt);
         let albedo = |i: usize| self.albedo.get(GREEN, i).max(errors.darkest_albedo);
         let usual = (0..samples.len()).map(albedo).sum::<f32>() / count;
         Planes::from_fn(samples.len(), |i| {
@@ -138,5 +145,54 @@ impl Model<'_> {
             let error = squares.map(|error| error * error).iter().sum::<f32>().sqrt();
             [samples.weight.get(0, i) * errors.shadow * mean / error * usual / albedo(i)]
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    /// Weights of two samples, of these shadings and albedos, without highlights.
+    fn weights(shading: [f32; 2], albedo: [f32; 2], doubt: Option<f32>) -> [f32; 2] {
+        let planes = |values: [f32; 2]| Planes::from_fn(2, |i| [values[i]; CHANNELS]);
+        let black = planes([0.0; 2]);
+        let samples = Samples {
+            normal: Planes::from_fn(2, |_| [0.0, 0.0, 1.0]),
+            weight: Planes::from_fn(2, |_| [1.0]),
+            target: black.clone(),
+            pixel: vec![0; 2],
+            ..Samples::none(2)
+        };
+        let changes = Planes::from_fn(2, |_| [0.0; SHADING_ROWS]);
+        let (shading, albedo) = (planes(shading), planes(albedo));
+        let model = Model { shading: &shading, changes: &changes, albedo: &albedo, target: &black };
+        let weights = model.weights(&Config::default().model_error, doubt, &samples);
+        [0, 1].map(|i| weights.get(0, i))
+    }
+
+    #[test]
+    fn halves_that_agree_to_the_bit_say_nothing_of_the_error() {
+        for doubt in [None, Some(0.0)] {
+            let [dark, lit] = weights([0.0, 2.0], [0.2; 2], doubt);
+            assert!((dark - 1.0).abs() < 1e-6 && (0.9..1.0).contains(&lit), "{dark} {lit}");
+        }
+        // However little they differ, shading is never better known than where it is bright.
+        let [dark, lit] = weights([0.0, 2.0], [0.2; 2], Some(1e-9));
+        assert!((dark - 0.3 / 0.05).abs() < 1e-3 && lit < dark, "{dark} {lit}");
+    }
+
+    #[test]
+    fn lights_that_differ_leave_more_to_the_prior() {
+        let of = |doubt: f32| weights([1.0; 2], [0.2; 2], Some(doubt))[0];
+        assert!(of(0.02) > 1.5 * of(0.06) && of(0.06) > 1.5 * of(0.2));
+    }
+
+    #[test]
+    fn a_residual_counts_by_the_albedo_that_it_is_of() {
+        let [hair, skin] = weights([1.0; 2], [0.04, 0.4], Some(0.03));
+        assert!((hair / skin - 10.0).abs() < 1e-4, "{hair} {skin}");
+        let [black, least] = weights([1.0; 2], [0.0, 0.02], Some(0.03));
+        assert!((black / least - 1.0).abs() < 1e-6, "{black} {least}");
     }
 }
