@@ -125,4 +125,4 @@ def test_workers_of_one_machine_divide_its_processors() -> None:
 
     parts = divided(list(range(7)), 3)
     assert [one for part in parts for one in part] == list(range(7)) and {len(part) for part in parts} == {2, 3}
-    assert divided([4, 6], 3) == [[4], [6], [4]]
+    assert divided([4, 6], 3) == [[4, 6], [4, 6], [4, 6]]

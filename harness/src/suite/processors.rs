@@ -13,11 +13,12 @@ pub(super) fn of_workers(jobs: usize) -> Vec<Processors> {
     divided(&all(), jobs).into_iter().map(Some).collect()
 }
 
-/// `processors` in as many equal parts as there are workers; single ones by turns where they are fewer.
+/// `processors` in as many equal parts as there are workers; all of them to everyone where they are fewer: two of
+/// three workers on one of two processors would get half the time of the third.
 fn divided(processors: &[usize], jobs: usize) -> Vec<Vec<usize>> {
     let count = processors.len();
     let part = |job: usize| match count < jobs {
-        true => vec![processors[job % count]],
+        true => processors.to_vec(),
         false => processors[job * count / jobs..(job + 1) * count / jobs].to_vec(),
     };
     (0..jobs).map(part).collect()
@@ -81,8 +82,8 @@ mod tests {
             let sizes: Vec<usize> = parts.iter().map(Vec::len).collect();
             assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= 1, "{sizes:?}");
         }
-        // More workers than processors: none is without.
-        assert_eq!(divided(&[4, 6], 3), [[4], [6], [4]]);
+        // More workers than processors: the system shares them out.
+        assert_eq!(divided(&[4, 6], 3), [[4, 6], [4, 6], [4, 6]]);
     }
 
     #[test]

@@ -99,6 +99,15 @@ impl<'a> Explanation<'a> {
         Explained { residuals: residuals(&albedo, &means, labels), means, albedo }
     }
 
+    /// With a part of the skin that has a reflectance of its own, and that over skin's.
+    pub fn with_part(&self, inside: &[bool]) -> (Explained, Vec3) {
+        let [first, free] = self.skin_and_free;
+        let own = |(label, inside): (&u8, &bool)| if *inside { free } else { *label };
+        let explained = self.with(&self.labels.iter().zip(inside).map(own).collect::<Vec<_>>());
+        let ratio = explained.means[usize::from(free)] / explained.means[usize::from(first)];
+        (explained, ratio)
+    }
+
     /// The albedo of one skin under a light of few unknowns: the lamp's, or lobes so wide, radians.
     pub fn smooth_albedo(&self, lobe_width: f32) -> Vec<Vec3> {
         match &self.lamps {

@@ -13,51 +13,84 @@ use super::part_of_skin::{PartOfSkin, large_parts};
 use crate::config::HairInSkinConfig;
 use crate::model::blur::Blur;
 
+/// Times that hair may grow; it comes to rest before.
+const GROWTH: usize = 8;
+
 /// The hair of a chart's skin. `None` if no part of it is hair.
 pub(super) fn hair_in_skin(
     explanation: &Explanation,
     chart: &Chart,
     config: &HairInSkinConfig,
 ) -> Option<PartOfSkin> {
-    let Explanation { labels, is_skin, skin_and_free: [first, free], .. } = explanation;
+    let Explanation { is_skin, .. } = explanation;
     let before = &explanation.before.residuals;
     let count = is_skin.iter().filter(|skin| **skin).count();
     let albedo = explanation.smooth_albedo(config.lobe_width);
-    let darkness = darkness(chart, config, &albedo, is_skin)?;
+    let darkness = darkness(chart, config, &albedo, is_skin, is_skin)?;
     let mut best = (f32::INFINITY, None);
     for depth in config.depths {
         let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
         for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
-            let own = |(label, hair): (&u8, &bool)| if *hair { *free } else { *label };
-            let split: Vec<u8> = labels.iter().zip(&inside).map(own).collect();
-            let after = explanation.with(&split);
-            let ratio = after.means[usize::from(*free)] / after.means[usize::from(*first)];
+            let (after, ratio) = explanation.with_part(&inside);
             let left = |of: &[bool]| sum(&after.residuals, of) / sum(before, of);
             let is_hair = left(is_skin) < config.most_left[0]
                 && left(&inside) < config.most_left[1]
                 && ratio.z > config.least_blue * ratio.x;
             if is_hair && sum(&after.residuals, is_skin) < best.0 {
-                best = (sum(&after.residuals, is_skin), Some((inside, ratio)));
+                best = (sum(&after.residuals, is_skin), Some(inside));
             }
         }
     }
-    let (inside, ratio) = best.1?;
+    let (inside, ratio) = grown(explanation, chart, config, best.1?)?;
     Some(PartOfSkin { side: chart.side, inside: explanation.filled(&inside), ratio })
 }
 
-/// By how much the log luminance of every texel seen, blurred within the skin, is below its median there;
-/// negative infinity outside of the skin.
+/// Hair with what is joined to it and nearer to it than to bare skin, and its ratio to that: what was called skin
+/// had darkened the light there.
+fn grown(
+    explanation: &Explanation,
+    chart: &Chart,
+    config: &HairInSkinConfig,
+    mut inside: Vec<bool>,
+) -> Option<(Vec<bool>, Vec3)> {
+    let is_skin = &explanation.is_skin;
+    let (mut after, mut ratio) = explanation.with_part(&inside);
+    for _ in 0..GROWTH {
+        let bare: Vec<bool> =
+            is_skin.iter().zip(&inside).map(|(skin, hair)| *skin && !hair).collect();
+        let darkness = darkness(chart, config, &after.albedo, is_skin, &bare)?;
+        let half_way = -0.5 * luminance(&ratio).ln();
+        let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > half_way).collect();
+        let mut wider = vec![false; inside.len()];
+        for part in large_parts(chart, is_skin, &dark, 1.0) {
+            if part.iter().zip(&inside).any(|(part, hair)| *part && *hair) {
+                wider.iter_mut().zip(part).for_each(|(wider, part)| *wider |= part);
+            }
+        }
+        if wider == inside || !wider.contains(&true) {
+            break;
+        }
+        (after, ratio) = explanation.with_part(&wider);
+        inside = wider;
+    }
+    Some((inside, ratio))
+}
+
+/// By how much the log luminance of every texel seen, blurred within the skin, is below its median where it is
+/// `bare`; negative infinity outside of the skin.
 fn darkness(
     chart: &Chart,
     config: &HairInSkinConfig,
     albedo: &[Vec3],
     is_skin: &[bool],
+    bare: &[bool],
 ) -> Option<Vec<f32>> {
     let log = |albedo: &Vec3| luminance(albedo).max(f32::MIN_POSITIVE).ln();
     let mut sums = vec![0.0; 2 * chart.side * chart.side];
-    let skin = || chart.seen.iter().zip(albedo).zip(is_skin).filter(|(_, skin)| **skin);
-    skin().for_each(|((at, albedo), _)| sums[2 * at..][..2].copy_from_slice(&[log(albedo), 1.0]));
-    let mut logs: Vec<f32> = skin().map(|((_, albedo), _)| log(albedo)).collect();
+    let skin = chart.seen.iter().zip(albedo).zip(is_skin).filter(|(_, skin)| **skin);
+    skin.for_each(|((at, albedo), _)| sums[2 * at..][..2].copy_from_slice(&[log(albedo), 1.0]));
+    let bare = albedo.iter().zip(bare).filter(|(_, bare)| **bare);
+    let mut logs: Vec<f32> = bare.map(|(albedo, _)| log(albedo)).collect();
     logs.sort_by(f32::total_cmp);
     let median = logs.get(logs.len() / 2)?;
     let smooth = Blur::new(chart.side, 2, config.blur).apply(&sums);
@@ -87,6 +120,16 @@ mod tests {
     }
 
     fn found_in(share: impl Fn(Vec3) -> Vec3, shading: impl Fn(Vec3) -> f32) -> Option<PartOfSkin> {
+        explained(share, shading, |explanation, chart, config| {
+            hair_in_skin(explanation, chart, &config.hair_in_skin)
+        })
+    }
+
+    fn explained<T>(
+        share: impl Fn(Vec3) -> Vec3,
+        shading: impl Fn(Vec3) -> f32,
+        of: impl Fn(&Explanation, &Chart, &Config) -> Option<T>,
+    ) -> Option<T> {
         let mesh = testing::dome(24);
         let colour = |p: Vec3| (share(p) * SKIN * shading(p), 1);
         let views: Vec<View> =
@@ -96,8 +139,7 @@ mod tests {
         let regions = &config.colour_regions;
         let chart = Chart::new(&mesh, &projections, &config.transport, regions);
         let labels = vec![1; chart.side * chart.side];
-        let explanation = Explanation::new(&mesh, &chart, &config, &labels, &[1])?;
-        hair_in_skin(&explanation, &chart, &config.hair_in_skin)
+        of(&Explanation::new(&mesh, &chart, &config, &labels, &[1])?, &chart, &config)
     }
 
     fn is_patch(p: Vec3) -> bool {
@@ -112,6 +154,32 @@ mod tests {
         let share = inside.iter().filter(|hair| **hair).count() as f32 / inside.len() as f32;
         // The patch covers 0.019 of the chart.
         assert!((0.013..0.025).contains(&share), "{share}");
+    }
+
+    #[test]
+    fn a_part_of_a_patch_grows_to_all_of_it_and_no_further() {
+        let share = |p: Vec3| Vec3::splat(if is_patch(p) { 0.4 } else { 1.0 });
+        let [core, grown, ratio] = explained(
+            share,
+            |p| 0.625 + 0.375 * p.y,
+            |explanation, chart, config| {
+                let albedo = explanation.smooth_albedo(config.hair_in_skin.lobe_width);
+                let skin = &explanation.is_skin;
+                let darkness = darkness(chart, &config.hair_in_skin, &albedo, skin, skin)?;
+                let core: Vec<bool> = darkness.iter().map(|darkness| *darkness > 0.85).collect();
+                let count =
+                    |inside: &[bool]| inside.iter().filter(|inside| **inside).count() as f32;
+                let (inside, ratio) =
+                    grown(explanation, chart, &config.hair_in_skin, core.clone())?;
+                Some([count(&core), count(&inside), ratio.x])
+            },
+        )
+        .unwrap();
+        // Of 128² texels the patch covers .019.
+        let patch = 0.019 * 128.0 * 128.0;
+        assert!(core > 0.0 && core < 0.7 * patch, "{core}");
+        assert!((0.8..1.25).contains(&(grown / patch)), "{grown}");
+        assert!((ratio - 0.4).abs() < 0.08, "{ratio}");
     }
 
     #[test]

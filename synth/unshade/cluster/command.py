@@ -52,8 +52,11 @@ def processors() -> list[int]:
 
 
 def divided(processors: list[int], workers: int) -> list[list[int]]:
-    """As many equal parts as there are workers; single ones by turns where there are fewer processors."""
+    """As many equal parts as there are workers; all of them to everyone where they are fewer.
+
+    Two of three workers on one of two processors would get half the time of the third.
+    """
     count = len(processors)
     if count < workers:
-        return [[processors[worker % count]] for worker in range(workers)]
+        return [processors] * workers
     return [processors[worker * count // workers : (worker + 1) * count // workers] for worker in range(workers)]
