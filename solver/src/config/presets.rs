@@ -151,7 +151,7 @@ impl Config {
                 region_deviation: 0.5,
                 model_error: 0.1,
                 region_error: 0.3,
-                region_least: 0.5,
+                region_floor: 0.15,
                 roughness_rounds: 2,
                 roughness_samples: 400_000,
                 roughness_deviation: 0.5,

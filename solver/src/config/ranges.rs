@@ -41,7 +41,7 @@ impl ReflectanceConfig {
         let error = |x: f32| (0.0..=1.0).contains(&x);
         range("reflectance.model_error", self.model_error, error, "0 to 1")?;
         range("reflectance.region_error", self.region_error, error, "0 to 1")?;
-        range("reflectance.region_least", self.region_least, error, "0 to 1")?;
+        range("reflectance.region_floor", self.region_floor, error, "0 to 1")?;
         range("reflectance.roughness_rounds", self.roughness_rounds, |x| x <= 20, "0 to 20")?;
         let exponent = |x: i32| (1..=4096).contains(&x);
         let of_light = self.roughness_light_exponent;

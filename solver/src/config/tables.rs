@@ -233,9 +233,9 @@ pub struct ReflectanceConfig {
     pub model_error: f32,
     /// That of other regions: the light was not found by their highlights.
     pub region_error: f32,
-    /// What that is at least an error of, relative to skin's reflectance: a light that is a little off predicts
-    /// highlights where there are none, and then a region seems to mirror nothing, with certainty.
-    pub region_least: f32,
+    /// And relative to skin's reflectance, whatever they seem to mirror: a light that is a little off predicts
+    /// highlights where there are none, and then a region would mirror nothing, with certainty.
+    pub region_floor: f32,
     /// Rounds in which the roughness is measured once the relief is found; 0 leaves the lobes of [`SkinConfig`].
     pub roughness_rounds: usize,
     /// Samples that it is measured by, about; more than that tell no more.

@@ -86,13 +86,13 @@ impl RegionTerms {
         self.revise(regression, regions, |said, prior, is_skin| {
             // Skin, which has the stronger prior, is believed less under an even light; elsewhere more, since the light
             // was found by its highlights.
-            let (error, least, deviation) = match is_skin {
+            let (error, floor, deviation) = match is_skin {
                 true => (config.model_error * doubt * doubt, 0.0, config.skin_deviation),
                 false => {
-                    (config.region_error * doubt, config.region_least, config.region_deviation)
+                    (config.region_error * doubt, config.region_floor, config.region_deviation)
                 }
             };
-            let reflectance = said.reflectance(prior, error, least, deviation);
+            let reflectance = said.reflectance(prior, error, floor, deviation);
             SpecularTerm { reflectance, ..said.now }
         });
     }
@@ -147,20 +147,20 @@ struct Said {
 
 impl Said {
     /// The reflectance, between `prior`, which `deviation` says how far to trust, and what the slope says, in which
-    /// `model_error` is, of at least `least`; all relative, the latter to the prior.
+    /// `model_error` is, and `floor` whatever it says; all relative, the last to the prior.
     fn reflectance(
         &self,
         prior: SpecularTerm,
         model_error: f32,
-        least: f32,
+        floor: f32,
         deviation: f32,
     ) -> f32 {
         let Some((slope, error)) = self.fit.slope() else { return prior.reflectance };
         let now = f64::from(self.now.reflectance);
         let said = now * slope.max(0.0);
         let prior = f64::from(prior.reflectance);
-        let least = f64::from(least) * prior;
-        let error = (now * error).hypot(f64::from(model_error) * said.max(least));
+        let error = (now * error).hypot(f64::from(model_error) * said);
+        let error = error.hypot(f64::from(floor) * prior);
         posterior((said, error), (prior, f64::from(deviation) * prior)) as f32
     }
 
@@ -236,16 +236,17 @@ mod tests {
     #[test]
     fn regions_mirror_what_their_highlights_show_but_for_what_is_expected() {
         let [skin, hair] = found([1.3, 0.4]);
-        // A tenth of error of the model against half of deviation; for hair .3 of a half, since it mirrors less.
+        // A tenth of error of the model against half of deviation; for hair .3 of the little that it mirrors, and
+        // .15 of what skin does.
         assert!((skin / (1.3 * SKIN) - 1.0).abs() < 0.02, "{skin}");
-        let doubted = 0.3 * 0.5;
-        let weight = 0.25 / (0.25 + doubted * doubted);
-        let expected = weight * 0.4 + (1.0 - weight) * 1.3;
+        let weight = |said: f32| 0.25 / (0.25 + 0.15_f32.powi(2) + (0.3 * said).powi(2));
+        let said = 0.4 / 1.3;
+        let expected = weight(said) * 0.4 + (1.0 - weight(said)) * 1.3;
         assert!((hair / (expected * SKIN) - 1.0).abs() < 0.03, "{hair} {expected}");
         // What seems to mirror nothing still mirrors a little: the light may be a little off.
         let [skin, hair] = found([1.0, -0.5]);
         assert!((skin / SKIN - 1.0).abs() < 1e-4, "{skin}");
-        assert!((hair / ((1.0 - weight) * SKIN) - 1.0).abs() < 0.1, "{hair}");
+        assert!((hair / ((1.0 - weight(0.0)) * SKIN) - 1.0).abs() < 0.1, "{hair}");
     }
 
     #[test]
