@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,14 @@ from unshade.errors import Stopped, UnshadeError
 
 CASE = "tiny-studio"
 SUITE = Path(__file__).parent / "scenes" / "tiny.toml"
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c_is_heard() -> Iterator[None]:
+    """A shell's background jobs, as `make test &`, ignore Ctrl-C, and Python then leaves it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def test_a_finished_run_tells_every_stage(tiny_run: Path, tmp_path: Path) -> None:
