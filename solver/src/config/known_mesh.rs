@@ -157,6 +157,9 @@ pub struct TransportConfig {
     pub light_exponent: i32,
     /// Steps that refine the albedo on the final texture and full pictures.
     pub refinement: usize,
+    /// Texels around, standard deviation, by which hair, brows and lips begin it where pictures say little; 0: as
+    /// they came.
+    pub refinement_reach: f32,
     /// Weight of the albedo prior in the refinement.
     pub refinement_prior: f32,
     /// Learning rate of the albedo in the refinement.

@@ -132,6 +132,7 @@ impl Config {
                 highlight_samples: 40_000,
                 light_exponent: 64,
                 refinement: 400,
+                refinement_reach: 60.0,
                 refinement_prior: 2.0,
                 refinement_rate: 8e-4,
                 confidence_misfit: 0.1,

@@ -150,6 +150,7 @@ impl TransportConfig {
             ("transport.diffuse_rate", self.diffuse_rate),
             ("transport.specular_rate", self.specular_rate),
             ("transport.network_rate", self.network_rate),
+            ("transport.refinement_reach", self.refinement_reach),
             ("transport.refinement_prior", self.refinement_prior),
             ("transport.refinement_rate", self.refinement_rate),
             ("transport.light_colour", self.light_colour),

@@ -5,11 +5,26 @@ use crate::config::TransportConfig;
 use crate::model::blur::Blur;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
+use crate::transport::CHANNELS;
 
-/// Trust in every texel of the samples' texture, 0 to 1: q / (1 + q) x exp(-r / `confidence_misfit`). q
-/// weighs the pull of the pictures (the sum of weight x S_d) against that of the prior of weight
-/// `refinement_prior`; r is the mean absolute residual over the mean colour. The target of `samples` is without
-/// highlights, `pictures` are with them; `shading` has S_d of R, G, B, `diffuse` the albedo at every sample.
+/// How far the pictures decide every texel of the samples' texture, 0 to 1: q / (1 + q), where q weighs their pull (the
+/// sum of weight x S_d) against that of the prior of weight `refinement_prior`. `shading` has S_d of R, G, B.
+pub(super) fn decided(config: &TransportConfig, samples: &Samples, shading: &Planes) -> Vec<f32> {
+    let (size, prior) = (samples.taps.size(), config.refinement_prior);
+    let lights = Planes::from_fn(samples.len(), |i| {
+        let shading: [f32; CHANNELS] = shading.sample(i, 0);
+        [samples.weight.get(0, i) * shading.iter().sum::<f32>() / 3.0]
+    });
+    let pull = (size * size) as f32 / (samples.len().max(1) as f32 * prior.max(f32::MIN_POSITIVE));
+    blurred::<1>(config, samples, &lights)
+        .iter()
+        .map(|light| pull * light / (1.0 + pull * light))
+        .collect()
+}
+
+/// Trust in every texel of the samples' texture, 0 to 1: [`decided`] x exp(-r / `confidence_misfit`). r is the mean
+/// absolute residual over the mean colour. The target of `samples` is without highlights, `pictures` are with them;
+/// `diffuse` is the albedo at every sample.
 pub(super) fn confidence(
     config: &TransportConfig,
     samples: &Samples,
@@ -17,26 +32,28 @@ pub(super) fn confidence(
     shading: &Planes,
     diffuse: &Planes,
 ) -> Vec<f32> {
-    let (size, prior) = (samples.taps.size(), config.refinement_prior);
     let parts = Planes::from_fn(samples.len(), |i| {
-        let [shading, albedo, target]: [[f32; 3]; 3] =
+        let [shading, albedo, target]: [[f32; CHANNELS]; 3] =
             [shading, diffuse, &samples.target].map(|planes| planes.sample(i, 0));
-        let picture: [f32; 3] = pictures.sample(i, 0);
+        let picture: [f32; CHANNELS] = pictures.sample(i, 0);
         let weight = samples.weight.get(0, i) / 3.0;
-        let sum = |value: &dyn Fn(usize) -> f32| weight * (0..3).map(value).sum::<f32>();
-        [
-            sum(&|c| shading[c]),
-            sum(&|c| (albedo[c] * shading[c] - target[c]).abs()),
-            sum(&|c| picture[c].abs()),
-        ]
+        let sum = |value: &dyn Fn(usize) -> f32| weight * (0..CHANNELS).map(value).sum::<f32>();
+        [sum(&|c| (albedo[c] * shading[c] - target[c]).abs()), sum(&|c| picture[c].abs())]
     });
-    let sums =
-        Blur::new(size, 3, config.confidence_blur).apply(&samples.taps.gather::<3>(&parts, 0));
-    let pull = (size * size) as f32 / (samples.len().max(1) as f32 * prior.max(f32::MIN_POSITIVE));
-    let trust = |[light, misfit, colour]: &[f32; 3]| {
-        let q = pull * light;
-        let r = misfit / colour.max(f32::MIN_POSITIVE);
-        q / (1.0 + q) * (-r / config.confidence_misfit).exp()
+    let sums = blurred::<2>(config, samples, &parts);
+    let explained = |[misfit, colour]: &[f32; 2]| {
+        (-misfit / colour.max(f32::MIN_POSITIVE) / config.confidence_misfit).exp()
     };
-    sums.as_chunks::<3>().0.iter().map(trust).collect()
+    let decided = decided(config, samples, shading);
+    sums.as_chunks::<2>().0.iter().zip(decided).map(|(sums, q)| q * explained(sums)).collect()
+}
+
+/// Sums over the samples of every texel, blurred.
+fn blurred<const N: usize>(
+    config: &TransportConfig,
+    samples: &Samples,
+    parts: &Planes,
+) -> Vec<f32> {
+    Blur::new(samples.taps.size(), N, config.confidence_blur)
+        .apply(&samples.taps.gather::<N>(parts, 0))
 }

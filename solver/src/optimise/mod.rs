@@ -37,6 +37,7 @@ mod specular_floor;
 pub mod stage;
 mod stage_runner;
 mod steps;
+mod surroundings;
 mod tint;
 pub mod transported;
 mod vectors;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::confidence::confidence;
+use super::confidence::{confidence, decided};
 use super::context::SolveContext;
 use super::deviated_highlights::DeviatedHighlights;
 use super::diffuse::Diffuse;
@@ -13,6 +13,7 @@ use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::roughness::roughness;
 use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
+use super::surroundings::from_surroundings;
 use crate::config::ModelErrorConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -80,6 +81,11 @@ fn refined(
         pixel: samples.pixel.clone(),
         ..Samples::none(state.size)
     };
+    if let Some(regions) = context.regions_on(state.size) {
+        let decided = decided(t, &rest, &shading);
+        let skin = context.skin_regions();
+        from_surroundings(&mut own.diffuse, &regions, &skin, &decided, t.refinement_reach);
+    }
     let mut stage = Diffuse::refinement(config, &rest, &shading);
     runner.stage(&mut stage, &mut own)?;
     let albedo = samples.taps.sample::<CHANNELS>(&own.diffuse);
