@@ -67,6 +67,8 @@ pub struct HairInSkinConfig {
     pub most_left: [f32; 2],
     /// And if its colour over skin's is at least so strong in blue, relative to red: shadows are redder.
     pub least_blue: f32,
+    /// Weight of the last albedo's prior there, relative to skin's: strands on skin vary more than either.
+    pub prior: f32,
 }
 
 /// Diffuse albedo under explicit shadowed transport of the known mesh; not in the paper. The light

@@ -65,6 +65,7 @@ impl Config {
                 least_share: 0.02,
                 most_left: [0.87, 0.85],
                 least_blue: 0.85,
+                prior: 0.33,
             },
             warm_up: WarmUpConfig {
                 iterations: 2000,

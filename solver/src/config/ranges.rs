@@ -108,6 +108,7 @@ impl HairInSkinConfig {
             let far = |x: f32| (0.0..=3.0).contains(&x);
             range("hair_in_skin.lamp_nearness", nearness, far, "0 to 3")?;
         }
+        positive(&[("hair_in_skin.prior", self.prior)])?;
         positive(&self.depths.map(|depth| ("hair_in_skin.depths", depth)))
     }
 }

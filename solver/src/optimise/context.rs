@@ -117,6 +117,11 @@ impl<'a> SolveContext<'a> {
         self.found_regions().skin.clone()
     }
 
+    /// The regions that are hair which labels, or colours, call skin.
+    pub fn hair_in_skin(&self) -> &[u8] {
+        &self.found_regions().hair_in_skin
+    }
+
     /// Gives back the memory of [`SolveContext::coarse`].
     pub fn drop_coarse(&mut self) {
         self.coarse.take();

@@ -73,15 +73,25 @@ fn refined(
     });
     let albedo = samples.taps.sample::<CHANNELS>(&own.diffuse);
     let model = Model { shading: &shading, changes: &sampled, albedo: &albedo, target: &target };
+    let (regions, hair_in_skin) = (context.regions_on(state.size), context.hair_in_skin());
+    let weight = model.weights(&config.model_error, lighting.doubt, samples);
+    let weight = match &regions {
+        Some(regions) => Planes::from_fn(samples.len(), |i| {
+            let hair = hair_in_skin.contains(&regions[samples.taps.nearest(i)]);
+            let prior = if hair { config.hair_in_skin.prior } else { 1.0 };
+            [weight.get(0, i) / prior]
+        }),
+        None => weight,
+    };
     // What the stage reads, and no more.
     let rest = Samples {
-        weight: model.weights(&config.model_error, lighting.doubt, samples),
+        weight,
         target,
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
         ..Samples::none(state.size)
     };
-    if let Some(regions) = context.regions_on(state.size) {
+    if let Some(regions) = regions {
         let decided = decided(t, &rest, &shading);
         let skin = context.skin_regions();
         from_surroundings(&mut own.diffuse, &regions, &skin, &decided, t.refinement_reach);

@@ -21,6 +21,8 @@ pub struct FoundRegions {
     colours: Option<ColourRegions>,
     /// The regions that are skin.
     pub skin: Vec<u8>,
+    /// Those of hair that was called skin.
+    pub hair_in_skin: Vec<u8>,
     /// Each with a label that nothing else has.
     parts: Vec<(PartOfSkin, u8)>,
 }
@@ -49,7 +51,7 @@ impl FoundRegions {
             Some(colours) => (colours.map(side), vec![colours.largest()]),
             None => (region_map(&Atlas::new(&capture.mesh, side), projections), skin),
         };
-        let mut it = Self { colours, skin, parts: vec![] };
+        let mut it = Self { colours, skin, ..Self::default() };
         if split {
             it.split(capture, &chart, config, labels);
         }
@@ -81,7 +83,10 @@ impl FoundRegions {
             }
         }
         let hair = hair_in_skin(&explanation, chart, &config.hair_in_skin);
-        self.parts.extend(hair.into_iter().zip(free));
+        for (part, label) in hair.into_iter().zip(free) {
+            self.hair_in_skin.push(label);
+            self.parts.push((part, label));
+        }
     }
 
     /// The region of every texel: by these, by labels otherwise; `None` if the face is one region.
