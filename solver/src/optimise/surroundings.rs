@@ -13,7 +13,7 @@ const LEAST: f32 = 1e-6;
 
 /// Mixes every texel of `diffuse` (R, G, B on a square texture) whose region is not of `skin` with the mean of that
 /// region around it, the more the less pictures have `decided` it (0 to 1); it weighs by the square of that. `reach` is
-/// the standard deviation of the weights, texels; with 0 nothing changes.
+/// the standard deviation of the weights, texels. With 0, or if no region is named as skin, nothing changes.
 pub(super) fn from_surroundings(
     diffuse: &mut [f32],
     regions: &[u8],
@@ -21,7 +21,7 @@ pub(super) fn from_surroundings(
     decided: &[f32],
     reach: f32,
 ) {
-    if reach == 0.0 {
+    if reach == 0.0 || skin.is_empty() {
         return;
     }
     let mut present = [false; 256];
@@ -58,7 +58,7 @@ mod tests {
     const HAIR: u8 = 2;
 
     /// The first row, hair on its right half: decided, and of one colour, but in one column of eight.
-    fn mixed(decided: f32) -> Vec<f32> {
+    fn mixed(decided: f32, skin: &[u8]) -> Vec<f32> {
         let column = |i: usize| i % SIZE;
         let of = |i: usize| (column(i) < SIZE / 2, column(i) % 8 == 4);
         let regions: Vec<u8> =
@@ -71,13 +71,13 @@ mod tests {
             (false, _) => 0.1,
         };
         let mut diffuse: Vec<f32> = (0..SIZE * SIZE).flat_map(|i| [colour(i); CHANNELS]).collect();
-        from_surroundings(&mut diffuse, &regions, &[SKIN], &decided, 4.0);
+        from_surroundings(&mut diffuse, &regions, skin, &decided, 4.0);
         diffuse.chunks_exact(CHANNELS).take(SIZE).map(|texel| texel[0]).collect()
     }
 
     #[test]
     fn hair_that_pictures_do_not_show_begins_as_the_hair_around() {
-        let row = mixed(0.0);
+        let row = mixed(0.0, &[SKIN]);
         assert!((row[20] - 0.1).abs() < 1e-4, "{row:?}");
         assert_eq!(row[17], 0.1, "what pictures show stays");
         assert_eq!([row[2], row[4]], [0.5, 0.9], "skin stays");
@@ -85,8 +85,13 @@ mod tests {
 
     #[test]
     fn the_more_pictures_decide_the_more_it_stays() {
-        let [little, enough] = [0.1, 0.4].map(|decided| mixed(decided)[20]);
+        let [little, enough] = [0.1, 0.4].map(|decided| mixed(decided, &[SKIN])[20]);
         assert!(little > 0.1 && little < 0.5, "{little}");
         assert_eq!(enough, 0.9);
+    }
+
+    #[test]
+    fn without_a_name_for_skin_everything_begins_as_it_came() {
+        assert_eq!(mixed(0.0, &[]), mixed(1.0, &[SKIN]));
     }
 }
