@@ -15,6 +15,7 @@ from unshade.metrics import DEFINITIONS, Definition
 STUB = Path(__file__).parents[1] / "synth" / "unshade" / "metrics.pyi"
 
 _HEAD = '''# Written by tests/metric_stub.py.
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 from numpy.typing import ArrayLike
@@ -35,12 +36,26 @@ class Definition(NamedTuple):
 DEFINITIONS: dict[str, Definition]
 '''
 
+_EVALUATE = '''
+def evaluate(
+    names: Iterable[str],
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+    **beside: ArrayLike,
+) -> dict[str, float | None]:
+    """The metrics ``names`` of one pair at once, by name, on all cores; what several need is computed once."""
+'''
+
 
 def stub() -> str:
     """The text of ``metrics.pyi``."""
-    names = "\n".join(f'    "{name}",' for name in ("DEFINITIONS", "Definition", *DEFINITIONS))
+    names = "\n".join(f'    "{name}",' for name in ("DEFINITIONS", "Definition", "evaluate", *DEFINITIONS))
     functions = "".join(map(_function, DEFINITIONS.values()))
-    return f"{_HEAD}\n__all__ = [\n{names}\n]\n{functions}"
+    return f"{_HEAD}\n__all__ = [\n{names}\n]\n{_EVALUATE}{functions}"
 
 
 def _function(metric: Definition) -> str:

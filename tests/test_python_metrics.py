@@ -72,6 +72,34 @@ def test_what_lies_beside_the_mask_is_no_matter(name: str, reference: ModuleType
         assert getattr(unshade.metrics, name)(*pair, mask, erode=name not in reference.WHOLE, **others) == close(name)
 
 
+def test_many_at_once_have_the_values_of_one_by_one(reference: ModuleType, arguments) -> None:
+    groups: dict[tuple, dict[str, dict]] = {}
+    for name in DEFINITIONS:
+        prediction, truth, _, beside = arguments(name)
+        kind = prediction.tobytes(), truth.tobytes(), name not in reference.WHOLE
+        groups.setdefault(kind, {})[name] = beside
+    assert max(map(len, groups.values())) > 20
+    for (*_, erode), needed in groups.items():
+        prediction, truth, mask, _ = arguments(next(iter(needed)))
+        beside = {key: value for of_metric in needed.values() for key, value in of_metric.items()}
+        found = unshade.metrics.evaluate(needed, prediction, truth, mask, erode=erode, **beside)
+        assert list(found) == list(needed)
+        for name, own in needed.items():
+            alone = getattr(unshade.metrics, name)(prediction, truth, mask, erode=erode, **own)
+            assert found[name] == alone, name
+
+
+def test_many_at_once_refuse_what_one_refuses(arguments) -> None:
+    p, t, mask, _ = arguments("ssim")
+    with pytest.raises(MetricError, match="wcorr"):
+        unshade.metrics.evaluate(["ssim", "wcorr"], p, t, mask)
+    with pytest.raises(MetricError, match='"psnr"'):
+        unshade.metrics.evaluate(["psnr"], p, t, mask)
+    with pytest.raises(TypeError, match="'label'"):
+        unshade.metrics.evaluate(["ssim"], p, t, mask, label=mask)
+    assert unshade.metrics.evaluate([], p, t, mask) == {}
+
+
 def test_every_kind_of_array_gives_the_same_value(arguments) -> None:
     p, t, mask, _ = arguments("ssim")
     expected = unshade.metrics.ssim(p, t, mask)

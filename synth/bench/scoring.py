@@ -40,7 +40,7 @@ def main() -> None:
         reference.compatible = compatible if protocols else lambda *_: {}
         theirs, expected = timed(lambda: reference.references()["values"], options.views)
         names = [name for name in expected if protocols or not name.startswith(COMPATIBLE)]
-        values = lambda names=names: {name: measure(reference, made, name) for name in names}
+        values = lambda names=names: measure(reference, made, names)
         ours, found = timed(values, options.views)
         for name in names:
             if not np.isclose(found[name], expected[name], rtol=TOLERANCE):
@@ -62,9 +62,19 @@ def load(size: int) -> ModuleType:
     return module
 
 
-def measure(reference: ModuleType, made: tuple, name: str) -> float:
-    prediction, truth, beside = reference.given(made, name, unshade.metrics.DEFINITIONS[name].needs)
-    return getattr(unshade.metrics, name)(prediction, truth, made[0][3], erode=name not in reference.WHOLE, **beside)
+def measure(reference: ModuleType, made: tuple, names: list[str]) -> dict[str, float]:
+    """One call for the metrics of the same pair, region and inputs."""
+    groups: dict[tuple, list] = {}
+    for name in names:
+        prediction, truth, beside = reference.given(made, name, unshade.metrics.DEFINITIONS[name].needs)
+        key = prediction.__array_interface__["data"], prediction.shape, name not in reference.WHOLE
+        _, names_of, all_beside = groups.setdefault(key, ((prediction, truth), [], {}))
+        names_of.append(name)
+        all_beside |= beside
+    values = {}
+    for (*_, erode), (pair, names_of, beside) in groups.items():
+        values |= unshade.metrics.evaluate(names_of, *pair, made[0][3], erode=erode, **beside)
+    return values
 
 
 def timed(work, views: int) -> tuple[float, dict[str, float]]:

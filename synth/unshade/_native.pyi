@@ -246,7 +246,7 @@ def check_json(maps: _Path, capture: _Path | None = None) -> str: ...
 def compare(run: _Path, baseline: _Path, tolerances: _Path | None = None) -> bool: ...
 def metric_definitions() -> list[tuple[str, str, str, str, str, str, str]]: ...
 def measure(
-    metric: str,
+    metrics: list[str],
     prediction: ArrayLike,
     truth: ArrayLike,
     mask: ArrayLike | None = None,
@@ -254,7 +254,7 @@ def measure(
     erode: bool = False,
     scale: str = "none",
     beside: dict[str, ArrayLike] | None = None,
-) -> float | None: ...
+) -> list[float | None]: ...
 def mikktspace(
     vertices: NDArray[np.float32],
     normals: NDArray[np.float32],

@@ -10,13 +10,15 @@ Some metrics compare with more, a keyword each: ``labels`` (height, width), regi
 ``shading`` and ``specular``, the true diffuse shading and specular layer, as pictures; ``confidence``
 (height, width), larger for more trust.
 
+:func:`evaluate` computes many of one pair at once, on all cores, and what they share once.
+
 The result is None where a metric is not defined, such as a correlation with a constant. Arrays that
 cannot be meant raise :class:`unshade.errors.MetricError`, which names the argument.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from inspect import Parameter, Signature
 from typing import NamedTuple
 
@@ -39,6 +41,22 @@ class Definition(NamedTuple):
 DEFINITIONS: dict[str, Definition] = {row[0]: Definition(*row) for row in _metric_definitions()}
 
 
+def evaluate(
+    names: Iterable[str], prediction, truth, mask=None, *, erode=False, scale="none", **beside
+) -> dict[str, float | None]:  # fmt: skip
+    """The metrics ``names`` of one pair, by name; arguments as those of each, which get what they need of ``beside``.
+
+    On all cores, and what several need is computed once: much faster than a call for each. The values are the same.
+    """
+    names = list(names)
+    known = {definition.needs for definition in DEFINITIONS.values()} - {""}
+    for name in beside:
+        if name not in known:
+            raise TypeError(f"evaluate() got an unexpected keyword argument {name!r}")
+    values = _measure(names, prediction, truth, mask, erode=erode, scale=scale, beside=beside)
+    return dict(zip(names, values, strict=True))
+
+
 def _function(definition: Definition) -> Callable[..., float | None]:
     needs = definition.needs
 
@@ -47,8 +65,8 @@ def _function(definition: Definition) -> Callable[..., float | None]:
             if name != needs:
                 raise TypeError(f"{definition.id}() got an unexpected keyword argument {name!r}")
         return _measure(
-            definition.id, prediction, truth, mask, erode=erode, scale=scale, beside=beside
-        )  # fmt: skip
+            [definition.id], prediction, truth, mask, erode=erode, scale=scale, beside=beside
+        )[0]  # fmt: skip
 
     parameters = [
         Parameter("prediction", Parameter.POSITIONAL_OR_KEYWORD),
@@ -66,4 +84,4 @@ def _function(definition: Definition) -> Callable[..., float | None]:
 
 
 globals().update({name: _function(row) for name, row in DEFINITIONS.items()})
-__all__ = ["DEFINITIONS", "Definition", *DEFINITIONS]
+__all__ = ["DEFINITIONS", "Definition", "evaluate", *DEFINITIONS]

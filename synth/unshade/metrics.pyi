@@ -1,4 +1,5 @@
 # Written by tests/metric_stub.py.
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 from numpy.typing import ArrayLike
@@ -21,6 +22,7 @@ DEFINITIONS: dict[str, Definition]
 __all__ = [
     "DEFINITIONS",
     "Definition",
+    "evaluate",
     "psnr_srgb",
     "psnr_lin",
     "relmse",
@@ -64,6 +66,18 @@ __all__ = [
     "owl_psnr",
     "nerfactor_albedo_psnr",
 ]
+
+def evaluate(
+    names: Iterable[str],
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+    **beside: ArrayLike,
+) -> dict[str, float | None]:
+    """The metrics ``names`` of one pair at once, by name, on all cores; what several need is computed once."""
 
 def psnr_srgb(
     prediction: ArrayLike,

@@ -1,10 +1,12 @@
 //! `unshade.metrics`.
 
+use std::collections::HashMap;
+
 use formats::picture::{GrayImage, Picture};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scoring::metrics::{
-    METRICS, Metric, MetricError, Pair, Region, Scale, ScaleMode, black_outside,
+    METRICS, Metric, MetricError, Pair, Region, Scale, ScaleMode, black_outside, measured,
 };
 
 use super::arrays::Argument;
@@ -25,23 +27,24 @@ fn argument(name: &str) -> Argument<'_> {
     Argument { name, class: "MetricError" }
 }
 
-/// One metric of a prediction against its truth inside a mask; None where it is not defined. What
-/// lies outside the mask is as good as black, as in scores. `beside` holds what the metric needs.
+/// Metrics of a prediction against its truth inside a mask; None where one is not defined. What lies
+/// outside the mask is as good as black, as in scores. `beside` holds what the metrics need.
 #[pyfunction]
-#[pyo3(signature = (metric, prediction, truth, mask=None, *, erode=false, scale="none",
+#[pyo3(signature = (metrics, prediction, truth, mask=None, *, erode=false, scale="none",
                     beside=None))]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn measure(
     py: Python<'_>,
-    metric: &str,
+    metrics: Vec<String>,
     prediction: &Bound<PyAny>,
     truth: &Bound<PyAny>,
     mask: Option<&Bound<PyAny>>,
     erode: bool,
     scale: &str,
     beside: Option<&Bound<PyDict>>,
-) -> PyResult<Option<f64>> {
-    let metric = Metric::find(metric).map_err(raise)?;
+) -> PyResult<Vec<Option<f64>>> {
+    let metrics: Vec<&'static Metric> =
+        metrics.iter().map(|id| Metric::find(id)).collect::<Result<_, _>>().map_err(raise)?;
     let mode = ScaleMode::ALL.into_iter().find(|mode| mode.id() == scale).ok_or_else(|| {
         let reason = format!("no scale mode {scale:?}: none, global, channel, median");
         named_error("MetricError", &reason)
@@ -70,16 +73,18 @@ pub(super) fn measure(
         }
         None => None,
     };
-    let given = |name: &str| match (beside, metric.quantity.needs() == Some(name)) {
-        (Some(beside), true) => Ok(beside.get_item(name)?.filter(|value| !value.is_none())),
-        _ => Ok::<_, PyErr>(None),
+    let needed = |name: &str| metrics.iter().any(|metric| metric.quantity.needs() == Some(name));
+    let given = |name: &str| match beside.filter(|_| needed(name)) {
+        Some(beside) => Ok(beside.get_item(name)?.filter(|value| !value.is_none())),
+        None => Ok::<_, PyErr>(None),
     };
     let labels = given("labels")?.map(|given| argument("labels").bytes(&given)).transpose()?;
     if let Some(labels) = &labels {
         check_size("labels", (labels.width, labels.height), &truth)?;
     }
-    let float = |name: &'static str| {
-        let Some(given) = given(name)? else { return Ok::<_, PyErr>(None) };
+    let mut pictures = HashMap::new();
+    for name in ["shading", "specular", "mesh_normal", "confidence", "area"] {
+        let Some(given) = given(name)? else { continue };
         let picture = argument(name).picture(&given)?;
         check_size(name, (picture.width, picture.height), &truth)?;
         let fits = if matches!(name, "confidence" | "area") { &[1][..] } else { &[1, 3] };
@@ -87,28 +92,34 @@ pub(super) fn measure(
             let reason = format!("has {} channels, expected {fits:?}", picture.channels);
             return Err(argument(name).refused(&reason));
         }
-        Ok(Some(picture))
-    };
-    // A metric needs one of them at most.
-    let cause = [float("shading")?, float("specular")?, float("mesh_normal")?];
-    let inputs = Inputs {
-        labels,
-        cause: cause.into_iter().flatten().next(),
-        confidence: float("confidence")?,
-        area: float("area")?,
-        halves: given("halves")?.map(|given| halves(&given, &truth)).transpose()?,
-    };
-    let value = || value(metric, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
-    py.detach(value).map_err(raise)
+        pictures.insert(name, picture);
+    }
+    let halves = given("halves")?.map(|given| halves(&given, &truth)).transpose()?;
+    let inputs = Inputs { labels, pictures, halves };
+    let values = || values(&metrics, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
+    py.detach(values).map_err(raise)
 }
 
 /// Inputs of some metrics beside prediction and truth.
 struct Inputs {
     labels: Option<GrayImage>,
-    cause: Option<Picture>,
-    confidence: Option<Picture>,
-    area: Option<Picture>,
+    pictures: HashMap<&'static str, Picture>,
     halves: Option<[Picture; 2]>,
+}
+
+impl Inputs {
+    /// The pair with what a metric needs, as far as it is given.
+    fn beside<'a>(&'a self, pair: Pair<'a>, metric: &Metric) -> Result<Pair<'a>, MetricError> {
+        let Some(name) = metric.quantity.needs() else { return Ok(pair) };
+        match (name, &self.labels, &self.halves, self.pictures.get(name)) {
+            ("labels", Some(labels), ..) => pair.with_labels(labels),
+            ("halves", _, Some([prediction, truth]), _) => pair.with_halves(prediction, truth),
+            ("confidence", .., Some(confidence)) => pair.with_confidence(confidence),
+            ("area", .., Some(area)) => pair.with_area(area),
+            ("shading" | "specular" | "mesh_normal", .., Some(cause)) => pair.with_cause(cause),
+            _ => Ok(pair),
+        }
+    }
 }
 
 /// The halves of prediction and truth: a pair of pictures of the truth's shape.
@@ -125,15 +136,15 @@ fn halves(given: &Bound<PyAny>, truth: &Picture) -> PyResult<[Picture; 2]> {
     Ok([picture(&p)?, picture(&g)?])
 }
 
-fn value(
-    metric: &Metric,
+fn values(
+    metrics: &[&'static Metric],
     mode: ScaleMode,
     prediction: &Picture,
     truth: &Picture,
     mask: Option<&GrayImage>,
     erode: bool,
     inputs: &Inputs,
-) -> Result<Option<f64>, MetricError> {
+) -> Result<Vec<Option<f64>>, MetricError> {
     let (width, height) = (truth.width, truth.height);
     let whole = GrayImage { width, height, data: vec![255; width * height] };
     let region = match (mask, erode) {
@@ -146,22 +157,10 @@ fn value(
         let factors = Scale::fit(&pair)?.factors(mode);
         pair = pair.scaled(factors);
     }
-    if let Some(labels) = &inputs.labels {
-        pair = pair.with_labels(labels)?;
-    }
-    if let Some(cause) = &inputs.cause {
-        pair = pair.with_cause(cause)?;
-    }
-    if let Some(confidence) = &inputs.confidence {
-        pair = pair.with_confidence(confidence)?;
-    }
-    if let Some(area) = &inputs.area {
-        pair = pair.with_area(area)?;
-    }
-    if let Some([prediction, truth]) = &inputs.halves {
-        pair = pair.with_halves(prediction, truth)?;
-    }
-    metric.value(&pair)
+    let measured =
+        measured(metrics, |metric| metric.measure(&inputs.beside(pair.clone(), metric)?))?;
+    let value = |metric: &&Metric| metric.statistic.value([measured[&metric.quantity].as_slice()]);
+    Ok(metrics.iter().map(value).collect())
 }
 
 fn check_size(name: &str, (width, height): (usize, usize), truth: &Picture) -> PyResult<()> {

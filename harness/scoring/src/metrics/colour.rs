@@ -7,6 +7,9 @@ const XYZ: [[f64; 3]; 3] =
 /// Chromaticity of D65 as the standard states it.
 const D65: [f64; 2] = [0.3127, 0.3290];
 
+/// Luminances below this are raised to it before their logarithm is taken.
+const DARKEST: f64 = 1e-3;
+
 /// The sRGB value of a linear one, clipped to [0, 1] (IEC 61966-2-1).
 pub fn srgb(linear: f64) -> f64 {
     let x = linear.clamp(0.0, 1.0);
@@ -19,6 +22,11 @@ pub fn luminance(mut channels: impl Iterator<Item = f64>) -> f64 {
         (Some(r), Some(g), Some(b)) => XYZ[1][0] * r + XYZ[1][1] * g + XYZ[1][2] * b,
         (first, ..) => first.unwrap_or(0.0),
     }
+}
+
+/// The logarithm of a luminance that may be zero.
+pub(super) fn log(luminance: f64) -> f64 {
+    luminance.max(DARKEST).ln()
 }
 
 /// CIE L*, a*, b* (D65) of a linear Rec.709 colour clipped to [0, 1].

@@ -101,23 +101,40 @@ fn objects_with_lighting(mut p: Vec<[f64; 3]>, g: &[[f64; 3]]) -> Vec<f64> {
         .fold(f64::INFINITY, f64::min);
     p.iter_mut().flatten().for_each(|value| *value = power(*value));
     if darkest.is_finite() {
-        let error = |p: &[[f64; 3]], c: usize, factor: f64| -> f64 {
-            let factor = power(factor);
-            fitted.iter().map(|i| ((p[*i][c] * factor).min(1.0) - g[*i][c]).abs()).sum()
+        let channels = |of: &[[f64; 3]]| {
+            [0, 1, 2].map(|c| fitted.iter().map(|i| of[*i][c]).collect::<Vec<f64>>())
         };
+        let (powers, truths) = (channels(&p), channels(&g));
+        let error = |c: usize, factor: f64| absolute_error(&powers[c], &truths[c], factor);
         let max_stops = (0.95_f64.powf(GAMMA) / darkest).log2();
-        let all = |stops: f64| (0..3).map(|c| error(&p, c, stops.exp2())).sum();
+        let all = |stops: f64| (0..3).map(|c| error(c, power(stops.exp2()))).sum();
         let exposure = power(argmin(all, -10.0, max_stops).exp2());
-        p.iter_mut().flatten().for_each(|value| *value *= exposure);
         for c in 0..3 {
-            let balance = power(argmin(|factor| error(&p, c, factor), 0.5, 2.0));
-            p.iter_mut().for_each(|pixel| pixel[c] *= balance);
+            let balance = argmin(|factor| error(c, exposure * power(factor)), 0.5, 2.0);
+            let factor = exposure * power(balance);
+            p.iter_mut().for_each(|pixel| pixel[c] *= factor);
         }
     }
     let square = |(p, g): (&[f64; 3], &[f64; 3])| {
         (0..3).map(|c| (p[c].min(1.0) - g[c]).powi(2)).sum::<f64>() / 3.0
     };
     p.iter().zip(&g).map(square).collect()
+}
+
+/// The sum of |min(p factor, 1) - g|, in lanes that a processor adds at once.
+fn absolute_error(p: &[f64], g: &[f64], factor: f64) -> f64 {
+    const LANES: usize = 8;
+    let error = |p: f64, g: f64| ((p * factor).min(1.0) - g).abs();
+    let (chunks_p, chunks_g) = (p.chunks_exact(LANES), g.chunks_exact(LANES));
+    let rest = chunks_p.remainder().iter().zip(chunks_g.remainder());
+    let rest: f64 = rest.map(|(p, g)| error(*p, *g)).sum();
+    let mut lanes = [0.0; LANES];
+    for (p, g) in chunks_p.zip(chunks_g) {
+        for (lane, sum) in lanes.iter_mut().enumerate() {
+            *sum += error(p[lane], g[lane]);
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
 }
 
 /// Where a function has its minimum: the best of a scan, then a golden-section search around it.

@@ -4,11 +4,7 @@
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8};
 
 use super::Pair;
-use super::colour::srgb;
 use super::filter::gaussian;
-
-/// Luminances below this are raised to it before their logarithm is taken.
-const DARKEST: f64 = 1e-3;
 
 /// Standard deviation of the split into low and high frequencies, as a share of the width:
 /// 8 texels of a 512² map.
@@ -21,9 +17,9 @@ pub(super) fn ssim(pair: &Pair) -> Vec<f64> {
     let channels = pair.truth.channels;
     let mut total = vec![0.0; width * height];
     for channel in 0..channels {
-        let pick = |values: &mut dyn Iterator<Item = f64>| values.nth(channel).map_or(0.0, srgb);
-        let x: Vec<f64> = (0..total.len()).map(|i| pick(&mut pair.predicted(i))).collect();
-        let y: Vec<f64> = (0..total.len()).map(|i| pick(&mut pair.true_values(i))).collect();
+        let [x, y] = [0, 1].map(|which| -> Vec<f64> {
+            pair.srgb()[which].iter().skip(channel).step_by(channels).copied().collect()
+        });
         let product = |a: &[f64], b: &[f64]| -> Vec<f64> {
             let product: Vec<f64> = a.iter().zip(b).map(|(a, b)| a * b).collect();
             gaussian(&product, width, height, 1.5, 5)
@@ -45,63 +41,57 @@ pub(super) fn ssim(pair: &Pair) -> Vec<f64> {
 /// LDR-FLIP map (Andersson et al. 2020) of 8-bit sRGB pictures at 67.02 pixels per degree.
 pub(super) fn flip(pair: &Pair) -> Vec<f64> {
     let (width, height) = (pair.truth.width, pair.truth.height);
-    let byte = |value: f64| (srgb(value) * 255.0).round() as u8;
-    let picture = |bytes: Vec<u8>| FlipImageRgb8::with_data(width as u32, height as u32, &bytes);
-    let test = picture((0..width * height).flat_map(|i| pair.predicted(i).map(byte)).collect());
-    let truth = picture((0..width * height).flat_map(|i| pair.true_values(i).map(byte)).collect());
+    let [test, truth] = [0, 1].map(|which| {
+        let bytes: Vec<u8> =
+            pair.srgb()[which].iter().map(|value| (value * 255.0).round() as u8).collect();
+        FlipImageRgb8::with_data(width as u32, height as u32, &bytes)
+    });
     let map = nv_flip::flip(truth, test, DEFAULT_PIXELS_PER_DEGREE).to_vec();
     pair.region.pixels().iter().map(|i| f64::from(map[*i])).collect()
 }
 
 /// High-pass log luminance of prediction and truth, interleaved.
 pub(super) fn high_pass(pair: &Pair) -> Vec<f64> {
-    let (x, y) = log_luminances(pair);
-    let (low_x, low_y) = (low_pass(pair, &x), low_pass(pair, &y));
+    let [x, y] = pair.log_luminances();
+    let [low_x, low_y] = means_of(pair, [x, y], split(pair));
     (0..x.len()).flat_map(|i| [x[i] - low_x[i], y[i] - low_y[i]]).collect()
 }
 
 /// Log luminance of prediction and truth between Gaussian means of `sigma` and of twice that,
 /// interleaved.
 pub(super) fn band(pair: &Pair, sigma: f64) -> Vec<f64> {
-    let (x, y) = log_luminances(pair);
-    let between = |values: &[f64]| -> Vec<f64> {
-        let (fine, coarse) = (mean_of(pair, values, sigma), mean_of(pair, values, 2.0 * sigma));
-        fine.iter().zip(&coarse).map(|(fine, coarse)| fine - coarse).collect()
-    };
-    between(&x).into_iter().zip(between(&y)).flat_map(|(x, y)| [x, y]).collect()
+    let [x, y] = pair.log_luminances();
+    let [[fine_x, fine_y], [coarse_x, coarse_y]] =
+        [sigma, 2.0 * sigma].map(|sigma| means_of(pair, [x, y], sigma));
+    (0..x.len()).flat_map(|i| [fine_x[i] - coarse_x[i], fine_y[i] - coarse_y[i]]).collect()
 }
 
 /// Low-pass difference of the log luminances.
 pub(super) fn low_pass_error(pair: &Pair) -> Vec<f64> {
-    let (x, y) = log_luminances(pair);
-    let difference: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x - y).collect();
-    low_pass(pair, &difference)
+    let [x, y] = pair.log_luminances();
+    let difference: Vec<f64> = x.iter().zip(y).map(|(x, y)| x - y).collect();
+    let [low] = means_of(pair, [&difference], split(pair));
+    low
 }
 
-/// Natural logarithms of the luminances in the region, of prediction and truth.
-pub(super) fn log_luminances(pair: &Pair) -> (Vec<f64>, Vec<f64>) {
-    let pixels = pair.region.pixels().iter();
-    pixels.map(|i| (log(pair.predicted_luminance(*i)), log(pair.true_luminance(*i)))).unzip()
+/// Between low and high frequencies, texels.
+fn split(pair: &Pair) -> f64 {
+    SPLIT * pair.region.size().0 as f64
 }
 
-/// The logarithm of a luminance that may be zero.
-pub(super) fn log(luminance: f64) -> f64 {
-    luminance.max(DARKEST).ln()
-}
-
-/// A Gaussian mean over the pixels of the region alone.
-fn low_pass(pair: &Pair, values: &[f64]) -> Vec<f64> {
-    mean_of(pair, values, SPLIT * pair.region.size().0 as f64)
-}
-
-fn mean_of(pair: &Pair, values: &[f64], sigma: f64) -> Vec<f64> {
+/// Gaussian means over the pixels of the region alone.
+fn means_of<const N: usize>(pair: &Pair, values: [&[f64]; N], sigma: f64) -> [Vec<f64>; N] {
     let (width, height) = pair.region.size();
+    let pixels = pair.region.pixels();
     let radius = (3.0 * sigma).ceil() as usize;
     let spread = |of: &dyn Fn(usize) -> f64| {
         let mut picture = vec![0.0; width * height];
-        pair.region.pixels().iter().enumerate().for_each(|(slot, i)| picture[*i] = of(slot));
+        pixels.iter().enumerate().for_each(|(slot, i)| picture[*i] = of(slot));
         gaussian(&picture, width, height, sigma, radius)
     };
-    let (sum, weight) = (spread(&|slot| values[slot]), spread(&|_| 1.0));
-    pair.region.pixels().iter().map(|i| sum[*i] / weight[*i]).collect()
+    let weight = spread(&|_| 1.0);
+    values.map(|values| {
+        let sum = spread(&|slot| values[slot]);
+        pixels.iter().map(|i| sum[*i] / weight[*i]).collect()
+    })
 }

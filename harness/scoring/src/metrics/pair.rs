@@ -1,8 +1,11 @@
 //! A prediction beside its truth: checked once, compared many times.
 
+use std::sync::Arc;
+
 use formats::picture::{GrayImage, Picture};
 
-use super::colour::luminance;
+use super::colour::{lab, log, luminance, srgb};
+use super::shared::{Both, Shared};
 use super::{MetricError, Region};
 
 /// Two pictures of one size and the region in which they are compared.
@@ -17,6 +20,7 @@ pub struct Pair<'a> {
     pub(super) confidence: Option<&'a Picture>,
     pub(super) halves: Option<[&'a Picture; 2]>,
     pub(super) area: Option<&'a Picture>,
+    pub(super) shared: Arc<Shared>,
 }
 
 impl<'a> Pair<'a> {
@@ -46,12 +50,14 @@ impl<'a> Pair<'a> {
             confidence: None,
             halves: None,
             area: None,
+            shared: Arc::default(),
         })
     }
 
     /// The prediction's channels are multiplied by `factor` before anything else.
     pub fn scaled(mut self, factor: [f64; 3]) -> Self {
         self.factor = factor;
+        self.shared = Arc::default();
         self
     }
 
@@ -137,6 +143,50 @@ impl<'a> Pair<'a> {
     /// The truth's channels at a row-major pixel index.
     pub(super) fn true_values(&self, index: usize) -> impl Iterator<Item = f64> {
         self.channels(self.truth, index)
+    }
+
+    /// The sRGB values of both pictures, channels interleaved.
+    pub(super) fn srgb(&self) -> &Both<f64> {
+        self.shared.srgb.get_or_init(|| {
+            let pixels = self.truth.width * self.truth.height;
+            [
+                (0..pixels).flat_map(|i| self.predicted(i).map(srgb)).collect(),
+                (0..pixels).flat_map(|i| self.true_values(i).map(srgb)).collect(),
+            ]
+        })
+    }
+
+    /// The same in the region alone.
+    pub(super) fn srgb_of_region(&self) -> &Both<f64> {
+        self.shared.srgb_of_region.get_or_init(|| {
+            let pixels = self.region.pixels();
+            [
+                pixels.iter().flat_map(|i| self.predicted(*i).map(srgb)).collect(),
+                pixels.iter().flat_map(|i| self.true_values(*i).map(srgb)).collect(),
+            ]
+        })
+    }
+
+    /// L*a*b* in the region.
+    pub(super) fn lab(&self) -> &Both<[f64; 3]> {
+        self.shared.lab.get_or_init(|| {
+            let pixels = self.region.pixels();
+            [
+                pixels.iter().map(|i| lab(triple(self.predicted(*i)))).collect(),
+                pixels.iter().map(|i| lab(triple(self.true_values(*i)))).collect(),
+            ]
+        })
+    }
+
+    /// Natural logarithms of the luminances in the region.
+    pub(super) fn log_luminances(&self) -> &Both<f64> {
+        self.shared.log_luminances.get_or_init(|| {
+            let pixels = self.region.pixels();
+            [
+                pixels.iter().map(|i| log(self.predicted_luminance(*i))).collect(),
+                pixels.iter().map(|i| log(self.true_luminance(*i))).collect(),
+            ]
+        })
     }
 
     pub(super) fn predicted_luminance(&self, index: usize) -> f64 {

@@ -1,7 +1,7 @@
 //! Quantities of metrics at every pixel of a region.
 
-use super::colour::{ciede2000, lab, srgb, typology_angle};
-use super::neighbourhood::{band, flip, high_pass, log, log_luminances, low_pass_error, ssim};
+use super::colour::{ciede2000, log, srgb, typology_angle};
+use super::neighbourhood::{band, flip, high_pass, low_pass_error, ssim};
 use super::pair::triple;
 use super::rank::{ranks, upper_half};
 use super::{MetricError, Pair, Protocol};
@@ -164,13 +164,14 @@ impl Quantity {
             Self::Ssim => ssim(pair),
             Self::Flip => flip(pair),
             Self::Angle | Self::ColourAngle => triples(pair, angle_degrees),
-            Self::ColourDifference => triples(pair, |p, g| ciede2000(lab(p), lab(g))),
-            Self::Typology => pixels(pair)
-                .flat_map(|i| {
-                    let [p, g] = [triple(pair.predicted(i)), triple(pair.true_values(i))];
-                    [typology_angle(lab(p)), typology_angle(lab(g))]
-                })
-                .collect(),
+            Self::ColourDifference => {
+                let [p, g] = pair.lab();
+                p.iter().zip(g).map(|(p, g)| ciede2000(*p, *g)).collect()
+            }
+            Self::Typology => {
+                let [p, g] = pair.lab();
+                p.iter().zip(g).flat_map(|(p, g)| [*p, *g].map(typology_angle)).collect()
+            }
             Self::Luminance => pixels(pair)
                 .flat_map(|i| [pair.predicted_luminance(i), pair.true_luminance(i)])
                 .collect(),
@@ -192,7 +193,7 @@ impl Quantity {
             }
             Self::WithinLabel => {
                 let labels = pair.labels.ok_or_else(|| needs("labels"))?;
-                let (mut x, mut y) = log_luminances(pair);
+                let [mut x, mut y] = pair.log_luminances().clone();
                 let of: Vec<u8> = pixels(pair).map(|i| labels.data[i]).collect();
                 [&mut x, &mut y].into_iter().for_each(|values| centre_by_label(values, &of));
                 x.into_iter().zip(y).flat_map(|(x, y)| [x, y]).collect()
@@ -200,9 +201,10 @@ impl Quantity {
             Self::LowPassError => low_pass_error(pair),
             Self::LogErrorAndCause => {
                 let cause = pair.cause_luminances().ok_or_else(|| needs("the true shading"))?;
-                let (x, y) = log_luminances(pair);
-                let errors = x.iter().zip(&y).map(|(x, y)| x - y);
-                errors.zip(cause).flat_map(|(error, cause)| [error, log(cause)]).collect()
+                signed_log_errors(pair)
+                    .zip(cause)
+                    .flat_map(|(error, cause)| [error, log(cause)])
+                    .collect()
             }
             Self::ErrorAndCause => {
                 let cause =
@@ -303,7 +305,12 @@ fn per_channel(pair: &Pair, error: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 }
 
 fn squared_error_srgb(pair: &Pair) -> Vec<f64> {
-    per_channel(pair, |p, g| (srgb(p) - srgb(g)).powi(2))
+    let ([p, g], channels) = (pair.srgb_of_region(), pair.truth.channels);
+    let pixels = p.chunks_exact(channels).zip(g.chunks_exact(channels));
+    let square = |(p, g): (&[f64], &[f64])| {
+        p.iter().zip(g).map(|(p, g)| (p - g).powi(2)).sum::<f64>() / channels as f64
+    };
+    pixels.map(square).collect()
 }
 
 fn log_errors(pair: &Pair) -> Vec<f64> {
@@ -311,8 +318,8 @@ fn log_errors(pair: &Pair) -> Vec<f64> {
 }
 
 fn signed_log_errors(pair: &Pair) -> impl Iterator<Item = f64> {
-    let (x, y) = log_luminances(pair);
-    x.into_iter().zip(y).map(|(x, y)| x - y)
+    let [x, y] = pair.log_luminances();
+    x.iter().zip(y).map(|(x, y)| x - y)
 }
 
 /// None without halves. The other half of a picture is what its mean has beside the first.

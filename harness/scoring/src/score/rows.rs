@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::ScoreError;
 use super::scores::Row;
-use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample, block_side};
+use crate::metrics::{Metric, MetricError, Pair, Quantity, Sample, block_side, measured};
 
 /// Fields that the rows of one comparison share.
 #[derive(Clone, Copy, Debug)]
@@ -34,20 +34,10 @@ pub(super) fn rows(
     floors: &Floors,
 ) -> Result<Vec<Row>, ScoreError> {
     let wrong = ScoreError::of(heading.subject);
-    let metrics: Vec<&Metric> =
+    let metrics: Vec<&'static Metric> =
         metrics.iter().map(|id| Metric::find(id)).collect::<Result<_, _>>().map_err(&wrong)?;
-    // Metrics of one quantity (FLIP's mean and percentile, all of the angle) share its samples.
-    let first = |(at, metric): &(usize, &&Metric)| {
-        metrics.iter().position(|other| other.quantity == metric.quantity) == Some(*at)
-    };
-    let quantities: Vec<&Metric> =
-        metrics.iter().enumerate().filter(first).map(|(_, metric)| *metric).collect();
-    let measured = quantities
-        .par_iter()
-        .map(|metric| Ok((metric.quantity, sample(metric, compared).map_err(&wrong)?)));
-    let measured: HashMap<Quantity, (usize, Vec<Sample>)> =
-        measured.collect::<Result<_, ScoreError>>()?;
-    let row = |metric: &&Metric| {
+    let measured = measured(&metrics, |metric| sample(metric, compared)).map_err(&wrong)?;
+    let row = |metric: &&'static Metric| {
         let floor = floors.get(&metric.quantity);
         row(heading, metric, compared, &measured[&metric.quantity], floor.map(Vec::as_slice))
     };
