@@ -1,12 +1,14 @@
 """A study on three local workers, one killed in the middle, beside one process: the same bytes, and how fast.
 
-``make heavy-cluster``, minutes. Not a test that is collected: it measures time, and wants a quiet machine.
+``make heavy-cluster``, minutes. Not a test that is collected: it measures time, and wants a quiet machine. With
+``--method`` a program of one's own is in the study (`tests/plain_loops.py`), which keeps one processor busy alone.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -19,8 +21,8 @@ ROOT = Path(__file__).parent.parent
 PROGRAM = Path(sys.executable).with_name("unshade")
 
 
-def suite(folder: Path, cases: int) -> Path:
-    """Faces in two lights, of the size of the tests, with a method and a baseline."""
+def suite(folder: Path, cases: int, own: bool) -> Path:
+    """Faces in two lights, of the size of the tests, with two baselines, and a program of one's own if it is wanted."""
     scene, lights = ROOT / "tests" / "scenes" / "tiny-scene.toml", ROOT / "scenes" / "lights"
     faces = ", ".join(f'{{ name = "f{n}", seed = {n}, texture_size = 128 }}' for n in range(cases // 2))
     file = folder / "study.toml"
@@ -28,7 +30,9 @@ def suite(folder: Path, cases: int) -> Path:
         f'format = 1\nname = "study"\nscene = "{scene}"\nscales = ["global"]\nfaces = [{faces}]\n'
         f'lights = ["{lights}/studio.toml", "{lights}/uniform.toml"]\n'
         '[[method]]\nname = "mean_texture"\ntexture_size = 64\n[[method]]\nname = "oracle"\n'
+        + ('[[method]]\nname = "loops"\npython = "plain_loops:recover"\nthreads = 1\n' if own else "")
     )
+    shutil.copy(ROOT / "tests" / "plain_loops.py", folder)
     return file
 
 
@@ -68,10 +72,11 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cases", type=int, default=24)
     parser.add_argument("--workers", type=int, default=3)
+    parser.add_argument("--method", action="store_true")
     options = parser.parse_args()
     options.folder.mkdir(parents=True)
     os.environ["UNSHADE_RENDER_CACHE"] = "off"
-    study = suite(options.folder, options.cases)
+    study = suite(options.folder, options.cases, options.method)
     cluster = run([study, "-o", options.folder / "many", "--cluster", "local", "--jobs", options.workers], kill=True)
     jobs = run([study, "-o", options.folder / "jobs", "--jobs", len(os.sched_getaffinity(0))])
     alone = run([study, "-o", options.folder / "one"])

@@ -3,39 +3,43 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use harness::suite::{self, Suite};
+use harness::suite::{self, Suite, Wanted};
 use pyo3::prelude::*;
 
 use super::errors::{named_error, raise};
 use super::stages::watched;
 
-/// Raises where this machine has another version, or another suite, than what sends the work.
+/// Raises where this machine has another version, or another suite, than what sends the work; returns the
+/// renderer's fingerprint.
 #[pyfunction]
 pub(super) fn check_worker(
     py: Python<'_>,
     suite: PathBuf,
     content: String,
     versions: String,
-) -> PyResult<()> {
+) -> PyResult<String> {
     watched(py, None, |tools, _| {
         suite::check_worker(&Suite::open(&suite)?, &content, &versions, tools)
     })
 }
 
 /// Does a stage of a suite in a folder that holds what it reads (hashes by ids); JSON text of what became
-/// of it. With `key_only`, only what it is made from.
+/// of it. With `key_only`, only what it is made from. `renderer` is what `check_worker` returned.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)]
 pub(super) fn run_part(
     py: Python<'_>,
     suite: PathBuf,
     out: PathBuf,
     stage: String,
     contents: BTreeMap<String, String>,
+    renderer: String,
     key_only: bool,
 ) -> PyResult<String> {
     let done = watched(py, None, |tools, said| {
         let step = &mut |done, total, what: &str| said.say(done, total, what);
-        suite::run_part(&Suite::open(&suite)?, &out, &stage, &contents, key_only, tools, step)
+        let wanted = Wanted { id: &stage, contents: &contents, renderer: &renderer };
+        suite::run_part(&Suite::open(&suite)?, &out, wanted, key_only, tools, step)
     })?;
     serde_json::to_string(&done).map_err(|error| named_error("UnshadeError", &error.to_string()))
 }

@@ -117,14 +117,16 @@ fn absolute(path: &Path) -> io::Result<String> {
     Ok(std::path::absolute(path)?.to_string_lossy().into_owned())
 }
 
-/// Refuses to work for a suite that this machine has otherwise, or with another version.
+/// Refuses to work for a suite that this machine has otherwise, or with another version; returns the
+/// renderer's fingerprint, which takes a start of Python.
 pub fn check_worker(
     suite: &Suite,
     suite_content: &str,
     wanted: &str,
     tools: &Tools,
-) -> Result<(), RunError> {
-    let here = versions(&tools.interpreter.fingerprint()?);
+) -> Result<String, RunError> {
+    let renderer = tools.interpreter.fingerprint()?;
+    let here = versions(&renderer);
     if here != wanted {
         return Err(RunError::Worker(format!(
             "has another version ({here}) than what sends the work ({wanted}); install the same on all"
@@ -136,5 +138,5 @@ pub fn check_worker(
             "{path} or what it names is another file here than where the work comes from; share one folder"
         )));
     }
-    Ok(())
+    Ok(renderer)
 }

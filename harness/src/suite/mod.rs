@@ -47,7 +47,7 @@ pub use forecast::{Forecast, StageForecast, forecast};
 pub use make_maps::{TIME_LEFT, in_words, solve};
 pub use method::{Method, MethodKind};
 pub use packaged::set_folder as set_scenes_folder;
-pub use part::{PartDone, adopt, run_part};
+pub use part::{PartDone, Wanted, adopt, run_part};
 pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, begin_from, report, run};
 pub use scene::{Scene, SceneError};

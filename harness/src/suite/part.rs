@@ -18,6 +18,17 @@ use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::tools::Tools;
 use super::workshop::{Contents, Done, Workshop};
 
+/// A stage that is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// Its id.
+    pub id: &'a str,
+    /// Hashes of the outputs that it reads, by ids.
+    pub contents: &'a Contents,
+    /// The renderer's fingerprint here, as `check_worker` found it.
+    pub renderer: &'a str,
+}
+
 /// Outcome of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartDone {
@@ -47,23 +58,22 @@ pub(super) fn content(suite: &Suite) -> Result<String, RunError> {
     Ok(hash_parts(&parts.iter().map(String::as_str).collect::<Vec<_>>()))
 }
 
-/// Does the stage `id` of `suite` in the folder `out`, which holds the outputs `contents` (hashes by ids)
-/// of those that it reads. With `key_only`, only says what it is made from.
+/// Does a stage of `suite` in the folder `out`, which holds what it reads. With `key_only`, only says what it
+/// is made from.
 pub fn run_part(
     suite: &Suite,
     out: &Path,
-    id: &str,
-    contents: &Contents,
+    wanted: Wanted,
     key_only: bool,
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<PartDone, RunError> {
+    let Wanted { id, contents, renderer } = wanted;
     let tasks = plan(suite);
     let unknown = || RunError::Folder(io::Error::other(format!("the suite has no stage {id}")));
     let task = tasks.iter().find(|task| task.id == id).ok_or_else(unknown)?;
     let ready = preflight::methods(suite, tools)?;
-    let renderer = tools.interpreter.fingerprint()?;
-    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
+    let workshop = Workshop::new(suite, out, tools, renderer, &ready, &[]);
     let key = workshop.key(task, contents)?.hash;
     // Before what it reads is put there.
     atomic::claim(out)?;

@@ -45,7 +45,8 @@ class Job(TypedDict):
 
 
 _ALONE = threading.Lock()
-_CHECKED: set[tuple[str, str]] = set()
+_CHECKED: dict[tuple[str, str], str] = {}
+"""The renderer's fingerprint, by suites and versions that were compared."""
 
 
 def do(job: Job, *before: Done) -> Done:
@@ -57,19 +58,19 @@ def do(job: Job, *before: Done) -> Done:
         _keep_to_processors(job)
         checked = (job["suite_content"], job["versions"])
         if checked not in _CHECKED:
-            _native.check_worker(job["suite"], *checked)
-            _CHECKED.add(checked)
+            _CHECKED[checked] = _native.check_worker(job["suite"], *checked)
         store = Store(job["store"])
         contents = {earlier["id"]: (earlier["record"] or {})["content"] for earlier in before}
         place = Path(get_worker().local_directory) / f"unshade-{job['suite_content'][:12]}"
-        key = json.loads(_native.run_part(job["suite"], place, job["id"], contents, True))["key"]
+        part = job["suite"], place, job["id"], contents, _CHECKED[checked]
+        key = json.loads(_native.run_part(*part, True))["key"]
         known = store.known(key)
         if known is not None:
             return _done(job, key, record=known["record"])
         _forget_other_cases(place, job["case"])
         for stage, content in contents.items():
             _bring(store, place, job["inputs"][stage], content)
-        said = json.loads(_native.run_part(job["suite"], place, job["id"], contents, False))
+        said = json.loads(_native.run_part(*part, False))
         if said["failed"] is not None:
             return _done(job, key, failed=said["failed"])
         store.put(said["record"]["content"], place / job["path"])
