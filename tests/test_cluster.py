@@ -79,6 +79,25 @@ def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_proc
     assert digest(run) == digest(tiny_run)
 
 
+def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(
+        "import numpy as np\nimport unshade\n\n"
+        "def grey(capture):\n    print('all is grey')\n"
+        "    return unshade.Maps(diffuse_albedo=np.full((32, 32, 3), 0.4, np.float32))\n\n"
+        "def none(capture):\n    raise SystemExit('there is no face')\n"
+    )
+    methods = "".join(f'[[method]]\nname = "{name}"\npython = "mine:{name}"\n' for name in ("grey", "none"))
+    suite = tmp_path / "suite.toml"
+    suite.write_text(f'format = 1\nname = "own"\nscene = "{TINY.parent / "tiny-scene.toml"}"\n{methods}')
+    words = [BIN / "unshade", "run", suite, "-o", tmp_path / "run", "--cluster", "local"]
+    workers = len(os.sched_getaffinity(0)) + 1
+    done = subprocess.run([*map(str, words), "--jobs", str(workers)], capture_output=True, text=True)
+    assert done.returncode == 1 and "there is no face" in done.stderr, done.stderr
+    logs = {path.stem: path.read_text() for path in (tmp_path / "run" / "logs").rglob("*.txt")}
+    assert "all is grey" in logs["grey"] and "there is no face" in logs["none"]
+    assert list((tmp_path / "run" / "scores").rglob("*.json"))[0].stem == "grey"
+
+
 def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from unshade.cluster.client import collect
     from unshade.cluster.order import Order, Task
@@ -125,4 +144,4 @@ def test_workers_of_one_machine_divide_its_processors() -> None:
 
     parts = divided(list(range(7)), 3)
     assert [one for part in parts for one in part] == list(range(7)) and {len(part) for part in parts} == {2, 3}
-    assert divided([4, 6], 3) == [[4, 6], [4, 6], [4, 6]]
+    assert divided([4, 6], 3) == [[4], [6]]

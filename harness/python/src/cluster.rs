@@ -24,7 +24,7 @@ pub(super) fn check_worker(
 }
 
 /// Does a stage of a suite in a folder that holds what it reads (hashes by ids); JSON text of what became
-/// of it. With `key_only`, only what it is made from. `renderer` is what `check_worker` returned.
+/// of it, on `processors` or on all. With `key_only`, only what it is made from. `renderer` is what `check_worker` returned.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn run_part(
@@ -35,11 +35,16 @@ pub(super) fn run_part(
     contents: BTreeMap<String, String>,
     renderer: String,
     key_only: bool,
+    processors: Option<Vec<usize>>,
 ) -> PyResult<String> {
-    let done = watched(py, None, |tools, said| {
-        let step = &mut |done, total, what: &str| said.say(done, total, what);
-        let wanted = Wanted { id: &stage, contents: &contents, renderer: &renderer };
-        suite::run_part(&Suite::open(&suite)?, &out, wanted, key_only, tools, step)
+    let done = watched(py, None, |tools, _| {
+        let wanted = Wanted {
+            id: &stage,
+            contents: &contents,
+            renderer: &renderer,
+            processors: &processors,
+        };
+        suite::run_part(&Suite::open(&suite)?, &out, wanted, key_only, tools, &mut |_, _, _| {})
     })?;
     serde_json::to_string(&done).map_err(|error| named_error("UnshadeError", &error.to_string()))
 }

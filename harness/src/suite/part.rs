@@ -12,6 +12,7 @@ use super::error::RunError;
 use super::file::Suite;
 use super::plan::{Kind, Task, plan};
 use super::preflight;
+use super::processors::keep_to;
 use super::program;
 use super::record::{Record, Records};
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
@@ -27,6 +28,8 @@ pub struct Wanted<'a> {
     pub contents: &'a Contents,
     /// The renderer's fingerprint here, as `check_worker` found it.
     pub renderer: &'a str,
+    /// Processors that it keeps to; none is all.
+    pub processors: &'a Option<Vec<usize>>,
 }
 
 /// Outcome of a stage.
@@ -66,9 +69,9 @@ pub fn run_part(
     wanted: Wanted,
     key_only: bool,
     tools: &Tools,
-    step: &mut dyn FnMut(u64, u64, &str),
+    step: &mut (dyn FnMut(u64, u64, &str) + Send),
 ) -> Result<PartDone, RunError> {
-    let Wanted { id, contents, renderer } = wanted;
+    let Wanted { id, contents, renderer, processors } = wanted;
     let tasks = plan(suite);
     let unknown = || RunError::Folder(io::Error::other(format!("the suite has no stage {id}")));
     let task = tasks.iter().find(|task| task.id == id).ok_or_else(unknown)?;
@@ -85,7 +88,7 @@ pub fn run_part(
     if task.kind == Kind::Capture {
         write_scene(suite, task, out)?;
     }
-    match workshop.run(task, contents, &records, step) {
+    match keep_to(processors, || workshop.run(task, contents, &records, step)) {
         Ok(Done { record, .. }) => Ok(PartDone { key, record: Some(record), failed: None }),
         Err(error) if task.method.is_some() && error.is_of_method() => {
             Ok(PartDone { key, record: None, failed: Some(error.to_string()) })

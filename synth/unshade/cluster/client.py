@@ -16,7 +16,7 @@ from .. import _native
 from ..errors import ClusterError, UnshadeError
 from .order import Order, Task
 from .store import Store
-from .work import Done, Job, do
+from .work import Done, Job, do, log_path
 
 RETRIES = 2
 """Further tries of a stage after an error that is no method's: a full disc, a store out of reach."""
@@ -103,6 +103,8 @@ def _round(
             raise _Interrupted
         result = _result(future)
         task = tasks[result["id"]]
+        if result["log"] is not None:
+            store.get(result["log"], order.run / log_path(task.id))
         if result["record"] is not None:
             content = result["record"]["content"]
             store.get(content, order.run / task.path)
@@ -140,4 +142,6 @@ def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, process
 
 def _valid(task: Task) -> Done:
     record = {"id": task.id, "content": task.content}
-    return {"id": task.id, "key": "", "record": record, "failed": None, "name": task.name, "worker": ""}
+    return {
+        "id": task.id, "key": "", "record": record, "failed": None, "log": None, "name": task.name, "worker": "",
+    }  # fmt: skip

@@ -52,11 +52,7 @@ def processors() -> list[int]:
 
 
 def divided(processors: list[int], workers: int) -> list[list[int]]:
-    """As many equal parts as there are workers; all of them to everyone where they are fewer.
-
-    Two of three workers on one of two processors would get half the time of the third.
-    """
+    """As many equal parts as there are workers, or processors where they are fewer: workers beyond them stand ready."""
     count = len(processors)
-    if count < workers:
-        return [processors] * workers
-    return [processors[worker * count // workers : (worker + 1) * count // workers] for worker in range(workers)]
+    parts = min(workers, count)
+    return [processors[part * count // parts : (part + 1) * count // parts] for part in range(parts)]

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import fcntl
+import hashlib
 import json
-import os
 import shutil
 import threading
+import time
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -23,6 +27,8 @@ class Done(TypedDict):
     record: dict[str, Any] | None
     """With the hash of its output, unless its method failed."""
     failed: str | None
+    log: str | None
+    """Hash of what its program printed."""
     name: str | None
     worker: str
 
@@ -41,7 +47,7 @@ class Job(TypedDict):
     versions: str
     store: str
     processors: list[list[int]]
-    """Processors of each worker, of workers on this machine alone."""
+    """Shares of this machine's processors, one for each stage at once; none where workers have machines of their own."""
 
 
 _ALONE = threading.Lock()
@@ -55,7 +61,6 @@ def do(job: Job, *before: Done) -> Done:
         if earlier["failed"] is not None:
             return _done(job, "", failed=earlier["failed"])
     with _ALONE:
-        _keep_to_processors(job)
         checked = (job["suite_content"], job["versions"])
         if checked not in _CHECKED:
             _CHECKED[checked] = _native.check_worker(job["suite"], *checked)
@@ -63,31 +68,65 @@ def do(job: Job, *before: Done) -> Done:
         contents = {earlier["id"]: (earlier["record"] or {})["content"] for earlier in before}
         place = Path(get_worker().local_directory) / f"unshade-{job['suite_content'][:12]}"
         part = job["suite"], place, job["id"], contents, _CHECKED[checked]
-        key = json.loads(_native.run_part(*part, True))["key"]
+        key = json.loads(_native.run_part(*part, True, None))["key"]
         known = store.known(key)
         if known is not None:
-            return _done(job, key, record=known["record"])
+            return _done(job, key, record=known["record"], log=known["log"])
         _forget_other_cases(place, job["case"])
         for stage, content in contents.items():
             _bring(store, place, job["inputs"][stage], content)
-        said = json.loads(_native.run_part(*part, False))
+        with _share(job) as processors:
+            said = json.loads(_native.run_part(*part, False, processors))
+        log = _keep_log(store, place, job)
         if said["failed"] is not None:
-            return _done(job, key, failed=said["failed"])
+            return _done(job, key, failed=said["failed"], log=log)
         store.put(said["record"]["content"], place / job["path"])
-        store.note(key, {"id": job["id"], "record": said["record"]})
+        store.note(key, {"id": job["id"], "record": said["record"], "log": log})
         _note(place / job["path"], said["record"]["content"])
-        return _done(job, key, record=said["record"])
+        return _done(job, key, record=said["record"], log=log)
 
 
-def _done(job: Job, key: str, record: dict[str, Any] | None = None, failed: str | None = None) -> Done:
+def _done(
+    job: Job, key: str, record: dict[str, Any] | None = None, failed: str | None = None, log: str | None = None
+) -> Done:
     worker = str(get_worker().name)
-    return {"id": job["id"], "key": key, "record": record, "failed": failed, "name": job["name"], "worker": worker}
+    return {
+        "id": job["id"], "key": key, "record": record, "failed": failed, "log": log, "name": job["name"],
+        "worker": worker,
+    }  # fmt: skip
 
 
-def _keep_to_processors(job: Job) -> None:
-    """The share of this worker; what it starts inherits it."""
-    if job["processors"] and hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, job["processors"][int(get_worker().name) % len(job["processors"])])
+def _keep_log(store: Store, place: Path, job: Job) -> str | None:
+    """Of a stage that makes maps by a program."""
+    log = place / log_path(job["id"])
+    if not log.is_file():
+        return None
+    content = hashlib.blake2b(log.read_bytes(), digest_size=16).hexdigest()
+    store.put(content, log)
+    return content
+
+
+def log_path(stage: str) -> Path:
+    """Where what a stage's program prints lies below a run."""
+    return Path("logs") / f"{stage.partition('/')[2]}.txt" if stage.startswith("maps/") else Path("logs/none")
+
+
+@contextmanager
+def _share(job: Job) -> Generator[list[int] | None]:
+    """Processors that no other stage of a worker on this machine has until this one ends; None for all."""
+    folder = Path(get_worker().local_directory).parent
+    while job["processors"]:
+        for at, share in enumerate(job["processors"]):
+            with (folder / f"processors-{at}.lock").open("w") as file:
+                try:
+                    # The system unlocks it if this worker dies.
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    continue
+                yield share
+                return
+        time.sleep(0.05)
+    yield None
 
 
 def _bring(store: Store, place: Path, path: str, content: str) -> None:
