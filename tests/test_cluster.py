@@ -95,7 +95,7 @@ def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tmp_p
     assert done.returncode == 1 and "there is no face" in done.stderr, done.stderr
     logs = {path.stem: path.read_text() for path in (tmp_path / "run" / "logs").rglob("*.txt")}
     assert "all is grey" in logs["grey"] and "there is no face" in logs["none"]
-    assert list((tmp_path / "run" / "scores").rglob("*.json"))[0].stem == "grey"
+    assert [path.stem for path in (tmp_path / "run" / "scores").rglob("*.json")] == ["grey"]
 
 
 def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
