@@ -18,6 +18,7 @@ def on_cluster(
 ) -> dict[str, Any]:
     """Do an order; returns what failed and what each stage cost."""
     try:
+        import dask
         import distributed
     except ImportError as error:
         raise ClusterError(f"--cluster needs Dask ({error.name} is missing); {_MEND}") from error
@@ -33,6 +34,8 @@ def on_cluster(
     else:
         # Beside the run there is room for what it holds.
         with (
+            # No variables of Dask's own: stages are to take here what they take in one process.
+            dask.config.set({"distributed.nanny.pre-spawn-environ": {}}),
             tempfile.TemporaryDirectory(prefix="workers.", dir=order.run, ignore_cleanup_errors=True) as place,
             distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, dashboard_address=None, memory_limit=0, scheduler_port=0,

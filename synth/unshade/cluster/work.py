@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import hashlib
 import json
+import os
 import shutil
 import threading
 import time
@@ -49,6 +50,9 @@ class Job(TypedDict):
     processors: list[list[int]]
     """Shares of this machine's processors, one for each stage at once; none where workers have machines of their own."""
 
+
+# Dask has its workers give memory back at once, which costs a renderer that one of them starts a third of its time.
+os.environ.pop("MALLOC_TRIM_THRESHOLD_", None)
 
 _ALONE = threading.Lock()
 _CHECKED: dict[tuple[str, str], str] = {}
