@@ -75,7 +75,7 @@ def do(job: Job, *before: Done) -> Done:
         key = json.loads(_native.run_part(*part, True, None))["key"]
         known = store.known(key)
         if known is not None:
-            return _done(job, key, record=known["record"], log=known["log"])
+            return _done(job, key, record=known["record"], log=known.get("log"))
         _forget_other_cases(place, job["case"])
         for stage, content in contents.items():
             _bring(store, place, job["inputs"][stage], content)
@@ -103,7 +103,7 @@ def _done(
 def _keep_log(store: Store, place: Path, job: Job) -> str | None:
     """Of a stage that makes maps by a program."""
     log = place / log_path(job["id"])
-    if not log.is_file():
+    if not job["id"].startswith("maps/") or not log.is_file():
         return None
     content = hashlib.blake2b(log.read_bytes(), digest_size=16).hexdigest()
     store.put(content, log)
@@ -112,7 +112,7 @@ def _keep_log(store: Store, place: Path, job: Job) -> str | None:
 
 def log_path(stage: str) -> Path:
     """Where what a stage's program prints lies below a run."""
-    return Path("logs") / f"{stage.partition('/')[2]}.txt" if stage.startswith("maps/") else Path("logs/none")
+    return Path("logs") / f"{stage.partition('/')[2]}.txt"
 
 
 @contextmanager
