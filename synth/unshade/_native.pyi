@@ -41,6 +41,7 @@ __all__ = [
     "budget",
     "run_part",
     "score_json",
+    "shown",
     "study_json",
     "skin_reflected",
     "solve",
@@ -220,7 +221,7 @@ def budget(
     view: str | None = None,
     progress: _Progress | None = None,
 ) -> str: ...
-def score_json(capture: _Path, maps: _Path, relit: _Path | None = None) -> str: ...
+def score_json(capture: _Path, maps: _Path, relit: _Path | None = None, lpips: str | None = None) -> str: ...
 def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
 def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
@@ -263,6 +264,14 @@ def measure(
     scale: str = "none",
     beside: dict[str, ArrayLike] | None = None,
 ) -> list[float | None]: ...
+def shown(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: str = "none",
+) -> list[_Float]: ...
 def mikktspace(
     vertices: NDArray[np.float32],
     normals: NDArray[np.float32],

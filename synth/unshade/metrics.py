@@ -12,6 +12,8 @@ Some metrics compare with more, a keyword each: ``labels`` (height, width), regi
 
 :func:`evaluate` computes many of one pair at once, on all cores, and what they share once.
 
+``lpips_...`` need the extra ``lpips`` (PyTorch), and pictures of 32 pixels a side or more.
+
 The result is None where a metric is not defined, such as a correlation with a constant. Arrays that
 cannot be meant raise :class:`unshade.errors.MetricError`, which names the argument.
 """
@@ -24,6 +26,8 @@ from typing import NamedTuple
 
 from unshade._native import measure as _measure
 from unshade._native import metric_definitions as _metric_definitions
+from unshade.perceptual import NETS
+from unshade.perceptual import distance as _lpips
 
 
 class Definition(NamedTuple):
@@ -37,6 +41,8 @@ class Definition(NamedTuple):
     link: str
     needs: str
 
+
+_NETS = {f"lpips_{net}_0_1": net for net in NETS}
 
 DEFINITIONS: dict[str, Definition] = {row[0]: Definition(*row) for row in _metric_definitions()}
 
@@ -53,8 +59,13 @@ def evaluate(
     for name in beside:
         if name not in known:
             raise TypeError(f"evaluate() got an unexpected keyword argument {name!r}")
-    values = _measure(names, prediction, truth, mask, erode=erode, scale=scale, beside=beside)
-    return dict(zip(names, values, strict=True))
+    own = [name for name in names if name not in _NETS]
+    pair = (prediction, truth, mask)
+    values = dict(zip(own, _measure(own, *pair, erode=erode, scale=scale, beside=beside), strict=True))
+    return {
+        name: _lpips(_NETS[name], *pair, erode=erode, scale=scale) if name in _NETS else values[name]
+        for name in names
+    }  # fmt: skip
 
 
 def _function(definition: Definition) -> Callable[..., float | None]:
@@ -64,6 +75,8 @@ def _function(definition: Definition) -> Callable[..., float | None]:
         for name in beside:
             if name != needs:
                 raise TypeError(f"{definition.id}() got an unexpected keyword argument {name!r}")
+        if definition.id in _NETS:
+            return _lpips(_NETS[definition.id], prediction, truth, mask, erode=erode, scale=scale)
         return _measure(
             [definition.id], prediction, truth, mask, erode=erode, scale=scale, beside=beside
         )[0]  # fmt: skip

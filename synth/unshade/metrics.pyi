@@ -65,6 +65,8 @@ __all__ = [
     "orb_albedo_psnr",
     "owl_psnr",
     "nerfactor_albedo_psnr",
+    "lpips_alex_0_1",
+    "lpips_vgg_0_1",
 ]
 
 def evaluate(
@@ -551,3 +553,25 @@ def nerfactor_albedo_psnr(
     """Albedo PSNR of NeRFactor [dB]: as in NeRFactor, the frame being the texture: p after one factor
     per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared
     error is divided by the whole frame"""
+
+def lpips_alex_0_1(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """LPIPS (AlexNet, 0.1): learned perceptual distance, weights of version 0.1, on AlexNet: sRGB
+    values clipped to [0, 1], black outside the mask, the whole frame; mean over pictures"""
+
+def lpips_vgg_0_1(
+    prediction: ArrayLike,
+    truth: ArrayLike,
+    mask: ArrayLike | None = None,
+    *,
+    erode: bool = False,
+    scale: _Scale = "none",
+) -> float | None:
+    """LPIPS (VGG-16, 0.1): learned perceptual distance, weights of version 0.1, on VGG-16: sRGB values
+    clipped to [0, 1], black outside the mask, the whole frame; mean over pictures"""

@@ -90,6 +90,11 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("--no-fidelity", action="store_true")
     export.set_defaults(stage=_export)
 
+    lpips = verbs.add_parser("lpips", help="let a network judge pictures")
+    lpips.add_argument("--net", required=True)
+    lpips.add_argument("--pictures", type=Path, required=True)
+    lpips.set_defaults(stage=_lpips)
+
     figure = verbs.add_parser("figure", help="draw a figure that was gathered from runs")
     figure.add_argument("--folder", type=Path, required=True)
     figure.set_defaults(stage=_figure)
@@ -137,6 +142,7 @@ def _parser() -> argparse.ArgumentParser:
         budget,
         lights,
         export,
+        lpips,
         figure,
         method,
         cluster,
@@ -227,6 +233,12 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     chosen = Options(options.format, options.bits, options.normal_y == "plus", not options.no_fidelity)
     rows, lines = export(options.maps, options.out, options.capture, options.mesh, chosen, _progress, _warn)
     return {"asset": str(options.out), "fidelity": rows, "lines": lines}
+
+
+def _lpips(options: argparse.Namespace) -> dict[str, Any]:
+    from .perceptual import judge
+
+    return {"values": judge(options.net, json.loads(options.pictures.read_text()))}
 
 
 def _figure(options: argparse.Namespace) -> dict[str, Any]:

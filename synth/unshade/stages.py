@@ -91,13 +91,17 @@ def export(
     return rows
 
 
-def score(capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None) -> Scores:
+def score(
+    capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None, lpips: str | None = None
+) -> Scores:
     """Scores of maps (and of what ``relight`` made of them) against the truth.
+
+    ``lpips`` (``alex`` or ``vgg``) adds the rows of that network, which needs the extra ``lpips``.
 
     ``maps`` is a maps folder, or the maps themselves, which have no synthesis of the withheld views.
     """
     with _folder_of(maps) as folder:
-        return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit)))
+        return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit, lpips)))
 
 
 class Budget(TypedDict):

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use harness::cli;
-use harness::suite::SOLVER_SOURCES;
+use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use scoring::compare::{self as comparing, Baseline, Tolerances};
@@ -14,6 +14,7 @@ use solver::{Choice, Options};
 use super::capture::Capture;
 use super::errors::{named_error, raise};
 use super::maps::Maps;
+use super::stages::watched;
 
 /// Runs the command line and returns its exit code.
 #[pyfunction]
@@ -85,14 +86,21 @@ pub(super) fn solve(
 
 /// The scores of a maps folder as JSON text.
 #[pyfunction]
-#[pyo3(signature = (capture, maps, relit=None))]
+#[pyo3(signature = (capture, maps, relit=None, lpips=None))]
 pub(super) fn score_json(
     py: Python<'_>,
     capture: PathBuf,
     maps: PathBuf,
     relit: Option<PathBuf>,
+    lpips: Option<&str>,
 ) -> PyResult<String> {
-    json_of(&py.detach(|| score::score(&capture, &maps, relit.as_deref())).map_err(raise)?)
+    let relit = relit.as_deref();
+    let mut scores = py.detach(|| score::score(&capture, &maps, relit)).map_err(raise)?;
+    if let Some(net) = lpips {
+        let rows = watched(py, None, |tools, _| suite::lpips(net, &capture, &maps, relit, tools))?;
+        scores.rows.extend(rows);
+    }
+    json_of(&scores)
 }
 
 /// Likely faults of a maps folder, as JSON text: a list of findings.

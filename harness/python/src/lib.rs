@@ -42,6 +42,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::report, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metric_definitions, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::shown, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::depth_of, module)?)?;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use formats::picture::{GrayImage, Picture};
+use numpy::PyArray3;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scoring::metrics::{
@@ -11,6 +12,7 @@ use scoring::metrics::{
 
 use super::arrays::Argument;
 use super::errors::{named_error, raise};
+use super::pictures::array;
 
 /// (id, name, unit, direction, definition, link, needs) of every metric; `needs` is the argument
 /// that it takes beside prediction, truth and mask, or empty.
@@ -45,34 +47,8 @@ pub(super) fn measure(
 ) -> PyResult<Vec<Option<f64>>> {
     let metrics: Vec<&'static Metric> =
         metrics.iter().map(|id| Metric::find(id)).collect::<Result<_, _>>().map_err(raise)?;
-    let mode = ScaleMode::ALL.into_iter().find(|mode| mode.id() == scale).ok_or_else(|| {
-        let reason = format!("no scale mode {scale:?}: none, global, channel, median");
-        named_error("MetricError", &reason)
-    })?;
-    let mut prediction = argument("prediction").picture(prediction)?;
-    let mut truth = argument("truth").picture(truth)?;
-    if (prediction.height, prediction.width, prediction.channels)
-        != (truth.height, truth.width, truth.channels)
-    {
-        let shape = |picture: &Picture| match picture.channels {
-            1 => format!("({}, {})", picture.height, picture.width),
-            channels => format!("({}, {}, {channels})", picture.height, picture.width),
-        };
-        let reason =
-            format!("has shape {}, expected {}, as the truth", shape(&prediction), shape(&truth));
-        return Err(argument("prediction").refused(&reason));
-    }
-    let mask = match mask {
-        Some(mask) => {
-            let mask = argument("mask").mask(mask)?;
-            check_size("mask", (mask.width, mask.height), &truth)?;
-            for picture in [&mut prediction, &mut truth] {
-                *picture = black_outside(picture, &mask);
-            }
-            Some(mask)
-        }
-        None => None,
-    };
+    let compared = Compared::new(prediction, truth, mask, scale)?;
+    let truth = &compared.truth;
     let needed = |name: &str| metrics.iter().any(|metric| metric.quantity.needs() == Some(name));
     let given = |name: &str| match beside.filter(|_| needed(name)) {
         Some(beside) => Ok(beside.get_item(name)?.filter(|value| !value.is_none())),
@@ -80,13 +56,13 @@ pub(super) fn measure(
     };
     let labels = given("labels")?.map(|given| argument("labels").bytes(&given)).transpose()?;
     if let Some(labels) = &labels {
-        check_size("labels", (labels.width, labels.height), &truth)?;
+        check_size("labels", (labels.width, labels.height), truth)?;
     }
     let mut pictures = HashMap::new();
     for name in ["shading", "specular", "mesh_normal", "confidence", "area"] {
         let Some(given) = given(name)? else { continue };
         let picture = argument(name).picture(&given)?;
-        check_size(name, (picture.width, picture.height), &truth)?;
+        check_size(name, (picture.width, picture.height), truth)?;
         let fits = if matches!(name, "confidence" | "area") { &[1][..] } else { &[1, 3] };
         if !fits.contains(&picture.channels) {
             let reason = format!("has {} channels, expected {fits:?}", picture.channels);
@@ -94,10 +70,96 @@ pub(super) fn measure(
         }
         pictures.insert(name, picture);
     }
-    let halves = given("halves")?.map(|given| halves(&given, &truth)).transpose()?;
+    let halves = given("halves")?.map(|given| halves(&given, truth)).transpose()?;
     let inputs = Inputs { labels, pictures, halves };
-    let values = || values(&metrics, mode, &prediction, &truth, mask.as_ref(), erode, &inputs);
-    py.detach(values).map_err(raise)
+    py.detach(|| values(&metrics, &compared, erode, &inputs)).map_err(raise)
+}
+
+/// The pictures as they are looked at: sRGB values in [0, 1], black outside the region, float32 of the
+/// truth's shape.
+#[pyfunction]
+#[pyo3(signature = (prediction, truth, mask=None, *, erode=false, scale="none"))]
+pub(super) fn shown<'py>(
+    py: Python<'py>,
+    prediction: &Bound<PyAny>,
+    truth: &Bound<PyAny>,
+    mask: Option<&Bound<PyAny>>,
+    erode: bool,
+    scale: &str,
+) -> PyResult<[Bound<'py, PyArray3<f32>>; 2]> {
+    let compared = Compared::new(prediction, truth, mask, scale)?;
+    let region = compared.region(erode).map_err(raise)?;
+    let [prediction, truth] = compared.pair(&region).map_err(raise)?.shown();
+    Ok([array(py, prediction)?, array(py, truth)?])
+}
+
+/// Arguments that all metrics have.
+struct Compared {
+    prediction: Picture,
+    truth: Picture,
+    mask: Option<GrayImage>,
+    mode: ScaleMode,
+}
+
+impl Compared {
+    fn new(
+        prediction: &Bound<PyAny>,
+        truth: &Bound<PyAny>,
+        mask: Option<&Bound<PyAny>>,
+        scale: &str,
+    ) -> PyResult<Self> {
+        let mode = ScaleMode::ALL.into_iter().find(|mode| mode.id() == scale).ok_or_else(|| {
+            let reason = format!("no scale mode {scale:?}: none, global, channel, median");
+            named_error("MetricError", &reason)
+        })?;
+        let mut prediction = argument("prediction").picture(prediction)?;
+        let mut truth = argument("truth").picture(truth)?;
+        if (prediction.height, prediction.width, prediction.channels)
+            != (truth.height, truth.width, truth.channels)
+        {
+            let shape = |picture: &Picture| match picture.channels {
+                1 => format!("({}, {})", picture.height, picture.width),
+                channels => format!("({}, {}, {channels})", picture.height, picture.width),
+            };
+            let reason = format!(
+                "has shape {}, expected {}, as the truth",
+                shape(&prediction),
+                shape(&truth)
+            );
+            return Err(argument("prediction").refused(&reason));
+        }
+        let mask = match mask {
+            Some(mask) => {
+                let mask = argument("mask").mask(mask)?;
+                check_size("mask", (mask.width, mask.height), &truth)?;
+                for picture in [&mut prediction, &mut truth] {
+                    *picture = black_outside(picture, &mask);
+                }
+                Some(mask)
+            }
+            None => None,
+        };
+        Ok(Self { prediction, truth, mask, mode })
+    }
+
+    fn region(&self, erode: bool) -> Result<Region, MetricError> {
+        let (width, height) = (self.truth.width, self.truth.height);
+        let whole = GrayImage { width, height, data: vec![255; width * height] };
+        match (&self.mask, erode) {
+            (None, false) => Region::whole(width, height),
+            (mask, true) => Region::eroded("mask", mask.as_ref().unwrap_or(&whole)),
+            (Some(mask), false) => Region::of_mask("mask", mask),
+        }
+    }
+
+    fn pair<'a>(&'a self, region: &'a Region) -> Result<Pair<'a>, MetricError> {
+        let pair = Pair::new(&self.prediction, &self.truth, region)?;
+        if self.mode == ScaleMode::None {
+            return Ok(pair);
+        }
+        let factors = Scale::fit(&pair)?.factors(self.mode);
+        Ok(pair.scaled(factors))
+    }
 }
 
 /// Inputs of some metrics beside prediction and truth.
@@ -138,25 +200,12 @@ fn halves(given: &Bound<PyAny>, truth: &Picture) -> PyResult<[Picture; 2]> {
 
 fn values(
     metrics: &[&'static Metric],
-    mode: ScaleMode,
-    prediction: &Picture,
-    truth: &Picture,
-    mask: Option<&GrayImage>,
+    compared: &Compared,
     erode: bool,
     inputs: &Inputs,
 ) -> Result<Vec<Option<f64>>, MetricError> {
-    let (width, height) = (truth.width, truth.height);
-    let whole = GrayImage { width, height, data: vec![255; width * height] };
-    let region = match (mask, erode) {
-        (None, false) => Region::whole(width, height),
-        (mask, true) => Region::eroded("mask", mask.unwrap_or(&whole)),
-        (Some(mask), false) => Region::of_mask("mask", mask),
-    }?;
-    let mut pair = Pair::new(prediction, truth, &region)?;
-    if mode != ScaleMode::None {
-        let factors = Scale::fit(&pair)?.factors(mode);
-        pair = pair.scaled(factors);
-    }
+    let region = compared.region(erode)?;
+    let pair = compared.pair(&region)?;
     let measured =
         measured(metrics, |metric| metric.measure(&inputs.beside(pair.clone(), metric)?))?;
     let value = |metric: &&Metric| metric.statistic.value([measured[&metric.quantity].as_slice()]);

@@ -93,7 +93,7 @@ pub(super) fn read_ids<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'p
     Ok(Array2::from_shape_vec((height, width), samples).map_err(shape)?.into_pyarray(py))
 }
 
-fn array(py: Python<'_>, picture: Picture) -> PyResult<Bound<'_, PyArray3<f32>>> {
+pub(super) fn array(py: Python<'_>, picture: Picture) -> PyResult<Bound<'_, PyArray3<f32>>> {
     let Picture { width, height, channels, data } = picture;
     Ok(Array3::from_shape_vec((height, width, channels), data).map_err(shape)?.into_pyarray(py))
 }

@@ -9,6 +9,7 @@ use super::calibrate::CalibrateArgs;
 use super::compare::CompareArgs;
 use super::export::ExportArgs;
 use super::figure::FigureArgs;
+use crate::suite::NETS;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
@@ -87,6 +88,9 @@ pub(super) enum Verb {
         /// The folder of `unshade relight`.
         #[arg(long)]
         relit: Option<PathBuf>,
+        /// Also ask a network (LPIPS), which is the extra `lpips`.
+        #[arg(long, value_name = "NET", value_parser = NETS)]
+        lpips: Option<String>,
         /// The scores' file.
         #[arg(short, long)]
         out: PathBuf,

@@ -44,10 +44,14 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         }
         Verb::Seal(arguments) => return seal::seal(&arguments),
         Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref())?,
-        Verb::Score { capture, maps, relit, out } => {
+        Verb::Score { capture, maps, relit, lpips, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
-            let scores = score::score(&capture, &maps, relit.as_deref())?;
+            let mut scores = score::score(&capture, &maps, relit.as_deref())?;
+            if let Some(net) = lpips {
+                let rows = suite::lpips(&net, &capture, &maps, relit.as_deref(), &tools())?;
+                scores.rows.extend(rows);
+            }
             scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
             scores.write(&out)?;
         }

@@ -7,11 +7,12 @@ use toml::{Table, Value};
 use super::cases::{self, Case};
 use super::method::{self, Method};
 use super::packaged::Kind;
+use super::perceptual::NETS;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
-    "seeds", "scales", "relight", "method",
+    "seeds", "scales", "relight", "lpips", "method",
 ];
 
 /// Keys that say something of a scene.
@@ -41,6 +42,8 @@ pub struct Suite {
     pub scales: Vec<&'static str>,
     /// Renderer that relights maps: one of [`RENDERERS`].
     pub relight: &'static str,
+    /// Network that judges pictures beside the scores, one of [`NETS`]; none if nobody asks for it.
+    pub lpips: Option<&'static str>,
     /// The file's text, kept with the results.
     pub text: String,
 }
@@ -80,13 +83,15 @@ impl Suite {
         }
         cases.extend(photographed);
         let scales = scales_of(path, &table)?;
-        let relight = relight_of(path, &table)?;
+        let relight = one_of(path, &table, "relight", &RENDERERS)?.unwrap_or(RENDERERS[0]);
+        let lpips = one_of(path, &table, "lpips", &NETS)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
         let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Ok(Self { path: path.to_path_buf(), name, title, cases, methods, scales, relight, text })
+        let path = path.to_path_buf();
+        Ok(Self { path, name, title, cases, methods, scales, relight, lpips, text })
     }
 }
 
@@ -117,11 +122,16 @@ fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError
     Ok(known)
 }
 
-fn relight_of(path: &Path, table: &Table) -> Result<&'static str, SceneError> {
-    let Some(wanted) = table.get("relight") else { return Ok(RENDERERS[0]) };
-    RENDERERS.into_iter().find(|known| wanted.as_str() == Some(known)).ok_or_else(|| {
-        SceneError::value(path, "relight", format!("must be one of {}", RENDERERS.join(", ")))
-    })
+fn one_of(
+    path: &Path,
+    table: &Table,
+    key: &str,
+    known: &[&'static str],
+) -> Result<Option<&'static str>, SceneError> {
+    let Some(wanted) = table.get(key) else { return Ok(None) };
+    let found = known.iter().find(|known| wanted.as_str() == Some(known)).copied();
+    let reason = || SceneError::value(path, key, format!("must be one of {}", known.join(", ")));
+    found.map(Some).ok_or_else(reason)
 }
 
 fn text_of(path: &Path, table: &Table, key: &str) -> Result<String, SceneError> {

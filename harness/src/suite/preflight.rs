@@ -8,12 +8,13 @@ use super::cases::Case;
 use super::error::RunError;
 use super::file::Suite;
 use super::method::{Method, MethodKind};
+use super::perceptual;
 use super::place;
 use super::program::ProgramFiles;
 use super::scene::SceneError;
 use super::stages::words;
 use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::{StageError, run_stage};
 
 /// Cameras of a rig that does not say how many it has.
 const CAMERAS: i64 = 16;
@@ -52,6 +53,17 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
         Ok(Ready { method, files })
     };
     suite.methods.iter().map(ready).collect()
+}
+
+/// The judge that the suite asks for can be called.
+pub(super) fn judge(suite: &Suite, tools: &Tools) -> Result<(), RunError> {
+    let Some(net) = suite.lpips else { return Ok(()) };
+    match perceptual::require(net, tools) {
+        Err(RunError::Stage(StageError::Input { message, .. })) => {
+            Err(SceneError::value(&suite.path, "lpips", message).into())
+        }
+        other => other,
+    }
 }
 
 /// Every file that the scenes name is there.

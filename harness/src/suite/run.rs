@@ -104,6 +104,7 @@ pub(super) fn stages(
     let start = Instant::now();
     check_redo(suite, options)?;
     preflight::files(suite)?;
+    preflight::judge(suite, tools)?;
     let ready = preflight::methods(suite, tools)?;
     let lock = claim(suite, out)?;
     program::clear_scratch(&program::scratch_prefix(out));

@@ -15,6 +15,7 @@ use super::error::RunError;
 use super::file::{RENDERERS, Suite};
 use super::make_maps;
 use super::method::MethodKind;
+use super::perceptual::lpips;
 use super::plan::{Kind, Task};
 use super::preflight::Ready;
 use super::program::{self, Place};
@@ -136,7 +137,9 @@ impl<'a> Workshop<'a> {
             Kind::Scores => {
                 let maps = of(Kind::Maps).ok_or_else(missing)?;
                 let relit = of(Kind::Relit).ok_or_else(missing)?;
-                plain(&["scores", capture()?, maps, relit, SCORE_SOURCES])
+                let mut inputs = vec!["scores", capture()?, maps, relit, SCORE_SOURCES];
+                inputs.extend(self.suite.lpips);
+                plain(&inputs)
             }
         })
     }
@@ -225,6 +228,10 @@ impl<'a> Workshop<'a> {
         } else {
             let mut scores = score::score(&capture, &maps, Some(&below(Kind::Relit)))?;
             scores.solver.clone_from(&method.id);
+            if let Some(net) = self.suite.lpips {
+                let relit = below(Kind::Relit);
+                scores.rows.extend(lpips(net, &capture, &maps, Some(&relit), tools)?);
+            }
             scores.write(path)?;
         }
         Ok(Made::default())

@@ -7,6 +7,7 @@ import os
 import platform
 from typing import Any
 
+from .. import perceptual
 from ..face import FaceError
 from ..face.base_mesh import data_folder, data_version
 from ..face.cache import cache_folder
@@ -21,7 +22,7 @@ def examine() -> list[dict[str, Any]]:
     checks += [_package(name) for name in _PACKAGES]
     if all(check["ok"] for check in checks):
         checks += _variant()
-    return [*checks, _head_data(), _cache()]
+    return [*checks, _head_data(), _cache(), _entry("lpips", True, perceptual.found())]
 
 
 def _entry(name: str, ok: bool, found: str, mend: str = "") -> dict[str, Any]:

@@ -67,6 +67,12 @@ pub enum MetricError {
         /// The argument that takes it.
         argument: &'static str,
     },
+    /// A network computes it, which is not part of this program.
+    #[error("{metric} is not computed here; call unshade.metrics.{metric}")]
+    Elsewhere {
+        /// The metric's id.
+        metric: &'static str,
+    },
     /// No metric has this id.
     #[error("there is no metric {id:?}; there are {known}")]
     Unknown {

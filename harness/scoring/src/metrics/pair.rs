@@ -156,6 +156,20 @@ impl<'a> Pair<'a> {
         })
     }
 
+    /// Prediction and truth as they are looked at: sRGB values in [0, 1], black outside the region.
+    pub fn shown(&self) -> [Picture; 2] {
+        let channels = self.truth.channels;
+        self.srgb().each_ref().map(|values| {
+            let mut data = vec![0.0; values.len()];
+            for i in self.region.pixels() {
+                for at in i * channels..(i + 1) * channels {
+                    data[at] = values[at] as f32;
+                }
+            }
+            Picture { data, ..*self.truth }
+        })
+    }
+
     /// The same in the region alone.
     pub(super) fn srgb_of_region(&self) -> &Both<f64> {
         self.shared.srgb_of_region.get_or_init(|| {

@@ -70,6 +70,8 @@ pub enum Quantity {
     AreaAngle,
     /// The squared error of another benchmark's protocol.
     Compatible(Protocol),
+    /// What a network sees in both, which is computed elsewhere.
+    Perceptual,
 }
 
 /// Where the truth is flat: within this of the mesh's normal, degrees.
@@ -103,6 +105,7 @@ impl Quantity {
             | Self::SquaredLogError
             | Self::Band(_)
             | Self::Compatible(_)
+            | Self::Perceptual
             | Self::LowPassError => None,
         }
     }
@@ -121,7 +124,7 @@ impl Quantity {
             Self::SquaredErrorSrgb | Self::CrossProductSrgb | Self::AreaSquaredErrorSrgb => {
                 "sRGB clipped to [0, 1]"
             }
-            Self::Ssim | Self::Flip => "sRGB clipped to [0, 1], black outside",
+            Self::Ssim | Self::Flip | Self::Perceptual => "sRGB clipped to [0, 1], black outside",
             Self::ColourDifference | Self::Typology => "L*a*b*, D65",
             Self::Angle | Self::AreaAngle | Self::InventedRelief => "object space",
             Self::HighPass
@@ -220,6 +223,7 @@ impl Quantity {
                     .ok_or_else(|| needs("halves of the samples of both pictures"))?
             }
             Self::Compatible(protocol) => protocol.errors(pair),
+            Self::Perceptual => return Err(MetricError::Elsewhere { metric }),
             Self::LogError => signed_log_errors(pair).collect(),
             Self::SquaredLogError => signed_log_errors(pair).map(|error| error * error).collect(),
             Self::Band(texels) => {
@@ -263,6 +267,7 @@ impl Quantity {
             | Self::ColourAngle
             | Self::InventedRelief
             | Self::Compatible(_)
+            | Self::Perceptual
             | Self::ColourDifference
             | Self::Typology => ("3", found == 3),
             Self::SquaredError

@@ -211,6 +211,12 @@ pub static METRICS: &[Metric] = metrics! {
     "nerfactor_albedo_psnr", "Albedo PSNR of NeRFactor", "dB", Higher, Q::Compatible(P::NerfactorAlbedo), S::PsnrOfPictures,
         "as in NeRFactor, the frame being the texture: p after one factor per channel, clipped to the range of g on white, luma of values to the power 1/2.2; the squared error is divided by the whole frame",
         "https://github.com/google/nerfactor";
+    "lpips_alex_0_1", "LPIPS (AlexNet, 0.1)", "", Lower, Q::Perceptual, S::Mean,
+        "learned perceptual distance, weights of version 0.1, on AlexNet: sRGB values clipped to [0, 1], black outside the mask, the whole frame; mean over pictures",
+        "https://github.com/richzhang/PerceptualSimilarity";
+    "lpips_vgg_0_1", "LPIPS (VGG-16, 0.1)", "", Lower, Q::Perceptual, S::Mean,
+        "learned perceptual distance, weights of version 0.1, on VGG-16: sRGB values clipped to [0, 1], black outside the mask, the whole frame; mean over pictures",
+        "https://github.com/richzhang/PerceptualSimilarity";
 };
 
 /// Metrics of each subject, in the order of the rows. A metric in none of these has no row, which

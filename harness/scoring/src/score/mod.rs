@@ -18,6 +18,7 @@ mod protocol;
 mod render;
 mod rows;
 mod scores;
+mod shown;
 mod truth;
 
 use std::path::Path;
@@ -33,6 +34,7 @@ pub use own::keep_own_relit;
 pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
+pub use shown::{Shown, judged_rows, shown};
 
 use crate::check::check;
 use geometry::Geometry;

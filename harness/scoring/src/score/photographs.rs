@@ -62,7 +62,7 @@ pub(super) fn score(
 }
 
 /// The names of the withheld frames, whose pictures are `images/<name>.exr`.
-fn withheld(capture: &Path) -> Result<Vec<String>, ScoreError> {
+pub(super) fn withheld(capture: &Path) -> Result<Vec<String>, ScoreError> {
     let path = capture.join("transforms.json");
     let bytes = fs::read(&path).map_err(|error| ScoreError::io(&path, error))?;
     let document: Value =
