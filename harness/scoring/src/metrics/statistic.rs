@@ -1,6 +1,8 @@
 //! How per-pixel values become one number, over any number of pictures, with its confidence
 //! interval.
 
+use std::ops::Range;
+
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -15,6 +17,9 @@ const SEED: u64 = 2023;
 
 /// Bins of a quantile's interval, each with as many values.
 const BINS: usize = 1024;
+
+/// So many of them are added up together, until it is known which of these groups the quantile lies in.
+const GROUP: usize = 32;
 
 /// How the values of a region are summarised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -233,19 +238,38 @@ fn quantile_interval(samples: &[Sample], fraction: f64) -> Option<[f64; 2]> {
         values.iter().for_each(|(_, block)| counts[*block][bin] += 1);
     }
     counts.retain(|of_block| of_block.iter().any(|count| *count > 0));
-    let mut sums = vec![0; bins.len()];
+    let groups: Vec<Vec<u32>> = counts
+        .iter()
+        .map(|bins| bins.chunks(GROUP).map(|group| group.iter().sum()).collect())
+        .collect();
     percentiles(counts.len(), |drawn| {
-        sums.fill(0);
-        for block in drawn {
-            sums.iter_mut().zip(&counts[*block]).for_each(|(sum, count)| *sum += count);
-        }
+        let sums = total(drawn, &groups, 0..bins.len().div_ceil(GROUP));
         let wanted = fraction * f64::from(sums.iter().sum::<u32>());
-        let mut seen = 0;
-        let bin = sums.iter().position(|count| {
-            seen += count;
-            *count > 0 && f64::from(seen) >= wanted
-        })?;
-        Some(bins[bin][bins[bin].len() / 2].0)
+        let (group, before) = first_at(&sums, 0, wanted)?;
+        let within = group * GROUP..bins.len().min((group + 1) * GROUP);
+        let (bin, _) = first_at(&total(drawn, &counts, within), before, wanted)?;
+        let bin = bins[group * GROUP + bin];
+        Some(bin[bin.len() / 2].0)
+    })
+}
+
+/// Sums of some columns over the rows `drawn`.
+fn total(drawn: &[usize], rows: &[Vec<u32>], columns: Range<usize>) -> Vec<u32> {
+    let mut sums = vec![0; columns.len()];
+    for row in drawn {
+        sums.iter_mut().zip(&rows[*row][columns.clone()]).for_each(|(sum, count)| *sum += count);
+    }
+    sums
+}
+
+/// The first of `counts` that is not empty and with which as many as `wanted` are seen, `before` having been seen
+/// before all of them; and how many were seen before it.
+fn first_at(counts: &[u32], before: u32, wanted: f64) -> Option<(usize, u32)> {
+    let mut seen = before;
+    counts.iter().enumerate().find_map(|(at, count)| {
+        let before = seen;
+        seen += count;
+        (*count > 0 && f64::from(seen) >= wanted).then_some((at, before))
     })
 }
 
