@@ -21,7 +21,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=Path)
     run = parser.parse_args().run
-    print(f"| face, light | as rendered: {FEW} / {MANY} | without noise: {FEW} (95 %) / {MANY} | held |\n|---|---|---|---|")
+    print(
+        f"| face, light | as rendered: {FEW} / {MANY} | without noise: {FEW} (95 %) / {MANY} | held |\n|---|---|---|---|"
+    )
     held = []
     for folder in sorted((run / "scores").glob(f"*-{FEW}")):
         few, many = (unshade.Scores.read(path / "label-means.json") for path in (folder, with_many(folder)))

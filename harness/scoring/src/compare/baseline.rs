@@ -132,7 +132,7 @@ impl Baseline {
         for case in &cases {
             for method in &case.methods {
                 let Some(scores) = &method.scores else { continue };
-                let scores = Scores::read(&run.join(scores))?;
+                let scores = Scores::of_run(run, Path::new(scores))?;
                 let Scores { face, light, .. } = scores.clone();
                 let captured =
                     Captured { face, light, capture: Some(scores.inputs.capture.clone()) };

@@ -79,6 +79,14 @@ pub enum ScoreError {
         /// The lights that there are.
         known: String,
     },
+    /// A run was interrupted, or goes on elsewhere.
+    #[error("{run}: is not finished, {file} is missing; the same `unshade run` goes on from there")]
+    Unfinished {
+        /// The run's folder.
+        run: PathBuf,
+        /// The scores file below it.
+        file: PathBuf,
+    },
     /// A text file is not what it should be.
     #[error("{path}: cannot be understood: {reason}")]
     Text {

@@ -143,6 +143,18 @@ impl Scores {
         Self::from_bytes(path, &bytes)
     }
 
+    /// Reads the scores file `file` of a run's folder, which may not be finished.
+    pub(crate) fn of_run(run: &Path, file: &Path) -> Result<Self, ScoreError> {
+        let path = run.join(file);
+        if !path.exists() {
+            return Err(ScoreError::Unfinished {
+                run: run.to_path_buf(),
+                file: file.to_path_buf(),
+            });
+        }
+        Self::read(&path)
+    }
+
     /// Reads a scores file in memory; `path` is for messages.
     pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, ScoreError> {
         let scores: Self =

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
@@ -97,7 +97,8 @@ pub fn observations(runs: &[PathBuf]) -> Result<Vec<Observation>, StudyError> {
                         method: method.id.clone(),
                     });
                 }
-                all.extend(of_scores(&run, case, method, &folder.join(scores))?);
+                let scores = Scores::of_run(folder, scores)?;
+                all.extend(of_scores(&run, case, method, scores));
             }
         }
     }
@@ -105,13 +106,7 @@ pub fn observations(runs: &[PathBuf]) -> Result<Vec<Observation>, StudyError> {
     if all.is_empty() { Err(StudyError::Empty(first())) } else { Ok(all) }
 }
 
-fn of_scores(
-    run: &Run,
-    case: &Case,
-    method: &Method,
-    path: &Path,
-) -> Result<Vec<Observation>, StudyError> {
-    let scores = Scores::read(path)?;
+fn of_scores(run: &Run, case: &Case, method: &Method, scores: Scores) -> Vec<Observation> {
     let skin_tone = scores.skin_tone;
     let of_row = |row| Observation {
         suite: run.suite.clone(),
@@ -127,7 +122,7 @@ fn of_scores(
         class: method.class.clone(),
         row,
     };
-    Ok(scores.rows.into_iter().map(of_row).collect())
+    scores.rows.into_iter().map(of_row).collect()
 }
 
 const COLUMNS: [&str; 22] = [
