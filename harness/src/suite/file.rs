@@ -7,7 +7,6 @@ use toml::{Table, Value};
 use super::cases::{self, Case};
 use super::method::{self, Method};
 use super::packaged::Kind;
-use super::perceptual::NETS;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 15] = [
@@ -24,6 +23,9 @@ pub const SCALES: [&str; 2] = ["none", "global"];
 
 /// Renderers that can relight maps: that of the truth, and a second judge.
 pub const RENDERERS: [&str; 2] = ["mitsuba", "cycles"];
+
+/// Networks that can judge pictures (LPIPS); the weights on their features are of version 0.1.
+pub const NETS: [&str; 2] = ["alex", "vgg"];
 
 /// A suite with its cases spelt out.
 #[derive(Clone, Debug)]

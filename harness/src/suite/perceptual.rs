@@ -11,9 +11,6 @@ use super::stages::words;
 use super::tools::Tools;
 use crate::synth::run_stage;
 
-/// Networks whose features can be compared; the weights on them are of version 0.1.
-pub const NETS: [&str; 2] = ["alex", "vgg"];
-
 /// Rows of the withheld views and relit pictures that [`score::score`] compares, by the network `net`.
 pub fn lpips(
     net: &str,
