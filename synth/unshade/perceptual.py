@@ -69,10 +69,11 @@ def _network(net: str):
         raise MetricError(f"there is no network {net!r} for LPIPS: {', '.join(NETS)}")
     try:
         import lpips
-    except ImportError as error:
+    except (ImportError, OSError) as error:
         raise MetricError(f"LPIPS is unavailable ({error}); pip install 'unshade[lpips]'") from None
     try:
-        with warnings.catch_warnings(action="ignore"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # torchvision's, of arguments that lpips gives it
             return lpips.LPIPS(net=net, version="0.1", verbose=False).eval()
     except (OSError, RuntimeError) as error:
         home = os.environ.get("TORCH_HOME", "~/.cache/torch")
