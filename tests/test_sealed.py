@@ -123,6 +123,15 @@ def test_a_changed_byte_breaks_the_signature(scored: Path, tmp_path: Path, name:
     assert refused.returncode == 1
 
 
+def test_what_scoring_a_round_would_leave_out_is_refused(place: Path, tmp_path: Path) -> None:
+    suite = tmp_path / "suite.toml"
+    suite.write_text((place / "suite.toml").read_text().replace("scales", 'lpips = "alex"\nscales'))
+    words = ["--seeds-from", place / "secret", "-o", tmp_path / "out"]
+    done = unshade("seal", suite, *words, check=False)
+    assert done.returncode == 2 and "suite.toml:5: lpips: a round is scored without" in done.stderr, done.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_another_key_or_secret_is_refused(place: Path, submission: Path, scored: Path, tmp_path: Path) -> None:
     done = unshade("verify", scored, "--key", "ab" * 32, check=False)
     assert done.returncode == 2 and "is signed by" in done.stderr

@@ -104,6 +104,10 @@ pub fn seal(
     tools: &Tools,
     observer: &mut dyn Observer,
 ) -> Result<Round, RunError> {
+    if suite.lpips.is_some() {
+        let reason = "a round is scored without the network; leave it out".to_owned();
+        return Err(SceneError::value(&suite.path, "lpips", reason).into());
+    }
     let mut suite = suite.clone();
     // A round has captures alone; methods are the business of those who take part.
     suite.methods.clear();
