@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -44,9 +45,7 @@ def _heading_lines(block: dict[str, Any], width: float) -> int:
 
 def _wrapped(text: str, width: float) -> str:
     """Lines of about the width of a panel."""
-    import textwrap
-
-    return "\n".join(textwrap.wrap(text, max(8, int(width * 17)))) or text
+    return textwrap.fill(text, max(8, int(width * 17)), break_long_words=False) or text
 
 
 def draw(part: SubFigure, blocks: list[dict[str, Any]], folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -70,22 +71,29 @@ def lines_height(block: Block) -> float:
 
 
 def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
-    """Curves with the interval of each point as a band."""
+    """Curves with the interval of each point as a band; one legend beside the plots, which have the same curves."""
     from matplotlib.ticker import FuncFormatter
 
-    for axes, block in zip(_axes(part, len(blocks), bottom=0.15), blocks):
-        for line, colour in zip(block["lines"], COLOURS * len(block["lines"])):
-            axes.plot(line["x"], line["y"], marker="o", markersize=2.5, linewidth=1.2, color=colour, label=line["name"])
+    plots = _axes(part, len(blocks), bottom=0.15)
+    for axes, block in zip(plots, blocks):
+        for at, line in enumerate(block["lines"]):
+            colour, style = COLOURS[at % len(COLOURS)], "-" if at < len(COLOURS) else "--"
+            axes.plot(
+                line["x"], line["y"], style, marker="o", markersize=2.5, linewidth=1.2, color=colour, label=line["name"]
+            )
             if all(line["interval"]) and line["interval"]:
                 low, high = np.array(line["interval"]).T
                 axes.fill_between(line["x"], low, high, color=colour, alpha=0.15, linewidth=0)
         if block["logarithmic"]:
             axes.set_xscale("log", base=2)
-            axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.3g}"))
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.2g}"))
         axes.axhline(1, color="0.6", linewidth=0.6, zorder=0)
         axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
         axes.set(xlabel=block["x_label"], ylabel=block["y_label"], title=block["title"])
-        axes.legend(frameon=False, loc="best")
+    part.subplots_adjust(right=0.77)
+    curves, names = plots[0].get_legend_handles_labels()
+    names = [textwrap.fill(name, 24) for name in names]
+    part.legend(curves, names, frameon=False, loc="center left", bbox_to_anchor=(0.785, 0.5), fontsize=6)
 
 
 def bars_height(block: Block) -> float:

@@ -1,14 +1,15 @@
 //! Detail transfer: how much of the albedo's detail a method recovers, by its size. A band of the brightness is the
 //! difference of two Gaussian blurs, one octave apart, within the scored texels of the skin. What of the truth's band
-//! is in the recovered one is the projection ⟨p, g⟩ / ⟨g, g⟩ (1: all of it, 0: nothing or something else); their
-//! amplitudes' ratio stands beside it in the CSV, which noise raises too.
+//! is in the recovered one is the projection ⟨p, g⟩ / ⟨g, g⟩ (1: all of it, 0: nothing or something else); how much
+//! of the recovered band is the truth's is their correlation, which shading left in a map lowers. Their amplitudes'
+//! ratio stands beside both in the CSV.
 
 mod bands;
 
 use formats::picture::{Content, GrayImage, Picture};
 use serde_json::json;
 
-use self::bands::{Band, bands};
+use self::bands::{Band, Bands};
 use super::drawing::{Block, Drawing, Line, Lines, PanelRow, Panels};
 use super::mesh_scale::texel_millimetres;
 use super::panels::brightness;
@@ -24,13 +25,13 @@ const RGB: &[&str] = &["R", "G", "B"];
 /// A crop's share of the map's side.
 const CROP: usize = 5;
 
-/// Recovered amplitude of one method in one band of one case.
+/// What one method recovers in one band of one case.
 struct Transfer {
     method: usize,
     face: String,
     band: usize,
     frequency: f64,
-    gain: f64,
+    ratio: Ratio,
 }
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
@@ -56,7 +57,8 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         let inside: Vec<bool> = mask.data.iter().map(|value| *value > 0).collect();
         let mesh = source.run.join(&source.case.capture).join("mesh.obj");
         let texel = texel_millimetres(&mesh, truth.width)?;
-        let exact = bands(&brightness(&truth), &inside, truth.width);
+        let bands = Bands::new(&inside, truth.width);
+        let exact = bands.of(&brightness(&truth));
         let mut shown = vec![("truth".to_owned(), truth.clone())];
         for column in source.columns.iter().filter(|column| sources.lists(column)) {
             let Some(path) = source.map(column, ALBEDO) else { continue };
@@ -69,7 +71,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                 methods.push((column.method.id.clone(), column.method.title().to_owned()));
                 methods.len() - 1
             });
-            let made = bands(&brightness(&map), &inside, truth.width);
+            let made = bands.of(&brightness(&map));
             for (band, (made, exact)) in made.iter().zip(&exact).enumerate() {
                 let Some(ratio) = compare(made, exact, &inside) else { continue };
                 let frequency = exact.cycles_per_texel() / texel;
@@ -83,8 +85,8 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     json!(ratio.amplitude),
                     json!(ratio.correlation),
                 ]);
-                let (face, gain) = (source.case.face.clone(), ratio.gain);
-                found.push(Transfer { method, face, band, frequency, gain });
+                let face = source.case.face.clone();
+                found.push(Transfer { method, face, band, frequency, ratio });
             }
             shown.push((column.method.title().to_owned(), map));
         }
@@ -95,19 +97,27 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     if found.is_empty() {
         return Err(sources.nothing("albedo map of a rendered face"));
     }
-    let lines =
-        methods.iter().enumerate().map(|(at, (_, title))| line(title, &found, at)).collect();
-    drawing.blocks.push(Block::Lines(Lines {
-        title: "Detail of the diffuse albedo within the skin".to_owned(),
-        x_label: "spatial frequency, cycles per mm".to_owned(),
-        y_label: "recovered amplitude".to_owned(),
-        logarithmic: true,
-        lines,
-    }));
+    type Quantity = fn(&Transfer) -> f64;
+    let plots: [(&str, Quantity); 2] = [
+        ("recovered amplitude", |transfer| transfer.ratio.gain),
+        ("correlation with the truth", |transfer| transfer.ratio.correlation),
+    ];
+    for (title, quantity) in plots {
+        let lines = methods.iter().enumerate();
+        let lines = lines.map(|(at, (_, title))| line(title, &found, at, quantity)).collect();
+        drawing.blocks.push(Block::Lines(Lines {
+            title: title.to_owned(),
+            x_label: "spatial frequency, cycles per mm".to_owned(),
+            y_label: String::new(),
+            logarithmic: true,
+            lines,
+        }));
+    }
     drawing.blocks.extend(crops.map(Block::Panels));
     drawing.caption = "Detail transfer: the share of the true albedo's detail within the skin that is in the recovered map, by its \
-                       spatial frequency (projection of octave bands of the brightness; 1 is all), mean over faces with \
-                       the 95 % interval of Student's t; below, the crop with the most detail, after one factor."
+                       spatial frequency (projection of octave bands of the brightness; 1 is all), and the correlation of \
+                       the two; means over faces with the 95 % interval of Student's t. Below, the crop with the most \
+                       detail, after one factor."
         .to_owned();
     Ok(())
 }
@@ -131,7 +141,7 @@ fn within_one_region(mut mask: GrayImage, labels: Option<&GrayImage>) -> GrayIma
 }
 
 /// The mean over faces in every band.
-fn line(title: &str, found: &[Transfer], method: usize) -> Line {
+fn line(title: &str, found: &[Transfer], method: usize, quantity: fn(&Transfer) -> f64) -> Line {
     let mut line = Line { name: title.to_owned(), x: vec![], y: vec![], interval: vec![] };
     let count = found.iter().map(|transfer| transfer.band + 1).max().unwrap_or(0);
     // From coarse to fine.
@@ -141,7 +151,7 @@ fn line(title: &str, found: &[Transfer], method: usize) -> Line {
             here().map(|transfer| (transfer.face.clone(), of(transfer))).collect()
         };
         if let (Some(x), Some(y)) =
-            (over_faces(&values(|t| t.frequency)), over_faces(&values(|t| t.gain)))
+            (over_faces(&values(|t| t.frequency)), over_faces(&values(quantity)))
         {
             line.x.push(x.value);
             line.y.push(y.value);

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 /// A separable Gaussian cut off at `radius`; the picture is mirrored at its border, edge pixel
 /// included (scipy's `reflect`).
-pub(crate) fn gaussian(
+pub fn gaussian(
     values: &[f64],
     width: usize,
     height: usize,

@@ -34,7 +34,7 @@ pub use colour::{ciede2000, lab, luminance, srgb, typology_angle};
 pub use compatible::Protocol;
 pub use correlation::block_side;
 pub use error::MetricError;
-pub(crate) use filter::gaussian;
+pub use filter::gaussian;
 pub use measured::measured;
 pub use pair::Pair;
 pub use quantity::{Quantity, RELATIVE_OFFSET};
