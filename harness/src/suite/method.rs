@@ -98,7 +98,7 @@ impl Method {
 struct MethodTable {
     name: String,
     title: Option<String>,
-    /// Preset or configuration file; without it the name is the preset.
+    /// Preset, configuration file or competitor; without it the name is the preset or the competitor.
     config: Option<String>,
     /// Single values that replace those of the configuration.
     #[serde(default)]
@@ -178,8 +178,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     table.check_keys(path)?;
     let program = table.program(path)?;
     let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == table.name);
-    // With a configuration, it is our solver under that name.
-    let competitor = Competitor::find(&table.name).filter(|_| table.config.is_none());
+    let competitor = table.competitor();
     let kind = match (program, table.name.as_str()) {
         (Some(program), _) => MethodKind::Program(program),
         (None, ORACLE) => MethodKind::Oracle,
@@ -214,6 +213,15 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
 }
 
 impl MethodTable {
+    /// The competitor that it is: of the configuration's name or, without one, of its own.
+    fn competitor(&self) -> Option<Competitor> {
+        let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == self.name);
+        let taken = baseline || [ORACLE, LABEL_MEANS].contains(&self.name.as_str());
+        let foreign = self.command.is_some() || self.python.is_some();
+        let named = Competitor::find(self.config.as_ref().unwrap_or(&self.name));
+        named.filter(|_| !taken && !foreign)
+    }
+
     /// The program of the table, if it names one.
     fn program(&self, path: &Path) -> Result<Option<Program>, SceneError> {
         let start = match (&self.command, &self.python) {
@@ -296,11 +304,11 @@ impl MethodTable {
         }
         let baseline = BaselineMethod::ALL.iter().any(|method| method.name() == name);
         let pictures = *gives == Some(Gives::Pictures);
-        let competitor = !foreign && config.is_none() && Competitor::find(name).is_some();
+        let competitor = self.competitor().is_some();
         let fields =
             !foreign && !baseline && !competitor && ![ORACLE, LABEL_MEANS].contains(&&**name);
         for (key, given, means) in [
-            ("config", config.is_some(), fields),
+            ("config", config.is_some(), fields || competitor),
             ("set", !set.is_empty(), fields || competitor),
             ("seeds", seeds.is_some(), fields),
             ("backend", backend.is_some(), fields),

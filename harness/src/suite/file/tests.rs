@@ -207,6 +207,11 @@ fn a_competitor_is_named_with_its_settings_and_has_a_class() {
     assert_eq!(settings, "{\"order\":3}");
     let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
     assert!(wrong.contains("set = { texture_size"), "{wrong}");
+    let renamed =
+        open("name = \"order-3\"\nconfig = \"sh-lambert\"\nset = { order = 3 }\n").unwrap();
+    assert_eq!(renamed.methods[0].kind, suite.methods[0].kind);
+    let wrong = open("name = \"oracle\"\nconfig = \"sh-lambert\"\n").unwrap_err().to_string();
+    assert!(wrong.contains("config"), "{wrong}");
     // Under a configuration, it is our solver's name for once.
     let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
     assert!(matches!(ours.methods[0].kind, MethodKind::Fields { .. }));
