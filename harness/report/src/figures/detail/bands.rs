@@ -74,7 +74,7 @@ mod tests {
 
     const SIDE: usize = 128;
 
-    /// As many half periods as are nearest, which the mirror at the border continues.
+    /// Whole half periods, which the mirror at the border continues.
     fn wave(half_periods: usize) -> Vec<f64> {
         let phase = |i: usize| PI * half_periods as f64 * ((i % SIDE) as f64 + 0.5) / SIDE as f64;
         (0..SIDE * SIDE).map(|i| phase(i).cos()).collect()
