@@ -18,7 +18,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#0
 """Okabe and Ito's, which the colour-blind tell apart."""
 
 LEVEL = 0.12
-"""Room for the name of a level, inches."""
+"""Room for the name of a level, and for a line of a title, inches."""
 
 Block = dict[str, Any]
 
@@ -98,7 +98,20 @@ def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
 
 def bars_height(block: Block) -> float:
     """Inches of a plot of bars: one line each."""
-    return 0.85 + 0.2 * max(len(block["bars"]), 3) + LEVEL * len(block["levels"])
+    return 0.49 + _title_height(block) + 0.2 * max(len(block["bars"]), 3) + LEVEL * len(block["levels"])
+
+
+def _title(block: Block) -> str:
+    """What the bars are; of differences, below it, what they are from."""
+    if block["steps"]:
+        return block["label"]
+    quantity, _, reference = block["title"].partition(" (")
+    unbroken = reference.replace(" ± ", "\u00a0±\u00a0")
+    return "\n".join([quantity, *textwrap.wrap(f"({unbroken}", 32)])
+
+
+def _title_height(block: Block) -> float:
+    return 0.12 + LEVEL * max(2, 1 + _title(block).count("\n"))
 
 
 def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
@@ -139,7 +152,7 @@ def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
         else:
             axes.margins(x=0.25)
             axes.axvline(0, color="black", linewidth=0.6)
-        axes.set_title(block["label"] if block["steps"] else block["title"].replace(" (", "\n("))
+        axes.set_title(_title(block))
         if not block["steps"]:
             axes.set(xlabel=block["label"])
 
@@ -148,5 +161,6 @@ def _axes_of_bars(part: SubFigure, blocks: list[Block], height: float) -> list[A
     """Names at the left of the first alone, so with room for them; levels are named below."""
     found = _axes(part, len(blocks))
     below = 0.36 + LEVEL * max(len(block["levels"]) for block in blocks)
-    part.subplots_adjust(left=0.2, right=0.98, top=1 - 0.36 / height, bottom=below / height, wspace=0.12)
+    top = max(map(_title_height, blocks))
+    part.subplots_adjust(left=0.2, right=0.98, top=1 - top / height, bottom=below / height, wspace=0.12)
     return found
