@@ -14,6 +14,7 @@ from PIL import Image
 
 from unshade.errors import ReportError
 from unshade.figures.draw import draw
+from unshade.figures.plots import scale_heats
 
 TEAL, ORANGE = (10, 140, 130), (240, 120, 20)
 
@@ -101,3 +102,13 @@ def test_what_cannot_be_drawn_is_said_in_one_line(tmp_path: Path, monkeypatch: p
     with pytest.raises(ReportError, match=r"pip install 'unshade\[figures\]'"):
         draw(folder)
     assert not (folder / "figure.png").exists()
+
+
+def test_equal_quantities_have_one_colour_scale() -> None:
+    maps = [
+        {"label": "a", "values": [[1.0, None]]},
+        {"label": "b", "values": [[7.0]]},
+        {"label": "a", "values": [[3.0]]},
+    ]
+    scale_heats(maps)
+    assert [map_["range"] for map_ in maps] == [(1.0, 3.0), (7.0, 7.0), (1.0, 3.0)]

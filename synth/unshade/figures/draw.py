@@ -53,6 +53,7 @@ def draw(folder: Path) -> list[Path]:
         raise ReportError(
             f"{folder / 'figure.json'}: blocks {sorted(unknown)} are not known; use one version of unshade"
         )
+    plots.scale_heats([block for kind, blocks in groups if kind == "heat" for block in blocks])
     settings = {"font.size": FONT, "axes.titlesize": FONT + 1, "pdf.fonttype": 42, "axes.spines.top": False}
     with matplotlib.rc_context({**settings, "axes.spines.right": False}):
         heights = [height_of(kinds[kind][0], blocks) for kind, blocks in groups]

@@ -42,16 +42,18 @@ def heat_height(block: Block) -> float:
     return 1.9
 
 
+def scale_heats(blocks: list[Block]) -> None:
+    """Gives every map its ``range``: equal quantities have one colour scale in the whole figure."""
+    for block in blocks:
+        equal = (other["values"] for other in blocks if other["label"] == block["label"])
+        values = [value for map_ in equal for row in map_ for value in row if value is not None]
+        block["range"] = (min(values, default=0.0), max(values, default=1.0))
+
+
 def heats(part: SubFigure, blocks: list[Block], folder: Path) -> None:
-    """Maps of values, equal quantities on one scale, every cell with its number."""
-    ranges: dict[str, tuple[float, float]] = {}
-    for label in {block["label"] for block in blocks}:
-        values = [
-            v for block in blocks if block["label"] == label for row in block["values"] for v in row if v is not None
-        ]
-        ranges[label] = (min(values, default=0.0), max(values, default=1.0))
+    """Maps of values, every cell with its number."""
     for axes, block in zip(_axes(part, len(blocks), between=0.75), blocks):
-        low, high = ranges[block["label"]]
+        low, high = block["range"]
         values = np.array([[np.nan if v is None else v for v in row] for row in block["values"]], dtype=float)
         shown = axes.imshow(values, origin="lower", cmap="viridis", vmin=low, vmax=high, aspect="auto")
         for (row, column), value in np.ndenumerate(values):

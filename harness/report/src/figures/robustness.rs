@@ -81,8 +81,9 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     skins.dedup();
     for (method, title) in &titles {
         for (at, quantity) in QUANTITIES.into_iter().enumerate() {
-            for skin in &skins {
-                for rough in &roughness {
+            // Types of skin beside each other.
+            for rough in &roughness {
+                for skin in &skins {
                     let cell = |exposure: f64, specular: f64| {
                         let here = found.iter().filter(|found| {
                             let place = &found.place;
