@@ -52,6 +52,8 @@ def scale_heats(blocks: list[Block]) -> None:
 
 def heats(part: SubFigure, blocks: list[Block], folder: Path) -> None:
     """Maps of values, every cell with its number."""
+    from matplotlib.ticker import MaxNLocator
+
     for axes, block in zip(_axes(part, len(blocks), between=0.75), blocks):
         low, high = block["range"]
         values = np.array([[np.nan if v is None else v for v in row] for row in block["values"]], dtype=float)
@@ -64,7 +66,7 @@ def heats(part: SubFigure, blocks: list[Block], folder: Path) -> None:
         axes.set_yticks(range(len(block["y"])), [f"{y:g}" for y in block["y"]])
         axes.set(xlabel=block["x_label"], ylabel=block["y_label"], title=block["title"])
         axes.spines[:].set_visible(False)
-        axes.figure.colorbar(shown, ax=axes, fraction=0.05, pad=0.03)
+        axes.figure.colorbar(shown, ax=axes, fraction=0.05, pad=0.03, ticks=MaxNLocator(5, integer=True))
 
 
 def lines_height(block: Block) -> float:
