@@ -17,8 +17,8 @@ COLUMNS = 3
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 """Okabe and Ito's, which the colour-blind tell apart."""
 
-LEVEL = 0.12
-"""Room for the name of a level, and for a line of a title, inches."""
+LINE = 0.12
+"""Room for a line of text, inches: the name of a level, or one of a title."""
 
 Block = dict[str, Any]
 
@@ -102,7 +102,7 @@ def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
 
 def bars_height(block: Block) -> float:
     """Inches of a plot of bars: one line each."""
-    return 0.49 + _title_height(block) + 0.2 * max(len(block["bars"]), 3) + LEVEL * len(block["levels"])
+    return 0.49 + _title_height(block) + 0.2 * max(len(block["bars"]), 3) + LINE * len(block["levels"])
 
 
 def _title(block: Block) -> str:
@@ -115,7 +115,7 @@ def _title(block: Block) -> str:
 
 
 def _title_height(block: Block) -> float:
-    return 0.12 + LEVEL * max(2, 1 + _title(block).count("\n"))
+    return 0.12 + LINE * max(2, 1 + _title(block).count("\n"))
 
 
 def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
@@ -147,7 +147,7 @@ def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
         for (name, value), style in zip(block["levels"], ("--", ":", "-.") * len(block["levels"])):
             axes.axvline(value, color="0.3", linewidth=0.8, linestyle=style, label=name)
         if block["levels"]:
-            below = -0.28 / (height - 0.72 - LEVEL * len(block["levels"]))
+            below = -0.28 / (height - 0.72 - LINE * len(block["levels"]))
             axes.legend(frameon=False, loc="upper left", bbox_to_anchor=(0, below), fontsize=6, borderaxespad=0)
         axes.set_yticks(range(len(names)), names if first % COLUMNS == 0 else [])
         axes.invert_yaxis()
@@ -164,7 +164,7 @@ def bars(part: SubFigure, blocks: list[Block], folder: Path) -> None:
 def _axes_of_bars(part: SubFigure, blocks: list[Block], height: float) -> list[Axes]:
     """Names at the left of the first alone, so with room for them; levels are named below."""
     found = _axes(part, len(blocks))
-    below = 0.36 + LEVEL * max(len(block["levels"]) for block in blocks)
+    below = 0.36 + LINE * max(len(block["levels"]) for block in blocks)
     top = max(map(_title_height, blocks))
     part.subplots_adjust(left=0.2, right=0.98, top=1 - top / height, bottom=below / height, wspace=0.12)
     return found
