@@ -55,12 +55,13 @@ cycles: .venv-cycles/complete
 validators:
 	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
-# Twelve faces: five hours on two cores, resumed where it stopped; needs Debian's blender-data for one of the lights.
+# Twelve faces: eight hours on two cores, resumed where it stopped; needs Debian's blender-data for one of the lights.
 results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
+	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights
 	$(BIN)/unshade run scenes/suites/mismatch.toml -o runs/mismatch
-	$(BIN)/unshade study runs/held-out -o runs/study
-	$(BIN)/unshade table runs/held-out runs/mismatch -o docs/results.md
+	$(BIN)/unshade study runs/held-out runs/held-out-lights -o runs/study
+	$(BIN)/unshade table runs/held-out runs/held-out-lights runs/mismatch -o docs/results.md
 
 test: build
 	cargo test --release --workspace --quiet
