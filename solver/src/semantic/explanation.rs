@@ -108,6 +108,15 @@ impl<'a> Explanation<'a> {
         (explained, ratio)
     }
 
+    /// As [`Self::with_part`], if that leaves at most so much of the residuals: of all skin's, and of the part's. A
+    /// light of all unknowns explains what light makes as it is, of whatever colour.
+    pub fn bears_out(&self, inside: &[bool], most_left: [f32; 2]) -> Option<(Explained, Vec3)> {
+        let (after, ratio) = self.with_part(inside);
+        let left = |of: &[bool]| sum(&after.residuals, of) / sum(&self.before.residuals, of);
+        let borne_out = left(&self.is_skin) < most_left[0] && left(inside) < most_left[1];
+        borne_out.then_some((after, ratio))
+    }
+
     /// The albedo of one skin under a light of few unknowns: the lamp's, or lobes so wide, radians.
     pub fn smooth_albedo(&self, lobe_width: f32) -> Vec<Vec3> {
         match &self.lamps {

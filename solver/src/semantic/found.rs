@@ -71,7 +71,7 @@ impl FoundRegions {
         let by_colour = self.colours.is_none() && config.colour_regions.count > 0;
         // Under a lamp, no sky of cells explains the face, and shadows would be colours.
         if by_colour && explanation.lamps().is_none() {
-            let other = other_colours(chart, config, &labels, &self.skin);
+            let other = other_colours(&explanation, chart, config, &labels, &self.skin);
             for (part, label) in other.into_iter().zip(&mut free) {
                 part.name(&mut labels, chart.side, &self.skin, label);
                 self.parts.push((part, label));

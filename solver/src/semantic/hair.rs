@@ -23,7 +23,6 @@ pub(super) fn hair_in_skin(
     config: &HairInSkinConfig,
 ) -> Option<PartOfSkin> {
     let Explanation { is_skin, .. } = explanation;
-    let before = &explanation.before.residuals;
     let count = is_skin.iter().filter(|skin| **skin).count();
     let albedo = explanation.smooth_albedo(config.lobe_width);
     let darkness = darkness(chart, config, &albedo, is_skin, is_skin)?;
@@ -31,13 +30,12 @@ pub(super) fn hair_in_skin(
     for depth in config.depths {
         let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
         for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
-            let (after, ratio) = explanation.with_part(&inside);
-            let left = |of: &[bool]| sum(&after.residuals, of) / sum(before, of);
-            let is_hair = left(is_skin) < config.most_left[0]
-                && left(&inside) < config.most_left[1]
-                && ratio.z > config.least_blue * ratio.x;
-            if is_hair && sum(&after.residuals, is_skin) < best.0 {
-                best = (sum(&after.residuals, is_skin), Some(inside));
+            let Some((after, ratio)) = explanation.bears_out(&inside, config.most_left) else {
+                continue;
+            };
+            let left = sum(&after.residuals, is_skin);
+            if ratio.z > config.least_blue * ratio.x && left < best.0 {
+                best = (left, Some(inside));
             }
         }
     }

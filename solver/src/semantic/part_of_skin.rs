@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::chart::{Chart, largest, means};
 use super::colours::by_cells;
+use super::explanation::Explanation;
 use super::parts::parts;
 use crate::Config;
 
@@ -33,7 +34,9 @@ impl PartOfSkin {
 }
 
 /// The parts of the `skin` of the chart's `labels` that are of another colour than most of it, one for each colour.
+/// Under lights of several colours skin has several, too; but those the light explains as they are.
 pub(super) fn other_colours(
+    explanation: &Explanation,
     chart: &Chart,
     config: &Config,
     labels: &[u8],
@@ -51,6 +54,7 @@ pub(super) fn other_colours(
             return None;
         }
         let inside: Vec<bool> = (0..of.len()).map(|at| large.iter().any(|part| part[at])).collect();
+        explanation.bears_out(&inside, config.hair_in_skin.most_left)?;
         // By what is called skin alone: what has a label of its own may be of another colour still.
         let kind = |at: usize| match (inside[at], is_skin[at] && regions[at] == most) {
             (true, _) => 2,
@@ -83,4 +87,50 @@ pub(super) fn large_parts(
     part.iter().zip(&map).filter(|(_, of)| **of == Some(1)).for_each(|(part, _)| sizes[*part] += 1);
     let large = (0..sizes.len()).filter(|part| sizes[*part] > 0 && sizes[*part] as f32 >= least);
     large.map(|large| chart.seen.iter().map(|at| part[*at] == large).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use capture::View;
+    use capture::gbuffer::GBuffer;
+    use capture::projection::Projection;
+
+    use super::*;
+    use crate::testing;
+
+    const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
+
+    /// The parts of a dome that is all called skin, of such a `colour`; `asked`: if the light does not explain them.
+    fn found(colour: impl Fn(Vec3) -> Vec3, asked: bool) -> Vec<PartOfSkin> {
+        let mesh = testing::dome(24);
+        let pictured = |p: Vec3| (colour(p), 1);
+        let views: Vec<View> =
+            testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, pictured)).collect();
+        let projections = Projection::of_views(&views, &GBuffer::of_views(&mesh, &views));
+        let mut config = Config::default();
+        if !asked {
+            config.hair_in_skin.most_left = [f32::INFINITY; 2];
+        }
+        let chart = Chart::new(&mesh, &projections, &config.transport, &config.colour_regions);
+        let labels = vec![1; chart.side * chart.side];
+        let explanation = Explanation::new(&mesh, &chart, &config, &labels, &[1]).unwrap();
+        other_colours(&explanation, &chart, &config, &labels, &[1])
+    }
+
+    #[test]
+    fn a_patch_of_another_colour_is_a_part() {
+        let hair = |p: Vec3| (p.x - 0.3).hypot(p.y) < 0.25;
+        let share = |p: Vec3| if hair(p) { Vec3::new(0.3, 0.35, 0.45) } else { Vec3::ONE };
+        let parts = found(|p| share(p) * SKIN * (0.625 + 0.375 * p.y), true);
+        assert_eq!(parts.len(), 1);
+        assert!((parts[0].ratio - share(Vec3::X * 0.3)).abs().max_element() < 0.08);
+    }
+
+    #[test]
+    fn what_lights_of_two_colours_make_of_skin_is_none() {
+        let [warm, cool] = [Vec3::new(1.0, 0.42, 0.16), Vec3::new(0.22, 0.48, 1.0)];
+        let lit = |p: Vec3| SKIN * (warm * p.x.max(0.0) + cool * (-p.x).max(0.0) + 0.02);
+        assert!(!found(lit, false).is_empty(), "their edge would be one of colours");
+        assert!(found(lit, true).is_empty());
+    }
 }
