@@ -55,7 +55,7 @@ cycles: .venv-cycles/complete
 validators:
 	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
-# Twelve faces: eight hours on two cores, resumed where it stopped; needs Debian's blender-data for one of the lights.
+# Twelve faces: seven hours on two cores, resumed where it stopped; needs Debian's blender-data for one of the lights.
 results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
 	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights

@@ -34,7 +34,7 @@ impl PartOfSkin {
 }
 
 /// The parts of the `skin` of the chart's `labels` that are of another colour than most of it, one for each colour.
-/// Under lights of several colours skin has several, too; but those the light explains as they are.
+/// Lights of several colours give skin several, too: a part counts only if the light does not explain it.
 pub(super) fn other_colours(
     explanation: &Explanation,
     chart: &Chart,
