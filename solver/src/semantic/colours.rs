@@ -12,7 +12,7 @@ use glam::Vec3;
 use super::cell_light::CellLight;
 use super::chart::{Chart, dark, largest, log, luminance, means};
 use super::clusters::{clusters, lloyd};
-use super::explanation::Explanation;
+use super::explanation::{Explanation, residuals};
 use super::lamps::Lamps;
 use super::merging::merged;
 use crate::Config;
@@ -31,12 +31,15 @@ pub struct ColourRegions {
 
 impl ColourRegions {
     /// Under a light of cells, or of one lamp where that leaves less. `None` if the pictures are mostly black.
+    ///
+    /// The cells' light and regions are found in turn, from two starts: the pictures' colours, and what a light of all
+    /// cells leaves of one reflectance, since between lamps of two colours skin's own colours are two as well.
     pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Config) -> Option<Self> {
         let whole = vec![1; chart.side * chart.side];
         let one = Explanation::new(mesh, chart, config, &whole, &[1])?;
         let under = match one.lamps() {
             Some((lamps, lit)) => Under::lamp(mesh, chart, config, lamps, lit)?,
-            None => Under::cells(chart, &config.colour_regions)?,
+            None => Under::cells(chart, &config.colour_regions, &one.before.albedo)?,
         };
         Some(Self {
             side: chart.side,
@@ -64,11 +67,15 @@ impl ColourRegions {
     }
 }
 
-/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading.
-pub(super) fn by_cells(chart: &Chart, config: &ColourRegionConfig) -> Option<(Vec<u8>, Vec<Vec3>)> {
+/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading;
+/// found from a first `albedo`.
+pub(super) fn by_cells(
+    chart: &Chart,
+    config: &ColourRegionConfig,
+    mut albedo: Vec<Vec3>,
+) -> Option<(Vec<u8>, Vec<Vec3>)> {
     let ColourRegionConfig { count, luminance_weights, .. } = *config;
     let mut light = CellLight::new(chart, config);
-    let mut albedo = chart.colours.clone();
     let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
     for _ in 0..config.rounds {
         albedo = light.albedo(&regions);
@@ -88,10 +95,16 @@ struct Under {
 }
 
 impl Under {
-    fn cells(chart: &Chart, config: &ColourRegionConfig) -> Option<Self> {
-        let (regions, albedo) = by_cells(chart, config)?;
-        let means = means(&albedo, &regions, config.dark);
-        Some(Self { known: vec![true; regions.len()], regions, means })
+    /// From the start that leaves less: the pictures' colours, or those of `one` reflectance.
+    fn cells(chart: &Chart, config: &ColourRegionConfig, one: &[Vec3]) -> Option<Self> {
+        let from = |start: &[Vec3]| {
+            let (regions, albedo) = by_cells(chart, config, start.to_vec())?;
+            let means = means(&albedo, &regions, config.dark);
+            let left: f32 = residuals(&albedo, &means, &regions).iter().sum();
+            Some((left, Self { known: vec![true; regions.len()], regions, means }))
+        };
+        let found = [from(&chart.colours), from(one)].into_iter().flatten();
+        Some(found.min_by(|a, b| a.0.total_cmp(&b.0))?.1)
     }
 
     /// First the lamp explains all that it shines on, then its largest region alone. What it does not shine on has
@@ -163,12 +176,12 @@ mod tests {
 
     /// A dome in light from one side, four times as bright there as on the other.
     fn found(albedo: impl Fn(Vec3) -> Vec3) -> Option<ColourRegions> {
-        found_in(albedo, |p| 0.625 + 0.375 * p.y)
+        found_in(albedo, |p| Vec3::splat(0.625 + 0.375 * p.y))
     }
 
     fn found_in(
         albedo: impl Fn(Vec3) -> Vec3,
-        shading: impl Fn(Vec3) -> f32,
+        shading: impl Fn(Vec3) -> Vec3,
     ) -> Option<ColourRegions> {
         let mesh = testing::dome(24);
         let colour = |p: Vec3| (albedo(p) * shading(p), 0);
@@ -217,7 +230,8 @@ mod tests {
 
     #[test]
     fn the_dark_side_under_a_lamp_is_no_region() {
-        let found = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lamp).unwrap();
+        let lit = |p: Vec3| Vec3::splat(lamp(p));
+        let found = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lit).unwrap();
         let regions = found.map(64);
         let at = |x: usize, y: usize| regions[64 * y + x];
         // The chart's rows go down; its centre is the dome's top.
@@ -229,6 +243,19 @@ mod tests {
         let hair = if at(38, 18) == lit { at(38, 46) } else { at(38, 18) };
         let ratio = colour(hair) / colour(lit) / (HAIR / SKIN);
         assert!((ratio - 1.0).abs().max_element() < 0.3, "{ratio}");
+    }
+
+    #[test]
+    fn lamps_of_two_colours_make_no_regions_and_hide_no_hair() {
+        let [warm, cool] = [Vec3::new(1.0, 0.42, 0.16), Vec3::new(0.22, 0.48, 1.0)];
+        let lit = |p: Vec3| warm * p.x.max(0.0) + cool * (-p.x).max(0.0) + 0.02;
+        let regions = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lit).unwrap().map(64);
+        let at = |x: usize, y: usize| regions[64 * y + x];
+        // The chart's rows go down; its centre is the dome's top. Warm at the right, cool at the left.
+        let is_skin = at(42, 32);
+        assert_eq!(at(22, 32), is_skin);
+        let hair = if at(38, 14) == is_skin { 50 } else { 14 };
+        assert!([26, 38].iter().all(|x| at(*x, hair) != is_skin && at(*x, 64 - hair) == is_skin));
     }
 
     #[test]

@@ -143,7 +143,7 @@ pub(super) fn sum(residuals: &[f32], of: &[bool]) -> f32 {
 }
 
 /// How far every texel is from the mean of its region: the mean relative difference of its channels, at most 1.
-fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
+pub(super) fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
     let residual = |(albedo, label): (&Vec3, &u8)| {
         ((*albedo / means[usize::from(*label)] - 1.0).abs().element_sum() / 3.0).min(1.0)
     };

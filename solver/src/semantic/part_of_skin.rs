@@ -42,7 +42,10 @@ pub(super) fn other_colours(
     labels: &[u8],
     skin: &[u8],
 ) -> Vec<PartOfSkin> {
-    let Some((regions, albedo)) = by_cells(chart, &config.colour_regions) else { return vec![] };
+    let start = chart.colours.clone();
+    let Some((regions, albedo)) = by_cells(chart, &config.colour_regions, start) else {
+        return vec![];
+    };
     let is_skin: Vec<bool> = chart.seen.iter().map(|at| skin.contains(&labels[*at])).collect();
     let in_skin = regions.iter().zip(&is_skin).filter(|(_, skin)| **skin);
     let of_skin: Vec<u8> = in_skin.map(|(region, _)| *region).collect();
