@@ -45,6 +45,7 @@ HEAT = {
 }  # fmt: skip
 LINES = {
     "kind": "lines", "title": "detail", "x_label": "cycles", "y_label": "gain", "logarithmic": True,
+    "across": [0.0, 1.0],
     "lines": [
         {"name": "a", "x": [0.1, 0.2], "y": [1.0, 0.5], "interval": [[0.9, 1.1], [0.4, 0.6]]},
         {"name": "b", "x": [0.1, 0.2], "y": [0.8, 0.1], "interval": [None, None]},

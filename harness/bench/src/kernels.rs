@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use capture::Mesh;
+use capture::rays::Occluder;
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 use solver::backend::Backend;
@@ -12,7 +13,7 @@ use solver::model::normals::DirectionScale;
 use solver::model::prior::prior;
 use solver::model::pyramid::Pyramid;
 use solver::optimise::adam::Adam;
-use solver::transport::{Beside, Occluder, Sky, Transport};
+use solver::transport::{Beside, Sky, Transport};
 
 use super::clock::best;
 use super::cost::Cost;

@@ -240,6 +240,24 @@ fn the_noise_floor_is_what_two_noisy_renders_score() {
 }
 
 #[test]
+fn the_energy_of_highlights_is_scored_only_where_the_truth_has_several() {
+    let bench = Bench::new(1e-5);
+    let maps = bench.albedo_maps(SIDE, albedo);
+    for frame in 3..5 {
+        write_render(&maps.join(format!("views/00{frame}.exr")), frame, 0.0, &mut || 0.0, 1.0);
+    }
+    let energy = "view_specular_layer/energy_ratio@mask-e5:none";
+    assert!(score(&bench.capture(), &maps, None).unwrap().row(energy).is_some());
+    let one = map(SIDE, 1, |_, _| [0.028; 3]);
+    write_exr(&bench.capture().join("truth/specular_albedo.exr"), &one, &["Y"]).unwrap();
+    let scores = score(&bench.capture(), &maps, None).unwrap();
+    assert!(scores.row(energy).is_none());
+    for row in ["view_specular_layer/pearson", "view_diffuse_layer/energy_ratio"] {
+        assert!(scores.row(&format!("{row}@mask-e5:none")).is_some(), "{row}");
+    }
+}
+
+#[test]
 fn what_a_solver_did_not_write_has_no_rows_and_what_is_broken_is_named() {
     let bench = Bench::new(1e-5);
     let maps = bench.albedo_maps(SIDE, albedo);

@@ -11,6 +11,7 @@ use std::fs;
 use bench::{Bench, value, write_lights};
 use plane::{SIDE, albedo};
 use scoring::score::score;
+use scoring::study::{Study, observations};
 
 #[test]
 fn a_light_is_scored_by_its_directions_after_one_factor() {
@@ -36,4 +37,24 @@ fn a_light_is_scored_by_its_directions_after_one_factor() {
     let diffuse = value(&scores, "light_diffuse_sphere/psnr_srgb@sphere:global");
     let mirror = value(&scores, "light_mirror_sphere/psnr_srgb@sphere:global");
     assert!(diffuse > 35.0 && mirror > 35.0, "{diffuse} {mirror}");
+}
+
+#[test]
+fn a_study_shows_the_light_that_was_found() {
+    let bench = Bench::new(1e-5);
+    let (maps, run) = (bench.albedo_maps(SIDE, albedo), bench.root.path().join("run"));
+    write_lights(&bench.capture(), &maps);
+    fs::create_dir(&run).unwrap();
+    score(&bench.capture(), &maps, None).unwrap().write(&run.join("scores.json")).unwrap();
+    let method = serde_json::json!({"id": "own", "kind": "solver", "scores": "scores.json"});
+    let case = serde_json::json!({
+        "id": "flat-own", "face": "flat", "light": "own", "variant": null, "seed": null,
+        "capture": "capture", "solvers": [method],
+    });
+    let file = serde_json::json!({"format": 1, "suite": "one", "cases": [case]});
+    fs::write(run.join("run.json"), file.to_string()).unwrap();
+    let page = Study::of(&observations(&[run]).unwrap()).markdown("unshade study");
+    for figure in ["light_peaks/direction_mean_deg@whole:none", "light/log_rmse@whole:global"] {
+        assert!(page.contains(figure), "{figure}\n{page}");
+    }
 }

@@ -45,6 +45,8 @@ enum KindName {
     Waterfall,
     /// How much of the albedo's detail is recovered, by its size.
     Detail,
+    /// The error against what the capture could determine, and where a method is wrong and sure.
+    Observability,
 }
 
 impl KindName {
@@ -58,6 +60,7 @@ impl KindName {
             Self::Robustness => FigureKind::Robustness,
             Self::Waterfall => FigureKind::Waterfall,
             Self::Detail => FigureKind::Detail,
+            Self::Observability => FigureKind::Observability,
         }
     }
 }

@@ -14,6 +14,7 @@ mod orientation;
 pub mod outward;
 mod paths;
 pub mod projection;
+pub mod rays;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub struct ColourRegionConfig {
     /// Standard deviation of the blur that keeps noise out, texels.
     pub blur: f32,
     /// Weight of a difference in log luminance against one in the log ratios of the colours, which white light
-    /// leaves alone: before the light is known, and after.
+    /// leaves alone: for the first clusters under cells, and for all others.
     pub luminance_weights: [f32; 2],
     /// Radiance below which ratios are noise, relative to the median luminance.
     pub dark: f32,
@@ -25,7 +25,8 @@ pub struct ColourRegionConfig {
     pub rounds: usize,
     /// Weighted least squares of the light in each, and after each joining of two parts.
     pub reweightings: usize,
-    /// Multiplicative updates of the light under which hair is sought inside of skin, and which a lamp has to beat.
+    /// Multiplicative updates of the light under which hair is sought inside of skin, which a lamp has to beat, and whose
+    /// shading regions by colour start from, too.
     pub light_steps: usize,
     /// Residuals of the shading below this count squared.
     pub residual_floor: f32,

@@ -32,8 +32,8 @@ pub struct ColourRegions {
 impl ColourRegions {
     /// Under a light of cells, or of one lamp where that leaves less. `None` if the pictures are mostly black.
     ///
-    /// The cells' light and regions are found in turn, from two starts: the pictures' colours, and what a light of all
-    /// cells leaves of one reflectance, since between lamps of two colours skin's own colours are two as well.
+    /// The cells' light and regions are found in turn, from two starts: the pictures' colours, and these divided by the
+    /// shading of all cells on one reflectance, since between lamps of two colours skin in the pictures has two as well.
     pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Config) -> Option<Self> {
         let whole = vec![1; chart.side * chart.side];
         let one = Explanation::new(mesh, chart, config, &whole, &[1])?;
@@ -67,16 +67,17 @@ impl ColourRegions {
     }
 }
 
-/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading;
-/// found from a first `albedo`.
+/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading.
+/// The first regions are clusters of `start`, linear RGB in any unit.
 pub(super) fn by_cells(
     chart: &Chart,
     config: &ColourRegionConfig,
-    mut albedo: Vec<Vec3>,
+    start: &[Vec3],
 ) -> Option<(Vec<u8>, Vec<Vec3>)> {
     let ColourRegionConfig { count, luminance_weights, .. } = *config;
     let mut light = CellLight::new(chart, config);
-    let mut regions = clusters(&features(&albedo, luminance_weights[0], config.dark)?, count);
+    let mut albedo = start.to_vec();
+    let mut regions = clusters(&features(start, luminance_weights[0], config.dark)?, count);
     for _ in 0..config.rounds {
         albedo = light.albedo(&regions);
         regions = lloyd(&features(&albedo, luminance_weights[1], config.dark)?, regions, count);
@@ -95,15 +96,15 @@ struct Under {
 }
 
 impl Under {
-    /// From the start that leaves less: the pictures' colours, or those of `one` reflectance.
-    fn cells(chart: &Chart, config: &ColourRegionConfig, one: &[Vec3]) -> Option<Self> {
+    /// From the start that leaves the smaller sum of [`residuals`]: the pictures' colours, or these under one reflectance.
+    fn cells(chart: &Chart, config: &ColourRegionConfig, under_one: &[Vec3]) -> Option<Self> {
         let from = |start: &[Vec3]| {
-            let (regions, albedo) = by_cells(chart, config, start.to_vec())?;
+            let (regions, albedo) = by_cells(chart, config, start)?;
             let means = means(&albedo, &regions, config.dark);
             let left: f32 = residuals(&albedo, &means, &regions).iter().sum();
             Some((left, Self { known: vec![true; regions.len()], regions, means }))
         };
-        let found = [from(&chart.colours), from(one)].into_iter().flatten();
+        let found = [from(&chart.colours), from(under_one)].into_iter().flatten();
         Some(found.min_by(|a, b| a.0.total_cmp(&b.0))?.1)
     }
 
@@ -252,10 +253,11 @@ mod tests {
         let regions = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lit).unwrap().map(64);
         let at = |x: usize, y: usize| regions[64 * y + x];
         // The chart's rows go down; its centre is the dome's top. Warm at the right, cool at the left.
-        let is_skin = at(42, 32);
-        assert_eq!(at(22, 32), is_skin);
-        let hair = if at(38, 14) == is_skin { 50 } else { 14 };
-        assert!([26, 38].iter().all(|x| at(*x, hair) != is_skin && at(*x, 64 - hair) == is_skin));
+        let skin = at(42, 32);
+        assert_eq!(at(22, 32), skin);
+        let row_of_hair = if at(38, 14) == skin { 50 } else { 14 };
+        let parted = |x: &usize| at(*x, row_of_hair) != skin && at(*x, 64 - row_of_hair) == skin;
+        assert!([26, 38].iter().all(parted));
     }
 
     #[test]

@@ -3,12 +3,13 @@
 
 use capture::Mesh;
 use capture::gbuffer::Atlas;
+use capture::rays::Occluder;
 use glam::Vec3;
 use rayon::prelude::*;
 
 use super::chart::{Chart, luminance};
 use crate::config::{HairInSkinConfig, TransportConfig};
-use crate::transport::{Occluder, Sky};
+use crate::transport::Sky;
 
 /// Directions that are tried first: rows of an even sky.
 const ROWS: usize = 8;

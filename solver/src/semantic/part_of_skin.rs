@@ -42,8 +42,8 @@ pub(super) fn other_colours(
     labels: &[u8],
     skin: &[u8],
 ) -> Vec<PartOfSkin> {
-    let start = chart.colours.clone();
-    let Some((regions, albedo)) = by_cells(chart, &config.colour_regions, start) else {
+    // From the pictures' colours alone: what a light of all colours explains is asked of every part below.
+    let Some((regions, albedo)) = by_cells(chart, &config.colour_regions, &chart.colours) else {
         return vec![];
     };
     let is_skin: Vec<bool> = chart.seen.iter().map(|at| skin.contains(&labels[*at])).collect();

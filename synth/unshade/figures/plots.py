@@ -91,8 +91,8 @@ def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
         if block["logarithmic"]:
             axes.set_xscale("log", base=2)
             axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.2g}"))
-        axes.axhline(1, color="0.6", linewidth=0.6, zorder=0)
-        axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
+        for value in block["across"]:
+            axes.axhline(value, color="0.6", linewidth=0.6, zorder=0)
         axes.set(xlabel=block["x_label"], ylabel=block["y_label"], title=block["title"])
     part.subplots_adjust(right=0.77)
     curves, names = plots[0].get_legend_handles_labels()

@@ -110,6 +110,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             x_label: "spatial frequency, cycles per mm".to_owned(),
             y_label: String::new(),
             logarithmic: true,
+            across: vec![0.0, 1.0],
             lines,
         }));
     }

@@ -81,6 +81,8 @@ pub(super) struct Lines {
     pub x_label: String,
     pub y_label: String,
     pub logarithmic: bool,
+    /// Values at which a line goes across.
+    pub across: Vec<f64>,
     pub lines: Vec<Line>,
 }
 

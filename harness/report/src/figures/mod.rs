@@ -7,6 +7,7 @@ mod detail;
 mod drawing;
 mod emily;
 mod mesh_scale;
+mod observability;
 mod panels;
 mod quantity;
 mod reflectance;
@@ -60,6 +61,7 @@ fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), R
         FigureKind::Robustness => robustness::draw(sources, &mut drawing),
         FigureKind::Waterfall => waterfall::draw(sources, &mut drawing),
         FigureKind::Detail => detail::draw(sources, &mut drawing),
+        FigureKind::Observability => observability::draw(sources, &mut drawing),
     }?;
     let save = |name: &str, text: String| {
         let path = root.join(name);

@@ -21,6 +21,8 @@ pub enum FigureKind {
     Waterfall,
     /// How much of the albedo's detail is recovered, by its size.
     Detail,
+    /// The error against what the capture could determine, and where a method is wrong and sure.
+    Observability,
 }
 
 /// The figure to draw, its runs and its selection.

@@ -38,6 +38,7 @@ pub use filter::gaussian;
 pub use measured::measured;
 pub use pair::Pair;
 pub use quantity::{Quantity, RELATIVE_OFFSET};
+pub use rank::upper_half;
 pub use region::{Region, black_outside};
 pub(crate) use registry::scored;
 pub use registry::{Direction, METRICS, Metric};

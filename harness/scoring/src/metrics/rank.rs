@@ -14,7 +14,7 @@ pub(super) fn ranks(values: &[f64]) -> Vec<f64> {
 
 /// The weight of each value in the upper half: 1 above the median, 0 below; those
 /// that tie for the last places share them, so that the order of equal values does not matter.
-pub(super) fn upper_half(values: &[f64]) -> Vec<f64> {
+pub fn upper_half(values: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; values.len()];
     let half = values.len() as f64 / 2.0;
     let mut below = 0;

@@ -283,6 +283,8 @@ pub(crate) mod scored {
         ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
     /// Metrics of a layer of it.
     pub(crate) const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
+    /// Of a specular layer whose true specular albedo is one number.
+    pub(crate) const LAYER_OF_ONE_ALBEDO: [&str; 3] = ["psnr_srgb", "psnr_lin", "pearson"];
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Scores: maps, withheld views, relit pictures and layers against the truth of a capture.
 
+mod cast_shadow;
 mod confidence;
 mod error;
 mod geometry;
@@ -10,6 +11,7 @@ mod light_spheres;
 mod maps;
 mod names;
 mod noise_floor;
+mod observability;
 mod oracle;
 mod own;
 mod photographs;
@@ -29,6 +31,7 @@ use formats::content_hash::hash_path;
 pub use crate::metrics::Scale;
 pub use error::ScoreError;
 pub use label_means::label_mean_maps;
+pub use observability::Observability;
 pub use oracle::oracle_maps;
 pub use own::keep_own_relit;
 pub use photographs::{FOUND_LIGHT, is_photographed};
@@ -64,8 +67,10 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
     let (of_maps, of_pictures) = rayon::join(
         || maps::rows_of_maps(&found, &truth, &geometry, scale.as_ref()),
         || -> Result<_, ScoreError> {
-            let relit = relit.map(|relit| pictures::relit_rows(&frames, capture, relit));
-            let views = pictures::view_rows(&frames, capture, maps, &light)?;
+            let highlights = truth.highlights();
+            let rows_of = |relit| pictures::relit_rows(&frames, capture, relit, highlights);
+            let relit = relit.map(rows_of);
+            let views = pictures::view_rows(&frames, capture, maps, &light, highlights)?;
             Ok((views, relit.transpose()?.unwrap_or_default()))
         },
     );

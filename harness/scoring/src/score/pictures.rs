@@ -15,6 +15,14 @@ use crate::metrics::{Pair, Region, scored};
 
 const INCOMPLETE: &str = "either all withheld frames are written or none; write the folder again";
 
+/// Whether the true specular albedo differs from texel to texel. Where it does not, the energy of the specular layer
+/// says no more than the one number that a method took for it over the true one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Highlights {
+    Varied,
+    Alike,
+}
+
 /// A withheld frame.
 pub(super) struct Frame {
     name: String,
@@ -66,6 +74,7 @@ pub(super) fn view_rows(
     capture: &Path,
     maps: &Path,
     light: &str,
+    highlights: Highlights,
 ) -> Result<Vec<Row>, ScoreError> {
     let views = maps.join("views");
     if !views.is_dir() {
@@ -74,7 +83,7 @@ pub(super) fn view_rows(
     let truth = true_folder(capture, light)?;
     let subjects = ["view", "view_diffuse_layer", "view_specular_layer"];
     let heading = Heading { subject: "view", light: None, scale: "none", label: None };
-    compare(frames, &views, &truth, heading, subjects)
+    compare(frames, &views, &truth, heading, subjects, highlights)
 }
 
 /// Rows of the relit pictures in every light, as they are and after the global factor; none of a
@@ -83,6 +92,7 @@ pub(super) fn relit_rows(
     frames: &[Frame],
     capture: &Path,
     relit: &Path,
+    highlights: Highlights,
 ) -> Result<Vec<Row>, ScoreError> {
     let lights = truth::lights(capture)?;
     let rows = |(light, scale): (&String, &str)| {
@@ -94,7 +104,7 @@ pub(super) fn relit_rows(
         let truth = true_folder(capture, light)?;
         let light = Some(light.as_str());
         let heading = Heading { subject: "relit", light, scale, label: None };
-        compare(frames, &folder, &truth, heading, subjects)
+        compare(frames, &folder, &truth, heading, subjects, highlights)
     };
     let jobs: Vec<_> =
         lights.iter().flat_map(|light| ["none", "global"].map(|scale| (light, scale))).collect();
@@ -115,7 +125,7 @@ pub(super) fn photograph_rows(
     }
     let subject = if light.is_some() { "relit" } else { "view" };
     let heading = Heading { subject, light, scale: "none", label: None };
-    compare(frames, folder, photographs, heading, [subject, "", ""])
+    compare(frames, folder, photographs, heading, [subject, "", ""], Highlights::Alike)
 }
 
 fn true_folder(capture: &Path, light: &str) -> Result<PathBuf, ScoreError> {
@@ -129,6 +139,7 @@ fn compare(
     truth: &Path,
     heading: Heading,
     subjects: [&'static str; 3],
+    highlights: Highlights,
 ) -> Result<Vec<Row>, ScoreError> {
     let read = |folder, mend| -> Result<Vec<Render>, ScoreError> {
         frames.iter().map(|frame| frame.read(folder, mend)).collect()
@@ -147,7 +158,13 @@ fn compare(
     let parts: [Part; 3] = [
         (|render| &render.total, &scored::PICTURE),
         (|render| &render.diffuse, &scored::LAYER),
-        (|render| &render.specular, &scored::LAYER),
+        (
+            |render| &render.specular,
+            match highlights {
+                Highlights::Varied => &scored::LAYER,
+                Highlights::Alike => &scored::LAYER_OF_ONE_ALBEDO,
+            },
+        ),
     ];
     let mut all = Vec::new();
     for (subject, (part, metrics)) in subjects.into_iter().zip(parts) {

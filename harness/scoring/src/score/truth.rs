@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use formats::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
+use super::pictures::Highlights;
 use super::protocol::Protocol;
 use crate::metrics::{Region, lab, typology_angle};
 
@@ -15,6 +16,9 @@ pub(super) const AGAIN: &str = "render the capture again with `unshade synth`";
 /// Names of the label ids, as a face parser gives them.
 pub(super) const LABELS: [(u8, &str); 7] =
     [(1, "skin"), (2, "lips"), (3, "brow"), (4, "eyelid"), (5, "ear"), (6, "nose"), (7, "scalp")];
+
+/// Relative standard deviation of a specular albedo that is the same everywhere but for rounding.
+const LEAST_VARIATION: f64 = 0.01;
 
 /// The id of skin.
 pub(super) const SKIN: u8 = LABELS[0].0;
@@ -71,6 +75,20 @@ impl Truth {
             check_size(&folder.join(name), found, truth.region.size())?;
         }
         Ok(truth)
+    }
+
+    /// Whether its specular albedo has a relative standard deviation of a hundredth or more.
+    pub fn highlights(&self) -> Highlights {
+        let values =
+            || self.region.pixels().iter().map(|at| f64::from(self.specular_albedo.data[*at]));
+        let count = self.region.pixels().len() as f64;
+        let mean = values().sum::<f64>() / count;
+        let variance = values().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+        if variance.sqrt() > LEAST_VARIATION * mean {
+            Highlights::Varied
+        } else {
+            Highlights::Alike
+        }
     }
 
     /// Individual typology angle of the mean colour of its skin, degrees; as with a colorimeter,

@@ -42,7 +42,7 @@ const KEY: [(&str, Option<&str>, &str, &str); 14] = [
     ("specular_albedo", None, "rmse", "none"),
     ("roughness", None, "log_ratio_rms", "none"),
     ("light_peaks", None, "direction_mean_deg", "none"),
-    ("light", None, "log_rmse", "none"),
+    ("light", None, "log_rmse", "global"),
 ];
 
 impl Figure {

@@ -13,11 +13,11 @@ use crate::noise::normal_noise;
 /// Side of pictures and of the true maps.
 pub const SIDE: usize = 96;
 /// Half the plane's side, metres.
-const HALF: f64 = 0.1;
-const FOCAL: f64 = 320.0;
-const DISTANCE: f64 = 0.6;
+pub const HALF: f64 = 0.1;
+pub const FOCAL: f64 = 320.0;
+pub const DISTANCE: f64 = 0.6;
 /// Where the cameras stand; the last two views are withheld.
-const CAMERAS: [[f64; 2]; 5] =
+pub const CAMERAS: [[f64; 2]; 5] =
     [[-0.08, 0.0], [0.0, 0.06], [0.08, -0.03], [0.03, 0.0], [-0.04, 0.02]];
 const LAYERS: [&str; 12] = [
     "R",

@@ -9,7 +9,7 @@ use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
-use capture::Mesh;
+use crate::Mesh;
 
 /// The mesh, ready to be hit.
 pub struct Occluder {

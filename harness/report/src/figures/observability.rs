@@ -1,0 +1,275 @@
+//! Error against what the capture could determine: of the texels that few views see, that all views see obliquely,
+//! that get little light, that lie in a cast shadow or are clipped, and of those that the method itself is sure of.
+//! Where a method is wrong and yet sure, its confidence warns nobody.
+
+mod factors;
+mod wrong_and_sure;
+
+use formats::picture::{Content, Picture};
+use scoring::metrics::Region;
+use scoring::score::Observability;
+use serde_json::json;
+
+use self::factors::{Bin, Factor, factors, of_confidence};
+use self::wrong_and_sure::WrongAndSure;
+use super::drawing::{Block, Drawing, Line, Lines, Panel, PanelRow, Panels};
+use super::panels::ERROR;
+use super::source::{CaseSource, Sources};
+use super::statistics::over_faces;
+use crate::comparison_figures::read_if_present;
+use crate::difference::{self, Measure};
+use crate::error::ReportError;
+use crate::table::Column;
+use crate::tone::{self, Field};
+
+const ALBEDO: &str = "diffuse_albedo.exr";
+const NORMAL: &str = "specular_normal.exr";
+const RGB: &[&str] = &["R", "G", "B"];
+
+/// What one method gives of one case: errors of every texel, NaN where none is compared.
+struct Found {
+    name: String,
+    title: String,
+    /// RMS over the channels of sRGB values, after the albedo's one factor.
+    albedo: Field,
+    /// Angle of the specular normal, degrees.
+    normal: Option<Field>,
+    /// Its own trust in its texels, 0 to 1.
+    confidence: Option<Picture>,
+}
+
+/// A point of a curve, of one case.
+struct Point {
+    method: usize,
+    face: String,
+    factor: &'static str,
+    bin: usize,
+    x: f64,
+    decibels: f64,
+}
+
+pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
+    drawing.set_keys(&[
+        "case",
+        "face",
+        "method",
+        "factor",
+        "from",
+        "to",
+        "mean",
+        "texels",
+        "albedo, dB",
+        "normal, °",
+    ]);
+    let mut methods: Vec<(String, String)> = Vec::new();
+    let mut points: Vec<Point> = Vec::new();
+    let mut labels: Vec<(&'static str, &'static str, bool)> = Vec::new();
+    let mut panels: Option<[Panels; 2]> = None;
+    for source in sources.cases() {
+        if !source.truth("scene.toml").is_file() {
+            continue;
+        }
+        let columns = source.columns.iter().filter(|column| sources.shows(column));
+        let found = columns.map(|column| found(&source, column)).collect::<Result<Vec<_>, _>>()?;
+        let found: Vec<Found> = found.into_iter().flatten().collect();
+        if found.is_empty() {
+            continue;
+        }
+        let seen = Observability::of(&source.run.join(&source.case.capture))?;
+        let of_capture = factors(&seen);
+        for found in &found {
+            let known = methods.iter().position(|(name, _)| *name == found.name);
+            let method = known.unwrap_or_else(|| {
+                methods.push((found.name.clone(), found.title.clone()));
+                methods.len() - 1
+            });
+            for factor in of_capture.iter().chain(&found.confidence.as_ref().map(of_confidence)) {
+                if labels.iter().all(|(name, ..)| *name != factor.name) {
+                    labels.push((factor.name, factor.label, factor.logarithmic));
+                }
+                for bin in factor.bins(&found.albedo, found.normal.as_ref()) {
+                    drawing.rows.push(row(&source, found, factor.name, &bin));
+                    points.push(Point {
+                        method,
+                        face: source.case.face.clone(),
+                        factor: factor.name,
+                        bin: bin.at,
+                        x: bin.mean,
+                        decibels: bin.decibels,
+                    });
+                }
+            }
+            if let Some(found_sure) = WrongAndSure::of(found) {
+                drawing.rows.push(vec![
+                    json!(source.case.id),
+                    json!(source.case.face),
+                    json!(found.name),
+                    json!("sure half of the worst tenth"),
+                    json!(null),
+                    json!(null),
+                    json!(null),
+                    json!(found_sure.share),
+                    json!(null),
+                    json!(null),
+                ]);
+            }
+        }
+        if panels.is_none() {
+            panels = Some(maps(drawing, &source, &of_capture, &found)?);
+        }
+    }
+    if points.is_empty() {
+        return Err(sources.nothing("albedo map of a rendered face"));
+    }
+    drawing.blocks.extend(panels.into_iter().flatten().map(Block::Panels));
+    for (factor, label, logarithmic) in labels {
+        let lines = methods.iter().enumerate();
+        let lines = lines.map(|(at, (_, title))| line(title, &points, at, factor));
+        drawing.blocks.push(Block::Lines(Lines {
+            title: factor.to_owned(),
+            x_label: label.to_owned(),
+            y_label: "albedo, dB".to_owned(),
+            logarithmic,
+            across: vec![],
+            // All of them, so that a method has its colour in every plot.
+            lines: lines.collect(),
+        }));
+    }
+    drawing.caption = format!(
+        "Error against what the capture could determine. Above, of one case: what is known of every texel, and where each \
+         method errs (RMS of sRGB values after the albedo's one factor, to {}); wrong and sure: the worst tenth of the \
+         texels, bright where the method's confidence is in its upper half, violet where it is not. Below: PSNR of the \
+         albedo over texels of like observation, means over faces with the 95 % interval of Student's t.",
+        ERROR.top()
+    );
+    Ok(())
+}
+
+/// The errors of a method; none without an albedo.
+fn found(source: &CaseSource, column: &Column) -> Result<Option<Found>, ReportError> {
+    let read = |path: &std::path::Path, channels, content| read_if_present(path, channels, content);
+    let errors = |file: &str, content: Content, measure, factor| {
+        let Some(path) = source.map(column, file) else { return Ok(None) };
+        let (Some(map), Some(truth)) =
+            (read(&path, RGB, content)?, read(&source.truth(file), RGB, content)?)
+        else {
+            return Ok::<_, ReportError>(None);
+        };
+        let map = difference::resample(&map, truth.width, truth.height);
+        let mask = crate::comparison_figures::read_mask_if_present(&source.truth("coverage.png"))?;
+        let Some(mask) = mask else { return Ok(None) };
+        let Ok(region) = Region::eroded("coverage-e5", &mask) else { return Ok(None) };
+        let mut compared = mask;
+        compared.data.fill(0);
+        region.pixels().iter().for_each(|at| compared.data[*at] = 255);
+        Ok(difference::field(&map, &truth, Some(&compared), measure, factor))
+    };
+    let factor = column.factor().unwrap_or(1.0);
+    let Some(albedo) = errors(ALBEDO, Content::Colour, ERROR, factor)? else { return Ok(None) };
+    let normal = errors(NORMAL, Content::Data, Measure::Angle, 1.0)?;
+    let confidence = match source.map(column, "confidence.exr") {
+        Some(path) => read(&path, &["Y"], Content::Data)?,
+        None => None,
+    };
+    let confidence = confidence.map(|map| difference::resample(&map, albedo.width, albedo.height));
+    let (name, title) = (column.method.id.clone(), column.method.title().to_owned());
+    Ok(Some(Found { name, title, albedo, normal, confidence }))
+}
+
+fn row(source: &CaseSource, found: &Found, factor: &str, bin: &Bin) -> Vec<serde_json::Value> {
+    vec![
+        json!(source.case.id),
+        json!(source.case.face),
+        json!(found.name),
+        json!(factor),
+        json!(bin.from),
+        json!(bin.to),
+        json!(bin.mean),
+        json!(bin.share),
+        json!(bin.decibels),
+        json!(bin.degrees),
+    ]
+}
+
+/// The mean over faces in every bin.
+fn line(title: &str, points: &[Point], method: usize, factor: &str) -> Line {
+    let mut line = Line { name: title.to_owned(), x: vec![], y: vec![], interval: vec![] };
+    let count = points.iter().map(|point| point.bin + 1).max().unwrap_or(0);
+    for bin in 0..count {
+        let here =
+            || points.iter().filter(|p| p.method == method && p.factor == factor && p.bin == bin);
+        let values = |of: fn(&Point) -> f64| -> Vec<(String, f64)> {
+            here().map(|point| (point.face.clone(), of(point))).collect()
+        };
+        if let (Some(x), Some(y)) =
+            (over_faces(&values(|p| p.x)), over_faces(&values(|p| p.decibels)))
+        {
+            line.x.push(x.value);
+            line.y.push(y.value);
+            line.interval.push(y.interval);
+        }
+    }
+    line
+}
+
+/// What is known of every texel, and below it where each method errs.
+fn maps(
+    drawing: &Drawing,
+    source: &CaseSource,
+    factors: &[Factor],
+    found: &[Found],
+) -> Result<[Panels; 2], ReportError> {
+    let save = |name: String,
+                field: &Field,
+                top: f32,
+                caption: String|
+     -> Result<Option<Panel>, ReportError> {
+        let name = format!("{}-{name}", source.case.id);
+        Ok(Some(drawing.panel(&name, &tone::false_colour(field, top), caption)?))
+    };
+    let within = |picture: &Picture| {
+        let outside = &found[0].albedo.values;
+        let values = picture.data.iter().zip(outside);
+        let values = values.map(|(v, outside)| if outside.is_nan() { f32::NAN } else { *v });
+        Field { width: picture.width, height: picture.height, values: values.collect() }
+    };
+    let of_capture = factors
+        .iter()
+        .map(|factor| {
+            save(factor.name.replace(' ', "-"), &within(factor.map), factor.top, factor.scale())
+        })
+        .collect::<Result<_, _>>()?;
+    let title = format!("{}, {}", source.face(), source.case.light);
+    let above = Panels {
+        title: format!("{title}: what the capture could determine"),
+        columns: factors.iter().map(|factor| factor.name.to_owned()).collect(),
+        rows: vec![PanelRow { title: String::new(), cells: of_capture }],
+        error: None,
+    };
+    let mut rows = Vec::new();
+    for method in found {
+        let confidence = method.confidence.as_ref().map(within);
+        let confidence = confidence.map(|field| {
+            save(format!("{}-confidence", method.name), &field, 1.0, "0 to 1".to_owned())
+        });
+        let wrong = WrongAndSure::of(method).map(|wrong| {
+            let said = format!("{:.0} % of the worst tenth are sure", 100.0 * wrong.share);
+            save(format!("{}-wrong-and-sure", method.name), &wrong.field, 1.0, said)
+        });
+        let error =
+            save(format!("{}-error", method.name), &method.albedo, ERROR.top(), String::new())?;
+        rows.push(PanelRow {
+            title: method.title.clone(),
+            cells: vec![error, confidence.transpose()?.flatten(), wrong.transpose()?.flatten()],
+        });
+    }
+    let below = Panels {
+        title: format!("{title}: the methods"),
+        columns: ["error of the albedo", "confidence", "wrong and sure"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows,
+        error: Some((ERROR.label().to_owned(), ERROR.top())),
+    };
+    Ok([above, below])
+}
