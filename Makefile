@@ -30,7 +30,7 @@ $(UV):
 # The exact pins of pyproject.toml; the mark is written last, so an interrupted set-up is done again.
 .venv/complete: pyproject.toml | $(UV)
 	$(UV) venv --quiet --clear --python "$(PYTHON)" .venv
-	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --extra cluster --extra figures --group build
+	$(UV) pip install --quiet --python .venv -r pyproject.toml --extra test --extra denoise --extra history --extra cluster --extra figures --extra parquet --group build
 	@touch $@
 
 demo: build
@@ -60,8 +60,10 @@ results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
 	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights
 	$(BIN)/unshade run scenes/suites/mismatch.toml -o runs/mismatch
+	$(BIN)/unshade table runs/mismatch -o runs/mismatch.md
 	$(BIN)/unshade study runs/held-out runs/held-out-lights -o runs/study
-	$(BIN)/unshade table runs/held-out runs/held-out-lights runs/mismatch -o docs/results.md
+	cp runs/study/study.md docs/results-study.md
+	$(BIN)/unshade table runs/held-out runs/held-out-lights -o docs/results.md
 
 test: build
 	cargo test --release --workspace --quiet

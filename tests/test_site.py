@@ -82,7 +82,7 @@ def test_the_table_holds_the_scores(site: Path, study: Path) -> None:
     assert line["capture"] == scores["inputs"]["capture"]
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here (Debian: apt install chromium)")
 @pytest.mark.parametrize("width", [1400, 420])
 def test_a_browser_sorts_ranks_and_fetches_nothing(site: Path, width: int) -> None:
     said = _in_browser(site / "index.html", width)

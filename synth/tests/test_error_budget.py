@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -46,7 +47,14 @@ def capture(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root / "capture"
 
 
-@pytest.mark.parametrize("planted", ["specular_normal", "roughness"])
+def _change(path: Path, change: Callable[[str, np.ndarray], np.ndarray]) -> None:
+    """Writes the planes of a picture anew, each changed."""
+    changed = {name: change(name, plane) for name, plane in read_exr(path).items()}
+    colour = {"": np.stack([changed[name] for name in "RGB"], -1)} if set("RGB") <= changed.keys() else changed
+    write_exr(path, colour)
+
+
+@pytest.mark.parametrize("planted", ["diffuse_albedo", "specular_albedo", "specular_normal", "roughness"])
 def test_a_planted_error_is_given_to_the_map_it_is_in(capture: Path, tmp_path: Path, planted: str) -> None:
     import unshade
 
@@ -54,18 +62,18 @@ def test_a_planted_error_is_given_to_the_map_it_is_in(capture: Path, tmp_path: P
     maps.mkdir()
     for name in ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal", "roughness"):
         shutil.copyfile(capture / "truth" / f"{name}.exr", maps / f"{name}.exr")
-    values = read_exr(maps / f"{planted}.exr")
-    if planted == "roughness":
-        write_exr(
-            maps / f"{planted}.exr", {name: plane * (0.6 if "alpha" in name else 1) for name, plane in values.items()}
-        )
-    else:
+    slope = np.linspace(-1, 1, 64, dtype=np.float32)[:, None]
+    # Another map is off by some thousandths, so that the planted error has company.
+    company = "specular_albedo" if planted == "diffuse_albedo" else "diffuse_albedo"
+    _change(maps / f"{company}.exr", lambda name, plane: plane * (1 + 0.003 * slope))
+    if planted == "specular_normal":
+        values = read_exr(maps / f"{planted}.exr")
         tilted = np.stack([values[name] for name in "RGB"], -1) + np.float32([0.25, 0, 0])
         write_exr(maps / f"{planted}.exr", {"": tilted / np.linalg.norm(tilted, axis=-1, keepdims=True)})
-    # The albedo is off by a hundredth, so that the planted error has company.
-    albedo = read_exr(maps / "diffuse_albedo.exr")
-    slope = np.linspace(0.997, 1.003, 64, dtype=np.float32)
-    write_exr(maps / "diffuse_albedo.exr", {"": np.stack([albedo[name] for name in "RGB"], -1) * slope[:, None]})
+    elif planted == "roughness":
+        _change(maps / f"{planted}.exr", lambda name, plane: plane * (0.6 if "alpha" in name else 1))
+    else:
+        _change(maps / f"{planted}.exr", lambda name, plane: plane * (1 + 0.4 * slope))
     rows = {row["map"]: row for row in unshade.budget(capture, maps, out)}
     culprit = {"specular_normal": "normals"}.get(planted, planted.replace("_", " "))
     fraction = rows[culprit]["share"]

@@ -64,7 +64,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     let mut methods: Vec<(String, String)> = Vec::new();
     let mut points: Vec<Point> = Vec::new();
     let mut labels: Vec<(&'static str, &'static str, bool)> = Vec::new();
-    let mut panels: Option<[Panels; 2]> = None;
+    let mut panels: Option<Vec<Panels>> = None;
     for source in sources.cases() {
         if !source.truth("scene.toml").is_file() {
             continue;
@@ -218,7 +218,7 @@ fn maps(
     source: &CaseSource,
     factors: &[Factor],
     found: &[Found],
-) -> Result<[Panels; 2], ReportError> {
+) -> Result<Vec<Panels>, ReportError> {
     let save = |name: String,
                 field: &Field,
                 top: f32,
@@ -239,37 +239,42 @@ fn maps(
             save(factor.name.replace(' ', "-"), &within(factor.map), factor.top, factor.scale())
         })
         .collect::<Result<_, _>>()?;
+    let row = |cells| vec![PanelRow { title: String::new(), cells }];
     let title = format!("{}, {}", source.face(), source.case.light);
     let above = Panels {
         title: format!("{title}: what the capture could determine"),
         columns: factors.iter().map(|factor| factor.name.to_owned()).collect(),
-        rows: vec![PanelRow { title: String::new(), cells: of_capture }],
+        rows: row(of_capture),
         error: None,
     };
-    let mut rows = Vec::new();
-    for method in found {
-        let confidence = method.confidence.as_ref().map(within);
-        let confidence = confidence.map(|field| {
-            save(format!("{}-confidence", method.name), &field, 1.0, "0 to 1".to_owned())
-        });
-        let wrong = WrongAndSure::of(method).map(|wrong| {
-            let said = format!("{:.0} % of the worst tenth are sure", 100.0 * wrong.share);
-            save(format!("{}-wrong-and-sure", method.name), &wrong.field, 1.0, said)
-        });
-        let error =
-            save(format!("{}-error", method.name), &method.albedo, ERROR.top(), String::new())?;
-        rows.push(PanelRow {
-            title: method.title.clone(),
-            cells: vec![error, confidence.transpose()?.flatten(), wrong.transpose()?.flatten()],
-        });
-    }
+    let errors = found
+        .iter()
+        .map(|method| {
+            let name = format!("{}-error", method.name);
+            save(name, &method.albedo, ERROR.top(), String::new())
+        })
+        .collect::<Result<_, _>>()?;
     let below = Panels {
-        title: format!("{title}: the methods"),
-        columns: ["error of the albedo", "confidence", "wrong and sure"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows,
+        title: "error of the albedo".to_owned(),
+        columns: found.iter().map(|method| method.title.clone()).collect(),
+        rows: row(errors),
         error: Some((ERROR.label().to_owned(), ERROR.top())),
     };
-    Ok([above, below])
+    let (mut columns, mut cells) = (Vec::new(), Vec::new());
+    for method in found {
+        let Some((confidence, wrong)) = method.confidence.as_ref().zip(WrongAndSure::of(method))
+        else {
+            continue;
+        };
+        let said = format!("{:.0} % of the worst tenth are sure", 100.0 * wrong.share);
+        columns
+            .extend(["confidence", "wrong and sure"].map(|of| format!("{}: {of}", method.title)));
+        let name = format!("{}-confidence", method.name);
+        cells.push(save(name, &within(confidence), 1.0, "0 to 1".to_owned())?);
+        let name = format!("{}-wrong-and-sure", method.name);
+        cells.push(save(name, &wrong.field, 1.0, said)?);
+    }
+    let sure = Panels { title: String::new(), columns, rows: row(cells), error: None };
+    let shown = [above, below, sure].into_iter().filter(|panels| !panels.columns.is_empty());
+    Ok(shown.collect())
 }
