@@ -2,41 +2,23 @@
 //! that get little light, that lie in a cast shadow or are clipped, and of those that the method itself is sure of.
 //! Where a method is wrong and yet sure, its confidence warns nobody.
 
+mod errors;
 mod factors;
 mod wrong_and_sure;
 
-use formats::picture::{Content, Picture};
-use scoring::metrics::Region;
+use formats::picture::Picture;
 use scoring::score::Observability;
 use serde_json::json;
 
+use self::errors::Errors;
 use self::factors::{Bin, Factor, factors, of_confidence};
 use self::wrong_and_sure::WrongAndSure;
 use super::drawing::{Block, Drawing, Line, Lines, Panel, PanelRow, Panels};
 use super::panels::ERROR;
 use super::source::{CaseSource, Sources};
 use super::statistics::over_faces;
-use crate::comparison_figures::read_if_present;
-use crate::difference::{self, Measure};
 use crate::error::ReportError;
-use crate::table::Column;
 use crate::tone::{self, Field};
-
-const ALBEDO: &str = "diffuse_albedo.exr";
-const NORMAL: &str = "specular_normal.exr";
-const RGB: &[&str] = &["R", "G", "B"];
-
-/// What one method gives of one case: errors of every texel, NaN where none is compared.
-struct Found {
-    name: String,
-    title: String,
-    /// RMS over the channels of sRGB values, after the albedo's one factor.
-    albedo: Field,
-    /// Angle of the specular normal, degrees.
-    normal: Option<Field>,
-    /// Its own trust in its texels, 0 to 1.
-    confidence: Option<Picture>,
-}
 
 /// A point of a curve, of one case.
 struct Point {
@@ -70,8 +52,9 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             continue;
         }
         let columns = source.columns.iter().filter(|column| sources.shows(column));
-        let found = columns.map(|column| found(&source, column)).collect::<Result<Vec<_>, _>>()?;
-        let found: Vec<Found> = found.into_iter().flatten().collect();
+        let found =
+            columns.map(|column| Errors::of(&source, column)).collect::<Result<Vec<_>, _>>()?;
+        let found: Vec<Errors> = found.into_iter().flatten().collect();
         if found.is_empty() {
             continue;
         }
@@ -145,38 +128,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     Ok(())
 }
 
-/// The errors of a method; none without an albedo.
-fn found(source: &CaseSource, column: &Column) -> Result<Option<Found>, ReportError> {
-    let read = |path: &std::path::Path, channels, content| read_if_present(path, channels, content);
-    let errors = |file: &str, content: Content, measure, factor| {
-        let Some(path) = source.map(column, file) else { return Ok(None) };
-        let (Some(map), Some(truth)) =
-            (read(&path, RGB, content)?, read(&source.truth(file), RGB, content)?)
-        else {
-            return Ok::<_, ReportError>(None);
-        };
-        let map = difference::resample(&map, truth.width, truth.height);
-        let mask = crate::comparison_figures::read_mask_if_present(&source.truth("coverage.png"))?;
-        let Some(mask) = mask else { return Ok(None) };
-        let Ok(region) = Region::eroded("coverage-e5", &mask) else { return Ok(None) };
-        let mut compared = mask;
-        compared.data.fill(0);
-        region.pixels().iter().for_each(|at| compared.data[*at] = 255);
-        Ok(difference::field(&map, &truth, Some(&compared), measure, factor))
-    };
-    let factor = column.factor().unwrap_or(1.0);
-    let Some(albedo) = errors(ALBEDO, Content::Colour, ERROR, factor)? else { return Ok(None) };
-    let normal = errors(NORMAL, Content::Data, Measure::Angle, 1.0)?;
-    let confidence = match source.map(column, "confidence.exr") {
-        Some(path) => read(&path, &["Y"], Content::Data)?,
-        None => None,
-    };
-    let confidence = confidence.map(|map| difference::resample(&map, albedo.width, albedo.height));
-    let (name, title) = (column.method.id.clone(), column.method.title().to_owned());
-    Ok(Some(Found { name, title, albedo, normal, confidence }))
-}
-
-fn row(source: &CaseSource, found: &Found, factor: &str, bin: &Bin) -> Vec<serde_json::Value> {
+fn row(source: &CaseSource, found: &Errors, factor: &str, bin: &Bin) -> Vec<serde_json::Value> {
     vec![
         json!(source.case.id),
         json!(source.case.face),
@@ -217,7 +169,7 @@ fn maps(
     drawing: &Drawing,
     source: &CaseSource,
     factors: &[Factor],
-    found: &[Found],
+    found: &[Errors],
 ) -> Result<Vec<Panels>, ReportError> {
     let save = |name: String,
                 field: &Field,

@@ -10,18 +10,10 @@ use super::noise_floor;
 use super::render::Render;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
-use super::truth::{self, present};
+use super::truth::{self, Highlights, present};
 use crate::metrics::{Pair, Region, scored};
 
 const INCOMPLETE: &str = "either all withheld frames are written or none; write the folder again";
-
-/// Whether the true specular albedo differs from texel to texel. Where it does not, the energy of the specular layer
-/// says no more than the one number that a method took for it over the true one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Highlights {
-    Varied,
-    Alike,
-}
 
 /// A withheld frame.
 pub(super) struct Frame {

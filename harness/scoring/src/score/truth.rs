@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use formats::picture::{self, GrayImage, Picture};
 
 use super::ScoreError;
-use super::pictures::Highlights;
 use super::protocol::Protocol;
 use crate::metrics::{Region, lab, typology_angle};
 
@@ -22,6 +21,14 @@ const LEAST_VARIATION: f64 = 0.01;
 
 /// The id of skin.
 pub(super) const SKIN: u8 = LABELS[0].0;
+
+/// Whether the true specular albedo differs from texel to texel. Where it does not, the energy of the specular layer
+/// says no more than the one number that a method took for it over the true one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Highlights {
+    Varied,
+    Alike,
+}
 
 /// True layers in texture space.
 pub(super) struct Truth {

@@ -2,7 +2,7 @@
 
 use scoring::metrics::upper_half;
 
-use super::Found;
+use super::errors::Errors;
 use crate::tone::Field;
 
 /// The share of the texels with the greatest error that count as wrong.
@@ -19,7 +19,7 @@ pub(super) struct WrongAndSure {
 
 impl WrongAndSure {
     /// None without a confidence.
-    pub fn of(found: &Found) -> Option<Self> {
+    pub fn of(found: &Errors) -> Option<Self> {
         let confidence = found.confidence.as_ref()?;
         let errors = &found.albedo.values;
         let mut compared: Vec<usize> =
@@ -50,7 +50,7 @@ mod tests {
         let mut values: Vec<f32> = (0..100).map(|at| at as f32 * 1e-3).collect();
         values.push(f32::NAN);
         let data = (0..101).map(confidence).collect();
-        let found = Found {
+        let found = Errors {
             name: String::new(),
             title: String::new(),
             albedo: Field { width: 101, height: 1, values },

@@ -1,0 +1,64 @@
+//! What methods err by, of every texel that scores compare.
+
+use std::path::Path;
+
+use formats::picture::{Content, Picture};
+use scoring::metrics::Region;
+
+use super::super::panels::ERROR;
+use super::super::source::CaseSource;
+use crate::comparison_figures::{read_if_present, read_mask_if_present};
+use crate::difference::{self, Measure};
+use crate::error::ReportError;
+use crate::table::Column;
+use crate::tone::Field;
+
+const ALBEDO: &str = "diffuse_albedo.exr";
+const NORMAL: &str = "specular_normal.exr";
+const RGB: &[&str] = &["R", "G", "B"];
+
+/// What one method gives of one case: errors of every texel, NaN where none is compared.
+pub(super) struct Errors {
+    pub name: String,
+    pub title: String,
+    /// RMS over the channels of sRGB values, after the albedo's one factor.
+    pub albedo: Field,
+    /// Angle of the specular normal, degrees.
+    pub normal: Option<Field>,
+    /// Its own trust in its texels, 0 to 1.
+    pub confidence: Option<Picture>,
+}
+
+impl Errors {
+    /// The errors of a method; none without an albedo.
+    pub fn of(source: &CaseSource, column: &Column) -> Result<Option<Self>, ReportError> {
+        let read = |path: &Path, channels, content| read_if_present(path, channels, content);
+        let errors = |file: &str, content: Content, measure, factor| {
+            let Some(path) = source.map(column, file) else { return Ok(None) };
+            let (Some(map), Some(truth)) =
+                (read(&path, RGB, content)?, read(&source.truth(file), RGB, content)?)
+            else {
+                return Ok::<_, ReportError>(None);
+            };
+            let map = difference::resample(&map, truth.width, truth.height);
+            let mask = read_mask_if_present(&source.truth("coverage.png"))?;
+            let Some(mask) = mask else { return Ok(None) };
+            let Ok(region) = Region::eroded("coverage-e5", &mask) else { return Ok(None) };
+            let mut compared = mask;
+            compared.data.fill(0);
+            region.pixels().iter().for_each(|at| compared.data[*at] = 255);
+            Ok(difference::field(&map, &truth, Some(&compared), measure, factor))
+        };
+        let factor = column.factor().unwrap_or(1.0);
+        let Some(albedo) = errors(ALBEDO, Content::Colour, ERROR, factor)? else { return Ok(None) };
+        let normal = errors(NORMAL, Content::Data, Measure::Angle, 1.0)?;
+        let confidence = match source.map(column, "confidence.exr") {
+            Some(path) => read(&path, &["Y"], Content::Data)?,
+            None => None,
+        };
+        let confidence =
+            confidence.map(|map| difference::resample(&map, albedo.width, albedo.height));
+        let (name, title) = (column.method.id.clone(), column.method.title().to_owned());
+        Ok(Some(Self { name, title, albedo, normal, confidence }))
+    }
+}
