@@ -8,10 +8,10 @@ mod wrong_and_sure;
 
 use formats::picture::Picture;
 use scoring::score::Observability;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use self::errors::Errors;
-use self::factors::{Bin, Factor, factors, of_confidence};
+use self::factors::{Factor, factors, of_confidence};
 use self::wrong_and_sure::WrongAndSure;
 use super::drawing::{Block, Drawing, Line, Lines, Panel, PanelRow, Panels};
 use super::panels::ERROR;
@@ -51,14 +51,14 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         if !source.truth("scene.toml").is_file() {
             continue;
         }
-        let columns = source.columns.iter().filter(|column| sources.shows(column));
-        let found =
-            columns.map(|column| Errors::of(&source, column)).collect::<Result<Vec<_>, _>>()?;
-        let found: Vec<Errors> = found.into_iter().flatten().collect();
-        if found.is_empty() {
+        let columns: Vec<_> =
+            source.columns.iter().filter(|column| sources.shows(column)).collect();
+        if columns.is_empty() {
             continue;
         }
         let seen = Observability::of(&source.run.join(&source.case.capture))?;
+        let found = columns.into_iter().map(|column| Errors::of(&source, column, &seen.compared));
+        let found: Vec<Errors> = found.filter_map(Result::transpose).collect::<Result<_, _>>()?;
         let of_capture = factors(&seen);
         for found in &found {
             let known = methods.iter().position(|(name, _)| *name == found.name);
@@ -71,7 +71,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     labels.push((factor.name, factor.label, factor.logarithmic));
                 }
                 for bin in factor.bins(&found.albedo, found.normal.as_ref()) {
-                    drawing.rows.push(row(&source, found, factor.name, &bin));
+                    drawing.rows.push(row(&source, found, factor.name, bin.values()));
                     points.push(Point {
                         method,
                         face: source.case.face.clone(),
@@ -82,22 +82,12 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     });
                 }
             }
-            if let Some(found_sure) = WrongAndSure::of(found) {
-                drawing.rows.push(vec![
-                    json!(source.case.id),
-                    json!(source.case.face),
-                    json!(found.name),
-                    json!("sure half of the worst tenth"),
-                    json!(null),
-                    json!(null),
-                    json!(null),
-                    json!(found_sure.share),
-                    json!(null),
-                    json!(null),
-                ]);
+            if let Some(wrong) = WrongAndSure::of(found) {
+                let share = [None, None, None, Some(wrong.share), None, None];
+                drawing.rows.push(row(&source, found, "sure half of the worst tenth", share));
             }
         }
-        if panels.is_none() {
+        if panels.is_none() && !found.is_empty() {
             panels = Some(maps(drawing, &source, &of_capture, &found)?);
         }
     }
@@ -128,19 +118,10 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     Ok(())
 }
 
-fn row(source: &CaseSource, found: &Errors, factor: &str, bin: &Bin) -> Vec<serde_json::Value> {
-    vec![
-        json!(source.case.id),
-        json!(source.case.face),
-        json!(found.name),
-        json!(factor),
-        json!(bin.from),
-        json!(bin.to),
-        json!(bin.mean),
-        json!(bin.share),
-        json!(bin.decibels),
-        json!(bin.degrees),
-    ]
+/// A row of the CSV.
+fn row(source: &CaseSource, found: &Errors, factor: &str, values: [Option<f64>; 6]) -> Vec<Value> {
+    let names = [&source.case.id, &source.case.face, &found.name].map(|name| json!(name));
+    names.into_iter().chain([json!(factor)]).chain(values.map(|value| json!(value))).collect()
 }
 
 /// The mean over faces in every bin.

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use formats::picture::{Content, Picture};
-use scoring::metrics::Region;
+use formats::picture::{Content, GrayImage, Picture};
 
 use super::super::panels::ERROR;
 use super::super::source::CaseSource;
-use crate::comparison_figures::{read_if_present, read_mask_if_present};
+use crate::comparison_figures::read_if_present;
 use crate::difference::{self, Measure};
 use crate::error::ReportError;
 use crate::table::Column;
@@ -30,8 +29,12 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    /// The errors of a method; none without an albedo.
-    pub fn of(source: &CaseSource, column: &Column) -> Result<Option<Self>, ReportError> {
+    /// The errors of a method in `compared` texels; none without an albedo.
+    pub fn of(
+        source: &CaseSource,
+        column: &Column,
+        compared: &GrayImage,
+    ) -> Result<Option<Self>, ReportError> {
         let read = |path: &Path, channels, content| read_if_present(path, channels, content);
         let errors = |file: &str, content: Content, measure, factor| {
             let Some(path) = source.map(column, file) else { return Ok(None) };
@@ -41,13 +44,7 @@ impl Errors {
                 return Ok::<_, ReportError>(None);
             };
             let map = difference::resample(&map, truth.width, truth.height);
-            let mask = read_mask_if_present(&source.truth("coverage.png"))?;
-            let Some(mask) = mask else { return Ok(None) };
-            let Ok(region) = Region::eroded("coverage-e5", &mask) else { return Ok(None) };
-            let mut compared = mask;
-            compared.data.fill(0);
-            region.pixels().iter().for_each(|at| compared.data[*at] = 255);
-            Ok(difference::field(&map, &truth, Some(&compared), measure, factor))
+            Ok(difference::field(&map, &truth, Some(compared), measure, factor))
         };
         let factor = column.factor().unwrap_or(1.0);
         let Some(albedo) = errors(ALBEDO, Content::Colour, ERROR, factor)? else { return Ok(None) };

@@ -41,6 +41,14 @@ pub(super) struct Bin {
     pub degrees: Option<f64>,
 }
 
+impl Bin {
+    /// As the columns of the CSV are named.
+    pub fn values(&self) -> [Option<f64>; 6] {
+        let Self { from, to, mean, share, decibels, degrees, .. } = *self;
+        [Some(from), to, Some(mean), Some(share), Some(decibels), degrees]
+    }
+}
+
 /// Those of a capture.
 pub(super) fn factors(seen: &Observability) -> Vec<Factor<'_>> {
     let shadow = seen.cast_shadow.as_ref().map(|map| Factor {
