@@ -63,7 +63,7 @@ def test_errors_by_what_the_capture_shows_are_those_of_their_texels(tiny_run: Pa
     assert len(bins) > 1
     for row in bins:
         inside = compared & (views >= float(row["from"])) & (views < float(row["to"] or "inf"))
-        assert float(row["texels"]) * compared.sum() == pytest.approx(inside.sum())
+        assert float(row["share of texels"]) * compared.sum() == pytest.approx(inside.sum())
         assert float(row["albedo, dB"]) == pytest.approx(-10 * np.log10(squared[inside].mean()), abs=1e-3)
 
 

@@ -25,8 +25,8 @@ pub struct ColourRegionConfig {
     pub rounds: usize,
     /// Weighted least squares of the light in each, and after each joining of two parts.
     pub reweightings: usize,
-    /// Multiplicative updates of the light under which hair is sought inside of skin, which a lamp has to beat, and whose
-    /// shading regions by colour start from, too.
+    /// Multiplicative updates of the light under which hair is sought inside of skin, which a lamp has to beat, and
+    /// whose shading regions by colour start from, too.
     pub light_steps: usize,
     /// Residuals of the shading below this count squared.
     pub residual_floor: f32,

@@ -105,8 +105,8 @@ impl Chart {
     }
 
     /// The shading of the texels seen under the light that explains their colours best, of mean 1 in
-    /// every channel, as far as so many updates reach. Hair's thresholds were found with it, regions by colour start from it; [`super::cell_light`]
-    /// solves for that light.
+    /// every channel, as far as so many updates reach. Hair's thresholds were found with it, regions by colour
+    /// start from it; [`super::cell_light`] solves for that light.
     ///
     /// Least squares with weights towards L1, over light that is not negative, by multiplicative updates
     /// (Lee and Seung 2001).

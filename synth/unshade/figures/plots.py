@@ -85,8 +85,8 @@ def lines(part: SubFigure, blocks: list[Block], folder: Path) -> None:
             axes.plot(
                 line["x"], line["y"], style, marker="o", markersize=2.5, linewidth=1.2, color=colour, label=line["name"]
             )
-            if all(line["interval"]) and line["interval"]:
-                low, high = np.array(line["interval"]).T
+            if any(line["interval"]):
+                low, high = np.array([ends or (np.nan, np.nan) for ends in line["interval"]]).T
                 axes.fill_between(line["x"], low, high, color=colour, alpha=0.15, linewidth=0)
         if block["logarithmic"]:
             axes.set_xscale("log", base=2)

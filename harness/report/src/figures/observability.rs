@@ -39,7 +39,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         "from",
         "to",
         "mean",
-        "texels",
+        "share of texels",
         "albedo, dB",
         "normal, °",
     ]);

@@ -39,7 +39,7 @@ fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {
          (Student's t), in brackets the smallest and the largest face; with \"n of m\", only n of the m \
          faces have the figure. A mean of decibels is that of the faces' decibels.\n\n\
          **Bold**: the best of solvers and baselines. –: the method made nothing that \
-         could be scored; this is never counted as zero. The oracle is the true maps through the same \
+         could be scored, or the truth has nothing to score it by; this is never counted as zero. The oracle is the true maps through the same \
          pipeline; the noise floor is what the rendering noise of both pictures would leave to a \
          perfect answer. [What each figure is](#figures) and [how it is scored](#protocol) stand below.\n"
     );

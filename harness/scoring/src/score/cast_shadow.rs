@@ -3,10 +3,10 @@
 use capture::Mesh;
 use capture::gbuffer::Atlas;
 use capture::rays::Occluder;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 
-use super::light_cells::{COLUMNS, CellLight, ROWS};
+use super::light_cells::CellLight;
 use crate::metrics::luminance;
 
 /// What the darkest cells bring together, of all light, without a ray.
@@ -19,7 +19,7 @@ fn brightest(light: &CellLight) -> Vec<(Vec3, f64)> {
     let cells = light.picture.data.chunks_exact(3).enumerate();
     let mut cells: Vec<(Vec3, f64)> = cells
         .map(|(cell, rgb)| {
-            let direction: DVec3 = CellLight::direction(cell);
+            let direction = CellLight::direction(cell);
             (direction.as_vec3(), luminance(rgb.iter().map(|value| f64::from(*value))))
         })
         .collect();
@@ -31,20 +31,17 @@ fn brightest(light: &CellLight) -> Vec<(Vec3, f64)> {
         kept += light;
         wanted
     });
-    debug_assert!(cells.len() <= ROWS * COLUMNS);
     cells
 }
 
-/// The share, 0 to 1, of the irradiance of every texel inside the atlas that the mesh blocks on its way; 0 where
-/// the surface is turned away from all light, and outside. The light comes from infinitely far.
+/// The share, 0 to 1, of the irradiance of every texel that the mesh blocks on its way, as if the light came from
+/// infinitely far; 0 where the surface is turned away from all light. Texels outside the chart have that of the
+/// nearest one inside.
 pub(super) fn cast_shadow(mesh: &Mesh, atlas: &Atlas, light: &CellLight) -> Vec<f32> {
     let (occluder, cells) = (Occluder::new(mesh), brightest(light));
     let (low, high) = mesh.bounds();
     let lift = LIFT * (high - low).max_element();
     let texel = |at: usize| {
-        if !atlas.inside[at] {
-            return 0.0;
-        }
         let normal = atlas.normals[at];
         let origin = atlas.positions[at] + lift * normal;
         let (mut all, mut blocked) = (0.0, 0.0);
@@ -65,8 +62,9 @@ pub(super) fn cast_shadow(mesh: &Mesh, atlas: &Atlas, light: &CellLight) -> Vec<
 #[cfg(test)]
 mod tests {
     use formats::picture::Picture;
-    use glam::Vec2;
+    use glam::{DVec3, Vec2};
 
+    use super::super::light_cells::{COLUMNS, ROWS};
     use super::*;
 
     /// A floor of the unit square in z = 0, its chart the unit square, and a wall of height 1 along x = 0 that is

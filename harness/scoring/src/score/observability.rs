@@ -21,7 +21,8 @@ const SHADOW_SIDE: usize = 128;
 /// A value this near below the white level is clipped: codes and halves are rounded.
 const CLIPPED: f32 = 0.999;
 
-/// Maps of one channel, of the truth's size; what they say is of the texels that scores compare.
+/// Maps of one channel, of the truth's size; what they say is of the texels that scores compare. Views are those of
+/// the truth; all else is by the mesh and the cameras that a capture states.
 pub struct Observability {
     /// 255 where scores compare texels, else 0.
     pub compared: GrayImage,
@@ -31,11 +32,11 @@ pub struct Observability {
     pub obliqueness: Picture,
     /// Luminance of the true diffuse shading over its median.
     pub light: Picture,
-    /// The share of the irradiance that the mesh blocks, 0 to 1. None if lamps are near: no map of directions has
-    /// their light.
+    /// The share of the irradiance that the mesh blocks, 0 to 1, as if the light came from infinitely far. None without
+    /// `truth/light.exr`.
     pub cast_shadow: Option<Picture>,
-    /// The share, 0 to 1, of the views of the texel in which a channel is clipped. None if pictures have no white
-    /// level.
+    /// The share, 0 to 1, of the views of the texel in which a channel is clipped; NaN where none sees it. None if
+    /// pictures have no white level.
     pub saturation: Option<Picture>,
 }
 
@@ -62,9 +63,10 @@ impl Observability {
                 projections[*view].colour(seen).max_element() >= CLIPPED * white
             };
             let share = |seen: &[(usize, Observation)]| {
-                seen.iter().filter(clipped).count() as f32 / seen.len() as f32
+                Some(seen.iter().filter(clipped).count() as f32 / seen.len() as f32)
             };
-            map(per_texel(&atlas, &projections, share))
+            let shares = per_texel(&atlas, &projections, share);
+            map(shares.into_iter().map(|share| share.unwrap_or(f32::NAN)).collect())
         });
         let mut compared = GrayImage { width: side, height: side, data: vec![0; side * side] };
         truth.region.pixels().iter().for_each(|at| compared.data[*at] = 255);

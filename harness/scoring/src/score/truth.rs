@@ -84,7 +84,7 @@ impl Truth {
         Ok(truth)
     }
 
-    /// Whether its specular albedo has a relative standard deviation of a hundredth or more.
+    /// Whether its specular albedo has a relative standard deviation of more than a hundredth.
     pub fn highlights(&self) -> Highlights {
         let values =
             || self.region.pixels().iter().map(|at| f64::from(self.specular_albedo.data[*at]));

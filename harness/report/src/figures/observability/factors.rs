@@ -74,7 +74,7 @@ pub(super) fn factors(seen: &Observability) -> Vec<Factor<'_>> {
             map: &seen.views,
             top: 10.0,
             logarithmic: false,
-            starts: &[0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0],
+            starts: &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0],
         },
         Factor {
             name: "obliqueness",
