@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import warnings
 from pathlib import Path
 
 from ..errors import UnshadeError
+from .capture_folder import RECORD
 from .importer import FORMATS, import_capture
 from .parser_labels import PARSERS
 from .pictures import CURVES
@@ -52,7 +54,7 @@ def main(arguments: list[str]) -> int:
     except UnshadeError as error:
         bar.line(f"unshade: {' '.join(str(error).split())}")
         return error.exit_code
-    bar.line(f"{out}: what was assumed stands in {out / 'import.json'}")
+    bar.line(f"{out}: {json.loads((out / RECORD).read_bytes())['summary']}; details in {out / RECORD}")
     return 0
 
 

@@ -27,6 +27,7 @@ from .pictures import Photograph, check_curve, read_photograph
 from .pinhole import Pinhole
 from .placement import PLACES, UNITS, Placement, place
 from .source import Source, moved
+from .summary import Sightings, summary
 from .transforms_file import read_transforms
 
 FORMATS = ("transforms", "colmap", "metashape", "emily")
@@ -326,35 +327,16 @@ class _Import:
                 "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
             },
             "source_to_capture": placement.matrix.tolist(),
+            "summary": summary(
+                len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)
+            ),
             "assumed": sorted(self.notes),
         }
 
 
-class Sightings:
-    """Metadata of the photographs, collected as they are read."""
-
-    def __init__(self) -> None:
-        self.curves: set[str] = set()
-        self.profiles: set[str] = set()
-        self._exposures: list[float] = []
-        self._unmasked: list[str] = []
-
-    def note(self, taken: Taken) -> None:
-        self.curves.add(taken.photograph.curve)
-        self.profiles.add(taken.photograph.profile or "none: Rec.709 primaries are assumed")
-        if taken.photograph.exposure is not None:
-            self._exposures.append(taken.photograph.exposure)
-        if taken.mask is None or not taken.mask.any():
-            self._unmasked.append(taken.name)
-
-    def notes(self, *, even: bool) -> set[str]:
-        notes: set[str] = set()
-        if not even and self._exposures and max(self._exposures) > 1.05 * min(self._exposures):
-            factor = max(self._exposures) / min(self._exposures)
-            notes.add(f"exposures differ by a factor of {factor:.3g} between views; even_exposure divides by them")
-        if self._unmasked:
-            notes.add(f"no face in the masks of {', '.join(self._unmasked)}")
-        return notes
+def _overlap(verdict: Verdict | None) -> float | None:
+    """Median overlap of silhouettes and masks of the capture as it is written."""
+    return None if verdict is None else verdict.union if verdict.mended is None else verdict.mended
 
 
 def _withheld(source: Source, holdout: int | tuple[str, ...] | None) -> set[str]:

@@ -34,10 +34,12 @@ _UPRIGHT, _FACING = 0.7, 0.4
 
 @dataclass(frozen=True)
 class Placement:
-    """The similarity (4, 4) of cameras and mesh, and in words what it does; no words for none."""
+    """The similarity (4, 4) of cameras and mesh, and in words what it does; no words for none. ``upright`` is the
+    phrase of the import's last line that says by what the head is upright."""
 
     matrix: Matrix
     words: tuple[str, ...]
+    upright: str
 
 
 def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float | None, how: str) -> Placement:
@@ -59,7 +61,7 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
         )
     matrix = np.diag([scale, scale, scale, 1.0])
     if how == "keep":
-        return Placement(matrix, tuple(words))
+        return Placement(matrix, tuple(words), "head kept as the source has it")
     middle = (low + high) / 2
     ups = np.array([camera[:3, 1] for camera in cameras])
     away = np.array([camera[:3, 3] - middle for camera in cameras])
@@ -67,8 +69,9 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
     up, front = _unit(ups.mean(0)), _unit(away.mean(0))
     stands = up[1] >= _UPRIGHT and front[2] >= _FACING
     near = float(np.linalg.norm(middle)) * scale <= _OFF
+    upright = "head upright as the source has it"
     if how == "auto" and stands and near:
-        return Placement(matrix, tuple(words))
+        return Placement(matrix, tuple(words), upright)
     if how == "auto" and stands:
         # Upright, but far away: it is moved and nothing else.
         rotation = np.eye(3)
@@ -79,6 +82,7 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
                 "the cameras do not say which way is up; turn the capture upright and keep its place (--place keep)"
             )
         rotation = np.stack([np.cross(up, forward), up, forward])
+        upright = "head upright by the cameras' mean up"
         words.append(
             "turned: +Y is the mean of the cameras' up, +Z points from the mesh's middle to their mean direction"
         )
@@ -86,7 +90,7 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
     moved[:3, :3] = rotation * scale
     moved[:3, 3] = -rotation @ middle * scale
     words.append("moved: the mesh's middle is the origin")
-    return Placement(moved, tuple(words))
+    return Placement(moved, tuple(words), upright)
 
 
 def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
