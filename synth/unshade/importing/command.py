@@ -48,6 +48,7 @@ def main(arguments: list[str]) -> int:
                 shrink=options.shrink,
                 unit=options.unit,
                 place=options.place,
+                front=options.front,
                 apply=options.apply,
                 progress=bar.step,
             )
@@ -99,6 +100,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--unit", choices=tuple(UNITS), help="the unit of mesh and cameras")
     parser.add_argument(
         "--place", choices=PLACES, default="auto", help="stand the head upright by its cameras, or keep its place"
+    )
+    parser.add_argument(
+        "--front", metavar="VIEW", help="a view that looks at the face, where cameras stand all round the head"
     )
     parser.add_argument("--apply", action="store_true", help="make the one change after which masks and mesh fit")
     return parser

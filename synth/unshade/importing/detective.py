@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
 from .chart_mesh import ChartMesh
-from .pictures import oriented
+from .orientation import oriented
 from .pinhole import Pinhole
 from .source import Matrix
 

@@ -22,7 +22,7 @@ from .detective import SOUND, Evidence, Verdict, examine
 from .emily_folder import read_emily
 from .metashape_file import read_metashape
 from .parser_labels import LABELS, name_table
-from .photographs import Reading, Taken, take
+from .photographs import Reading, Taken, shown_ups, take
 from .pictures import Photograph, check_curve, read_photograph
 from .pinhole import Pinhole
 from .placement import PLACES, UNITS, Placement, place
@@ -61,6 +61,7 @@ class Choices:
     shrink: int = 1
     unit: str | None = None
     place: str = "auto"
+    front: str | None = None
     apply: bool = False
 
 
@@ -82,6 +83,7 @@ def import_capture(
     shrink: int = 1,
     unit: str | None = None,
     place: str = "auto",
+    front: str | None = None,
     apply: bool = False,
     progress: Progress | None = None,
 ) -> Path:
@@ -96,7 +98,8 @@ def import_capture(
     ``gamma=2.2``), ``brackets`` how many exposures each view has, ``even_exposure`` divides by what EXIF
     says the camera let through. ``holdout`` withholds every n-th view (from the n-th on) or those named;
     ``shrink`` averages so many pixels a side. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
-    source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras). If one change of a
+    source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras), ``front`` the name of a
+    view that looks at the face, where cameras stand all round. If one change of a
     convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error.
 
     Raises `CaptureError`, `PictureError` or `StorageError`.
@@ -119,6 +122,7 @@ def import_capture(
         shrink=shrink,
         unit=unit,
         place=place,
+        front=front,
         apply=apply,
     )
     _check(format, choices)
@@ -267,11 +271,25 @@ class _Import:
     def _place(self, mesh: ChartMesh, change: Change) -> Placement:
         pinhole = [Pinhole(1, 1, (1.0, 1.0), (0.5, 0.5), view.camera_to_world) for view in self.source.views]
         metres = UNITS[self.choices.unit] if self.choices.unit else self.source.metres
+        cameras = [change.camera(p).camera_to_world for p in pinhole]
         placement = place(
-            mesh.vertices, [change.camera(p).camera_to_world for p in pinhole], metres=metres, how=self.choices.place
+            mesh.vertices,
+            cameras,
+            shown_ups(self.source, cameras, turned=change.orientation != 1),
+            metres=metres,
+            how=self.choices.place,
+            facing=None if self.choices.front is None else self._view_called(self.choices.front),
         )
-        self.notes.update(placement.words)
+        self.notes.update(placement.words + placement.doubts)
+        for doubt in placement.doubts:
+            warnings.warn(f"{self.source.origin}: {doubt}", CaptureWarning, stacklevel=4)
         return placement
+
+    def _view_called(self, name: str) -> tuple[str, int]:
+        for number, view in enumerate(self.source.views):
+            if name in (view.name, view.picture.name, view.picture.stem):
+                return name, number
+        raise CaptureError(f"front: there is no view {name!r}; there are {_some(self.source)}")
 
     def _finished(self, taken: Taken, change: Change, mesh: ChartMesh, placement: Placement) -> Taken:
         """The view as it is written: mended, placed, without its lens where a capture cannot say it, smaller."""
@@ -326,6 +344,7 @@ class _Import:
                 "change": verdict.change.id if verdict.change else None,
                 "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
             },
+            "front": placement.front,
             "source_to_capture": placement.matrix.tolist(),
             "summary": summary(
                 len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)
@@ -353,10 +372,14 @@ def _withheld(source: Source, holdout: int | tuple[str, ...] | None) -> set[str]
         known = {name: name for name in names} | stems
         strange = [name for name in holdout if name not in known]
         if strange:
-            raise CaptureError(
-                f"holdout: there is no view {strange[0]!r}; there are {', '.join(names[:8])}{' ...' if len(names) > 8 else ''}"
-            )
+            raise CaptureError(f"holdout: there is no view {strange[0]!r}; there are {_some(source)}")
         withheld = {known[name] for name in holdout}
     if len(withheld) >= len(names):
         raise CaptureError(f"{source.origin}: all {len(names)} views are withheld; leave some to train on")
     return withheld
+
+
+def _some(source: Source) -> str:
+    """The names of the first views."""
+    names = [view.name for view in source.views]
+    return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")

@@ -14,9 +14,11 @@ from ..errors import CaptureError
 from .brackets import bracket, merged
 from .lens import undistorted
 from .parser_labels import our_labels
-from .pictures import Floats, Photograph, oriented, read_photograph, read_plane
+from .orientation import inverse, oriented, shown_up
+from .pictures import Floats, Photograph, Plane, orientation_and_size, read_photograph, read_plane
 from .pinhole import Pinhole
-from .source import Lens, Source, SourceView
+from .placement import ShownUps
+from .source import Lens, Matrix, Source, SourceView
 
 _ASPECT = 0.01
 """By how much the sides of pictures of another size than their camera's may disagree on the factor."""
@@ -114,21 +116,34 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
             )
         # A merged bracket is radiance over exposure already.
         radiance = radiance * np.float32(reading.reference / (1.0 if reading.brackets > 1 else photograph.exposure))
-    orientation = _orientation(source, view, photograph, notes)
-    stored = photograph.radiance.shape[:2]
+    if photograph.doubt is not None:
+        notes.add(f"{photograph.doubt}: Rec.709 primaries are assumed")
+    height, width = photograph.radiance.shape[:2]
+    applied = _applied(source, view, photograph.orientation, width, height)
+    orientation = photograph.orientation if applied else 1
+    if photograph.orientation != 1:
+        what = "applied" if applied else "left out, as the cameras are those of the pixels as stored"
+        notes.add(f"EXIF orientation {photograph.orientation}: {what}")
     radiance = oriented(radiance, orientation)
     camera = _camera(view, radiance.shape[1], radiance.shape[0], notes)
 
-    def beside(plane: NDArray[Any], path: Path) -> NDArray[Any]:
-        """A mask or label picture that is of the photograph's size, as stored or turned."""
-        if plane.shape == stored and orientation != 1 and plane.shape != radiance.shape[:2]:
-            plane = oriented(plane, orientation)
-        if plane.shape != radiance.shape[:2]:
-            size = f"{plane.shape[1]} x {plane.shape[0]}"
+    def beside(plane: Plane, path: Path) -> NDArray[Any]:
+        """The values of a mask or label picture in the camera's pixels: its own EXIF orientation counts as the
+        photograph's does. Without one it is in the camera's pixels if it has their size, else as the photograph
+        is stored, or shown."""
+        values, size = plane.values, radiance.shape[:2]
+        if plane.orientation != 1:
+            values = oriented(values, plane.orientation)
+            values = values if applied else oriented(values, inverse(photograph.orientation))
+        elif values.shape != size and values.shape == size[::-1]:
+            turn = photograph.orientation if applied else inverse(photograph.orientation)
+            values = oriented(values, turn)
+        if values.shape != size:
+            found = f"{plane.values.shape[1]} x {plane.values.shape[0]}"
             raise CaptureError(
-                f"{path}: is {size}, but its photograph {camera.width} x {camera.height}; write it in the photograph's size"
+                f"{path}: is {found}, but its photograph {camera.width} x {camera.height}; write it in the photograph's size"
             )
-        return plane
+        return values
 
     return Taken(
         name=view.name,
@@ -141,18 +156,24 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
     )
 
 
-def _orientation(source: Source, view: SourceView, photograph: Photograph, notes: set[str]) -> int:
-    """The EXIF orientation that is to be applied for pixels to be those of the camera."""
-    if photograph.orientation == 1:
-        return 1
-    height, width = photograph.radiance.shape[:2]
-    sideways = photograph.orientation >= 5
-    apply = source.exif_applied
-    if view.width is not None and view.height is not None and sideways and width != height:
-        apply = (view.width < view.height) != (width < height)
-    what = "applied" if apply else "left out, as the cameras are those of the pixels as stored"
-    notes.add(f"EXIF orientation {photograph.orientation}: {what}")
-    return photograph.orientation if apply else 1
+def shown_ups(source: Source, cameras: list[Matrix], *, turned: bool) -> ShownUps:
+    """Up in the world of each photograph as EXIF has it shown; of its ``cameras`` (camera to world) if photographs
+    were ``turned`` by another rule than EXIF's. Raises `PictureError`."""
+    axes = [(0, 1)] * len(cameras) if turned else [_shown_axis(source, view) for view in source.views]
+    directions = [camera[:3, :2] @ np.array(axis, float) for camera, axis in zip(cameras, axes)]
+    return ShownUps(np.array(directions), sum(axis != (0, 1) for axis in axes))
+
+
+def _shown_axis(source: Source, view: SourceView) -> tuple[int, int]:
+    orientation, width, height = orientation_and_size(view.picture)
+    return shown_up(1 if _applied(source, view, orientation, width, height) else orientation)
+
+
+def _applied(source: Source, view: SourceView, orientation: int, width: int, height: int) -> bool:
+    """Whether the camera counts the pixels of a photograph of ``width`` x ``height`` after its EXIF orientation."""
+    if view.width is not None and view.height is not None and orientation >= 5 and width != height:
+        return (view.width < view.height) != (width < height)
+    return source.exif_applied
 
 
 def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinhole:

@@ -1,4 +1,4 @@
-"""Photographs as linear Rec.709 radiance: PNG, JPEG, TIFF, EXR and Radiance files."""
+"""Photographs as linear Rec.709 radiance: PNG, JPEG, TIFF, WebP, EXR and Radiance files."""
 
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageCms
+from PIL import Image, ImageCms, UnidentifiedImageError
 
 from .. import _native
 from ..errors import PictureError
+from .colour_space import ADOBE_RGB, ADOBE_TO_REC709, exif_colour_space
+from .orientation import ORIENTATION, as_stored
 
 Floats = NDArray[np.float32]
 
@@ -42,11 +44,13 @@ _RAW = (
     ".x3f",
 )
 _RADIANCE = (".exr", ".hdr")
-_READ = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
+_READ = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp")
 
 _MAX_PIXELS = 1 << 28
 
-_ORIENTATION, _EXPOSURE_TIME, _F_NUMBER, _ISO, _EXIF = 0x0112, 0x829A, 0x829D, 0x8827, 0x8769
+_EXPOSURE_TIME, _F_NUMBER, _ISO, _EXIF = 0x829A, 0x829D, 0x8827, 0x8769
+_WIDTH, _HEIGHT, _PROFILE = 0x0100, 0x0101, 0x8773
+"""Tags of TIFF files."""
 
 _NAMED_CURVES = (
     ("linear", "linear"),
@@ -69,9 +73,10 @@ _SAME_PRIMARIES = 2e-3
 class Photograph:
     """A picture as stored, EXIF orientation not applied.
 
-    ``radiance`` [H, W, 3] float32, linear Rec.709; ``alpha`` [H, W] 0 to 1. ``exposure`` is what the
-    camera let through, time x ISO / f-number², where the file says it; ``codes`` are the 8-bit values
-    [H, W, 3] (R, G, B) where that is what it holds.
+    ``radiance`` [H, W, 3] float32, linear Rec.709; ``alpha`` [H, W] 0 to 1. ``profile`` is the name of its colour
+    space, None where neither a profile nor EXIF states it. ``exposure`` is what the camera let through,
+    time x ISO / f-number², where the file says it; ``codes`` are the 8-bit values [H, W, 3] (R, G, B) where that
+    is what it holds. ``doubt`` is what EXIF leaves open about its colours, in words.
     """
 
     radiance: Floats
@@ -81,6 +86,38 @@ class Photograph:
     profile: str | None
     exposure: float | None
     codes: NDArray[np.uint8] | None
+    doubt: str | None = None
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A mask's or label picture's ``values`` [H, W] as stored, and the EXIF ``orientation`` that its file states."""
+
+    values: NDArray[Any]
+    orientation: int
+
+
+@dataclass(frozen=True)
+class _Header:
+    """Metadata of a file: its size as stored (pixels), EXIF orientation, ICC profile, gamma of a PNG, exposure,
+    and the colour space that EXIF states with the grounds for it."""
+
+    width: int
+    height: int
+    orientation: int
+    icc: bytes | None
+    gamma: float | None
+    exposure: float | None
+    space: tuple[str | None, str]
+
+
+def orientation_and_size(path: Path) -> tuple[int, int, int]:
+    """The EXIF orientation, width and height (pixels, as stored) of a photograph. Raises `PictureError`."""
+    if path.suffix.lower() not in _READ:
+        radiance = read_photograph(path).radiance
+        return 1, radiance.shape[1], radiance.shape[0]
+    header = _header(path, *_file(path))
+    return header.orientation, header.width, header.height
 
 
 def read_photograph(path: Path, curve: str = "auto") -> Photograph:
@@ -98,10 +135,14 @@ def read_photograph(path: Path, curve: str = "auto") -> Photograph:
         return _radiance(path)
     if ending not in _READ:
         raise PictureError(f"{path}: is no kind of picture that is read; write PNG, JPEG, TIFF, EXR or HDR")
-    said = _said(path)
-    codes = _decoded(path)
-    profile, name = _profile(path, said.get("icc"))
-    curve = _curve(path, curve, codes, name, said)
+    data, turned = _file(path)
+    header = _header(path, data, turned)
+    codes = _decoded(path, data)
+    profile, name = _profile(path, header.icc)
+    space, grounds = (None, "") if name else header.space
+    if space == ADOBE_RGB:
+        profile, name = ADOBE_TO_REC709, f"{ADOBE_RGB}, by {grounds}"
+    curve = _curve(path, curve, codes, name, header.gamma)
     colours = _colours(codes)
     values = codes.astype(np.float32) / np.float32(np.iinfo(codes.dtype).max if codes.dtype.kind == "u" else 1)
     linear = decode(_colours(values), curve)
@@ -110,11 +151,12 @@ def read_photograph(path: Path, curve: str = "auto") -> Photograph:
     return Photograph(
         radiance=np.ascontiguousarray(linear, np.float32),
         alpha=np.ascontiguousarray(values[..., 3]) if values.ndim == 3 and values.shape[2] == 4 else None,
-        orientation=said["orientation"],
+        orientation=header.orientation,
         curve=curve,
         profile=name,
-        exposure=said["exposure"],
+        exposure=header.exposure,
         codes=colours if codes.dtype == np.uint8 else None,
+        doubt=grounds if space is None and grounds else None,
     )
 
 
@@ -143,34 +185,26 @@ def decode(values: Floats, curve: str) -> Floats:
     return (values.clip(0) ** float(curve.partition("=")[2])).astype(np.float32)
 
 
-def oriented(picture: NDArray[Any], orientation: int) -> NDArray[Any]:
-    """A picture [H, W(, C)] as its EXIF orientation (1 to 8) wants it shown."""
-    if orientation in (5, 7):
-        picture = picture.swapaxes(0, 1)
-        return np.ascontiguousarray(picture if orientation == 5 else np.rot90(picture, 2))
-    if orientation in (2, 4):
-        return np.ascontiguousarray(picture[:, ::-1] if orientation == 2 else picture[::-1])
-    return np.ascontiguousarray(np.rot90(picture, {3: 2, 6: -1, 8: 1}.get(orientation, 0)))
-
-
-def read_plane(path: Path) -> NDArray[Any]:
-    """A mask's or label picture's values [H, W] as stored; of an indexed PNG the indices, of colours with
-    alpha the alpha. Raises `PictureError`.
+def read_plane(path: Path) -> Plane:
+    """Reads a mask or label picture; of an indexed PNG its values are the indices, of colours with alpha the alpha.
+    Raises `PictureError`.
     """
     try:
+        data, turned = as_stored(path.read_bytes())
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(path) as image:
+            with Image.open(BytesIO(data)) as image:
+                orientation = _exif_orientation(image.getexif(), turned)
                 if image.mode in ("RGBA", "LA"):
-                    return np.asarray(image.getchannel("A"))
+                    return Plane(np.asarray(image.getchannel("A")), orientation)
                 if image.mode in ("P", "L", "1", "I;16", "I"):
-                    return np.asarray(image)
+                    return Plane(np.asarray(image), orientation)
                 planes = np.asarray(image.convert("RGB"))
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
         raise PictureError(f"{path}: cannot be read: {_reason(error)}; write a grey or indexed PNG") from error
     if (planes != planes[..., :1]).any():
         raise PictureError(f"{path}: is a picture of colours; write a grey or indexed PNG, one value for a pixel")
-    return planes[..., 0]
+    return Plane(planes[..., 0], orientation)
 
 
 def _radiance(path: Path) -> Photograph:
@@ -182,28 +216,55 @@ def _radiance(path: Path) -> Photograph:
     return Photograph(radiance, alpha, 1, "linear", None, None, None)
 
 
-def _said(path: Path) -> dict[str, Any]:
-    """Metadata of the file: orientation, ICC profile, gamma, exposure."""
+def _file(path: Path) -> tuple[bytes, int | None]:
+    """A file's bytes, decoded as stored by every library, and the orientation that a TIFF file states."""
+    try:
+        return as_stored(path.read_bytes())
+    except FileNotFoundError as error:
+        raise PictureError(f"{path}: there is no such picture; name the folder that holds it") from error
+    except OSError as error:
+        raise PictureError(f"{path}: cannot be read: {_reason(error)}; write PNG, JPEG or TIFF again") from error
+
+
+def _header(path: Path, data: bytes, turned: int | None) -> _Header:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-            with Image.open(path) as image:
-                if image.width * image.height > _MAX_PIXELS:
-                    raise PictureError(
-                        f"{path}: is {image.width} x {image.height}; write it with fewer than {_MAX_PIXELS} pixels"
-                    )
-                exif = image.getexif()
-                orientation = exif.get(_ORIENTATION, 1)
-                return {
-                    "orientation": orientation if orientation in range(1, 9) else 1,
-                    "icc": image.info.get("icc_profile"),
-                    "gamma": image.info.get("gamma"),
-                    "exposure": _exposure(exif.get_ifd(_EXIF) | dict(exif)),
-                }
+            exif, width, height, info = _metadata(data)
+            if width * height > _MAX_PIXELS:
+                raise PictureError(f"{path}: is {width} x {height}; write it with fewer than {_MAX_PIXELS} pixels")
+            tags = exif.get_ifd(_EXIF)
+            gamma = info.get("gamma")
+            return _Header(
+                width,
+                height,
+                _exif_orientation(exif, turned),
+                info.get("icc_profile"),
+                gamma if isinstance(gamma, float) else None,
+                _exposure(tags | dict(exif)),
+                exif_colour_space(tags, exif, path.name),
+            )
     except (OSError, ValueError, SyntaxError, TypeError, Image.DecompressionBombError) as error:
-        if isinstance(error, FileNotFoundError):
-            raise PictureError(f"{path}: there is no such picture; name the folder that holds it") from error
         raise PictureError(f"{path}: cannot be read: {_reason(error)}; write PNG, JPEG or TIFF again") from error
+
+
+def _metadata(data: bytes) -> tuple[Image.Exif, int, int, dict[Any, Any]]:
+    """EXIF, width and height (pixels), and what else Pillow finds in a file."""
+    try:
+        with Image.open(BytesIO(data)) as image:
+            return image.getexif(), image.width, image.height, image.info
+    except UnidentifiedImageError:
+        # Pillow has no colours of floating point; the tags of such TIFF files are EXIF like any other.
+        exif = Image.Exif()
+        exif.load(data)
+        if _WIDTH not in exif or _HEIGHT not in exif:
+            raise
+        return exif, exif[_WIDTH], exif[_HEIGHT], {"icc_profile": exif.get(_PROFILE)}
+
+
+def _exif_orientation(exif: Image.Exif, turned: int | None) -> int:
+    orientation = exif.get(ORIENTATION, 1) if turned is None else turned
+    return orientation if orientation in range(1, 9) else 1
 
 
 def _exposure(tags: dict[int, Any]) -> float | None:
@@ -218,11 +279,11 @@ def _exposure(tags: dict[int, Any]) -> float | None:
     return value if 0 < value < math.inf else None
 
 
-def _decoded(path: Path) -> NDArray[Any]:
+def _decoded(path: Path, data: bytes) -> NDArray[Any]:
     """Codes [H, W(, C)] in OpenCV's order of channels, EXIF orientation not applied."""
     try:
-        codes = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
-    except (OSError, cv2.error) as error:
+        codes = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error as error:
         raise PictureError(f"{path}: cannot be read: {_reason(error)}; write PNG, JPEG or TIFF again") from error
     if codes is None:
         raise PictureError(
@@ -273,7 +334,7 @@ def _primaries(profile: Any) -> NDArray[np.float64] | None:
     return np.array([colorant[0] for colorant in colorants]).T
 
 
-def _curve(path: Path, curve: str, codes: NDArray[Any], name: str | None, said: dict[str, Any]) -> str:
+def _curve(path: Path, curve: str, codes: NDArray[Any], name: str | None, gamma: float | None) -> str:
     if check_curve(curve) != "auto":
         return curve
     if codes.dtype == np.float32:
@@ -283,8 +344,7 @@ def _curve(path: Path, curve: str, codes: NDArray[Any], name: str | None, said: 
         if found:
             return found[0]
         raise PictureError(f"{path}: the curve of its colour profile {name!r} is not known by name; state the curve")
-    gamma = said.get("gamma")
-    if isinstance(gamma, float) and abs(gamma - 1) < 1e-3:
+    if gamma is not None and abs(gamma - 1) < 1e-3:
         return "linear"
     if codes.dtype == np.uint16 and path.suffix.lower() in (".tif", ".tiff"):
         raise PictureError(

@@ -17,7 +17,9 @@ from .source import Matrix
 UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "in": 0.0254}
 """Metres."""
 
-PLACES = ("auto", "keep", "cameras")
+KEPT_PLACE = "keep"
+
+PLACES = ("auto", KEPT_PLACE, "cameras")
 
 _HEIGHTS = (0.12, 1.0)
 """Extent (m) of what may be a face or a head with its shoulders."""
@@ -29,22 +31,68 @@ _OFF = 0.3
 """How far (m) a head's middle may be from the origin."""
 
 _UPRIGHT, _FACING = 0.7, 0.4
-"""Cosines: of the cameras' mean up to +Y, of the direction to them to +Z."""
+"""Cosines: of up to +Y, of the direction to the cameras to +Z."""
+
+_SQUARE = 0.95
+"""Cosine to +Y of the cameras' sides from which photographs lie on their sides in a world that is upright."""
+
+_AGREE = 0.5
+"""Length of the mean of unit vectors below which they have no common direction."""
+
+_LYING = 0.1
+"""By how much the mean of the cameras' sides is longer than that of their ups if photographs lie on their sides."""
+
+_FREE = np.deg2rad(120)
+"""Largest angle (rad) without a camera around a head that is captured all round."""
+
+_BALANCED = 0.3
+"""Length of the mean of the cameras' azimuths, as unit vectors, up to which no side has more of them."""
+
+_STEEP = 0.2
+"""Cosine to the horizontal below which a camera has no azimuth."""
 
 
 @dataclass(frozen=True)
 class Placement:
-    """The similarity (4, 4) of cameras and mesh, and in words what it does; no words for none. ``upright`` is the
-    phrase of the import's last line that says by what the head is upright."""
+    """The similarity (4, 4) of cameras and mesh, and what it does in words (none if it does nothing).
+
+    ``upright`` is the phrase of the import's last line that says by what the head is upright, ``front`` says what
+    told its front; ``doubts`` are sentences on what may be wrong.
+    """
 
     matrix: Matrix
     words: tuple[str, ...]
     upright: str
+    front: str
+    doubts: tuple[str, ...] = ()
 
 
-def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float | None, how: str) -> Placement:
-    """``metres`` is the length of the source's unit, where it is known. ``how``: ``keep`` scales alone,
+@dataclass(frozen=True)
+class ShownUps:
+    """The direction (N, 3) that points up in each photograph as it is shown, and of how many EXIF turns it."""
+
+    directions: NDArray[np.float64]
+    turned: int
+
+
+_ALL_ROUND = "not told by cameras all round: the azimuth is the source's"
+
+
+def place(
+    vertices: NDArray[np.float64],
+    cameras: list[Matrix],
+    shown: ShownUps,
+    *,
+    metres: float | None,
+    how: str,
+    facing: tuple[str, int] | None = None,
+) -> Placement:
+    """Returns where cameras and mesh come to stand.
+
+    ``metres`` is the length of the source's unit, where it is known. ``how``: ``keep`` scales alone,
     ``cameras`` stands the head upright by its cameras, ``auto`` does so where it does not stand so already.
+    ``facing`` is the name and number of a view that looks at the face. Without it the cameras' mean direction
+    is the front, unless they stand all round. Raises `CaptureError`.
     """
     low, high = vertices.min(0), vertices.max(0)
     extent = float((high - low).max())
@@ -60,37 +108,94 @@ def place(vertices: NDArray[np.float64], cameras: list[Matrix], *, metres: float
             f"scaled by {scale:.6g}: the mesh extends over {extent:.4g} units, taken for {_USUAL} m; state the unit if it is known"
         )
     matrix = np.diag([scale, scale, scale, 1.0])
-    if how == "keep":
-        return Placement(matrix, tuple(words), "head kept as the source has it")
+    if how == KEPT_PLACE:
+        if facing is not None:
+            raise CaptureError(f"front turns the head and place {KEPT_PLACE} leaves it; state one of them")
+        return Placement(matrix, tuple(words), "head kept as the source has it", "kept")
     middle = (low + high) / 2
-    ups = np.array([camera[:3, 1] for camera in cameras])
-    away = np.array([camera[:3, 3] - middle for camera in cameras])
-    away /= np.linalg.norm(away, axis=1, keepdims=True).clip(1e-12)
-    up, front = _unit(ups.mean(0)), _unit(away.mean(0))
-    stands = up[1] >= _UPRIGHT and front[2] >= _FACING
-    near = float(np.linalg.norm(middle)) * scale <= _OFF
-    upright = "head upright as the source has it"
-    if how == "auto" and stands and near:
-        return Placement(matrix, tuple(words), upright)
-    if how == "auto" and stands:
-        # Upright, but far away: it is moved and nothing else.
-        rotation = np.eye(3)
-    else:
-        forward = _unit(front - up * (front @ up))
-        if not np.isfinite(forward).all() or abs(front @ up) > 0.99:
-            raise CaptureError(
-                "the cameras do not say which way is up; turn the capture upright and keep its place (--place keep)"
-            )
-        rotation = np.stack([np.cross(up, forward), up, forward])
-        upright = "head upright by the cameras' mean up"
-        words.append(
-            "turned: +Y is the mean of the cameras' up, +Z points from the mesh's middle to their mean direction"
+    up, upright, doubts = _up(cameras, shown, source_may_stand=how == "auto")
+    front, told = _front(np.array([camera[:3, 3] - middle for camera in cameras]), up, facing)
+    if front is None:
+        doubts.append("the cameras stand all round the head, so its azimuth is left; name a view of the face (front)")
+    turn = np.eye(3)
+    stands = up[1] >= _UPRIGHT and (front is None or front[2] >= _FACING)
+    if how != "auto" or facing is not None or not stands:
+        turn = _shortest_turn(up) if front is None else np.stack([np.cross(up, front), up, front])
+        words.append(f"turned: +Y is up {upright}, +Z is the front, {told}")
+    if not np.array_equal(turn, np.eye(3)) or float(np.linalg.norm(middle)) * scale > _OFF:
+        matrix[:3, :3] = turn * scale
+        matrix[:3, 3] = -turn @ middle * scale
+        words.append("moved: the mesh's middle is the origin")
+    return Placement(matrix, tuple(words), f"head upright {upright}", told, tuple(doubts))
+
+
+def _up(
+    cameras: list[Matrix], shown: ShownUps, *, source_may_stand: bool
+) -> tuple[NDArray[np.float64], str, list[str]]:
+    """The unit vector that is up, what told it, and doubts about it."""
+    sides, ups = (np.array([camera[:3, axis] for camera in cameras]).mean(0) for axis in (0, 1))
+    seen = shown.directions.mean(0)
+    # Where EXIF turns some photographs of many, tags that were kept when pixels were turned spread the ups.
+    if shown.turned and np.linalg.norm(seen) >= np.linalg.norm(ups):
+        return _agreed(seen), f"by EXIF orientation of {shown.turned} photographs", []
+    upright = "by the cameras' mean up"
+    if shown.turned:
+        upright += f", with which EXIF orientation of {shown.turned} photographs does not agree"
+    if source_may_stand and not _unit(ups)[1] >= _UPRIGHT:
+        for side, lie in ((sides, "on their sides"), (-sides, "on their sides"), (-ups, "upside down")):
+            if np.linalg.norm(side) >= _AGREE and _unit(side)[1] >= _SQUARE:
+                return np.array([0.0, 1.0, 0.0]), f"as in the source, where photographs lie {lie}", []
+    doubts: list[str] = []
+    if np.linalg.norm(sides) > np.linalg.norm(ups) + _LYING:
+        doubts.append(
+            "the photographs seem to lie on their sides, and no EXIF tells which; if the head does so too, turn mesh "
+            "and cameras upright and keep their place (place keep)"
         )
-    moved = np.eye(4)
-    moved[:3, :3] = rotation * scale
-    moved[:3, 3] = -rotation @ middle * scale
-    words.append("moved: the mesh's middle is the origin")
-    return Placement(moved, tuple(words), upright)
+    return _agreed(ups), upright, doubts
+
+
+def _agreed(mean: NDArray[np.float64]) -> NDArray[np.float64]:
+    if not np.linalg.norm(mean) >= _AGREE:
+        raise CaptureError(
+            f"the photographs do not agree which way is up (their mean up has a length of {np.linalg.norm(mean):.2f}); "
+            "turn the capture upright and keep its place (place keep)"
+        )
+    return _unit(mean)
+
+
+def _front(
+    away: NDArray[np.float64], up: NDArray[np.float64], facing: tuple[str, int] | None
+) -> tuple[NDArray[np.float64] | None, str]:
+    """The horizontal unit vector to the front, and what told it; None where nothing tells it.
+
+    ``away`` (N, 3) are the cameras' positions from the mesh's middle.
+    """
+    away = away / np.linalg.norm(away, axis=1, keepdims=True).clip(1e-12)
+    level = away - np.outer(away @ up, up)
+    if facing is not None:
+        name, number = facing
+        if np.linalg.norm(level[number]) < _STEEP:
+            raise CaptureError(f"front: {name} looks from above or below; name a view that looks at the face")
+        return _unit(level[number]), f"where {name} looks from"
+    level = level[np.linalg.norm(level, axis=1) >= _STEEP]
+    if not len(level):
+        return None, _ALL_ROUND
+    level /= np.linalg.norm(level, axis=1, keepdims=True)
+    angles = np.sort(np.arctan2(np.cross(level[0], level) @ up, level @ level[0]))
+    free = np.diff(angles, append=angles[0] + 2 * np.pi).max()
+    mean = level.mean(0)
+    if free <= _FREE or np.linalg.norm(mean) < _BALANCED:
+        return None, _ALL_ROUND
+    return _unit(mean), "the cameras' mean direction"
+
+
+def _shortest_turn(up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The rotation (3, 3) by the smallest angle that turns ``up`` to +Y."""
+    if up[1] < -0.999:
+        return np.diag([1.0, -1.0, -1.0])
+    x, _, z = np.cross(up, [0.0, 1.0, 0.0])
+    cross = np.array([[0.0, -z, 0.0], [z, 0.0, -x], [0.0, x, 0.0]])
+    return np.eye(3) + cross + cross @ cross / (1 + up[1])
 
 
 def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
