@@ -9,11 +9,15 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from PIL import Image, ImageCms
+import tifffile
+from PIL import Image, ImageCms, ImageOps
 
 from unshade.errors import PictureError
 from unshade.importing.brackets import bracket, merged
-from unshade.importing.pictures import oriented, read_photograph, read_plane
+from unshade.importing.orientation import inverse, oriented
+from unshade.importing.photographs import Reading, take
+from unshade.importing.pictures import read_photograph, read_plane
+from unshade.importing.source import Source, SourceView
 
 RANDOM = np.random.default_rng(1)
 CODES = RANDOM.integers(0, 256, (6, 10, 3), dtype=np.uint8)
@@ -95,30 +99,90 @@ def test_a_profile_is_converted_as_littlecms_does(tmp_path: Path) -> None:
     np.testing.assert_allclose(read_photograph(tmp_path / "c.png").radiance, _srgb(muted), atol=1e-6)
 
 
-@pytest.mark.parametrize("orientation", range(1, 9))
-def test_orientations_are_those_of_pillow(orientation: int, tmp_path: Path) -> None:
-    from PIL import ImageOps
-
-    exif = Image.Exif()
-    exif[0x0112] = orientation
-    path = tmp_path / "a.png"
-    Image.fromarray(CODES).save(path, exif=exif)
-    read = read_photograph(path)
-    assert read.orientation == orientation and read.radiance.shape[:2] == CODES.shape[:2]
-    with Image.open(path) as image:
-        shown = np.asarray(ImageOps.exif_transpose(image))
-    assert read.codes is not None
-    np.testing.assert_array_equal(oriented(read.codes, orientation), shown)
+def _write(path: Path, values: np.ndarray, orientation: int, big: bool = False) -> None:
+    """Colours or a mask with an EXIF orientation, by libraries that store pixels as they are given."""
+    if path.suffix == ".tif":
+        kind = "rgb" if values.ndim == 3 else "minisblack"
+        tag = [(274, "H", 1, orientation, True)]
+        tifffile.imwrite(path, values, photometric=kind, bigtiff=big, byteorder=">" if big else "<", extratags=tag)
+    else:
+        exif = Image.Exif()
+        exif[274] = orientation
+        Image.fromarray(values).save(path, exif=exif, quality=100, subsampling=0, lossless=True)
 
 
-def test_a_jpeg_is_read_as_it_is_stored(tmp_path: Path) -> None:
-    smooth = np.linspace(40, 200, 64, dtype=np.uint8)[None, :, None].repeat(48, 0).repeat(3, 2)
-    exif = Image.Exif()
-    exif[0x0112] = 6
-    Image.fromarray(smooth).save(tmp_path / "a.jpg", quality=98, exif=exif)
-    read = read_photograph(tmp_path / "a.jpg")
-    assert read.radiance.shape == (48, 64, 3) and read.orientation == 6
-    np.testing.assert_allclose(read.radiance, _srgb(smooth), atol=0.02)
+SHOWN = {
+    1: lambda a: a, 2: np.fliplr, 3: lambda a: np.rot90(a, 2), 4: np.flipud,
+    5: lambda a: a.swapaxes(0, 1), 6: lambda a: np.rot90(a, -1), 7: lambda a: np.rot90(a, 2).swapaxes(0, 1), 8: np.rot90,
+}  # fmt: skip
+"""EXIF 2.3: where rows and columns of the stored picture begin as it is shown."""
+
+
+@pytest.mark.parametrize("shown", [False, True], ids=["cameras-of-stored-pixels", "cameras-of-shown-pixels"])
+@pytest.mark.parametrize(
+    ("ending", "dtype", "big"),
+    [
+        (".jpg", np.uint8, False),
+        (".png", np.uint8, False),
+        (".webp", np.uint8, False),
+        (".tif", np.uint8, False),
+        (".tif", np.uint16, True),
+        (".tif", np.float32, False),
+    ],
+)
+def test_orientation_is_applied_once_or_left_out_whoever_decodes(
+    ending: str, dtype: type, big: bool, shown: bool, tmp_path: Path
+) -> None:
+    """Pictures, masks and labels come to lie in the camera's pixels, as EXIF's text has it, for all eight."""
+    smooth = np.stack([*np.meshgrid(np.linspace(40, 200, 24), np.linspace(90, 220, 16)), np.full((16, 24), 77.0)], -1)
+    values = smooth.astype(np.uint8).astype(dtype) * np.asarray({np.uint16: 257, np.float32: 1 / 255}.get(dtype, 1), dtype)
+    mask = np.where(smooth[..., 0] + smooth[..., 1] > 300, 255, 0).astype(np.uint8)
+    for orientation, show in SHOWN.items():
+        expected, seen = (show(a) if shown else a for a in (values, mask))
+        _write(tmp_path / f"p{ending}", values, orientation, big)
+        # A mask in the camera's pixels without a tag; one with the photograph's tag; labels as they are shown.
+        _write(tmp_path / "plain.png", seen, 1)
+        _write(tmp_path / "tagged.tif", mask, orientation)
+        _write(tmp_path / "labels.tif", np.where(mask, 2, 0).astype(np.uint8), orientation)
+        height, width = seen.shape
+        for file in ("plain.png", "tagged.tif"):
+            view = SourceView(
+                "p", tmp_path / f"p{ending}", np.eye(4), (30.0, 30.0), None, width, height,
+                mask=tmp_path / file, label=tmp_path / "labels.tif",
+            )  # fmt: skip
+            source = Source(tmp_path, (view,), exif_applied=shown)
+            taken = take(source, view, Reading("linear", 1, None, None, False, False, None, {2: "nose"}), set())
+            scale = 1 if dtype == np.float32 else np.iinfo(dtype).max
+            np.testing.assert_allclose(taken.radiance, expected / scale, atol=0.02 if ending == ".jpg" else 1e-6)
+            np.testing.assert_array_equal(taken.mask, seen)
+            np.testing.assert_array_equal(np.asarray(taken.labels) > 0, seen > 0)
+        _write(tmp_path / "tagged.png", mask, orientation)
+        with Image.open(tmp_path / "tagged.png") as image:
+            np.testing.assert_array_equal(oriented(mask, orientation), np.asarray(ImageOps.exif_transpose(image)))
+        np.testing.assert_array_equal(oriented(oriented(mask, orientation), inverse(orientation)), mask)
+
+
+@pytest.mark.parametrize(
+    ("exif", "name", "profile"),
+    [
+        ({0xA001: 65535, 0xA005: {1: "R03"}}, "a.png", "Adobe RGB (1998), by EXIF (ColorSpace 65535, InteropIndex R03)"),
+        ({0xA001: 2}, "b.png", "Adobe RGB (1998), by EXIF (ColorSpace 2)"),
+        ({0xA001: 65535}, "_DSC001.png", "Adobe RGB (1998), by EXIF (ColorSpace 65535) and the underscore that begins"),
+        ({0xA001: 65535, 0xA005: {1: "R98"}}, "_c.png", None),
+        ({0xA001: 1}, "_d.png", None),
+        ({0xA001: 65535}, "e.png", None),
+    ],
+)
+def test_colours_that_exif_alone_states(exif: dict, name: str, profile: str | None, tmp_path: Path) -> None:
+    tags = Image.Exif()
+    tags[0x8769] = exif
+    Image.fromarray(CODES).save(tmp_path / name, exif=tags)
+    read = read_photograph(tmp_path / name)
+    assert (read.profile or "").startswith(profile or "") and (read.profile is None) == (profile is None)
+    Image.fromarray(CODES).save(tmp_path / "with.png", icc_profile=ADOBE)
+    expected = read_photograph(tmp_path / "with.png").radiance if profile else _srgb(CODES)
+    np.testing.assert_allclose(read.radiance, expected, atol=1e-3)
+    assert (read.doubt is not None) == (name == "e.png")
 
 
 def test_brackets_become_one_radiance(tmp_path: Path) -> None:
@@ -154,11 +218,11 @@ def test_alpha_masks_and_indexed_labels(tmp_path: Path) -> None:
     read = read_photograph(tmp_path / "a.png")
     assert read.alpha is not None
     np.testing.assert_array_equal(read.alpha * 255, alpha)
-    np.testing.assert_array_equal(read_plane(tmp_path / "a.png"), alpha)
+    np.testing.assert_array_equal(read_plane(tmp_path / "a.png").values, alpha)
     indexed = Image.fromarray((np.arange(60) % 7).astype(np.uint8).reshape(6, 10), mode="P")
     indexed.putpalette([value for index in range(7) for value in (index * 30, 255 - index, 9)])
     indexed.save(tmp_path / "b.png")
-    np.testing.assert_array_equal(read_plane(tmp_path / "b.png"), (np.arange(60) % 7).reshape(6, 10))
+    np.testing.assert_array_equal(read_plane(tmp_path / "b.png").values, (np.arange(60) % 7).reshape(6, 10))
     Image.fromarray(CODES).save(tmp_path / "c.png")
     with pytest.raises(PictureError, match="is a picture of colours"):
         read_plane(tmp_path / "c.png")

@@ -31,7 +31,8 @@ def exif_colour_space(tags: dict[int, Any], exif: Image.Exif, name: str) -> tupl
         return ADOBE_RGB, "EXIF (ColorSpace 2)"
     if space != _UNCALIBRATED:
         return "srgb", "EXIF"
-    index = str(exif.get_ifd(_INTEROPERABILITY).get(_INDEX, "")).strip("\0 ")
+    stated = exif.get_ifd(_INTEROPERABILITY) if _INTEROPERABILITY in tags else {}
+    index = str(stated.get(_INDEX, "")).strip("\0 ")
     if index == "R03":
         return ADOBE_RGB, "EXIF (ColorSpace 65535, InteropIndex R03)"
     if index == "R98":

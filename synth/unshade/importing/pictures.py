@@ -48,9 +48,7 @@ _READ = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp")
 
 _MAX_PIXELS = 1 << 28
 
-_EXPOSURE_TIME, _F_NUMBER, _ISO, _EXIF = 0x829A, 0x829D, 0x8827, 0x8769
-_WIDTH, _HEIGHT, _PROFILE = 0x0100, 0x0101, 0x8773
-"""Tags of TIFF files."""
+_EXPOSURE_TIME, _F_NUMBER, _ISO, _EXIF, _PROFILE = 0x829A, 0x829D, 0x8827, 0x8769, 0x8773
 
 _NAMED_CURVES = (
     ("linear", "linear"),
@@ -192,6 +190,7 @@ def read_plane(path: Path) -> Plane:
     try:
         data, turned = as_stored(path.read_bytes())
         with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(BytesIO(data)) as image:
                 orientation = _exif_orientation(image.getexif(), turned)
@@ -229,8 +228,8 @@ def _file(path: Path) -> tuple[bytes, int | None]:
 def _header(path: Path, data: bytes, turned: int | None) -> _Header:
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-            exif, width, height, info = _metadata(data)
+            warnings.simplefilter("ignore")
+            exif, width, height, info = _metadata(path, data)
             if width * height > _MAX_PIXELS:
                 raise PictureError(f"{path}: is {width} x {height}; write it with fewer than {_MAX_PIXELS} pixels")
             tags = exif.get_ifd(_EXIF)
@@ -248,18 +247,19 @@ def _header(path: Path, data: bytes, turned: int | None) -> _Header:
         raise PictureError(f"{path}: cannot be read: {_reason(error)}; write PNG, JPEG or TIFF again") from error
 
 
-def _metadata(data: bytes) -> tuple[Image.Exif, int, int, dict[Any, Any]]:
+def _metadata(path: Path, data: bytes) -> tuple[Image.Exif, int, int, dict[Any, Any]]:
     """EXIF, width and height (pixels), and what else Pillow finds in a file."""
     try:
         with Image.open(BytesIO(data)) as image:
             return image.getexif(), image.width, image.height, image.info
     except UnidentifiedImageError:
-        # Pillow has no colours of floating point; the tags of such TIFF files are EXIF like any other.
+        if data[:2] not in (b"II", b"MM"):
+            raise
+        # Pillow lacks colours of floating point and some large TIFF files; their tags are EXIF like any other.
         exif = Image.Exif()
         exif.load(data)
-        if _WIDTH not in exif or _HEIGHT not in exif:
-            raise
-        return exif, exif[_WIDTH], exif[_HEIGHT], {"icc_profile": exif.get(_PROFILE)}
+        height, width = _decoded(path, data).shape[:2]
+        return exif, width, height, {"icc_profile": exif.get(_PROFILE)}
 
 
 def _exif_orientation(exif: Image.Exif, turned: int | None) -> int:
