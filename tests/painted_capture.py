@@ -121,7 +121,9 @@ def write(
         Image.fromarray(np.where(view.mask, 255, 0).astype(np.uint8)).save(folder / "masks" / f"{view.name}.png")
         frame = view.frame()
         frames.append(frame | {"file_path": f"images/{path.name}", "mask_path": f"masks/{view.name}.png"})
-        cameras.append(f"{number} PINHOLE " + " ".join(str(frame[key]) for key in ("w", "h", "fl_x", "fl_y", "cx", "cy")))
+        cameras.append(
+            f"{number} PINHOLE " + " ".join(str(frame[key]) for key in ("w", "h", "fl_x", "fl_y", "cx", "cy"))
+        )
         pose = np.linalg.inv(view.matrix @ OPENCV_AXES)
         turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
         numbers = [*turn[[3, 0, 1, 2]], *pose[:3, 3]]

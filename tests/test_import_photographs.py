@@ -119,7 +119,9 @@ def _record(folder: Path, out: Path, **options: Any) -> dict[str, Any]:
     """``import.json`` of a capture that Python imports."""
     format = "transforms" if (folder / "transforms.json").is_file() else "colmap"
     files = {"mesh": folder / "head.obj", "masks": folder / "masks"}
-    return json.loads((unshade.import_capture(format, folder, out / "capture", **files, **options) / "import.json").read_text())
+    return json.loads(
+        (unshade.import_capture(format, folder, out / "capture", **files, **options) / "import.json").read_text()
+    )
 
 
 def _head_axes(record: dict[str, Any], world: np.ndarray) -> np.ndarray:
@@ -139,5 +141,5 @@ def test_adobe_rgb_that_only_exif_states_is_read_as_such(tmp_path: Path) -> None
         exif[0x8769] = {0xA001: 65535, 0xA005: {1: "R03"}}
         Image.fromarray(codes).save(folder / "images" / f"{view.name}.png", exif=exif)
     capture, record, _ = _imported(folder)
-    _agree(capture, taken, 0.006)
+    _agree(capture, taken, 0.01)
     assert record["profiles"] == ["Adobe RGB (1998), by EXIF (ColorSpace 65535, InteropIndex R03)"]

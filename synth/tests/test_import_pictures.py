@@ -135,7 +135,9 @@ def test_orientation_is_applied_once_or_left_out_whoever_decodes(
 ) -> None:
     """Pictures, masks and labels come to lie in the camera's pixels, as EXIF's text has it, for all eight."""
     smooth = np.stack([*np.meshgrid(np.linspace(40, 200, 24), np.linspace(90, 220, 16)), np.full((16, 24), 77.0)], -1)
-    values = smooth.astype(np.uint8).astype(dtype) * np.asarray({np.uint16: 257, np.float32: 1 / 255}.get(dtype, 1), dtype)
+    values = smooth.astype(np.uint8).astype(dtype) * np.asarray(
+        {np.uint16: 257, np.float32: 1 / 255}.get(dtype, 1), dtype
+    )
     mask = np.where(smooth[..., 0] + smooth[..., 1] > 300, 255, 0).astype(np.uint8)
     for orientation, show in SHOWN.items():
         expected, seen = (show(a) if shown else a for a in (values, mask))
@@ -165,7 +167,11 @@ def test_orientation_is_applied_once_or_left_out_whoever_decodes(
 @pytest.mark.parametrize(
     ("exif", "name", "profile"),
     [
-        ({0xA001: 65535, 0xA005: {1: "R03"}}, "a.png", "Adobe RGB (1998), by EXIF (ColorSpace 65535, InteropIndex R03)"),
+        (
+            {0xA001: 65535, 0xA005: {1: "R03"}},
+            "a.png",
+            "Adobe RGB (1998), by EXIF (ColorSpace 65535, InteropIndex R03)",
+        ),
         ({0xA001: 2}, "b.png", "Adobe RGB (1998), by EXIF (ColorSpace 2)"),
         ({0xA001: 65535}, "_DSC001.png", "Adobe RGB (1998), by EXIF (ColorSpace 65535) and the underscore that begins"),
         ({0xA001: 65535, 0xA005: {1: "R98"}}, "_c.png", None),

@@ -346,9 +346,7 @@ class _Import:
             },
             "front": placement.front,
             "source_to_capture": placement.matrix.tolist(),
-            "summary": summary(
-                len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)
-            ),
+            "summary": summary(len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)),
             "assumed": sorted(self.notes),
         }
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ..errors import CaptureError
 from .brackets import bracket, merged
 from .lens import undistorted
-from .parser_labels import our_labels
 from .orientation import inverse, oriented, shown_up
+from .parser_labels import our_labels
 from .pictures import Floats, Photograph, Plane, orientation_and_size, read_photograph, read_plane
 from .pinhole import Pinhole
 from .placement import ShownUps
