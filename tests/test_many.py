@@ -57,7 +57,7 @@ def test_a_method_that_fails_keeps_no_other_job_waiting(wide: Path, tiny_run: Pa
     done = unshade("run", suite, "-o", run, "--jobs", 2, check=False)
     assert done.returncode == 1, done.stderr
     assert f"capture/{CASE}: still valid" in done.stderr
-    assert f"{CASE}/picky failed" in done.stderr and "no light for 4 views" in done.stderr
+    assert f"maps/{CASE}/picky: failed: " in done.stderr and "no light for 4 views" in done.stderr
     solvers = json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
     assert [("scores" in solver, "failed" in solver) for solver in solvers] == [(True, False), (False, True)]
     assert (run / "scores" / CASE / "mean_texture.json").is_file() and not (

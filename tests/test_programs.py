@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import textwrap
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from conftest import HERE, unshade
 
 CASE = "tiny-studio"
+SPY_ID = "spy-seed3"
 
 SUITE = f"""
 format = 1
@@ -26,10 +29,13 @@ scales = ["global"]
 [[method]]
 name = "mine"
 python = "mine:solve"
+set = {{ gain = 1.0 }}
 
 [[method]]
 name = "spy"
-command = ["python", "spy.py", "{{capture}}", "{{maps}}"]
+command = ["python", "spy.py", "{{capture}}", "{{maps}}", "{{set}}", "{{lr}}", "{{debug}}"]
+set = {{ lr = 0.1 }}
+seeds = [3]
 
 [[method]]
 name = "broken"
@@ -59,18 +65,34 @@ import numpy as np
 import unshade
 from shade import colour
 
-def solve(capture):
+def solve(capture, gain=2.0):
     print("seen:", capture.train)
-    return unshade.Maps(diffuse_albedo=np.full((16, 16, 3), colour(), np.float32))
+    return unshade.Maps(diffuse_albedo=np.full((16, 16, 3), gain * colour(), np.float32))
 """
 
 # Looks wherever it can for pictures that it must not have, and hands in the best that it finds.
 SPY = """
-import os, pathlib, shutil, sys
+import os, pathlib, shutil, socket, sys
 import numpy as np
 import unshade
 
-capture, maps = map(pathlib.Path, sys.argv[1:])
+capture, maps = map(pathlib.Path, sys.argv[1:3])
+print("given:", *sys.argv[3:5], os.environ["UNSHADE_SET"], os.environ["UNSHADE_SEED"])
+pathlib.Path(sys.argv[5], "seen.txt").write_text(os.environ["UNSHADE_DEBUG"])
+pathlib.Path.home().joinpath("settings").write_text("x")
+server = socket.create_server(("127.0.0.1", 0))
+for kind in (socket.SOCK_STREAM, socket.SOCK_DGRAM):
+    try:
+        # Of a range for documentation, which nobody has.
+        socket.socket(socket.AF_INET, kind).connect(("192.0.2.1", 9))
+        print("reached:", kind)
+    except OSError as error:
+        print("unreachable:", error)
+try:
+    socket.create_connection(server.getsockname()).close()
+    print("loopback: open")
+except OSError as error:
+    print("loopback:", error)
 roots = {place.resolve() for start in (capture, maps, pathlib.Path.cwd(), pathlib.Path.home()) for place in (start, *start.parents)}
 roots |= {pathlib.Path(os.environ["SPY_RUN"]), pathlib.Path(os.environ["SPY_RUN"]).parent}
 found = []
@@ -134,6 +156,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     done = go(folder)
     assert done.returncode == 1, done.stderr
+    assert done.stderr.count("no such lens") == 1 and "unshade: 4 failed; the reasons are above" in done.stderr
     return folder
 
 
@@ -160,9 +183,13 @@ def log(folder: Path, method: str) -> str:
     return (folder / "run" / "logs" / CASE / f"{method}.txt").read_text()
 
 
+def methods(folder: Path) -> list[dict[str, Any]]:
+    solvers: list[dict[str, Any]] = json.loads((folder / "run" / "run.json").read_text())["cases"][0]["solvers"]
+    return solvers
+
+
 def failures(folder: Path) -> dict[str, str]:
-    run = json.loads((folder / "run" / "run.json").read_text())
-    return {s["id"]: s["failed"] for s in run["cases"][0]["solvers"] if "failed" in s}
+    return {s["id"]: s["failed"] for s in methods(folder) if "failed" in s}
 
 
 def test_one_failing_method_leaves_the_others_alone(programs: Path) -> None:
@@ -189,7 +216,7 @@ def test_a_program_that_is_ended_leaves_no_process(programs: Path) -> None:
 
 
 def test_a_spy_finds_nothing_of_the_truth(programs: Path) -> None:
-    said = dict(line.partition(":")[::2] for line in log(programs, "spy").splitlines() if ":" in line)
+    said = dict(line.partition(":")[::2] for line in log(programs, SPY_ID).splitlines() if ":" in line)
     transforms = json.loads((programs / "run" / "captures" / CASE / "transforms.json").read_text())
     train = [f for f in transforms["frames"] if f["file_path"] in transforms["train_filenames"]]
     given = {f[key] for f in train for key in ("file_path", "mask_path", "label_path")}
@@ -197,7 +224,22 @@ def test_a_spy_finds_nothing_of_the_truth(programs: Path) -> None:
     if confined():
         assert said["truth"].split() == []
         assert "written" not in said
-        assert value(programs, "spy") < 40
+        assert value(programs, SPY_ID) < 40
+
+
+def test_a_program_is_given_settings_a_debug_folder_and_no_network(programs: Path) -> None:
+    text = log(programs, SPY_ID)
+    given = '{"lr":0.1,"seed":3}'
+    assert f"given: {given} 0.1 {given} 3\n" in text
+    debug = programs / "run" / "debug" / CASE / SPY_ID
+    assert (debug / "seen.txt").read_text() == str(debug) and (debug / "home" / "settings").is_file()
+    assert not (debug.parent / "mine").exists()
+    (made,) = (s for s in methods(programs) if s["id"] == SPY_ID)
+    assert (made["of"], made["seed"], made["set"]) == ("spy", 3, {"lr": 0.1, "seed": 3})
+    timing = json.loads((programs / "run" / "timing.json").read_text())["stages"]
+    (network,) = {stage["made"]["network"] for stage in timing if stage["made"].get("network")}
+    assert ("reached" not in text) == (network == "closed")
+    assert ("loopback: open" in text) == (network != "tcp")
 
 
 def confined() -> bool:
@@ -211,6 +253,7 @@ def test_the_report_says_what_a_program_could_read(programs: Path) -> None:
     page = (programs / "run" / "report" / "index.html").read_text()
     assert ("its own files and the training views" if confined() else "not confined") in page
     assert "mine.py and 1 more files" in page
+    assert "; no network" in page or "; no TCP, but UDP" in page or "; the network" in page
 
 
 def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path: Path) -> None:
@@ -226,6 +269,8 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     before = value(folder, "mine")
     assert "0 stages run" in go(folder).stderr
     write(folder, "shade.py", "def colour():\n    return 0.5\n")  # imported, not named
+    done = go(folder, "--method", "oracle")
+    assert "0 stages run" in done.stderr and [method["id"] for method in methods(folder)] == ["oracle"]
     done = go(folder)
     assert "3 stages run" in done.stderr, done.stderr
     assert value(folder, "mine") != before
@@ -233,6 +278,9 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     assert "1 stages run" in go(folder, "--redo", "mine").stderr
     wrong = go(folder, "--redo", "yours")
     assert wrong.returncode == 2 and "there are mine, oracle" in wrong.stderr
+    (folder / "suite.toml").write_text((folder / "suite.toml").read_text().replace("gain = 1.0", "gain = 0.5"))
+    assert re.search(r"^maps +1 +1 ", go(folder, "--dry-run").stdout, re.MULTILINE)
+    (folder / "suite.toml").write_text((folder / "suite.toml").read_text().replace("gain = 0.5", "gain = 1.0"))
     # What is broken now does not pass for what was.
     write(folder, "shade.py", "def colour():\n    raise SystemExit('no colour')\n")
     assert go(folder).returncode == 1
@@ -256,6 +304,10 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
         ('name = "a"\npython = "gone:solve"', "suite.toml:6: python: there is no module gone"),
         ('name = "a"\npython = "ok:resolve"', "has no function resolve"),
         ('name = "a"\npython = "ok:solve"\ninputs = ["weights.bin"]', "suite.toml:7: inputs: there is no"),
+        (
+            'name = "a"\npython = "ok:solve"\nset = { gian = 2 }',
+            'suite.toml:6: python: ok:solve has no argument "gian"; did you mean "gain"?',
+        ),
         ('name = "fast"\n[method.set.warm_up]\niteration = 3', "suite.toml:5: name: configuration: "),
     ],
 )
@@ -263,7 +315,7 @@ def test_what_can_be_checked_is_checked_before_anything_is_rendered(tmp_path: Pa
     head = SUITE.strip().split("[[method]]")[0].replace('scales = ["global"]\n\n', "")
     (tmp_path / "suite.toml").write_text(head + "[[method]]\n" + table + "\n")
     (tmp_path / "bad.py").write_text("x = 1\ndef (:\n")
-    (tmp_path / "ok.py").write_text("def solve(capture):\n    return None\n")
+    (tmp_path / "ok.py").write_text("def solve(capture, gain=1):\n    return None\n")
     done = go(tmp_path)
     assert done.returncode == 2
     assert expected in done.stderr, done.stderr

@@ -18,8 +18,6 @@ format = 1
 name = "sealed"
 scene = "{scene}"
 scales = ["global"]
-[[method]]
-name = "oracle"
 """
 
 
@@ -81,8 +79,12 @@ def test_a_stranger_finds_no_truth(place: Path) -> None:
         assert content not in secrets, path
         assert not [word for word in words if word in content], path
     assert not [path for path in public.rglob("*") if path.name == "truth" or path.is_symlink()]
-    # What is there can be solved.
+    # What is there can be solved, but not scored here.
     assert package.Capture(public / "captures" / "tiny-studio").path
+    suite = public.parent / "suite.toml"
+    suite.write_text('format = 1\nname = "s"\ncaptures = ["public/captures/tiny-studio"]\n[[method]]\nname = "fast"\n')
+    done = unshade("run", suite, "-o", public.parent / "run", check=False)
+    assert done.returncode == 2 and "suite.toml:3: captures: " in done.stderr and "hand them in" in done.stderr
 
 
 def test_the_faces_are_the_secrets_own(place: Path, tiny_run: Path) -> None:

@@ -145,10 +145,31 @@ def test_runs_of_others_meet_on_the_same_captures(tiny_run: Path, tmp_path: Path
     changed = json.loads(scores.read_text())
     changed["inputs"]["maps"] = "0" * 64
     scores.write_text(json.dumps(changed))
+    run = other / "run.json"
+    listed = json.loads(run.read_text())
+    solvers = {solver["id"]: solver for solver in listed["cases"][0]["solvers"]}
+    solvers["mean_texture"]["content"] = "12345678"
+    run.write_text(json.dumps(listed))
+    own = json.loads((tiny_run / "run.json").read_text())["cases"][0]["solvers"]
+    hashes = {solver["id"]: solver["content"][:6] for solver in own}
     unshade("site", tiny_run, other, "-o", tmp_path / "site")
     data = json.loads((tmp_path / "site" / "leaderboard.json").read_text())
     names = sorted(entry["name"] for entry in data["entries"])
-    assert names == ["mean_texture", "oracle", "quick (somebody's run)", "quick (tiny)"]
+    means = sorted(f"mean_texture (#{mark})" for mark in ("123456", hashes["mean_texture"]))
+    assert names == [*means, "oracle", "quick (somebody's run)", "quick (tiny)"]
+    # On other captures, an author and the content tell methods of equal names apart, and make them one.
+    for author, content, count in (("ada", "1", 1), ("bo", "1", 2), ("ada", "2", 2)):
+        pair = []
+        for at, (who, what) in enumerate((("ada", "1"), (author, content))):
+            changed["inputs"]["capture"] = str(at) * 64
+            solvers["quick"] |= {"author": who, "content": what * 64}
+            pair.append(tmp_path / f"{author}{content}{at}")
+            (pair[-1] / "scores" / "tiny-studio").mkdir(parents=True)
+            (pair[-1] / "scores" / "tiny-studio" / "quick.json").write_text(json.dumps(changed))
+            (pair[-1] / "run.json").write_text(json.dumps(listed))
+        unshade("site", *pair, "-o", tmp_path / "pair")
+        entries = json.loads((tmp_path / "pair" / "leaderboard.json").read_text())["entries"]
+        assert len(entries) == count, (author, content)
     assert data["captures"]["case"] == ["tiny-studio"]
     assert [entry["ranked"] for entry in data["entries"] if entry["name"] == "oracle"] == [False]
     for link in [run["report"] for run in data["runs"]] + data["captures"]["picture"]:

@@ -45,11 +45,23 @@ def test_a_suite_names_faces_and_lights_that_come_with_unshade(tmp_path: Path) -
     assert "there are courtyard, envmap, flash" in failed.stderr
 
 
-def test_init_writes_a_suite_and_never_over_anything(tmp_path: Path) -> None:
+def test_init_writes_a_suite_and_never_over_anything(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "new" / "start"
     said = command("init", folder)
     assert said.stdout == f"unshade run {folder / 'suite.toml'} -o {folder / 'run'}\n"
     assert {path.name for path in folder.iterdir()} == {"suite.toml", "mine.py"}
+    # The suite's own first line, and every other way to name the same files.
+    (tmp_path / "link").symlink_to(folder)
+    for here, suite, run in (
+        (folder, "suite.toml", "run"),
+        (folder, "./suite.toml", "run/"),
+        (folder.parent, "start/../start/suite.toml", "start/run"),
+        (folder.parent, tmp_path / "link" / "suite.toml", "../link/run"),
+    ):
+        monkeypatch.chdir(here)
+        said = command("run", suite, "-o", run, "--dry-run").stdout
+        assert said.startswith("stage "), (here, suite)
+    monkeypatch.chdir(tmp_path)
     (folder / "mine.py").write_text("mine")
     failed = command("init", folder, check=False)
     assert failed.returncode == 2 and "is not empty" in failed.stderr

@@ -92,7 +92,7 @@ impl Named for RunError {
             Self::Interrupted | Self::Stopped { .. } => "Stopped",
             Self::Bench(_)
             | Self::Viewer(_)
-            | Self::Redo { .. }
+            | Self::UnknownName { .. }
             | Self::Keep { .. }
             | Self::NoRun(_) => "UnshadeError",
             Self::Seal(_) | Self::Submission(_) => "UnshadeError",

@@ -154,13 +154,20 @@ impl Observer for Teller<'_> {
     }
 
     fn step(&mut self, id: &str, done: u64, total: u64, what: &str) {
-        let what = format!("{id}: {done} of {total}, {what}");
+        let what = match total {
+            0 => format!("{id}: {what}"),
+            _ => format!("{id}: {done} of {total}, {what}"),
+        };
         self.said.say(self.done, self.total, &what);
     }
 
     fn stage_ends(&mut self, id: &str, _: Option<f64>) {
         self.done += 1;
         self.said.say(self.done, self.total, id);
+    }
+
+    fn stage_fails(&mut self, id: &str, reason: &str) {
+        self.said.say(self.done, self.total, &format!("{id}: failed: {reason}"));
     }
 }
 

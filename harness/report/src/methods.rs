@@ -24,6 +24,8 @@ pub(super) struct MethodRow {
     memory: String,
     /// Whether the kernel kept the program to its files; none for methods that are ours.
     confined: Option<bool>,
+    /// What it could reach beyond the machine; none for methods that are ours.
+    network: Option<&'static str>,
     log: Option<String>,
 }
 
@@ -58,6 +60,11 @@ pub(super) fn rows(
                 .and_then(|made| made.peak_bytes)
                 .map_or(EMPTY.to_owned(), |bytes| format!("{:.2} GiB", bytes as f64 / GIB)),
             confined: made.and_then(|made| made.confined),
+            network: made.and_then(|made| made.network.as_deref()).map(|network| match network {
+                "closed" => "no network",
+                "tcp" => "no TCP, but UDP",
+                _ => "the network",
+            }),
             log: keep_log(&log, &case.id, &column.method.id, root)?,
         })
     };

@@ -56,6 +56,9 @@ pub(super) struct Method {
     #[serde(default)]
     pub class: Class,
     pub title: Option<String>,
+    pub author: Option<String>,
+    /// A hash of its settings and files.
+    pub content: Option<String>,
     pub maps: Option<PathBuf>,
     pub relit: Option<PathBuf>,
     pub scores: Option<PathBuf>,
@@ -159,6 +162,8 @@ pub(super) struct Made {
     pub peak_bytes: Option<u64>,
     /// Whether the kernel kept it to its own files.
     pub confined: Option<bool>,
+    /// What it could reach beyond its machine: `open`, `tcp` closed, or `closed`.
+    pub network: Option<String>,
 }
 
 /// `maps/timing.json`: what the stages of a solver took, by their names, in their order.

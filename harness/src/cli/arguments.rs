@@ -106,8 +106,8 @@ pub(super) enum Verb {
     Clean {
         /// The run's folder.
         run: PathBuf,
-        /// Kinds of folders to keep, with commas: captures, lights, maps, relit, logs, scores, report,
-        /// store. Without it nothing is removed.
+        /// Kinds of folders to keep, with commas: captures, lights, maps, relit, logs, debug, scores,
+        /// report, store. Without it nothing is removed.
         #[arg(long, value_delimiter = ',', value_name = "KINDS")]
         keep: Vec<String>,
     },
@@ -228,6 +228,13 @@ pub(super) struct RunArgs {
     /// The run's folder.
     #[arg(short, long)]
     pub out: PathBuf,
+    /// Run this method alone; may be given again. What is valid of the others stays, and a run without it goes on
+    /// from there.
+    #[arg(long = "method", value_name = "NAME")]
+    pub methods: Vec<String>,
+    /// Run this case alone; may be given again.
+    #[arg(long = "case", value_name = "NAME")]
+    pub cases: Vec<String>,
     /// Make the maps of this method anew, whatever was kept; may be given again.
     #[arg(long, value_name = "NAME")]
     pub redo: Vec<String>,

@@ -107,9 +107,6 @@ fn make_runs(
         let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);
         progress.finish();
         let summary = summary?;
-        for (name, reason) in &summary.failed {
-            eprintln!("unshade: {name} failed: {reason}");
-        }
         if !summary.failed.is_empty() {
             return Ok(Err(CHECK_FAILED));
         }

@@ -28,7 +28,7 @@ pub(super) fn seal(arguments: &SealArgs) -> Result<u8, RunError> {
     }
     // The parser lets no other combination through.
     let Some(suite) = &arguments.suite else { return Ok(DONE) };
-    let suite = Suite::open(suite)?;
+    let suite = Suite::open_for_captures(suite)?;
     let sealing = Sealing { secret: &secret, round, jobs };
     let sealed = suite::seal(&suite, out, &sealing, &tools(), &mut progress);
     progress.finish();

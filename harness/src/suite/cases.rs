@@ -185,7 +185,19 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
                 format!("{name} is no capture without a truth; import one, or name a scene");
             return Err(wrong(reason));
         }
-        let id = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if !has_withheld_pictures(&folder) {
+            let reason = format!(
+                "{name} has no pictures of its withheld views, as captures of a sealed round, so nothing can be scored \
+                 here; write its maps with `unshade solve` or your method, and hand them in as a submission"
+            );
+            return Err(wrong(reason));
+        }
+        // `.` and `..` have no name, the folder that they lead to has.
+        let named = match folder.file_name() {
+            Some(_) => folder.clone(),
+            None => folder.canonicalize().unwrap_or_else(|_| folder.clone()),
+        };
+        let id = named.file_name().unwrap_or_default().to_string_lossy().into_owned();
         scene::check_id(path, &id)?;
         if cases.iter().any(|other| other.id == id) {
             return Err(wrong(format!("{id} occurs twice; rename one folder")));
@@ -194,6 +206,14 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
         cases.push(Case { id, variant: None, seed: None, scene, photographed: Some(folder) });
     }
     Ok(cases)
+}
+
+/// Whether the pictures are there that a capture names as withheld.
+fn has_withheld_pictures(capture: &Path) -> bool {
+    let text = std::fs::read(capture.join("transforms.json")).unwrap_or_default();
+    let transforms: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+    let withheld = transforms["test_filenames"].as_array().into_iter().flatten();
+    withheld.filter_map(serde_json::Value::as_str).all(|file| capture.join(file).is_file())
 }
 
 /// The renderer's seeds, each of which every case is rendered with; a single none where the file

@@ -11,9 +11,11 @@ use super::error::RunError;
 use super::plan::Kind;
 use super::run::lock;
 use super::size::size_of;
+use super::workshop::DEBUG;
 
 /// The folders of a run, beside its records.
-const PARTS: [&str; 8] = ["captures", "lights", "maps", "relit", "scores", "logs", "report", STORE];
+const PARTS: [&str; 9] =
+    ["captures", "lights", "maps", "relit", "scores", "logs", DEBUG, "report", STORE];
 /// Folder that an interrupted run on a cluster leaves: outputs by their content.
 const STORE: &str = "store";
 
@@ -77,6 +79,14 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
         let Some((word, place)) = id.split_once('.') else { continue };
         let place = part.join(place.replace('.', "/"));
         match kind {
+            None if word == Kind::Maps.word() && name == DEBUG => {
+                match fs::remove_dir_all(&place) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                        return Err(error.into());
+                    }
+                    _ => {}
+                }
+            }
             None if word == Kind::Maps.word() => remove_file(&place.with_extension("txt"))?,
             Some(kind) if kind.word() != word => continue,
             Some(Kind::Scores) => remove_file(&place.with_extension("json"))?,

@@ -100,6 +100,8 @@ fn order(workshop: &Workshop, plan: &[Task], records: &Records) -> Result<Value,
         let kept = key.and_then(|key| records.finished(&task.id, &key.hash, &workshop.path(task)));
         if let Some(content) = &kept {
             contents.insert(task.id.clone(), content.clone());
+        } else if !task.wanted {
+            continue;
         }
         tasks.push(json!({
             "id": task.id, "after": task.after.iter().map(|at| &plan[*at].id).collect::<Vec<_>>(),

@@ -60,8 +60,8 @@ pub enum RunError {
     ConfigFile { path: PathBuf, reason: solver::ConfigError },
     #[error("the run folder cannot be used: {0}; make room or choose another")]
     Folder(#[from] io::Error),
-    #[error("--redo: the suite has no method {name:?}; there are {known}")]
-    Redo { name: String, known: String },
+    #[error("{flag}: {reason}")]
+    UnknownName { flag: &'static str, reason: String },
     #[error(transparent)]
     Seal(#[from] sealing::SealError),
     #[error("{0}")]

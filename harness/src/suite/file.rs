@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
+use super::error::RunError;
 use super::method::{self, Method};
+use super::near;
 use super::packaged::Kind;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 15] = [
-    "format", "name", "title", "scene", "captures", "faces", "lights", "face", "render", "variant",
-    "seeds", "scales", "relight", "lpips", "method",
+const KEYS: [&str; 16] = [
+    "format", "name", "title", "author", "scene", "captures", "faces", "lights", "face", "render",
+    "variant", "seeds", "scales", "relight", "lpips", "method",
 ];
 
 /// Keys that say something of a scene.
@@ -48,11 +50,27 @@ pub struct Suite {
     pub lpips: Option<&'static str>,
     /// The file's text, kept with the results.
     pub text: String,
+    /// Names of the methods that are run; empty for all.
+    pub only_methods: Vec<String>,
+    /// Ids of the cases that are run; empty for all.
+    pub only_cases: Vec<String>,
 }
 
 impl Suite {
     /// Reads a suite file, or a suite that comes with unshade, with its scene, faces and lights.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
+        let suite = Self::open_for_captures(path)?;
+        match suite.methods.is_empty() {
+            true => {
+                let reason = "is missing; write [[method]] tables";
+                Err(SceneError::value(&suite.path, "method", reason))
+            }
+            false => Ok(suite),
+        }
+    }
+
+    /// As [`Self::open`], of a suite that may have no methods: its captures alone are rendered.
+    pub fn open_for_captures(path: &Path) -> Result<Self, SceneError> {
         let path = &scene::typed(path, Kind::Suite)?;
         let table = scene::read_toml(path)?;
         scene::check_format(path, &table)?;
@@ -93,7 +111,53 @@ impl Suite {
             reason: error.to_string(),
         })?;
         let path = path.to_path_buf();
-        Ok(Self { path, name, title, cases, methods, scales, relight, lpips, text })
+        let (only_methods, only_cases) = (Vec::new(), Vec::new());
+        Ok(Self {
+            path,
+            name,
+            title,
+            cases,
+            methods,
+            scales,
+            relight,
+            lpips,
+            text,
+            only_methods,
+            only_cases,
+        })
+    }
+
+    /// This suite, of which no more is run than these methods and cases; of an empty list, all. A name that several
+    /// methods of a sweep share stands for all of them.
+    pub fn only(mut self, methods: Vec<String>, cases: Vec<String>) -> Result<Self, RunError> {
+        let mut known: Vec<&str> = Vec::new();
+        for name in self.methods.iter().flat_map(|method| [&method.stated, &method.id]) {
+            if !known.contains(&name.as_str()) {
+                known.push(name);
+            }
+        }
+        let is_known = |name: &&String| self.methods.iter().any(|method| method.is_named(name));
+        if let Some(name) = methods.iter().find(|name| !is_known(name)) {
+            let reason = near::unknown("the suite has no method", name, &known);
+            return Err(RunError::UnknownName { flag: "--method", reason });
+        }
+        let known: Vec<&str> = self.cases.iter().map(|case| case.id.as_str()).collect();
+        if let Some(name) = cases.iter().find(|name| !known.contains(&name.as_str())) {
+            let reason = near::unknown("the suite has no case", name, &known);
+            return Err(RunError::UnknownName { flag: "--case", reason });
+        }
+        (self.only_methods, self.only_cases) = (methods, cases);
+        Ok(self)
+    }
+
+    /// Whether a case is run, and not only kept.
+    pub(super) fn runs_case(&self, case: &Case) -> bool {
+        self.only_cases.is_empty() || self.only_cases.contains(&case.id)
+    }
+
+    /// Whether a method is run, and not only kept.
+    pub(super) fn runs_method(&self, method: &Method) -> bool {
+        self.only_methods.is_empty() || self.only_methods.iter().any(|name| method.is_named(name))
     }
 }
 

@@ -91,6 +91,7 @@ pub fn forecast(
                 stages.cached += 1;
                 0.0
             }
+            None if !task.wanted => 0.0,
             None => {
                 let cost = known.estimate(suite, &task);
                 stages.pending += 1;

@@ -26,7 +26,7 @@ pub(super) fn make_maps(
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Option<Usage>, RunError> {
     let Place { capture, maps, .. } = place;
-    let Ready { method, files } = ready;
+    let Ready { method, files, .. } = ready;
     match (&method.kind, files) {
         (MethodKind::Baseline { baseline, texture_size }, _) => {
             baseline.make(capture, maps, *texture_size)?;
@@ -43,7 +43,7 @@ pub(super) fn make_maps(
             })?;
         }
         (MethodKind::Program(program), Some(files)) => {
-            return program.run(&method.id, files, &place, &tools.interrupt).map(Some);
+            return program.run(&method.id, files, &place, &tools.interrupt, progress).map(Some);
         }
         (MethodKind::LabelMeans, _) => score::label_mean_maps(capture, maps)?,
         (MethodKind::Oracle | MethodKind::Program(_), _) => score::oracle_maps(capture, maps)?,

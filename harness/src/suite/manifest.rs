@@ -1,6 +1,6 @@
 //! `run.json`: what a run consists of, where everything lies, and which methods failed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
@@ -12,6 +12,10 @@ pub(super) struct Made<'a> {
     /// Methods that failed: `<case>/<method>` and why. What an earlier run left of such a method is not
     /// named.
     pub failed: &'a BTreeMap<String, String>,
+    /// `<case>/<method>` of which nothing valid is there, and which was not to be run.
+    pub left_out: BTreeSet<String>,
+    /// What each method is, by its id, see [`identity`](super::identity).
+    pub contents: BTreeMap<String, String>,
     /// Bytes that the stages of each kind left, by their folders.
     pub sizes: BTreeMap<&'static str, u64>,
 }
@@ -19,7 +23,12 @@ pub(super) struct Made<'a> {
 impl Default for Made<'_> {
     fn default() -> Self {
         static NOTHING: BTreeMap<String, String> = BTreeMap::new();
-        Self { failed: &NOTHING, sizes: BTreeMap::new() }
+        Self {
+            failed: &NOTHING,
+            left_out: BTreeSet::new(),
+            contents: BTreeMap::new(),
+            sizes: BTreeMap::new(),
+        }
     }
 }
 
@@ -32,6 +41,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
             let solvers: Vec<Value> = suite
                 .methods
                 .iter()
+                .filter(|method| !made.left_out.contains(&format!("{}/{}", case.id, method.id)))
                 .map(|method| {
                     let name = format!("{}/{}", case.id, method.id);
                     let below = |folder| format!("{folder}/{name}");
@@ -42,6 +52,15 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
                     if let Some((name, seed)) = &method.replicate {
                         solver["of"] = json!(name);
                         solver["seed"] = json!(seed);
+                    }
+                    if let Some(author) = &method.author {
+                        solver["author"] = json!(author);
+                    }
+                    if let Some(content) = made.contents.get(&method.id) {
+                        solver["content"] = json!(content);
+                    }
+                    if !method.set.is_empty() {
+                        solver["set"] = json!(method.set);
                     }
                     if let Some(reason) = made.failed.get(&name) {
                         solver["failed"] = json!(reason);
@@ -64,6 +83,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
                 "solvers": solvers,
             })
         })
+        .filter(|case| case["solvers"] != json!([]) || made.left_out.is_empty())
         .collect();
     let mut manifest = json!({
         "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,

@@ -8,11 +8,11 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
-use super::cases;
 use super::competitor::{Class, Competitor};
 use super::place;
-use super::program::{Gives, Limits, Program, Start};
+use super::program::{Gives, Limits, PLACES, Program, Start};
 use super::scene::{self, SceneError};
+use super::sweep::replicates;
 
 /// The methods that read the truth, as a suite names them.
 const ORACLE: &str = "oracle";
@@ -29,7 +29,7 @@ pub enum MethodKind {
         backend: Choice,
     },
     /// A program that is not ours.
-    Program(Program),
+    Program(Box<Program>),
     /// The true maps: the floor that rendering noise and the pipeline set.
     Oracle,
     /// One that comes with unshade and is no configuration of its solver.
@@ -61,9 +61,20 @@ pub struct Method {
     pub kind: MethodKind,
     /// The method's name and the seed, for a method with several seeds.
     pub replicate: Option<(String, u64)>,
+    /// Who made it, of a program: its own `author`, else that of the suite.
+    pub author: Option<String>,
+    /// Its `name` in the file, which several methods of a sweep share.
+    pub stated: String,
+    /// Single values that replace those of its configuration, or are handed to its program.
+    pub set: Table,
 }
 
 impl Method {
+    /// Whether a name of the command line stands for it: its own, or that of its table.
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        [&self.id, &self.stated].iter().any(|known| *known == name)
+    }
+
     /// Whether its maps are made from the truth, which photographs do not have.
     pub fn reads_truth(&self) -> bool {
         matches!(self.kind, MethodKind::Oracle | MethodKind::LabelMeans)
@@ -98,12 +109,16 @@ impl Method {
 struct MethodTable {
     name: String,
     title: Option<String>,
+    author: Option<String>,
     /// Preset, configuration file or competitor; without it the name is the preset or the competitor.
     config: Option<String>,
-    /// Single values that replace those of the configuration.
+    /// Single values that replace those of the configuration, or are handed to a program.
     #[serde(default)]
     set: Table,
-    /// Seeds of our solver: it is run once with each.
+    /// Lists of such values: the method is run once with each combination.
+    #[serde(default)]
+    sweep: Table,
+    /// Seeds: the method is run once with each.
     seeds: Option<Value>,
     backend: Option<String>,
     command: Option<CommandLine>,
@@ -118,6 +133,8 @@ struct MethodTable {
     version: Option<String>,
     inputs: Option<Vec<String>>,
     environment: Option<BTreeMap<String, String>>,
+    /// Whether a program may use the network.
+    network: Option<bool>,
 }
 
 #[derive(Clone, Deserialize)]
@@ -130,18 +147,33 @@ enum CommandLine {
 /// The methods in the order of the file.
 pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, SceneError> {
     let list = match table.get("method") {
-        Some(Value::Array(list)) if !list.is_empty() => list,
-        _ => return Err(SceneError::value(path, "method", "is missing; write [[method]] tables")),
+        None => return Ok(Vec::new()),
+        Some(Value::Array(list)) => list,
+        Some(_) => {
+            return Err(SceneError::value(path, "method", "must be tables; write [[method]]"));
+        }
+    };
+    let author = match table.get("author") {
+        None => None,
+        Some(Value::String(author)) => Some(author.clone()),
+        Some(_) => return Err(SceneError::value(path, "author", "must be a text")),
     };
     let mut methods: Vec<Method> = Vec::new();
     for value in list {
-        let table: MethodTable = value.clone().try_into().map_err(|error: toml::de::Error| {
-            let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
-            SceneError::in_table(path, name, "method", error.message())
-        })?;
-        for table in replicates(path, table)? {
-            let (replicate, table) = table;
-            let method = Method { replicate, ..method_of(path, table)? };
+        let name = value.get("name").and_then(Value::as_str).unwrap_or_default();
+        let read = |value: Value| -> Result<MethodTable, SceneError> {
+            let table = value.try_into();
+            table.map_err(|error: toml::de::Error| {
+                SceneError::in_table(path, name, "method", error.message())
+            })
+        };
+        read(value.clone())?.check_keys(path)?;
+        for (replicate, table) in replicates(path, value.as_table().unwrap_or(&Table::new()))? {
+            let method = method_of(path, read(Value::Table(table))?)?;
+            let of_suite =
+                || author.clone().filter(|_| matches!(method.kind, MethodKind::Program(_)));
+            let author = method.author.clone().or_else(of_suite);
+            let method = Method { replicate, author, stated: name.to_owned(), ..method };
             if methods.iter().any(|other| other.id == method.id) {
                 let reason = format!("{:?} occurs twice; rename one", method.id);
                 return Err(SceneError::value(path, "method", reason));
@@ -152,27 +184,6 @@ pub(super) fn methods_of(path: &Path, table: &Table) -> Result<Vec<Method>, Scen
     Ok(methods)
 }
 
-type Replicate = (Option<(String, u64)>, MethodTable);
-
-/// The table once for each of its seeds, under the name `<name>-seed<seed>`; as it is without any.
-fn replicates(path: &Path, mut table: MethodTable) -> Result<Vec<Replicate>, SceneError> {
-    table.check_keys(path)?;
-    let Some(listed) = table.seeds.take() else { return Ok(vec![(None, table)]) };
-    let seeds = cases::seeds(&listed).ok_or_else(|| {
-        let reason = "must be a list of whole numbers from 0, each once".to_owned();
-        SceneError::in_table(path, &table.name, "seeds", reason)
-    })?;
-    let of_seed = |seed: u64| {
-        let mut one = table.clone();
-        one.config = Some(table.config.clone().unwrap_or_else(|| table.name.clone()));
-        one.name = format!("{}-seed{seed}", table.name);
-        one.title = Some(format!("{}, seed {seed}", table.title.as_ref().unwrap_or(&table.name)));
-        one.set.insert("seed".to_owned(), Value::Integer(seed.cast_signed()));
-        (Some((table.name.clone(), seed)), one)
-    };
-    Ok(seeds.into_iter().map(of_seed).collect())
-}
-
 fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     scene::check_id(path, &table.name)?;
     table.check_keys(path)?;
@@ -180,7 +191,7 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
     let baseline = BaselineMethod::ALL.into_iter().find(|method| method.name() == table.name);
     let competitor = table.competitor();
     let kind = match (program, table.name.as_str()) {
-        (Some(program), _) => MethodKind::Program(program),
+        (Some(program), _) => MethodKind::Program(Box::new(program)),
         (None, ORACLE) => MethodKind::Oracle,
         (None, LABEL_MEANS) => MethodKind::LabelMeans,
         (None, name) => match baseline {
@@ -209,7 +220,9 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
         MethodKind::Competitor { competitor, .. } => competitor.title.to_owned(),
         MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
     });
-    Ok(Method { id: table.name, title, kind, replicate: None })
+    let stated = table.name.clone();
+    let author = table.author;
+    Ok(Method { id: table.name, title, kind, replicate: None, author, stated, set: table.set })
 }
 
 impl MethodTable {
@@ -249,17 +262,24 @@ impl MethodTable {
         if gives == Gives::Pictures && self.command.is_none() {
             return wrong("gives", "is pictures, which a function cannot return; write a command");
         }
+        if let Some(key) = PLACES.into_iter().find(|place| self.set.contains_key(*place)) {
+            let reason =
+                format!("{key} is the name of a path that the program is given; rename it");
+            return wrong("set", &reason);
+        }
         let Self { timeout_s, memory_gib, threads, .. } = *self;
-        let folder = place::beside(path, "");
+        let folder = place::folder_of(path);
         Ok(Some(Program {
             gives,
             texture_size: self.texture_size(path)?,
             start,
             inputs: self.inputs.iter().flatten().map(|input| folder.join(input)).collect(),
-            folder: std::path::absolute(&folder).unwrap_or(folder),
+            folder,
             limits: Limits { timeout_s, memory_gib, threads },
             environment: self.environment.clone().unwrap_or_default(),
             version: self.version.clone(),
+            settings: self.set.clone(),
+            network: self.network.unwrap_or_default(),
         }))
     }
 
@@ -279,8 +299,10 @@ impl MethodTable {
         let Self {
             name,
             title: _,
+            author,
             config,
             set,
+            sweep,
             seeds,
             backend,
             command,
@@ -293,6 +315,7 @@ impl MethodTable {
             version,
             inputs,
             environment,
+            network,
         } = self;
         let refused = |reason: String| {
             let reason = format!("{name:?} {reason}");
@@ -308,9 +331,11 @@ impl MethodTable {
         let fields =
             !foreign && !baseline && !competitor && ![ORACLE, LABEL_MEANS].contains(&&**name);
         for (key, given, means) in [
+            ("author", author.is_some(), foreign),
             ("config", config.is_some(), fields || competitor),
-            ("set", !set.is_empty(), fields || competitor),
-            ("seeds", seeds.is_some(), fields),
+            ("set", !set.is_empty(), fields || competitor || foreign),
+            ("sweep", !sweep.is_empty(), fields || competitor || foreign),
+            ("seeds", seeds.is_some(), fields || foreign),
             ("backend", backend.is_some(), fields),
             ("texture_size", texture_size.is_some(), if foreign { pictures } else { baseline }),
             ("gives", gives.is_some(), foreign),
@@ -320,6 +345,7 @@ impl MethodTable {
             ("version", version.is_some(), foreign),
             ("inputs", inputs.is_some(), foreign),
             ("environment", environment.is_some(), foreign),
+            ("network", network.is_some(), foreign),
         ] {
             if given && !means {
                 let mend = match key {

@@ -96,6 +96,13 @@ pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
     path.parent().unwrap_or(Path::new("")).join(name)
 }
 
+/// The absolute path of the folder that holds a file. The parent of a plain file name is the empty path, which the
+/// system refuses as a working directory.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    absolute.parent().map_or_else(|| PathBuf::from("."), Path::to_path_buf)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -56,6 +56,8 @@ pub struct Task {
     pub case: usize,
     /// The index of its method, of a stage that has one.
     pub method: Option<usize>,
+    /// Whether it is run if no valid output is there; else it and what follows from it are left out.
+    pub wanted: bool,
     /// The indices, in the plan, of the stages whose outputs it reads.
     pub after: Vec<usize>,
     /// Its output, below the run's folder.
@@ -73,17 +75,24 @@ impl Task {
 /// All stages of a suite, in the order in which one process does them.
 pub fn plan(suite: &Suite) -> Vec<Task> {
     let handed = suite.methods.iter().any(Method::gives_pictures);
+    let asked =
+        suite.methods.iter().any(|method| method.gives_pictures() && suite.runs_method(method));
     let mut tasks: Vec<Task> = Vec::new();
-    for (case, Case { id, photographed, .. }) in suite.cases.iter().enumerate() {
+    for (case, one @ Case { id, photographed, .. }) in suite.cases.iter().enumerate() {
         let mut add = |kind: Kind, method: Option<usize>, after: Vec<usize>| {
             let name = match method {
                 Some(method) => format!("{id}/{}", suite.methods[method].id),
                 None => id.clone(),
             };
+            let wanted = suite.runs_case(one)
+                && match method {
+                    Some(method) => suite.runs_method(&suite.methods[method]),
+                    None => kind == Kind::Capture || asked,
+                };
             let file = if kind == Kind::Scores { format!("{name}.json") } else { name.clone() };
             let path = Path::new(kind.folder()).join(file);
             let id = format!("{}/{name}", kind.word());
-            tasks.push(Task { id, kind, case, method, after, path });
+            tasks.push(Task { id, kind, case, method, wanted, after, path });
             tasks.len() - 1
         };
         let rendered = photographed.is_none();

@@ -28,6 +28,8 @@ pub(super) struct Outcome {
     pub skipped: usize,
     /// Methods that failed: `<case>/<method>` and why.
     pub failed: BTreeMap<String, String>,
+    /// Stages that were not wanted, and of which nothing valid is there.
+    pub left_out: BTreeSet<usize>,
     /// Content hashes of all finished stages.
     pub contents: Contents,
 }
@@ -45,7 +47,8 @@ pub(super) struct Work<'a> {
 enum Event {
     Begins(usize),
     Step(usize, u64, u64, String),
-    Ends(usize, Box<Result<Done, RunError>>),
+    /// None of a stage that is left out.
+    Ends(usize, Box<Result<Option<Done>, RunError>>),
 }
 
 /// A line to the thread that schedules, and its answer.
@@ -84,6 +87,7 @@ pub(super) fn run(
         // Its lines go with it, and with them the workers.
         let mut schedule = Schedule::new(workshop, plan, lines);
         for (name, reason) in failed {
+            observer.stage_fails(&name, &reason);
             schedule.fails(name, reason)?;
         }
         schedule.run(&events, times, observer)
@@ -98,12 +102,18 @@ fn worker(
     line: &Line,
 ) {
     while let Ok((at, contents)) = orders.recv() {
-        line.say(Event::Begins(at));
+        let task = &plan[at];
+        if task.wanted {
+            line.say(Event::Begins(at));
+        }
         let mut step =
             |done, total, what: &str| line.say(Event::Step(at, done, total, what.to_owned()));
-        let work = AssertUnwindSafe(|| workshop.run(&plan[at], &contents, records, &mut step));
+        let work = AssertUnwindSafe(|| match task.wanted {
+            true => workshop.run(task, &contents, records, &mut step).map(Some),
+            false => workshop.kept(task, &contents, records),
+        });
         let done = panic::catch_unwind(work).unwrap_or_else(|_| {
-            Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", plan[at].id))))
+            Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", task.id))))
         });
         line.say(Event::Ends(at, Box::new(done)));
     }
@@ -175,7 +185,7 @@ impl<'a> Schedule<'a> {
     }
 
     fn done(&self) -> usize {
-        self.outcome.ran + self.outcome.skipped
+        self.plan.len() - self.waiting.len() - self.running.len()
     }
 
     /// Gives every idle worker the first stage that waits for nothing and has the memory that it needs.
@@ -208,7 +218,7 @@ impl<'a> Schedule<'a> {
     fn ends(
         &mut self,
         at: usize,
-        done: Result<Done, RunError>,
+        done: Result<Option<Done>, RunError>,
         times: &mut Times,
         observer: &mut dyn Observer,
     ) {
@@ -216,7 +226,11 @@ impl<'a> Schedule<'a> {
         self.idle.extend(self.running.remove(&at));
         self.memory.give_back(at);
         let noted = match done {
-            Ok(Done { record, kept }) => {
+            Ok(None) => {
+                self.leave_out(at);
+                Ok(())
+            }
+            Ok(Some(Done { record, kept })) => {
                 *(if kept { &mut self.outcome.skipped } else { &mut self.outcome.ran }) += 1;
                 self.finished.insert(at);
                 self.outcome.contents.insert(task.id.clone(), record.content.clone());
@@ -224,7 +238,11 @@ impl<'a> Schedule<'a> {
                 times.add(record, kept).map_err(RunError::from)
             }
             Err(error) => match task.name(self.workshop.suite) {
-                Some(name) if error.is_of_method() => self.fails(name, error.to_string()),
+                Some(name) if error.is_of_method() => {
+                    let reason = error.to_string();
+                    observer.stage_fails(&task.id, &reason);
+                    self.fails(name, reason)
+                }
                 _ => Err(error),
             },
         };
@@ -235,9 +253,20 @@ impl<'a> Schedule<'a> {
         }
     }
 
+    /// Leaves out a stage and all that reads its output.
+    fn leave_out(&mut self, at: usize) {
+        let left_out = &mut self.outcome.left_out;
+        left_out.insert(at);
+        for (next, task) in self.plan.iter().enumerate().skip(at + 1) {
+            if task.after.iter().any(|before| left_out.contains(before)) {
+                left_out.insert(next);
+            }
+        }
+        self.waiting.retain(|at| !left_out.contains(at));
+    }
+
     /// A method that fails leaves its cells empty, and the others run.
     fn fails(&mut self, name: String, reason: String) -> Result<(), RunError> {
-        tracing::warn!("{name}: failed: {reason}");
         let suite = self.workshop.suite;
         let of = |at: &usize| self.plan[*at].name(suite).is_some_and(|other| other == name);
         self.waiting.retain(|at| !of(at));

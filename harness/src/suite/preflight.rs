@@ -24,13 +24,16 @@ pub(super) struct Ready<'a> {
     pub method: &'a Method,
     /// Files of a program; none for methods that are ours.
     pub files: Option<ProgramFiles>,
+    /// Whether it can be run. Only one that is not to be run may be otherwise.
+    pub found: bool,
 }
 
 /// Finds every program and opens every backend; a fault names the table of the suite.
 pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'a>>, RunError> {
-    let ready = |method: &'a Method| {
-        let wrong =
-            |key: &str, reason: String| SceneError::in_table(&suite.path, &method.id, key, reason);
+    let ready = |method: &'a Method| -> Result<Ready<'a>, RunError> {
+        let wrong = |key: &str, reason: String| {
+            SceneError::in_table(&suite.path, &method.stated, key, reason)
+        };
         let files = match &method.kind {
             MethodKind::Program(program) => {
                 if let Some(missing) = program.inputs.iter().find(|input| !input.exists()) {
@@ -50,9 +53,13 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
             | MethodKind::Baseline { .. }
             | MethodKind::Competitor { .. } => None,
         };
-        Ok(Ready { method, files })
+        Ok(Ready { method, files, found: true })
     };
-    suite.methods.iter().map(ready).collect()
+    let unless_left_out = |method: &'a Method| match ready(method) {
+        Err(_) if !suite.runs_method(method) => Ok(Ready { method, files: None, found: false }),
+        result => result,
+    };
+    suite.methods.iter().map(unless_left_out).collect()
 }
 
 /// The judge that the suite asks for can be called.
@@ -66,9 +73,9 @@ pub(super) fn judge(suite: &Suite, tools: &Tools) -> Result<(), RunError> {
     }
 }
 
-/// Every file that the scenes name is there.
+/// Every file is there that the scenes name of cases that are run.
 pub(super) fn files(suite: &Suite) -> Result<(), RunError> {
-    for case in &suite.cases {
+    for case in suite.cases.iter().filter(|case| suite.runs_case(case)) {
         for file in case.scene.files() {
             if !file.is_file() {
                 let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();

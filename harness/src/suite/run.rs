@@ -15,7 +15,9 @@ use formats::atomic;
 use super::cluster::{self, Cluster, Elsewhere};
 use super::error::RunError;
 use super::file::Suite;
+use super::identity;
 use super::manifest::{Made, manifest};
+use super::near;
 use super::plan::{Kind, Task, plan};
 use super::pool::{self, Work};
 use super::preflight;
@@ -69,7 +71,8 @@ pub fn run(
     let pool::Outcome { ran, skipped, failed, .. } = done;
     let folder = out.join("report");
     let start = Instant::now();
-    observer.stage_begins(REPORT, ran + skipped, plan(suite).len() + 1);
+    let stages = plan(suite).len();
+    observer.stage_begins(REPORT, stages, stages + 1);
     report(out, &folder, tools, &mut |done, total, what| observer.step(REPORT, done, total, what))?;
     observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
     times.around.report = start.elapsed().as_secs_f64() / suite.cases.len().max(1) as f64;
@@ -133,7 +136,12 @@ pub(super) fn stages(
     let mut done = done?;
     done.ran += made_elsewhere;
     done.skipped = done.skipped.saturating_sub(made_elsewhere);
-    let made = Made { failed: &done.failed, sizes: sizes(&plan, &times) };
+    let left_out = done.left_out.iter().filter_map(|at| plan[*at].name(suite)).collect();
+    let mut contents = BTreeMap::new();
+    for ready in &ready {
+        contents.extend(identity::content(ready)?.map(|hash| (ready.method.id.clone(), hash)));
+    }
+    let made = Made { failed: &done.failed, left_out, contents, sizes: sizes(&plan, &times) };
     write_manifest(&workshop, &made)?;
     Ok((lock, times, done))
 }
@@ -173,15 +181,19 @@ impl Observer for Counted<'_> {
     fn stage_ends(&mut self, id: &str, seconds: Option<f64>) {
         self.observer.stage_ends(id, seconds);
     }
+
+    fn stage_fails(&mut self, id: &str, reason: &str) {
+        self.observer.stage_fails(id, reason);
+    }
 }
 
 fn check_redo(suite: &Suite, options: &RunOptions) -> Result<(), RunError> {
-    let known = |name: &String| suite.methods.iter().any(|method| method.id == *name);
-    match options.redo.iter().find(|name| !known(name)) {
+    let ids: Vec<_> = suite.methods.iter().map(|method| method.id.as_str()).collect();
+    match options.redo.iter().find(|name| !ids.contains(&name.as_str())) {
         None => Ok(()),
         Some(name) => {
-            let ids: Vec<_> = suite.methods.iter().map(|method| method.id.as_str()).collect();
-            Err(RunError::Redo { name: name.clone(), known: ids.join(", ") })
+            let reason = near::unknown("the suite has no method", name, &ids);
+            Err(RunError::UnknownName { flag: "--redo", reason })
         }
     }
 }
@@ -228,7 +240,7 @@ fn prepare(
     let (suite, out) = (workshop.suite, workshop.out);
     let captures = write_scenes(suite, out)?;
     let mut pending = Vec::new();
-    for task in plan.iter().filter(|task| task.kind == Kind::Capture) {
+    for task in plan.iter().filter(|task| task.kind == Kind::Capture && task.wanted) {
         let key = workshop.key(task, &Contents::new())?.hash;
         if records.finished(&task.id, &key, &workshop.path(task)).is_none() {
             pending.push(&suite.cases[task.case]);

@@ -220,10 +220,22 @@ pub(super) fn referenced(from: &Path, key: &str, name: &str) -> Result<PathBuf, 
     packaged::referenced(from, key, name).map_err(|reason| SceneError::value(from, key, reason))
 }
 
-/// Reads a face, light or rig: a table as it stands, or the file that a string names.
+/// Endings of pictures of surroundings.
+const ENVIRONMENTS: [&str; 2] = ["hdr", "exr"];
+
+/// Reads a face, light or rig: a table as it stands, or the file that a string names. A picture of surroundings is a
+/// light of its file's name.
 pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, SceneError> {
     let (mut table, origin) = match value {
         Value::Table(table) => (table, from.to_path_buf()),
+        Value::String(name) if is_environment(key, &name) => {
+            let stem = Path::new(&name).file_stem().unwrap_or_default().to_string_lossy();
+            let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+            let id = stem.chars().map(plain).collect::<String>();
+            let table = [("name", id), ("kind", "envmap".to_owned()), ("path", name)];
+            let table = table.map(|(key, value)| (key.to_owned(), Value::String(value)));
+            (Table::from_iter(table), from.to_path_buf())
+        }
         Value::String(name) => {
             let path = referenced(from, key, &name)?;
             (read_toml(&path)?, path)
@@ -239,6 +251,11 @@ pub(super) fn resolve(from: &Path, key: &str, value: Value) -> Result<Table, Sce
     }
     resolve_files(&origin, &mut table);
     Ok(table)
+}
+
+fn is_environment(key: &str, name: &str) -> bool {
+    let ending = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    packaged::Kind::of_key(key) == packaged::Kind::Light && ENVIRONMENTS.contains(&&*ending)
 }
 
 /// Makes the files that the table of a face or light names absolute; they lie beside `origin`.

@@ -6,10 +6,8 @@ use toml::{Table, Value};
 use super::cases::Case;
 use super::file::Suite;
 use super::method::MethodKind;
+use super::program::SEED;
 use super::scene::SceneError;
-
-/// Environment variable that hands a program of one's own the seed.
-const VARIABLE: &str = "UNSHADE_SEED";
 
 /// Random numbers that differ from one run to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -71,7 +69,11 @@ impl Suite {
                         toml::to_string(&values).map_err(|error| unreadable(error.to_string()))?;
                 }
                 MethodKind::Program(program) if vary != Vary::Rounding => {
-                    program.environment.insert(VARIABLE.to_owned(), add.to_string());
+                    let seed = added(program.settings.get("seed"));
+                    if let Some(stated) = program.settings.get_mut("seed") {
+                        *stated = Value::Integer(seed);
+                    }
+                    program.environment.insert(SEED.to_owned(), seed.to_string());
                 }
                 MethodKind::Competitor { competitor, settings }
                     if vary != Vary::Rounding && competitor.has_seed() =>

@@ -308,7 +308,8 @@ impl Scoring<'_> {
             .map(|case| {
                 let title = self.submission.title.as_ref().unwrap_or(name);
                 let mut solver =
-                    json!({"id": name, "kind": "solver", "class": "passive", "title": title});
+                    json!({"id": name, "kind": "solver", "class": "passive", "title": title,
+                    "author": self.submission.by});
                 match scored.failed.get(&case.id) {
                     Some(reason) => solver["failed"] = json!(reason),
                     None => solver["scores"] = json!(self.file(&case.id)),

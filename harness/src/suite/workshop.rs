@@ -42,6 +42,9 @@ pub(super) struct Workshop<'a> {
     photographed: Mutex<BTreeMap<usize, String>>,
 }
 
+/// Folder of a run for what programs leave beside their maps.
+pub(super) const DEBUG: &str = "debug";
+
 /// Content hashes of finished stages, by their ids.
 pub(super) type Contents = BTreeMap<String, String>;
 
@@ -120,7 +123,7 @@ impl<'a> Workshop<'a> {
             }
             Kind::Lights => plain(&["lights", capture()?, renderer]),
             Kind::Maps => {
-                let ready = self.ready(task).ok_or_else(missing)?;
+                let ready = self.ready(task).filter(|ready| ready.found).ok_or_else(missing)?;
                 let (key, made_from) = method_key(ready, renderer)?;
                 let mut inputs = vec!["maps", capture()?, &key];
                 inputs.extend(of(Kind::Lights).filter(|_| ready.method.gives_pictures()));
@@ -148,6 +151,19 @@ impl<'a> Workshop<'a> {
     pub fn again(&self, task: &Task) -> bool {
         let ready = self.ready(task).filter(|_| task.kind == Kind::Maps);
         ready.is_some_and(|ready| self.redo.contains(&ready.method.id))
+    }
+
+    /// What an earlier run left of a stage, if it is still valid; none too where that cannot be told.
+    pub fn kept(
+        &self,
+        task: &Task,
+        contents: &Contents,
+        records: &Records,
+    ) -> Result<Option<Done>, RunError> {
+        let path = self.path(task);
+        let Ok(key) = self.key(task, contents) else { return Ok(None) };
+        let Some(content) = records.finished(&task.id, &key.hash, &path) else { return Ok(None) };
+        Ok(Some(Done { record: records.kept(&task.id, content, &path)?, kept: true }))
     }
 
     /// Does a stage unless its output is there, intact, and made from the same inputs.
@@ -216,6 +232,7 @@ impl<'a> Workshop<'a> {
                 maps: path,
                 lights: given.then_some(handed.as_path()),
                 log: &self.out.join("logs").join(format!("{name}.txt")),
+                debug: &self.out.join(DEBUG).join(&name),
                 secret: files.chain([self.out.to_path_buf()]).collect(),
                 scratch: &program::scratch_prefix(self.out),
             };

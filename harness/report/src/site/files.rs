@@ -48,6 +48,7 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
                 .collect();
             json!({
                 "name": entry.name, "title": entry.title, "role": entry.role,
+                "author": entry.author, "content": entry.content,
                 "ranked": entry.ranked, "run": entry.run, "values": values,
             })
         })

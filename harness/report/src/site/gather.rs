@@ -1,6 +1,6 @@
 //! Measurements of runs, by capture: two runs are compared where the hashes of their captures are equal.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +10,9 @@ use serde::Deserialize;
 use super::figures::{FIGURES, Row};
 use crate::error::ReportError;
 use crate::run::{Case, Class, Kind, Method, RunFile, read_json};
+
+/// Digits of a hash that tell methods apart.
+const HASH: usize = 6;
 
 /// A capture of any of the runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +29,7 @@ pub(super) struct Capture {
 /// A method as one of the runs has it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    /// The method's id; with the run's name where other runs have another of this id.
+    /// The method's id, with what tells it from others of this id.
     pub name: String,
     pub title: String,
     pub role: &'static str,
@@ -35,6 +38,9 @@ pub(super) struct Entry {
     /// The first run that has it.
     pub run: usize,
     id: String,
+    pub author: Option<String>,
+    /// A hash of its settings and files.
+    pub content: Option<String>,
     /// By capture: the hash of the maps, and the figures.
     pub cells: BTreeMap<usize, Cell>,
 }
@@ -103,13 +109,20 @@ impl Board {
             if scored.is_empty() {
                 return Err(ReportError::NoScores(folder.clone()));
             }
+            let mut entries: Vec<Entry> = Vec::new();
             for scored in scored {
                 let capture = *captures.entry(scored.inputs.capture.clone()).or_insert_with(|| {
                     board.captures.push(capture(folder, at, &scored));
                     board.captures.len() - 1
                 });
-                board.add(at, capture, scored);
+                let Scored { method, inputs, values, .. } = scored;
+                let cell = Cell { maps: inputs.maps, run: at, values };
+                match entries.iter_mut().find(|entry| entry.id == method.id) {
+                    Some(entry) => drop(entry.cells.insert(capture, cell)),
+                    None => entries.push(Entry::new(method, at, capture, cell)),
+                }
             }
+            entries.into_iter().for_each(|entry| board.add(entry));
             let scoring = manifest.versions.get("scoring sources").and_then(|v| v.as_str());
             board.runs.push(Run {
                 folder: folder.clone(),
@@ -123,47 +136,77 @@ impl Board {
         Ok(board)
     }
 
-    /// Into the entry of the same method, if no capture tells them apart; a new one else.
-    fn add(&mut self, run: usize, capture: usize, scored: Scored) {
-        let Scored { method, inputs, values, .. } = scored;
-        let cell = Cell { maps: inputs.maps, run, values };
-        let same = |entry: &&mut Entry| {
-            entry.id == method.id
-                && (entry.run == run
-                    || entry.cells.get(&capture).is_none_or(|known| known.maps == cell.maps))
-        };
-        // Its own entry of this run first: maps that differ once are another method's.
-        let own = self.entries.iter().position(|entry| entry.id == method.id && entry.run == run);
-        let entry = match own {
-            Some(own) => self.entries.get_mut(own),
-            None => self.entries.iter_mut().find(same),
-        };
-        match entry {
-            Some(entry) => {
-                entry.cells.entry(capture).or_insert(cell);
+    /// Into the entry of the same method, if there is one.
+    fn add(&mut self, entry: Entry) {
+        match self.entries.iter_mut().find(|known| known.is_same(&entry)) {
+            Some(known) => {
+                for (capture, cell) in entry.cells {
+                    known.cells.entry(capture).or_insert(cell);
+                }
             }
-            None => self.entries.push(Entry {
-                name: method.id.clone(),
-                title: method.title().to_owned(),
-                role: method.role(),
-                ranked: method.is_ranked()
-                    && matches!(method.kind, Kind::Solver | Kind::Baseline)
-                    && method.class == Class::Passive,
-                run,
-                id: method.id.clone(),
-                cells: BTreeMap::from([(capture, cell)]),
-            }),
+            None => self.entries.push(entry),
         }
     }
 
-    /// Adds the run's name to methods of the same id that are not the same.
+    /// Adds to the names of methods of the same id what tells them apart: authors, hashes, else their runs.
     fn name_apart(&mut self) {
-        let ids: Vec<String> = self.entries.iter().map(|entry| entry.id.clone()).collect();
-        for entry in &mut self.entries {
-            if ids.iter().filter(|id| **id == entry.id).count() > 1 {
-                entry.name = format!("{} ({})", entry.id, self.runs[entry.run].name);
+        let mut of_id: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        for (at, entry) in self.entries.iter().enumerate() {
+            of_id.entry(entry.id.clone()).or_default().push(at);
+        }
+        for at in of_id.into_values().filter(|at| at.len() > 1) {
+            let of_all = |mark: &dyn Fn(&Entry) -> Option<String>| -> Vec<Option<String>> {
+                at.iter().map(|at| mark(&self.entries[*at])).collect()
+            };
+            let tells = [
+                of_all(&|entry| entry.author.clone()),
+                of_all(&|entry| entry.content.as_ref().map(|hash| format!("#{hash:.HASH$}"))),
+                of_all(&|entry| Some(self.runs[entry.run].name.clone())),
+            ];
+            let mut marks = vec![Vec::new(); at.len()];
+            for values in tells {
+                if distinct(&marks) < at.len() && distinct(&values) > 1 {
+                    marks.iter_mut().zip(values).for_each(|(marks, value)| marks.extend(value));
+                }
+            }
+            for (at, marks) in at.into_iter().zip(marks).filter(|(_, marks)| !marks.is_empty()) {
+                let entry = &mut self.entries[at];
+                entry.name = format!("{} ({})", entry.id, marks.join(", "));
             }
         }
+    }
+}
+
+fn distinct<T: Ord>(values: &[T]) -> usize {
+    values.iter().collect::<BTreeSet<_>>().len()
+}
+
+impl Entry {
+    fn new(method: &Method, run: usize, capture: usize, cell: Cell) -> Self {
+        Self {
+            name: method.id.clone(),
+            title: method.title().to_owned(),
+            role: method.role(),
+            ranked: method.is_ranked()
+                && matches!(method.kind, Kind::Solver | Kind::Baseline)
+                && method.class == Class::Passive,
+            run,
+            id: method.id.clone(),
+            author: method.author.clone(),
+            content: method.content.clone(),
+            cells: BTreeMap::from([(capture, cell)]),
+        }
+    }
+
+    /// Whether both are one method: of one name, author and content, and of the same maps wherever both have some. A
+    /// run that does not say the content needs equal maps, or an author, as evidence.
+    fn is_same(&self, other: &Self) -> bool {
+        let shared =
+            || self.cells.iter().filter_map(|(at, cell)| Some((cell, other.cells.get(at)?)));
+        let known = self.content.is_some() || self.author.is_some() || shared().next().is_some();
+        (&self.id, &self.author, &self.content) == (&other.id, &other.author, &other.content)
+            && known
+            && shared().all(|(cell, other)| cell.maps == other.maps)
     }
 }
 

@@ -5,7 +5,6 @@ from numpy.typing import NDArray
 
 import unshade
 
-SIZE = 128  # texels a side; fewer than the face has pixels, so that most of them are seen
 Array = NDArray[np.float64]
 
 
@@ -15,8 +14,9 @@ def harmonics(normal: Array) -> Array:
     return np.stack([np.ones_like(x), x, y, z, x * y, y * z, z * x, x * x - y * y, 3 * z * z - 1], -1)
 
 
-def recover(capture: unshade.Capture) -> unshade.Maps:
-    colour, normal, weight = np.zeros((SIZE * SIZE, 3)), np.zeros((SIZE * SIZE, 3)), np.zeros(SIZE * SIZE)
+def recover(capture: unshade.Capture, size: int = 128) -> unshade.Maps:
+    """Maps of `size` texels a side: fewer than the face has pixels, so that most of them are seen."""
+    colour, normal, weight = np.zeros((size * size, 3)), np.zeros((size * size, 3)), np.zeros(size * size)
     for name in capture.train:
         mesh = capture.gbuffer(name)  # the mesh at each pixel's centre; NaN beside it
         inside = (capture.mask(name) > 127) & np.isfinite(mesh["uvs"]).all(-1)
@@ -25,7 +25,7 @@ def recover(capture: unshade.Capture) -> unshade.Maps:
         to_eye /= np.linalg.norm(to_eye, axis=-1, keepdims=True)
         cosine = np.clip((to_eye * mesh["normals"][inside]).sum(-1), 0, 1)
         u, v = np.clip(mesh["uvs"][inside].T, 0, 0.9999)
-        texel = (SIZE - 1 - (v * SIZE).astype(int)) * SIZE + (u * SIZE).astype(int)  # row 0 lies at v = 1
+        texel = (size - 1 - (v * size).astype(int)) * size + (u * size).astype(int)  # row 0 lies at v = 1
         np.add.at(colour, texel, cosine[:, None] * capture.image(name)[inside])
         np.add.at(normal, texel, cosine[:, None] * mesh["normals"][inside])
         np.add.at(weight, texel, cosine)
@@ -41,11 +41,11 @@ def recover(capture: unshade.Capture) -> unshade.Maps:
     albedo[seen] = np.clip(colour[seen] / (shading / np.percentile(shading, 99))[:, None], 0, 1)
 
     # Texels are scored at the truth's size: those without data here take on what is next to them.
-    maps, known = [layer.reshape(SIZE, SIZE, 3) for layer in (albedo, normal)], seen.reshape(SIZE, SIZE).copy()
+    maps, known = [layer.reshape(size, size, 3) for layer in (albedo, normal)], seen.reshape(size, size).copy()
     while not known.all():
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
             new = np.roll(known, step, axis) & ~known
             for layer in maps:
                 layer[new] = np.roll(layer, step, axis)[new]
             known |= new
-    return unshade.Maps(diffuse_albedo=maps[0], diffuse_normal=maps[1], coverage=seen.reshape(SIZE, SIZE))
+    return unshade.Maps(diffuse_albedo=maps[0], diffuse_normal=maps[1], coverage=seen.reshape(size, size))

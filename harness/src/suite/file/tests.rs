@@ -99,6 +99,79 @@ fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
 }
 
 #[test]
+fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let open = |lines: &str| {
+        let text = format!(
+            "format = 1\nname = \"s\"\nauthor = \"Ada\"\nscene = \"scene.toml\"\n[[method]]\n{lines}\n"
+        );
+        Suite::open(&write(root.path(), "suite.toml", &text))
+    };
+    let mine = "name = \"mine\"\npython = \"mine:recover\"\nset = { layers = [1, 2] }\n";
+    let suite = open(&format!("{mine}sweep = {{ lr = [0.1, 1e-3] }}\nseeds = [1, 2]")).unwrap();
+    let ids: Vec<_> = suite.methods.iter().map(|method| method.id.as_str()).collect();
+    assert_eq!(
+        ids,
+        ["mine-lr0_1-seed1", "mine-lr0_1-seed2", "mine-lr0_001-seed1", "mine-lr0_001-seed2"]
+    );
+    let last = &suite.methods[3];
+    assert_eq!(last.title, "mine, lr = 0.001, seed 2");
+    assert_eq!(last.replicate, Some(("mine-lr0_001".to_owned(), 2)));
+    assert_eq!(last.author.as_deref(), Some("Ada"));
+    let MethodKind::Program(program) = &last.kind else { panic!() };
+    assert_eq!(program.settings_json(), r#"{"layers":[1,2],"lr":0.001,"seed":2}"#);
+    assert_eq!(program.with_settings("--lr={lr} {seed} {maps}"), "--lr=0.001 2 {maps}");
+    // All methods of a table answer to its name, each to its own.
+    let runs = |name: &str| {
+        let suite = suite.clone().only(vec![name.to_owned()], Vec::new()).unwrap();
+        suite.methods.iter().filter(|method| suite.runs_method(method)).count()
+    };
+    assert_eq!((runs("mine"), runs("mine-lr0_1-seed2")), (4, 1));
+    let near = suite.clone().only(vec!["mime".to_owned()], Vec::new()).unwrap_err().to_string();
+    assert!(near.starts_with("--method: the suite has no method \"mime\"; did you mean \"mine\"?"));
+    let near = suite.only(Vec::new(), vec!["ada-kee".to_owned()]).unwrap_err().to_string();
+    assert!(
+        near.starts_with("--case: the suite has no case \"ada-kee\"; did you mean \"ada-key\"?")
+    );
+    let ours = "name = \"fast\"\nsweep.fine_tuning.texture_size = [256, 512]";
+    let ours = open(ours).unwrap().methods;
+    let MethodKind::Fields { config, .. } = &ours[1].kind else { panic!() };
+    let config = config.parse::<Table>().unwrap();
+    assert_eq!(ours[1].id, "fast-texture_size512");
+    assert_eq!(config["fine_tuning"]["texture_size"].as_integer(), Some(512));
+    for (lines, words) in [
+        ("sweep = { lr = 0.1 }", "suite.toml:8: sweep: lr must be a list of values"),
+        ("sweep = { layers = [1, 2] }", "sweep: set has layers too; remove one"),
+        ("set.seed = 1\nseeds = [1]", "seeds: set has a seed too"),
+        ("set.debug = 1", "debug is the name of a path"),
+    ] {
+        let mine = if lines.starts_with("set.") {
+            mine.replace("set = { layers = [1, 2] }", "")
+        } else {
+            mine.to_owned()
+        };
+        let error = open(&format!("{mine}{lines}")).unwrap_err().to_string();
+        assert!(error.contains(words) && !error.contains('\n'), "{error}");
+    }
+}
+
+#[test]
+fn a_picture_of_surroundings_is_a_light_of_its_name() {
+    let root = tempfile::tempdir().unwrap();
+    scenes(root.path());
+    let text =
+        "format = 1\nname = \"s\"\nscene = \"scene.toml\"\nlights = [\"hdri/my room.HDR\"]\n";
+    let path = write(root.path(), "suite.toml", text);
+    let suite = Suite::open_for_captures(&path).unwrap();
+    assert_eq!(suite.cases[0].id, "ada-my-room");
+    let light = &suite.cases[0].scene.table["light"];
+    assert_eq!(light["kind"].as_str(), Some("envmap"));
+    let place = root.path().join("hdri/my room.HDR");
+    assert_eq!(light["path"].as_str(), place.to_str());
+}
+
+#[test]
 fn every_light_is_relit_in_all_the_others() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());

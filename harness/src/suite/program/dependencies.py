@@ -2,7 +2,8 @@
 
 Arguments: FOLDER, then ``script PATH`` or ``module NAME[:FUNCTION]``. ``files`` are the program's file
 and all that it imports from its folder, found without running it; ``system`` are the folders of the
-interpreter and its packages; ``error`` says why it cannot run.
+interpreter and its packages; ``arguments`` are the names that the function takes beside the capture, null where
+its text does not tell; ``error`` says why it cannot run.
 """
 
 import ast
@@ -20,6 +21,7 @@ def main(folder, kind, name):
     answer = {"executable": sys.executable, "system": sorted(system), "files": []}
     try:
         answer["files"] = of_script(os.path.join(folder, name)) if kind == "script" else of_module(folder, name)
+        answer["arguments"] = arguments(answer["files"], name)
     except (ImportError, OSError, SyntaxError, ValueError) as error:
         place = f"{error.filename}:{error.lineno}: " if isinstance(error, SyntaxError) else ""
         answer["error"] = f"{place}{getattr(error, 'msg', None) or error}"
@@ -70,6 +72,23 @@ def names(path):
                 return Everything()
             found |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
     return found
+
+
+def arguments(files, spec):
+    """What the function takes by name beside its first argument; None if that is unknown, or anything."""
+    module, _, function = spec.partition(":")
+    ends = (module.replace(".", os.sep) + ".py", os.path.join(module.replace(".", os.sep), "__init__.py"))
+    for path in [path for path in files if function and path.endswith(ends)]:
+        with open(path, "rb") as file:
+            body = ast.parse(file.read(), path).body
+        for node in body:
+            if isinstance(node, ast.FunctionDef) and node.name == function and not node.decorator_list:
+                if node.args.kwarg is not None:
+                    return None
+                by_position = node.args.posonlyargs + node.args.args
+                named = [each for each in by_position[1:] if each not in node.args.posonlyargs] + node.args.kwonlyargs
+                return [each.arg for each in named]
+    return None
 
 
 def imported(path, folder):

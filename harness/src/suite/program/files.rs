@@ -11,6 +11,7 @@ use serde::Deserialize;
 use super::confine::is_system;
 use super::pictures::Gives;
 use super::start::{Program, Start};
+use crate::suite::near;
 use crate::synth::Interpreter;
 
 /// Says what a Python program is made of; for any Python from 3.8 on.
@@ -34,6 +35,8 @@ struct Answer {
     executable: PathBuf,
     system: Vec<PathBuf>,
     files: Vec<PathBuf>,
+    #[serde(default)]
+    arguments: Option<Vec<String>>,
     error: Option<String>,
 }
 
@@ -48,6 +51,11 @@ impl Program {
                     ));
                 }
                 let answer = self.ask(ours.path(), "module", function)?;
+                if let Some(known) = &answer.arguments
+                    && let Some(key) = self.settings.keys().find(|key| !known.contains(key))
+                {
+                    return Err(near::unknown(&format!("{function} has no argument"), key, known));
+                }
                 let arguments = ["-m", "unshade.plugin", function, "{capture}", "{maps}"];
                 Ok(ProgramFiles {
                     executable: answer.executable,
@@ -174,12 +182,34 @@ impl ProgramFiles {
         if program.gives == Gives::Pictures {
             parts.push(format!("pictures {}", program.texture_size));
         }
+        if program.network {
+            parts.push("network".to_owned());
+        }
+        if !program.settings.is_empty() {
+            parts.push(format!("set {}", program.settings_json()));
+        }
         for path in self.own.iter().chain(&program.inputs) {
             // A path of the system's changes with its packages, not with the method.
             let content = if is_system(path) { String::new() } else { hash_path(path)? };
             parts.push(format!("{} {content}", path.display()));
         }
         Ok(hash_parts(&parts.iter().map(String::as_str).collect::<Vec<_>>()))
+    }
+
+    /// All that makes it this program, wherever it lies: settings, and names and hashes of its files.
+    pub(in crate::suite) fn content(&self, program: &Program) -> std::io::Result<Vec<String>> {
+        let mut parts = Vec::new();
+        for path in self.own.iter().chain(&program.inputs).filter(|path| !is_system(path)) {
+            let name = match path.strip_prefix(&program.folder) {
+                Ok(below) => below.as_os_str(),
+                Err(_) => path.file_name().unwrap_or_default(),
+            };
+            parts.push(format!("{} {}", name.to_string_lossy(), hash_path(path)?));
+        }
+        parts.sort();
+        parts.push(format!("{:?}", (&program.start, &program.version, program.gives)));
+        parts.push(format!("{} {}", program.settings_json(), program.texture_size));
+        Ok(parts)
     }
 
     /// Text of a report: `mine.py and 3 more files, version "2"`.

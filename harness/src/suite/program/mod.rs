@@ -8,13 +8,16 @@ mod blind;
 mod confine;
 mod files;
 mod pictures;
+mod spawn;
 mod start;
 mod watch;
 
+use std::env;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::mpsc;
 use std::thread;
 
 use formats::atomic::Folder;
@@ -26,8 +29,9 @@ pub(in crate::suite) use blind::copy_blind;
 use confine::Permissions;
 pub use files::ProgramFiles;
 pub use pictures::Gives;
-pub use start::{Program, Start};
-use watch::{End, watch};
+use spawn::Network;
+pub use start::{PLACES, Program, Start};
+use watch::{End, Watched, last_line, watch};
 pub use watch::{Limits, Usage};
 
 /// Environment variables that libraries take their number of threads from.
@@ -40,11 +44,27 @@ const THREADS: [&str; 6] = [
     "NUMBA_NUM_THREADS",
 ];
 
+/// Folder below the debug folder that is the program's home.
+const HOME: &str = "home";
+
+/// Messages of a program that finds no network.
+const UNREACHABLE: [&str; 4] = [
+    "Network is unreachable",
+    "Temporary failure in name resolution",
+    "Name or service not known",
+    "Could not resolve host",
+];
+
+/// Environment variable that hands a program the seed.
+pub(super) const SEED: &str = "UNSHADE_SEED";
+
 /// Where a program works.
 pub(super) struct Place<'a> {
     pub capture: &'a Path,
     pub maps: &'a Path,
     pub log: &'a Path,
+    /// Folder for its own output, which stays until the next time that it runs.
+    pub debug: &'a Path,
     /// Lat-long pictures of the lights to relight in, for methods of pictures.
     pub lights: Option<&'a Path>,
     /// Paths that it must not see: the run, and the files of the truth.
@@ -86,6 +106,7 @@ impl Program {
         files: &ProgramFiles,
         place: &Place,
         interrupt: &Interrupt,
+        progress: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<Usage, RunError> {
         let failed = |reason: String| RunError::Program { name: name.to_owned(), reason };
         let output = Folder::begin(place.maps)?;
@@ -111,24 +132,31 @@ impl Program {
             fs::create_dir_all(folder)?;
         }
         let log = File::create(place.log)?;
-        let command = self.command(files, [&capture, &maps, &own, &lights], &log)?;
+        let debug = Debug::begin(place.debug)?;
+        let command = self.command(files, [&capture, &maps, &own, &lights, &debug.path], &log)?;
         let mut permissions = Permissions {
             read: files.readable().chain(&self.inputs).cloned().collect(),
             list: vec![self.folder.clone()],
-            write: vec![results, own],
+            write: vec![results, own, debug.path.clone()],
             secret: place.secret.clone(),
         };
         permissions.read.extend([capture, lights]);
         let mut usage = Usage::default();
+        let (lines, heard) = mpsc::channel();
+        let (limits, network, log) = (&self.limits, self.network, place.log);
+        let watched = Watched { limits, network, log, interrupt };
         // A thread of its own: the kernel restricts threads, for good, and what they start.
         let end = thread::scope(|scope| {
-            let watched = scope.spawn(|| -> Result<End, String> {
+            let usage = &mut usage;
+            let running = scope.spawn(move || -> Result<End, String> {
                 usage.confined = confine::restrict(&permissions)?;
-                watch(command, &self.limits, place.log, interrupt, &mut usage)
+                watch(command, &watched, &lines, usage)
                     .map_err(|error| format!("cannot start: {error}"))
             });
-            watched.join().unwrap_or_else(|_| Err("its watch ended".to_owned()))
+            heard.iter().for_each(|line| progress(0, 0, &line));
+            running.join().unwrap_or_else(|_| Err("its watch ended".to_owned()))
         });
+        debug.end();
         let what = match end.map_err(&failed)? {
             End::Interrupted => {
                 output.abandon();
@@ -164,13 +192,15 @@ impl Program {
     fn command(
         &self,
         files: &ProgramFiles,
-        [capture, maps, own, lights]: [&Path; 4],
+        [capture, maps, own, lights, debug]: [&Path; 5],
         log: &File,
     ) -> io::Result<Command> {
         let fill = |word: &String| {
-            word.replace("{capture}", &capture.to_string_lossy())
+            self.with_settings(word)
+                .replace("{capture}", &capture.to_string_lossy())
                 .replace("{maps}", &maps.to_string_lossy())
                 .replace("{lights}", &lights.to_string_lossy())
+                .replace("{debug}", &debug.to_string_lossy())
         };
         let mut command = Command::new(&files.executable);
         command
@@ -180,11 +210,21 @@ impl Program {
             .env("PYTHONDONTWRITEBYTECODE", "1")
             .env("TMPDIR", own)
             .env("XDG_CACHE_HOME", own)
+            .env("HOME", debug.join(HOME))
+            .env("UNSHADE_DEBUG", debug)
+            .env("UNSHADE_SET", self.settings_json())
             .stdin(Stdio::null())
             .stdout(log.try_clone()?)
             .stderr(log.try_clone()?);
+        // Packages of the user lie in the home folder that is theirs.
+        if let (None, Some(home)) = (env::var_os("PYTHONUSERBASE"), env::var_os("HOME")) {
+            command.env("PYTHONUSERBASE", Path::new(&home).join(".local"));
+        }
         if let Some(threads) = self.limits.threads {
             command.envs(THREADS.map(|name| (name, threads.to_string())));
+        }
+        if let Some(seed) = self.settings.get("seed") {
+            command.env(SEED, seed.to_string());
         }
         command.envs(&self.environment);
         Ok(command)
@@ -194,14 +234,42 @@ impl Program {
     fn last_words(&self, log: &Path, usage: &Usage) -> String {
         let text = fs::read(log).unwrap_or_default();
         let text = String::from_utf8_lossy(&text[text.len().saturating_sub(4096)..]).into_owned();
-        let last = text.lines().rev().find(|line| !line.trim().is_empty());
-        let mut said = last.map_or(String::new(), |line| format!(": {}", line.trim()));
+        let last = last_line(log);
+        let mut said = if last.is_empty() { last } else { format!(": {last}") };
+        let unreachable = UNREACHABLE.iter().any(|words| text.contains(words));
+        if usage.network != Network::Open && unreachable {
+            said.push_str("; its network is closed, write network = true to open it");
+        }
         if usage.confined && text.contains("Permission denied") {
             said.push_str(
-                "; it may read its own files and inputs = [...], and write {maps} and TMPDIR",
+                "; it may read its own files and inputs = [...], and write {maps}, {debug}, HOME and TMPDIR",
             );
         }
         format!("{said} (log: {})", log.display())
+    }
+}
+
+/// The debug folder of a program, with its home folder in it.
+struct Debug {
+    path: PathBuf,
+}
+
+impl Debug {
+    /// Empties the folder: what it holds is of this run of the program alone.
+    fn begin(path: &Path) -> io::Result<Self> {
+        match fs::remove_dir_all(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => fs::create_dir_all(path.join(HOME))?,
+        }
+        Ok(Self { path: std::path::absolute(path)? })
+    }
+
+    /// Removes what the program left empty: its home, the folder, and those of the case and of the run.
+    fn end(self) {
+        let _ = fs::remove_dir(self.path.join(HOME));
+        for folder in self.path.ancestors().take(3) {
+            let _ = fs::remove_dir(folder);
+        }
     }
 }
 

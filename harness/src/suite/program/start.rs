@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use toml::{Table, Value};
+
 use super::pictures::Gives;
 use super::watch::Limits;
 
@@ -34,4 +36,32 @@ pub struct Program {
     pub version: Option<String>,
     /// Files and folders that it reads, beside its own.
     pub inputs: Vec<PathBuf>,
+    /// Values of the suite that it is handed: keyword arguments of a function, JSON in `{set}` and in the variable
+    /// `UNSHADE_SET`, and each by its name, as `{lr}`.
+    pub settings: Table,
+    /// Whether it may use the network.
+    pub network: bool,
+}
+
+/// Paths that a command is given, as it names them in braces, and `set`: no value of `set` has such a name.
+pub const PLACES: [&str; 5] = ["capture", "maps", "lights", "debug", "set"];
+
+impl Program {
+    /// The values that it is handed, as JSON: equal values give equal text.
+    pub(in crate::suite) fn settings_json(&self) -> String {
+        let sorted: BTreeMap<_, _> = self.settings.iter().collect();
+        serde_json::to_string(&sorted).unwrap_or_default()
+    }
+
+    /// A word of the command with the values of `set` in the place of their names in braces.
+    pub(in crate::suite) fn with_settings(&self, word: &str) -> String {
+        let word = word.replace("{set}", &self.settings_json());
+        self.settings.iter().fold(word, |word, (key, value)| {
+            let text = match value {
+                Value::String(text) => text.clone(),
+                value => serde_json::to_string(value).unwrap_or_default(),
+            };
+            word.replace(&format!("{{{key}}}"), &text)
+        })
+    }
 }

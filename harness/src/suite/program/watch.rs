@@ -1,19 +1,25 @@
 //! A running program with its limits: a process group that is ended as a whole.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus};
 use std::sync::atomic::Ordering;
+use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::spawn::{Network, spawn};
 use crate::synth::Interrupt;
 
 /// Between two looks at the program.
 const LOOK: Duration = Duration::from_millis(25);
+/// Between two looks at its last line.
+const LINE: Duration = Duration::from_millis(500);
+/// Bytes at the end of a log that hold its last line.
+const END: u64 = 4096;
 /// A log that grows past this ends the program before it fills the disk, bytes.
 const LARGEST_LOG: u64 = 256 << 20;
 const GIB: f64 = (1u64 << 30) as f64;
@@ -38,6 +44,9 @@ pub struct Usage {
     pub peak_bytes: u64,
     /// Whether the kernel kept it to its own files.
     pub confined: bool,
+    /// What it could reach beyond its machine.
+    #[serde(default)]
+    pub network: Network,
 }
 
 /// How the watch ended.
@@ -50,22 +59,38 @@ pub(super) enum End {
     Interrupted,
 }
 
-/// Starts `command` in a process group of its own, which dies with this thread, and waits for it.
-/// Nothing of the group is left when this returns.
+/// What a program is started with, beside its command.
+pub(super) struct Watched<'a> {
+    pub limits: &'a Limits,
+    /// Whether it may use the network.
+    pub network: bool,
+    /// The file that it prints to.
+    pub log: &'a Path,
+    pub interrupt: &'a Interrupt,
+}
+
+/// Starts `command` in a process group of its own, which dies with this thread, and waits for it; `lines` gets the last
+/// line that it printed, again and again. Nothing of the group is left when this returns.
 pub(super) fn watch(
-    mut command: Command,
-    limits: &Limits,
-    log: &Path,
-    interrupt: &Interrupt,
+    command: Command,
+    watched: &Watched,
+    lines: &Sender<String>,
     usage: &mut Usage,
 ) -> io::Result<End> {
-    group(&mut command);
+    let Watched { limits, network, log, interrupt } = *watched;
     if let Some(threads) = limits.threads {
         keep_to_processors(threads)?;
     }
     let start = Instant::now();
-    let mut child = command.spawn()?;
+    let mut child;
+    (child, usage.network) = spawn(command, network)?;
+    let mut said = start;
     let end = loop {
+        if said.elapsed() >= LINE {
+            said = Instant::now();
+            // Nobody listens after a fault.
+            let _ = lines.send(last_line(log));
+        }
         let members = members(child.id());
         usage.peak_bytes = usage.peak_bytes.max(memory(&members));
         usage.seconds = start.elapsed().as_secs_f64();
@@ -94,6 +119,19 @@ fn exceeded(limits: &Limits, usage: &Usage, log: &Path) -> Option<String> {
     }
     let written = fs::metadata(log).map_or(0, |log| log.len());
     (written > LARGEST_LOG).then(|| format!("wrote more than {} MiB to its log", LARGEST_LOG >> 20))
+}
+
+/// The last line of a log that is not blank, as a terminal shows it: a progress bar writes over its line.
+pub(super) fn last_line(log: &Path) -> String {
+    let mut bytes = Vec::new();
+    let _ = File::open(log).and_then(|mut file| {
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(END)))?;
+        file.read_to_end(&mut bytes)
+    });
+    let text = String::from_utf8_lossy(&bytes);
+    let last = text.split(['\n', '\r']).rev().map(str::trim).find(|line| !line.is_empty());
+    last.unwrap_or_default().chars().filter(|letter| !letter.is_control()).collect()
 }
 
 /// Processes of the group `leader`, and all that they started.
@@ -164,27 +202,6 @@ fn end_group(child: &mut Child) {
     let _ = child.kill();
     let _ = child.wait();
 }
-
-#[cfg(target_os = "linux")]
-fn group(command: &mut Command) {
-    use std::os::unix::process::CommandExt;
-
-    use rustix::process::{Signal, set_parent_process_death_signal};
-    command.process_group(0);
-    // SAFETY: between fork and exec only one system call is made, which allocates nothing.
-    unsafe {
-        command.pre_exec(|| Ok(set_parent_process_death_signal(Some(Signal::KILL))?));
-    }
-}
-
-#[cfg(all(unix, not(target_os = "linux")))]
-fn group(command: &mut Command) {
-    use std::os::unix::process::CommandExt;
-    command.process_group(0);
-}
-
-#[cfg(not(unix))]
-fn group(_: &mut Command) {}
 
 /// This thread, and so what it starts, runs on at most so many of its processors.
 #[cfg(target_os = "linux")]
