@@ -21,12 +21,13 @@ from .colmap_model import read_colmap
 from .detective import SOUND, Evidence, Verdict, examine
 from .emily_folder import read_emily
 from .metashape_file import read_metashape
+from .moving_light import LightMotion, LitView, light_motion
 from .parser_labels import LABELS, name_table
 from .photographs import Reading, Taken, shown_ups, take
 from .pictures import Photograph, check_curve, read_photograph
 from .pinhole import Pinhole
 from .placement import PLACES, UNITS, Placement, place
-from .source import Source, moved
+from .source import Source, SourceView, moved
 from .summary import Sightings, summary
 from .transforms_file import read_transforms
 
@@ -189,14 +190,20 @@ class _Import:
         folder = CaptureWriter(out, self._key())
         folder.mesh(mesh)
         report = Sightings()
+        looked_at, lit = {view.name for view in self._looked_at()}, list[LitView]()
         for number, view in enumerate(self.source.views):
             self.progress(number, len(self.source.views), f"view {view.name}")
             taken = self._finished(take(self.source, view, reading, self.notes), change, mesh, placement)
             report.note(taken)
+            if view.name in looked_at:
+                lit.append(LitView.of(taken))
             folder.view(taken, withheld=view.name in self.withheld)
         self.notes |= report.notes(even=reading.reference is not None)
+        motion = light_motion(mesh, lit)
+        if motion is not None and motion.moves:
+            self._warn(motion.words)
         folder.transforms(sorted({*LABELS.items()}, key=lambda item: item[1]))
-        folder.record(self._record(reading, verdict, placement, report))
+        folder.record(self._record(reading, verdict, placement, report, motion))
         folder.commit()
         self.progress(len(self.source.views), len(self.source.views), "capture")
 
@@ -241,11 +248,9 @@ class _Import:
 
     def _look(self, reading: Reading) -> Verdict | None:
         """Verdict of the detective on some views; a change that mends them is an error unless it is to be made."""
-        views = self.source.views
-        chosen = views if len(views) <= _LOOKED_AT else [views[i * len(views) // _LOOKED_AT] for i in range(_LOOKED_AT)]
         evidence = []
-        for view in chosen:
-            self.progress(0, len(views), f"looking at {view.name}")
+        for view in self._looked_at():
+            self.progress(0, len(self.source.views), f"looking at {view.name}")
             taken = take(self.source, view, reading, self.notes).undistorted()
             if taken.mask is not None:
                 evidence.append(Evidence(taken.camera, taken.mask > 0))
@@ -263,10 +268,20 @@ class _Import:
         if verdict.change is not None:
             self.notes.add(f"applied: {verdict.change.words} [{verdict.change.id}]")
         elif verdict.union < SOUND:
-            words = f"the mesh covers {verdict.union:.2f} of the masks and no single change mends it"
-            self.notes.add(words)
-            warnings.warn(f"{self.source.origin}: {words}; look at masks over images", CaptureWarning, stacklevel=4)
+            self._warn(
+                f"the mesh covers {verdict.union:.2f} of the masks and no single change mends it; look at masks over images"
+            )
         return verdict
+
+    def _looked_at(self) -> list[SourceView]:
+        """Views that are spread over all."""
+        views = self.source.views
+        count = min(len(views), _LOOKED_AT)
+        return [views[number * len(views) // count] for number in range(count)]
+
+    def _warn(self, words: str) -> None:
+        self.notes.add(words)
+        warnings.warn(f"{self.source.origin}: {words}", CaptureWarning, stacklevel=4)
 
     def _place(self, mesh: ChartMesh, change: Change) -> Placement:
         pinhole = [Pinhole(1, 1, (1.0, 1.0), (0.5, 0.5), view.camera_to_world) for view in self.source.views]
@@ -280,9 +295,9 @@ class _Import:
             how=self.choices.place,
             facing=None if self.choices.front is None else self._view_called(self.choices.front),
         )
-        self.notes.update(placement.words + placement.doubts)
+        self.notes.update(placement.words)
         for doubt in placement.doubts:
-            warnings.warn(f"{self.source.origin}: {doubt}", CaptureWarning, stacklevel=4)
+            self._warn(doubt)
         return placement
 
     def _view_called(self, name: str) -> tuple[str, int]:
@@ -317,7 +332,12 @@ class _Import:
         return "\n".join(parts)
 
     def _record(
-        self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: Sightings
+        self,
+        reading: Reading,
+        verdict: Verdict | None,
+        placement: Placement,
+        seen: Sightings,
+        motion: LightMotion | None,
     ) -> dict[str, Any]:
         choices = self.choices
         if reading.masks is not None or any(view.mask is not None for view in self.source.views):
@@ -345,6 +365,7 @@ class _Import:
                 "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
             },
             "front": placement.front,
+            "light": None if motion is None else motion.record(),
             "source_to_capture": placement.matrix.tolist(),
             "summary": summary(len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)),
             "assumed": sorted(self.notes),

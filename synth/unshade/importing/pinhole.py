@@ -33,8 +33,11 @@ class Pinhole:
 
     def silhouette(self, vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Which pixels' centres show the mesh (height, width)."""
+        return np.isfinite(self.depth(vertices, triangles))
+
+    def depth(self, vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float32]:
+        """Depth of the mesh along the camera's axis at pixels' centres (height, width), infinite beside it."""
         matrix = self.camera_to_world.tolist()
-        depth = _native.depth_of(
+        return _native.depth_of(
             vertices, triangles, (self.width, self.height), list(self.focal), list(self.centre), matrix
         )
-        return np.isfinite(depth)
