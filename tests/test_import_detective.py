@@ -175,7 +175,7 @@ def test_a_factor_without_a_name_is_fitted(source: Path, tmp_path: Path) -> None
     assert float(message.split("[cameras-times-")[1].split("]")[0]) == pytest.approx(1 / 37, rel=0.02)
 
 
-def test_a_sound_capture_is_left_alone_and_a_hopeless_one_only_warned_of(source: Path, tmp_path: Path) -> None:
+def test_a_sound_capture_is_left_alone_and_a_hopeless_one_is_refused(source: Path, tmp_path: Path) -> None:
     sound = unshade.import_capture("transforms", source, tmp_path / "sound")
     fit = json.loads((sound / "import.json").read_text())["fit"]
     assert fit["change"] is None and fit["union"] > 0.95
@@ -187,5 +187,4 @@ def test_a_sound_capture_is_left_alone_and_a_hopeless_one_only_warned_of(source:
         return matrix
 
     folder = _planted(source, tmp_path / "hopeless", _matrices(scattered))
-    with pytest.warns(UserWarning, match="no single change mends it"):
-        unshade.import_capture("transforms", folder, tmp_path / "scattered", place="keep")
+    assert "no single change makes them fit" in _refused(folder, tmp_path / "scattered")

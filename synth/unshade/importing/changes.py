@@ -19,11 +19,15 @@ _UNITS = (("mm", 0.001), ("cm", 0.01), ("inches", 0.0254), ("dm", 0.1))
 FOCAL = "focal"
 """Begins the ids of changes of the focal length."""
 
+CENTRE = "principal-point"
+"""Begins the ids of changes of the principal point; those that keep what is stated of it come first."""
+
 
 @dataclass(frozen=True)
 class Change:
     """One change. ``camera`` is what becomes of each camera, ``mesh_scale`` of the mesh's size, ``orientation``
-    (of EXIF's eight) of pictures, masks and labels; ``inverted`` masks are turned inside out."""
+    (of EXIF's eight) of pictures, masks and labels; ``inverted`` masks are turned inside out, and ``no_lens`` takes
+    photographs for undistorted ones."""
 
     id: str
     words: str
@@ -31,20 +35,28 @@ class Change:
     mesh_scale: float = 1.0
     orientation: int = 1
     inverted: bool = False
+    no_lens: bool = False
 
 
 PLAIN = Change("none", "nothing is changed")
 
 
-def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, square: bool) -> list[Change]:
-    """Every change that is tried, the likelier ones first. ``width`` is the pictures' width, pixels;
-    ``square`` pictures may lie on their sides unseen."""
-    changes: list[Change] = []
+def single_changes(elsewhere: tuple[str, str, Matrix] | None, camera: Pinhole, *, lens: bool) -> list[Change]:
+    """Every change that is tried, the likelier ones first. ``camera`` is one of the cameras; ``lens`` says whether
+    they have lenses, which are tried left out, alone and with each other principal point."""
+    width, square = camera.width, camera.width == camera.height  # A square picture may lie on its side unseen.
+    changes: list[Change] = _centres(camera)
+    if lens:
+        bare = Change("no-lens", "the photographs are undistorted already: drop the lens", no_lens=True)
+        changes += [
+            replace(change, id=f"{change.id}+no-lens", words=f"{change.words}, and {bare.words}", no_lens=True)
+            for change in changes
+        ]
+        changes.append(bare)
     if elsewhere is not None:
         name, words, matrix = elsewhere
         changes.append(Change(name, words, _world(matrix)))
     changes += [
-        Change("principal-point", "the principal point is wrong: it is the picture's middle", _centred),
         Change("opencv-axes", "the cameras have OpenCV's axes (y down, looking along z)", _axes(OPENCV_AXES)),
         Change(
             "pytorch3d-axes",
@@ -62,7 +74,6 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
         Change("upside-down-rows", "the rows of pictures and masks run upwards", orientation=4),
         Change("mirrored", "pictures and masks are mirrored, left is right", orientation=2),
         Change("half-turn", "pictures and masks stand on their heads: they were turned by 180 degrees", orientation=3),
-        Change("principal-point-from-below", "the principal point counts rows from below", _from_below),
     ]
     for sensor in _SENSORS:
         words = f"the focal length is in mm of a sensor {sensor:g} mm wide, not in pixels"
@@ -93,6 +104,29 @@ def single_changes(elsewhere: tuple[str, str, Matrix] | None, width: int, *, squ
             )
         )
     return changes
+
+
+def _centres(camera: Pinhole) -> list[Change]:
+    """Other principal points that lie in the picture: as stated but counted from elsewhere, then the middle."""
+    x, y, (width, height) = *camera.centre, (camera.width, camera.height)
+    tried = [
+        Change(f"{CENTRE}-from-corner", "the principal point counts from the picture's corner, not its middle",
+               lambda c: _shifted(-c.width / 2, -c.height / 2)(c)),
+        Change(f"{CENTRE}-from-middle", "the principal point counts from the picture's middle, not its corner",
+               lambda c: _shifted(c.width / 2, c.height / 2)(c)),
+        Change(f"{CENTRE}-from-below", "the principal point counts rows from below", _from_below),
+        Change(CENTRE, "the principal point is wrong: it is the picture's middle", _centred),
+    ]  # fmt: skip
+    inside = [
+        change for change in tried if all(0 < p < 1 for p in np.divide(change.camera(camera).centre, (width, height)))
+    ]
+    middle = (width / 2, height / 2)
+    # Two names for one place would say more than is known.
+    return (
+        [c for c in inside if c.id == CENTRE or not np.allclose(c.camera(camera).centre, middle)]
+        if (x, y) != middle
+        else []
+    )
 
 
 def half_pixels() -> list[Change]:

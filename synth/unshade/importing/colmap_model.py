@@ -44,19 +44,27 @@ _Image = tuple[int, list[float], str]
 
 
 def read_colmap(path: Path, pictures: Path | None = None) -> Source:
-    """Reads a model's folder, or a project's with ``sparse/0`` or ``sparse`` in it.
+    """Reads a model's folder, or a project's with ``sparse`` in it, of whose models the largest.
 
     ``pictures`` is the folder that names of pictures are below; without it, ``images`` beside or above
     the model. Raises `CaptureError`.
     """
-    folder = _model(path)
-    binary = (folder / "cameras.bin").is_file()
-    if binary:
-        cameras, images = _read_binary(folder)
-    else:
-        cameras = _text_cameras(folder / "cameras.txt")
-        images = _text_images(folder / "images.txt")
-    origin = folder / ("images.bin" if binary else "images.txt")
+    models = [(folder, *_read(folder)) for folder in _models(path)]
+    models.sort(key=lambda model: -len(model[2]))
+    (folder, cameras, images), others = models[0], models[1:]
+    if others and len(others[0][2]) == len(images):
+        raise CaptureError(
+            f"{path}: the models {folder} and {others[0][0]} have {len(images)} views each; "
+            "name the one that the mesh was made from"
+        )
+    origin = folder / f"images{_ending(folder)}"
+    in_largest = {picture for _, _, picture in images}
+    left_out = [
+        (picture, f"is in {other} alone, a model of {len(theirs)} views; {folder} has {len(images)}")
+        for other, _, theirs in others
+        for _, _, picture in sorted(theirs, key=lambda image: image[2])
+        if picture not in in_largest
+    ]
     below = pictures or _pictures(path, folder, [name for _, _, name in images])
     # By their names: the order of a model is that of a hash table.
     images = sorted(images, key=lambda image: image[2])
@@ -77,22 +85,50 @@ def read_colmap(path: Path, pictures: Path | None = None) -> Source:
                 width=width,
                 height=height,
                 lens=Lens({k: v for k, v in parameters.items() if k[0] in "kp" and v}, fisheye),
+                stated=f"image {picture!r}",
             )
         )
     # COLMAP reads the pixels as they are stored and knows no EXIF orientation.
-    return Source(origin=origin, views=tuple(views), exif_applied=False)
+    assumed = [f"{folder} is the largest of {len(models)} models"] if others else []
+    return Source(
+        origin=origin,
+        views=tuple(views),
+        exif_applied=False,
+        assumed=tuple(assumed),
+        left_out=tuple(left_out),
+        whole_folders=True,
+    )
 
 
-def _model(path: Path) -> Path:
-    for folder in (path, path / "sparse" / "0", path / "sparse", path / "colmap" / "sparse" / "0"):
-        for ending in (".bin", ".txt"):
-            if (folder / f"cameras{ending}").is_file() and (folder / f"images{ending}").is_file():
-                return folder
+def _models(path: Path) -> list[Path]:
+    """The models of a project: the folder itself, or all that COLMAP left beside one another, in no order of size."""
+    if _ending(path):
+        return [path]
+    for parent in (path / "sparse", path / "colmap" / "sparse", path):
+        if _ending(parent):
+            return [parent]
+        found = [folder for folder in sorted(parent.iterdir()) if _ending(folder)] if parent.is_dir() else []
+        if found:
+            return found
     raise CaptureError(f"{path}: holds no cameras and images, .bin or .txt; name a COLMAP model's folder")
 
 
+def _ending(folder: Path) -> str | None:
+    """The ending of a model's files, None where there is no model."""
+    for ending in (".bin", ".txt"):
+        if (folder / f"cameras{ending}").is_file() and (folder / f"images{ending}").is_file():
+            return ending
+    return None
+
+
+def _read(folder: Path) -> tuple[dict[int, _Camera], list[_Image]]:
+    if _ending(folder) == ".bin":
+        return _read_binary(folder)
+    return _text_cameras(folder / "cameras.txt"), _text_images(folder / "images.txt")
+
+
 def _pictures(path: Path, folder: Path, names: list[str]) -> Path:
-    """The folder that has the first picture: ``images`` of the project, or where it lies beside the model."""
+    """The folder that has most of the pictures: ``images`` of the project, or where it lies beside the model."""
     tried = [
         path / "images",
         folder / "images",
@@ -101,10 +137,7 @@ def _pictures(path: Path, folder: Path, names: list[str]) -> Path:
         folder,
         path,
     ]
-    for below in tried:
-        if names and (below / names[0].replace("\\", "/")).is_file():
-            return below
-    return tried[0]
+    return max(tried, key=lambda below: sum((below / name.replace("\\", "/")).is_file() for name in names))
 
 
 def _camera_to_world(pose: list[float]) -> np.ndarray:

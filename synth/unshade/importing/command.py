@@ -50,6 +50,8 @@ def main(arguments: list[str]) -> int:
                 place=options.place,
                 front=options.front,
                 apply=options.apply,
+                skip_missing=options.skip_missing,
+                leave_out=options.leave_out,
                 progress=bar.step,
             )
     except UnshadeError as error:
@@ -105,6 +107,12 @@ def _parser() -> argparse.ArgumentParser:
         "--front", metavar="VIEW", help="a view that looks at the face, where cameras stand all round the head"
     )
     parser.add_argument("--apply", action="store_true", help="make the one change after which masks and mesh fit")
+    parser.add_argument(
+        "--skip-missing", action="store_true", help="leave out views whose photograph or mask is missing"
+    )
+    parser.add_argument(
+        "--leave-out", type=_names, default=[], metavar="NAMES", help="leave out the views named: 003,cam1/0002.jpg"
+    )
     return parser
 
 
@@ -112,6 +120,10 @@ def _holdout(text: str) -> int | list[str]:
     # A number of up to two digits is a step: names of frames have more, or are given with a comma.
     if text.isdigit() and len(text) <= 2:
         return int(text)
+    return _names(text)
+
+
+def _names(text: str) -> list[str]:
     return [name for name in text.split(",") if name]
 
 

@@ -5,20 +5,24 @@ Silhouettes of the mesh are compared with the masks. What is said is measured at
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .changes import PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
+from .changes import CENTRE, PLAIN, Change, distance_factor, focal_factor, half_pixels, shift, single_changes
 from .chart_mesh import ChartMesh
+from .lens import undistorted
 from .orientation import oriented
 from .pinhole import Pinhole
-from .source import Matrix
+from .source import Lens, Matrix
 
 SOUND = 0.9
 """Median intersection over union of a capture that fits."""
+
+FITTING = 0.6
+"""Intersection over union below which cameras do not fit a mesh."""
 
 _NAMED = 0.75
 """Union that a single change must reach to be named."""
@@ -46,22 +50,42 @@ _OF_OPPOSITE = 0.5
 """Share of what half a pixel the other way loses that half a pixel must gain."""
 
 
+_SAME = 0.02
+"""Difference of unions that does not tell one principal point from another."""
+
+
 @dataclass(frozen=True)
 class Evidence:
-    """A view's camera without its lens, and its mask (height, width), True where the face is."""
+    """A view's camera, its mask (height, width) as the lens shows it, True where the face is, and that lens."""
 
     camera: Pinhole
     mask: NDArray[np.bool_]
+    lens: Lens = field(default_factory=Lens)
+
+    @property
+    def is_telling(self) -> bool:
+        """Whether the mask is neither empty nor the whole picture."""
+        return bool(_MIN_FRACTION < self.mask.mean() < _MAX_FRACTION)
+
+    def straight(self) -> Evidence:
+        """The view without its lens, which is taken out about the camera's own principal point."""
+        if self.lens.straight:
+            return self
+        plane = self.mask.astype(np.uint8)
+        mask = undistorted(plane, self.lens, self.camera.focal, self.camera.centre, smooth=False) > 0
+        return Evidence(self.camera, mask)
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Result: intersection over union as it is, and with the change if one is named."""
+    """Result: intersection over union as it is, and with the change if one is named. ``nearest`` is the change that
+    fits best where none is named, and its union."""
 
     views: int
     union: float
     change: Change | None = None
     mended: float | None = None
+    nearest: tuple[Change, float] | None = None
 
     @property
     def sound(self) -> bool:
@@ -70,7 +94,7 @@ class Verdict:
 
 def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str, Matrix] | None) -> Verdict | None:
     """The verdict on cameras, mesh and masks; None where no mask says anything."""
-    telling = [e for e in evidence if _MIN_FRACTION < e.mask.mean() < _MAX_FRACTION]
+    telling = [e for e in evidence if e.is_telling]
     if not telling:
         return None
     count = min(max(_MAX_TRIANGLES // len(mesh.triangles), _MIN_VIEWS), _MAX_VIEWS)
@@ -78,17 +102,31 @@ def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str
     small = [_smaller(e) for e in chosen]
     before = _union(mesh, small, PLAIN)
     if before >= SOUND:
-        return _finer(mesh, chosen, before)
-    width, height = chosen[0].camera.width, chosen[0].camera.height
-    changes = single_changes(elsewhere, width, square=width == height)
+        return _finer(mesh, [e.straight() for e in chosen], before)
+    width = chosen[0].camera.width
+    changes = single_changes(elsewhere, chosen[0].camera, lens=not all(e.lens.straight for e in chosen))
     found = [(change, _union(mesh, small, change)) for change in changes]
     if max(union for _, union in found) < SOUND:
         # Nothing that has a name fits: factors are fitted.
         found += [(change, _union(mesh, small, change)) for change in _fitted(mesh, small, width)]
-    best, union = max(found, key=lambda pair: pair[1])
+    best, union = _best(found)
     if union >= _NAMED and union >= before + _GAIN:
         return Verdict(len(chosen), before, best, union)
-    return Verdict(len(chosen), before)
+    return Verdict(len(chosen), before, nearest=(best, union) if union > before else None)
+
+
+def overlap(mesh: ChartMesh, evidence: Evidence) -> float | None:
+    """Intersection over union of silhouette and mask in a small picture of one view; None where the mask says nothing."""
+    return _union(mesh, [_smaller(evidence)], PLAIN) if evidence.is_telling else None
+
+
+def _best(found: list[tuple[Change, float]]) -> tuple[Change, float]:
+    """The change that fits best; of principal points that fit alike, the first."""
+    best = max(found, key=lambda pair: pair[1])
+    if best[0].id.startswith(CENTRE):
+        alike = (pair for pair in found if pair[0].id.startswith(CENTRE) and pair[1] >= best[1] - _SAME)
+        return next(alike)
+    return best
 
 
 def _fitted(mesh: ChartMesh, evidence: list[Evidence], width: int) -> list[Change]:
@@ -147,13 +185,14 @@ def _smaller(evidence: Evidence) -> Evidence:
     mask = evidence.mask[every // 2 :: every, every // 2 :: every][: camera.height, : camera.width]
     # A picture that is no multiple of the step may end before the last small pixel's middle.
     mask = np.pad(mask, ((0, camera.height - mask.shape[0]), (0, camera.width - mask.shape[1])), mode="edge")
-    return Evidence(camera, mask)
+    return Evidence(camera, mask, evidence.lens)
 
 
 def changed(evidence: Evidence, change: Change) -> Evidence:
-    """The view after the change, but for the mesh's size."""
+    """The view after the change, but for the mesh's size, and without its lens."""
     mask = oriented(evidence.mask, change.orientation)
-    return Evidence(change.camera(evidence.camera), ~mask if change.inverted else mask)
+    lens = Lens() if change.no_lens else evidence.lens
+    return Evidence(change.camera(evidence.camera), ~mask if change.inverted else mask, lens).straight()
 
 
 def _silhouette(mesh: ChartMesh, evidence: Evidence, change: Change) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:

@@ -31,6 +31,7 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
     below = pictures or path / _PICTURES
     views: list[SourceView] = []
     assumed: list[str] = list(_ASSUMED)
+    left_out: list[tuple[str, str]] = []
     for file in files:
         number = re.search(r"(\d+)$", file.stem)
         if number is None:
@@ -38,7 +39,7 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
         names = {f"cam{int(number[1])}_*.exr", f"cam{int(number[1]):02}_*.exr"}
         taken = sorted(file for name in names for file in below.glob(name))
         if not taken:
-            assumed.append(f"left out: camera {number[1]} has no picture in {below.name}")
+            left_out.append((f"cam{int(number[1])}", f"has no picture in {below.name}"))
             continue
         if len(taken) > 1:
             assumed.append(f"camera {number[1]} has {len(taken)} pictures in {below.name}: {taken[0].name} is taken")
@@ -55,6 +56,7 @@ def read_emily(path: Path, pictures: Path | None = None) -> Source:
         metres=0.01,
         objects=(_HEAD,),
         assumed=tuple(assumed),
+        left_out=tuple(left_out),
     )
 
 
@@ -66,6 +68,7 @@ def _view(file: Path, name: str, picture: Path) -> SourceView:
     terms = {"k1": k1, "k2": k2, "p1": p1, "p2": p2}
     return SourceView(
         name=name,
+        stated=file.name,
         picture=picture,
         camera_to_world=rigid(matrix),
         focal=(float(values["focal length"][0]), float(values["focal length"][1])),

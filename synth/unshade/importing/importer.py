@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,19 +17,22 @@ from ..render.folder import content_hash
 from .capture_folder import CaptureWriter
 from .changes import PLAIN, Change
 from .chart_mesh import ChartMesh, read_mesh
+from .choices import Choices
 from .colmap_model import read_colmap
-from .detective import SOUND, Evidence, Verdict, examine
+from .detective import FITTING, SOUND, Verdict, examine, overlap
 from .emily_folder import read_emily
 from .metashape_file import read_metashape
 from .moving_light import LightMotion, LitView, light_motion
 from .parser_labels import LABELS, name_table
 from .photographs import Reading, Taken, shown_ups, take
-from .pictures import Photograph, check_curve, read_photograph
+from .pictures import Photograph, read_photograph
 from .pinhole import Pinhole
-from .placement import PLACES, UNITS, Placement, place
-from .source import Source, SourceView, moved
-from .summary import Sightings, summary
+from .placement import UNITS, Placement, place
+from .source import Lens, Source, SourceView, moved
+from .summary import ViewStatistics, left_out_by_reason, summary
 from .transforms_file import read_transforms
+from .view_files import present, refuse_shared_masks, refuse_shared_photographs, unregistered, with_planes
+from .view_names import listed, named_views, withheld_views, without
 
 FORMATS = ("transforms", "colmap", "metashape", "emily")
 
@@ -43,27 +46,6 @@ _LOOKED_AT = 8
 
 class CaptureWarning(UserWarning):
     """Something of an imported capture that its maker should know."""
-
-
-@dataclass(frozen=True)
-class Choices:
-    """Choices where the files are silent. The fields are those of `import_capture`."""
-
-    mesh: Path | None = None
-    objects: tuple[str, ...] = ()
-    pictures: Path | None = None
-    masks: Path | str | None = None
-    labels: Path | None = None
-    parser: str | None = None
-    curve: str = "auto"
-    brackets: int = 1
-    even_exposure: bool = False
-    holdout: int | tuple[str, ...] | None = None
-    shrink: int = 1
-    unit: str | None = None
-    place: str = "auto"
-    front: str | None = None
-    apply: bool = False
 
 
 def import_capture(
@@ -86,6 +68,8 @@ def import_capture(
     place: str = "auto",
     front: str | None = None,
     apply: bool = False,
+    skip_missing: bool = False,
+    leave_out: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> Path:
     """Bring a capture of ``format`` (``transforms``, ``colmap``, ``metashape``, ``emily``) at ``path`` into the
@@ -101,7 +85,8 @@ def import_capture(
     ``shrink`` averages so many pixels a side. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
     source's; ``place`` is ``auto``, ``keep`` or ``cameras`` (upright by the cameras), ``front`` the name of a
     view that looks at the face, where cameras stand all round. If one change of a
-    convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error.
+    convention makes masks and mesh fit, ``apply`` makes it; without it that change is the error. ``skip_missing``
+    leaves out views whose photograph or mask is missing, ``leave_out`` those named.
 
     Raises `CaptureError`, `PictureError` or `StorageError`.
     """
@@ -125,8 +110,10 @@ def import_capture(
         place=place,
         front=front,
         apply=apply,
+        skip_missing=skip_missing,
+        leave_out=tuple(leave_out),
     )
-    _check(format, choices)
+    choices.check()
     source = read_source(format, Path(path), choices.pictures)
     _Import(format, Path(path), source, choices, progress or (lambda done, total, what: None)).write(Path(out))
     return Path(out)
@@ -144,24 +131,6 @@ def read_source(format: str, path: Path, pictures: Path | None = None) -> Source
     return readers[format](path, pictures)
 
 
-def _check(format: str, choices: Choices) -> None:
-    check_curve(choices.curve)
-    if choices.unit is not None and choices.unit not in UNITS:
-        raise CaptureError(f"unit {choices.unit!r} is unknown; there are {', '.join(UNITS)}")
-    if choices.place not in PLACES:
-        raise CaptureError(f"place {choices.place!r} is unknown; there are {', '.join(PLACES)}")
-    for name, value, maximum in (("brackets", choices.brackets, 32), ("shrink", choices.shrink, 64)):
-        if not 1 <= value <= maximum:
-            raise CaptureError(f"{name} is {value}; it must be from 1 to {maximum}")
-    if isinstance(choices.holdout, int) and choices.holdout < 2:
-        raise CaptureError(f"holdout is {choices.holdout}; every second view is the most that can be withheld")
-    if choices.labels is not None and choices.parser is None:
-        raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
-    for folder in (choices.masks, choices.labels, choices.pictures):
-        if isinstance(folder, Path) and not folder.is_dir():
-            raise CaptureError(f"{folder}: is no folder; name one, or of masks alpha or silhouette")
-
-
 class _Import:
     """One import: a few views are looked at, then all are taken, placed and written."""
 
@@ -173,7 +142,26 @@ class _Import:
             raise CaptureError(f"{source.origin}: names no mesh; name an OBJ file with texture coordinates (mesh)")
         self.mesh_file = mesh
         self.mesh = read_mesh(mesh, choices.objects or source.objects)
-        self.withheld = _withheld(source, choices.holdout)
+        self.source = self._with_files(source)
+        self.withheld = withheld_views(self.source, choices.holdout)
+        for words in left_out_by_reason(self.source):
+            self._warn(words)
+
+    def _with_files(self, source: Source) -> Source:
+        """The views that are imported, with all their files."""
+        choices = self.choices
+        if source.whole_folders and choices.brackets == 1:
+            source = replace(source, left_out=(*source.left_out, *unregistered(source)))
+        if choices.leave_out:
+            source = without(source, named_views(source, choices.leave_out, "leave_out"), "is left out by request")
+        source = present(source, skip_missing=choices.skip_missing)
+        refuse_shared_photographs(source, choices.brackets, self._warn)
+        if choices.masks in ("alpha", "silhouette"):
+            source = replace(source, views=tuple(replace(view, mask=None) for view in source.views))
+        masks = choices.masks if isinstance(choices.masks, Path) else None
+        source = with_planes(source, masks, choices.labels, skip_missing=choices.skip_missing)
+        refuse_shared_masks(source)
+        return source
 
     def write(self, out: Path) -> None:
         self._keep_apart(out)
@@ -189,15 +177,17 @@ class _Import:
             mesh = mesh.moved(placement.matrix)
         folder = CaptureWriter(out, self._key())
         folder.mesh(mesh)
-        report = Sightings()
+        report = ViewStatistics()
         looked_at, lit = {view.name for view in self._looked_at()}, list[LitView]()
         for number, view in enumerate(self.source.views):
             self.progress(number, len(self.source.views), f"view {view.name}")
-            taken = self._finished(take(self.source, view, reading, self.notes), change, mesh, placement)
-            report.note(taken)
+            taken = self._placed(take(self.source, view, reading, self.notes), change, placement)
+            report.note(taken, overlap(mesh, taken.evidence()) if taken.mask is not None else None)
+            taken = self._finished(taken, mesh)
             if view.name in looked_at:
                 lit.append(LitView.of(taken))
             folder.view(taken, withheld=view.name in self.withheld)
+        self._judge(report)
         self.notes |= report.notes(even=reading.reference is not None)
         motion = light_motion(mesh, lit)
         if motion is not None and motion.moves:
@@ -206,6 +196,16 @@ class _Import:
         folder.record(self._record(reading, verdict, placement, report, motion))
         folder.commit()
         self.progress(len(self.source.views), len(self.source.views), "capture")
+
+    def _judge(self, report: ViewStatistics) -> None:
+        """Refuses single views that do not fit, whatever the others do."""
+        misfits = report.below(FITTING)
+        if misfits:
+            told = listed([f"{name} ({overlap:.2f})" for name, overlap in misfits.items()])
+            raise CaptureError(
+                f"{self.source.origin}: silhouettes overlap the masks by less than {FITTING:g} in {len(misfits)} of "
+                f"{len(self.source.views)} views: {told}; fix their cameras or masks, or leave them out (--leave-out)"
+            )
 
     def _keep_apart(self, out: Path) -> None:
         """No input is replaced by the output."""
@@ -234,42 +234,40 @@ class _Import:
                     f"{source.views[0].picture}: has no exposure time in its EXIF; keep it, or even exposures beforehand"
                 )
             reference = first.exposure
-        folder = choices.masks if isinstance(choices.masks, Path) else None
-        return Reading(
-            choices.curve,
-            choices.brackets,
-            reference,
-            folder,
-            alpha,
-            choices.masks == "silhouette",
-            choices.labels,
-            names,
-        )
+        return Reading(choices.curve, choices.brackets, reference, alpha, choices.masks == "silhouette", names)
 
     def _look(self, reading: Reading) -> Verdict | None:
         """Verdict of the detective on some views; a change that mends them is an error unless it is to be made."""
         evidence = []
         for view in self._looked_at():
             self.progress(0, len(self.source.views), f"looking at {view.name}")
-            taken = take(self.source, view, reading, self.notes).undistorted()
+            taken = take(self.source, view, reading, self.notes)
             if taken.mask is not None:
-                evidence.append(Evidence(taken.camera, taken.mask > 0))
+                evidence.append(taken.evidence())
         verdict = examine(self.mesh, evidence, self.source.elsewhere)
         if verdict is None:
-            self.notes.add(
-                "masks are the mesh's silhouette, so nothing tells whether the cameras fit it; look at masks over images"
-            )
+            self.notes.add("nothing tells whether the cameras fit the mesh; look at masks over images")
             return None
         if verdict.change is not None and not self.choices.apply:
             raise CaptureError(
                 f"{self.source.origin}: the mesh covers {verdict.union:.3f} of the masks (union, median of {verdict.views} views), "
-                f"but {verdict.mended:.3f} if {verdict.change.words} [{verdict.change.id}]; mend the files, or import with apply"
+                f"but {verdict.mended:.3f} if {verdict.change.words} [{verdict.change.id}]; fix the files, or import with apply"
             )
         if verdict.change is not None:
             self.notes.add(f"applied: {verdict.change.words} [{verdict.change.id}]")
+        elif verdict.union < FITTING:
+            near = ""
+            if verdict.nearest is not None:
+                near = f"; nearest, {verdict.nearest[1]:.2f}, if {verdict.nearest[0].words} [{verdict.nearest[0].id}]"
+            raise CaptureError(
+                f"{self.source.origin}: silhouettes overlap the masks by {verdict.union:.2f} (median of {verdict.views} "
+                f"views) and no single change makes them fit{near}; name mesh and masks of the reconstruction that "
+                "the cameras are of"
+            )
         elif verdict.union < SOUND:
             self._warn(
-                f"the mesh covers {verdict.union:.2f} of the masks and no single change mends it; look at masks over images"
+                f"silhouettes overlap the masks by {verdict.union:.2f} and no single change makes them fit; "
+                "look at masks over images"
             )
         return verdict
 
@@ -301,17 +299,18 @@ class _Import:
         return placement
 
     def _view_called(self, name: str) -> tuple[str, int]:
-        for number, view in enumerate(self.source.views):
-            if name in (view.name, view.picture.name, view.picture.stem):
-                return name, number
-        raise CaptureError(f"front: there is no view {name!r}; there are {_some(self.source)}")
+        (view,) = named_views(self.source, [name], "front")
+        return name, [other.name for other in self.source.views].index(view)
 
-    def _finished(self, taken: Taken, change: Change, mesh: ChartMesh, placement: Placement) -> Taken:
-        """The view as it is written: mended, placed, without its lens where a capture cannot say it, smaller."""
+    def _placed(self, taken: Taken, change: Change, placement: Placement) -> Taken:
+        """The view after the change, where the head comes to stand."""
         taken = taken.oriented(change.orientation, inverted=change.inverted)
         camera = change.camera(taken.camera)
         camera = replace(camera, camera_to_world=moved(placement.matrix, camera.camera_to_world))
-        taken = replace(taken, camera=camera)
+        return replace(taken, camera=camera, lens=Lens() if change.no_lens else taken.lens)
+
+    def _finished(self, taken: Taken, mesh: ChartMesh) -> Taken:
+        """The view as it is written: without its lens where a capture cannot say it, smaller, with a mask."""
         if not taken.lens.kept or taken.mask is None or taken.name in self.withheld:
             taken = taken.undistorted()
         taken = taken.smaller(self.choices.shrink)
@@ -336,21 +335,21 @@ class _Import:
         reading: Reading,
         verdict: Verdict | None,
         placement: Placement,
-        seen: Sightings,
+        seen: ViewStatistics,
         motion: LightMotion | None,
     ) -> dict[str, Any]:
-        choices = self.choices
-        if reading.masks is not None or any(view.mask is not None for view in self.source.views):
+        choices, stated = self.choices, len(self.source.views) + len(self.source.left_out)
+        masks = "alpha" if reading.alpha else "silhouette"
+        if any(view.mask is not None for view in self.source.views):
             masks = "files"
-        else:
-            masks = "alpha" if reading.alpha else "silhouette"
         return {
             "format": 1,
             "unshade": _native.__version__,
             "source": {"format": self.format, "path": str(self.path), "mesh": str(self.mesh_file)},
             "views": {view.name: str(view.picture) for view in self.source.views},
+            "left_out": [{"name": name, "reason": reason} for name, reason in self.source.left_out],
             "withheld": sorted(self.withheld),
-            "masks": masks if choices.masks != "silhouette" else "silhouette",
+            "masks": masks,
             "labels": choices.parser if choices.labels else None,
             "curves": sorted(seen.curves),
             "profiles": sorted(seen.profiles),
@@ -367,38 +366,7 @@ class _Import:
             "front": placement.front,
             "light": None if motion is None else motion.record(),
             "source_to_capture": placement.matrix.tolist(),
-            "summary": summary(len(self.source.views), len(self.source.views), placement.upright, _overlap(verdict)),
+            "overlap": {"median": seen.overlap, "views": seen.overlaps},
+            "summary": summary(len(self.source.views), stated, placement.upright, masks, seen.overlap),
             "assumed": sorted(self.notes),
         }
-
-
-def _overlap(verdict: Verdict | None) -> float | None:
-    """Median overlap of silhouettes and masks of the capture as it is written."""
-    return None if verdict is None else verdict.union if verdict.mended is None else verdict.mended
-
-
-def _withheld(source: Source, holdout: int | tuple[str, ...] | None) -> set[str]:
-    """The names of the views that are set aside."""
-    names = [view.name for view in source.views]
-    if holdout is None:
-        withheld = set(source.withheld)
-    elif isinstance(holdout, int):
-        withheld = set(names[holdout - 1 :: holdout])
-    else:
-        stems = {view.picture.stem: view.name for view in source.views} | {
-            view.picture.name: view.name for view in source.views
-        }
-        known = {name: name for name in names} | stems
-        strange = [name for name in holdout if name not in known]
-        if strange:
-            raise CaptureError(f"holdout: there is no view {strange[0]!r}; there are {_some(source)}")
-        withheld = {known[name] for name in holdout}
-    if len(withheld) >= len(names):
-        raise CaptureError(f"{source.origin}: all {len(names)} views are withheld; leave some to train on")
-    return withheld
-
-
-def _some(source: Source) -> str:
-    """The names of the first views."""
-    names = [view.name for view in source.views]
-    return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from ..errors import CaptureError
 from .brackets import bracket, merged
+from .detective import Evidence
 from .lens import undistorted
 from .orientation import inverse, oriented, shown_up
 from .parser_labels import our_labels
 from .pictures import Floats, Photograph, Plane, orientation_and_size, read_photograph, read_plane
 from .pinhole import Pinhole
 from .placement import ShownUps
-from .source import Lens, Matrix, Source, SourceView
+from .source import FieldOfView, Lens, Matrix, Source, SourceView
 
 _ASPECT = 0.01
 """By how much the sides of pictures of another size than their camera's may disagree on the factor."""
@@ -37,6 +38,11 @@ class Taken:
     mask: Bytes | None
     labels: Bytes | None
     photograph: Photograph
+
+    def evidence(self) -> Evidence:
+        """The view for the comparison with the mesh; it has a mask."""
+        assert self.mask is not None
+        return Evidence(self.camera, self.mask > 0, self.lens)
 
     def undistorted(self) -> Taken:
         """The view as a pinhole would have taken it."""
@@ -90,15 +96,14 @@ class Taken:
 @dataclass(frozen=True)
 class Reading:
     """How pictures are to be read: their curve, pictures of one bracket, the exposure that all are brought to,
-    where masks come from (a folder, alpha, or the mesh whatever there is), labels and the names of their ids."""
+    whether masks are the photographs' alpha or the mesh's silhouette whatever there is, and the names of the ids
+    of label pictures."""
 
     curve: str
     brackets: int
     reference: float | None
-    masks: Path | None
     alpha: bool
     silhouette: bool
-    labels: Path | None
     names: dict[int, str]
 
 
@@ -188,13 +193,14 @@ def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinho
         notes.add(
             f"pictures are {along:.6g} times as large as their cameras say: focal lengths and principal points are scaled"
         )
+    focal = view.focal.focal(*stated) if isinstance(view.focal, FieldOfView) else view.focal
     centre = view.centre or (stated[0] / 2, stated[1] / 2)
     if view.centre is None:
         notes.add("no principal point is stated: it is the picture's middle")
     return Pinhole(
         width,
         height,
-        (view.focal[0] * along, view.focal[1] * across),
+        (focal[0] * along, focal[1] * across),
         (centre[0] * along, centre[1] * across),
         view.camera_to_world,
     )
@@ -209,8 +215,6 @@ def _mask(view: SourceView, reading: Reading, photograph: Photograph, orientatio
         alpha = oriented(photograph.alpha, orientation)
         return np.where(alpha >= 0.5, 255, 0).astype(np.uint8)
     path = view.mask
-    if reading.masks is not None:
-        path = _named(reading.masks, view, "mask")
     if path is None:
         return None
     plane = beside(read_plane(path), path)
@@ -221,17 +225,7 @@ def _mask(view: SourceView, reading: Reading, photograph: Photograph, orientatio
 
 
 def _labels(view: SourceView, reading: Reading, beside: Any) -> Bytes | None:
-    path = view.label if reading.labels is None else _named(reading.labels, view, "label picture")
+    path = view.label
     if path is None:
         return None
     return our_labels(path, beside(read_plane(path), path), reading.names)
-
-
-def _named(folder: Path, view: SourceView, what: str) -> Path:
-    """The picture of a folder that is called as the photograph, with its ending or another."""
-    picture = view.picture
-    for stem in (picture.name, picture.stem, view.name, f"{picture.stem}_mask"):
-        for ending in (".png", ".tif", ".tiff", ".jpg", ".jpeg"):
-            if (folder / f"{stem}{ending}").is_file():
-                return folder / f"{stem}{ending}"
-    raise CaptureError(f"{folder}: has no {what} {picture.stem}.png for {picture.name}; add it")

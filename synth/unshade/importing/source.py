@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -49,24 +50,41 @@ class Lens:
 
 
 @dataclass(frozen=True)
+class FieldOfView:
+    """Full angles (rad) across a picture's width and height, where a file states these and no size. One of them
+    may be None; pixels are square then."""
+
+    along: float | None
+    across: float | None
+
+    def focal(self, width: int, height: int) -> tuple[float, float]:
+        """Focal lengths (x, y) in pixels of a picture of this size."""
+        x = None if self.along is None else width / 2 / math.tan(self.along / 2)
+        y = None if self.across is None else height / 2 / math.tan(self.across / 2)
+        return x or y or 0.0, y or x or 0.0
+
+
+@dataclass(frozen=True)
 class SourceView:
     """One photograph and its camera.
 
     ``focal`` and ``centre`` are in pixels, the top left corner of the picture is (0, 0) and pixel
     centres lie at +.5; ``camera_to_world`` has OpenGL axes and is rigid. ``width`` and ``height`` are
-    None where the file does not say them; then they are the picture's.
+    None where the file does not say them; then they are the picture's. ``stated`` is what the file calls
+    the camera, for messages.
     """
 
     name: str
     picture: Path
     camera_to_world: Matrix
-    focal: tuple[float, float]
+    focal: tuple[float, float] | FieldOfView
     centre: tuple[float, float] | None
     width: int | None
     height: int | None
     lens: Lens = field(default_factory=Lens)
     mask: Path | None = None
     label: Path | None = None
+    stated: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,6 +95,8 @@ class Source:
     ``metres`` is the length of its unit, if the format fixes it. ``objects`` names the mesh's objects
     that are the face; none means all. ``label_names`` says what the ids of its label pictures are.
     ``exif_applied`` says whether the program counts pixels after a photograph's EXIF orientation was applied.
+    ``left_out`` lists the views that the file states and ``views`` lacks, each with the reason;
+    ``whole_folders`` says whether the program was given every photograph of a folder.
     ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
     that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
     """
@@ -91,6 +111,8 @@ class Source:
     exif_applied: bool = True
     label_names: dict[int, str] = field(default_factory=lambda: dict[int, str]())
     assumed: tuple[str, ...] = ()
+    left_out: tuple[tuple[str, str], ...] = ()
+    whole_folders: bool = False
 
     def __post_init__(self) -> None:
         if not self.views:
@@ -101,11 +123,12 @@ class Source:
 
 def _check(origin: Path, view: SourceView) -> None:
     where = f"{origin}: camera {view.name!r}"
-    numbers = [*view.focal, *(view.centre or ()), *view.lens.terms.values(), *view.camera_to_world.ravel()]
+    focal = view.focal.focal(1, 1) if isinstance(view.focal, FieldOfView) else view.focal
+    numbers = [*focal, *(view.centre or ()), *view.lens.terms.values(), *view.camera_to_world.ravel()]
     if not np.isfinite(numbers).all():
         raise CaptureError(f"{where}: holds a number that is not finite; export the cameras again")
-    if min(view.focal) <= 0:
-        raise CaptureError(f"{where}: its focal length is {min(view.focal):g}; it must be positive")
+    if min(focal) <= 0:
+        raise CaptureError(f"{where}: its focal length is {min(focal):g}; it must be positive")
     for side in (view.width, view.height):
         if side is not None and not 0 < side <= 65535:
             raise CaptureError(f"{where}: its picture is {view.width} x {view.height}; mend the size")

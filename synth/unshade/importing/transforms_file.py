@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import CaptureError
-from .source import Lens, Matrix, Source, SourceView, frame_names, moved, rigid
+from .source import FieldOfView, Lens, Matrix, Source, SourceView, frame_names, moved, rigid
 
 _MODELS = {
     "PINHOLE": (),
@@ -28,32 +29,91 @@ _ENDINGS = (".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".JPG", ".JPEG", "
 """Endings of a picture that is named without one; Blender's exporters name none."""
 
 
+_TRAIN, *_SET_ASIDE = _SPLIT = ("transforms_train.json", "transforms_val.json", "transforms_test.json")
+"""The files of a capture that is split by files; all but the first hold views that are withheld."""
+
+
+@dataclass(frozen=True)
+class _Frames:
+    """The frames of one file, the paths of their pictures, and the matrix that the file says was applied."""
+
+    path: Path
+    document: dict[str, Any]
+    frames: list[dict[str, Any]]
+    pictures: list[str]
+    undo: Matrix
+    applied: Matrix | None
+
+
 def read_transforms(path: Path) -> Source:
-    """Reads the file, or the folder that holds it. Raises `CaptureError`."""
-    path = path / "transforms.json" if path.is_dir() else path
+    """Reads the file, or the folder that holds it or the files of a split. Raises `CaptureError`."""
+    parts = [_frames(file) for file in _files(path)]
+    paths = [picture for part in parts for picture in part.pictures]
+    names = [str(frame.get("name") or "") for part in parts for frame in part.frames]
+    if not all(names) or frame_names(names) != names:
+        names = frame_names(paths)
+    views: list[SourceView] = []
+    withheld: list[str] = []
+    for part in parts:
+        own = names[len(views) : len(views) + len(part.frames)]
+        views += [_view(part.path, part.document, *pair, part.undo) for pair in zip(part.frames, own)]
+        withheld += own if part.path.name in _SET_ASIDE and len(parts) > 1 else _withheld(part, own)
+    views, withheld = _once(views, withheld)
+    first = parts[0]
+    elsewhere = None
+    if first.applied is not None:
+        words = "the mesh was moved by applied_transform as the cameras were, so it is not to be undone"
+        elsewhere = ("applied-transform", words, first.applied)
+    mesh = first.document.get("mesh")
+    return Source(
+        origin=first.path,
+        views=tuple(views),
+        mesh=_beside(first.path, mesh) if isinstance(mesh, str) else None,
+        withheld=tuple(withheld),
+        elsewhere=elsewhere,
+        label_names=_label_names(first.path, first.document.get("label_names")),
+        assumed=_not_read(first.path, parts),
+    )
+
+
+def _files(path: Path) -> list[Path]:
+    if not path.is_dir():
+        return [path]
+    split = [path / name for name in _SPLIT if (path / name).is_file()]
+    if (path / "transforms.json").is_file() or not split:
+        return [path / "transforms.json"]
+    if split[0].name != _TRAIN:
+        raise CaptureError(f"{path}: has {split[0].name}, but not {_TRAIN}; add it, or name one file")
+    return split
+
+
+def _not_read(path: Path, parts: list[_Frames]) -> tuple[str, ...]:
+    read = {part.path.name for part in parts}
+    beside = [name for name in _SPLIT if name not in read and (path.parent / name).is_file()]
+    return (f"{path.name} is read, {', '.join(beside)} beside it not",) if beside else ()
+
+
+def _frames(path: Path) -> _Frames:
     document = _document(path)
     listed = document.get("frames")
     if not isinstance(listed, list) or not all(isinstance(frame, dict) for frame in listed):
         raise CaptureError(f"{path}: has no list of frames; export the cameras as nerfstudio or instant-ngp do")
     undo, applied = _undone(path, document)
-    elsewhere = None
-    if applied is not None:
-        words = "the mesh was moved by applied_transform as the cameras were, so it is not to be undone"
-        elsewhere = ("applied-transform", words, applied)
-    paths = [_text(path, frame, "file_path") for frame in listed]
-    names = [str(frame.get("name") or "") for frame in listed]
-    if not all(names) or frame_names(names) != names:
-        names = frame_names(paths)
-    views = [_view(path, document, frame, name, undo) for frame, name in zip(listed, names)]
-    mesh = document.get("mesh")
-    return Source(
-        origin=path,
-        views=tuple(views),
-        mesh=_beside(path, mesh) if isinstance(mesh, str) else None,
-        withheld=_withheld(path, document, paths, names),
-        elsewhere=elsewhere,
-        label_names=_label_names(path, document.get("label_names")),
-    )
+    return _Frames(path, document, listed, [_text(path, frame, "file_path") for frame in listed], undo, applied)
+
+
+def _once(views: list[SourceView], withheld: list[str]) -> tuple[list[SourceView], list[str]]:
+    """The views without those that are withheld twice, as where val repeats test."""
+    kept: list[SourceView] = []
+    aside: dict[Path, SourceView] = {}
+    for view in views:
+        if view.name in withheld:
+            same = aside.setdefault(view.picture, view)
+            if same is not view and np.allclose(same.camera_to_world, view.camera_to_world):
+                continue
+        kept.append(view)
+    names = {view.name for view in kept}
+    return kept, [name for name in withheld if name in names]
 
 
 def _document(path: Path) -> dict[str, Any]:
@@ -98,11 +158,7 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
     for key, side in (("w", width), ("h", height)):
         if side is not None and (side != int(side) or not 0 < side <= 65535):
             raise CaptureError(f"{path}: frame {name!r}: {key} is {side:g}; it must be a whole number of pixels")
-    along = _focal(path, name, frame, document, "fl_x", "camera_angle_x", width)
-    across = _focal(path, name, frame, document, "fl_y", "camera_angle_y", height)
-    if along is None and across is None:
-        raise CaptureError(f"{path}: frame {name!r}: has no fl_x; state fl_x and fl_y, the focal length in pixels")
-    focal = (along or across or 0.0, across or along or 0.0)
+    focal = _focal(path, name, (frame, document), width, height)
     cx, cy = value("cx"), value("cy")
     centre = None
     if cx is not None or cy is not None:
@@ -112,6 +168,7 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
     mask, label = frame.get("mask_path"), frame.get("label_path")
     return SourceView(
         name=name,
+        stated=f"frame {file_path!r} of {path.name}",
         picture=_picture(path, file_path),
         camera_to_world=moved(
             undo, rigid(_matrix(path, f"transform_matrix of frame {name!r}", frame.get("transform_matrix")))
@@ -127,29 +184,29 @@ def _view(path: Path, document: Mapping[str, Any], frame: Mapping[str, Any], nam
 
 
 def _focal(
-    path: Path,
-    name: str,
-    frame: Mapping[str, Any],
-    document: Mapping[str, Any],
-    key: str,
-    angle: str,
-    side: float | None,
-) -> float | None:
-    """A focal length, or what a field of view makes of it; the frame's own go before those for all."""
-    for table in (frame, document):
-        stated = _number(path, name, table, key, None)
-        if stated is not None:
-            return stated
-        field = _number(path, name, table, angle, None)
-        if field is not None:
-            if side is None:
-                raise CaptureError(
-                    f"{path}: frame {name!r}: has {angle} without w and h; state the picture's size in pixels"
-                )
+    path: Path, name: str, tables: tuple[Mapping[str, Any], ...], width: float | None, height: float | None
+) -> tuple[float, float] | FieldOfView:
+    """Focal lengths, or what fields of view make of them; the frame's own go before those for all."""
+    angles: list[float | None] = []
+    lengths: list[float | None] = []
+    for key, angle, side in (("fl_x", "camera_angle_x", width), ("fl_y", "camera_angle_y", height)):
+        length = field = None
+        for table in tables:
+            length, field = (_number(path, name, table, word, None) for word in (key, angle))
+            if length is not None or field is not None:
+                break
+        if length is None and field is not None:
             if not 0 < field < math.pi:
                 raise CaptureError(f"{path}: frame {name!r}: {angle} is {field:g}; it is an angle in radians, 0 to pi")
-            return side / 2 / math.tan(field / 2)
-    return None
+            length = None if side is None else side / 2 / math.tan(field / 2)
+        lengths.append(length)
+        angles.append(field if length is None else None)
+    x, y = lengths
+    if x is None and y is None:
+        if angles == [None, None]:
+            raise CaptureError(f"{path}: frame {name!r}: has no fl_x; state fl_x and fl_y, the focal length in pixels")
+        return FieldOfView(*angles)
+    return x or y or 0.0, y or x or 0.0
 
 
 def _lens(path: Path, name: str, document: Mapping[str, Any], frame: Mapping[str, Any], value: Any) -> Lens:
@@ -172,19 +229,16 @@ def _lens(path: Path, name: str, document: Mapping[str, Any], frame: Mapping[str
     return Lens({key: terms[key] for key in own if terms[key]}, fisheye=model == "OPENCV_FISHEYE")
 
 
-def _withheld(path: Path, document: Mapping[str, Any], paths: list[str], names: list[str]) -> tuple[str, ...]:
+def _withheld(part: _Frames, names: list[str]) -> list[str]:
+    document = part.document
     listed = [*(document.get("test_filenames") or []), *(document.get("val_filenames") or [])]
-    if "test_filenames" not in document and "val_filenames" not in document:
-        return ()
-    plain = {_plain(file_path): name for file_path, name in zip(paths, names)}
-    found = []
-    for file_path in map(str, listed):
-        if _plain(file_path) not in plain:
-            raise CaptureError(
-                f"{path}: test_filenames names {file_path}, which no frame has; add the frame or drop the name"
-            )
-        found.append(plain[_plain(file_path)])
-    return tuple(found)
+    plain = {_plain(file_path): name for file_path, name in zip(part.pictures, names)}
+    strange = [file_path for file_path in map(str, listed) if _plain(file_path) not in plain]
+    if strange:
+        raise CaptureError(
+            f"{part.path}: test_filenames names {strange[0]}, which no frame has; add the frame or drop the name"
+        )
+    return [plain[_plain(str(file_path))] for file_path in listed]
 
 
 def _label_names(path: Path, table: Any) -> dict[int, str]:
@@ -235,12 +289,14 @@ def _beside(path: Path, name: str) -> Path:
 
 
 def _picture(path: Path, file_path: str) -> Path:
-    """The picture's file; a name without an ending takes the first that is there."""
+    """The picture's file; a name without an ending takes the one that is there."""
     named = _beside(path, file_path)
     if named.is_file():
         return named
-    for ending in _ENDINGS:
-        candidate = named.with_name(named.name + ending)
-        if candidate.is_file():
-            return candidate
-    return named
+    there = [file for ending in _ENDINGS if (file := named.with_name(named.name + ending)).is_file()]
+    others = [file for file in there[1:] if not file.samefile(there[0])]
+    if others:
+        raise CaptureError(
+            f"{path}: {file_path!r} could be {there[0].name} or {others[0].name}; state the ending in file_path"
+        )
+    return there[0] if there else named

@@ -1,0 +1,51 @@
+"""The choices of an import, which decide where its files are silent."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import CaptureError
+from .pictures import check_curve
+from .placement import PLACES, UNITS
+
+
+@dataclass(frozen=True)
+class Choices:
+    """Choices where the files are silent. The fields are those of `import_capture`."""
+
+    mesh: Path | None = None
+    objects: tuple[str, ...] = ()
+    pictures: Path | None = None
+    masks: Path | str | None = None
+    labels: Path | None = None
+    parser: str | None = None
+    curve: str = "auto"
+    brackets: int = 1
+    even_exposure: bool = False
+    holdout: int | tuple[str, ...] | None = None
+    shrink: int = 1
+    unit: str | None = None
+    place: str = "auto"
+    front: str | None = None
+    apply: bool = False
+    skip_missing: bool = False
+    leave_out: tuple[str, ...] = ()
+
+    def check(self) -> None:
+        """Refuses values that no import has. Raises `CaptureError` or `PictureError`."""
+        check_curve(self.curve)
+        if self.unit is not None and self.unit not in UNITS:
+            raise CaptureError(f"unit {self.unit!r} is unknown; there are {', '.join(UNITS)}")
+        if self.place not in PLACES:
+            raise CaptureError(f"place {self.place!r} is unknown; there are {', '.join(PLACES)}")
+        for name, value, maximum in (("brackets", self.brackets, 32), ("shrink", self.shrink, 64)):
+            if not 1 <= value <= maximum:
+                raise CaptureError(f"{name} is {value}; it must be from 1 to {maximum}")
+        if isinstance(self.holdout, int) and self.holdout < 2:
+            raise CaptureError(f"holdout is {self.holdout}; every second view is the most that can be withheld")
+        if self.labels is not None and self.parser is None:
+            raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
+        for folder in (self.masks, self.labels, self.pictures):
+            if isinstance(folder, Path) and not folder.is_dir():
+                raise CaptureError(f"{folder}: is no folder; name one, or of masks alpha or silhouette")
