@@ -18,7 +18,7 @@ MIDDLE = (WIDTH / 2, HEIGHT / 2)
 LENS = "<k1>0.15</k1><k2>-1.2</k2><k3>2.2</k3>"
 MASKS = ("--masks", "masks")
 CAMERAS = "".join(heads.camera(n, name, name) for n, name in enumerate(NAMES))
-RIGHT = "imported 6 of 6 views, head upright as the source has it, silhouettes overlap 1.00"
+RIGHT = "imported 6 of 6 views, head upright by the cameras' mean up, silhouettes overlap 1.00"
 NO_MASKS = "masks are the mesh's silhouette, so nothing tells whether the cameras fit"
 
 Case = tuple[Callable[[Path], object], tuple[str, ...], str]
