@@ -17,6 +17,7 @@ from PIL import Image
 import unshade
 from conftest import unshade as command
 from unshade.errors import CaptureError
+from unshade.importing.moving_light import LightMotion
 
 ARC = (-60, -30, 0, 30, 60)
 
@@ -178,3 +179,10 @@ def test_light_that_moves_with_respect_to_the_head_is_named(lamp: np.ndarray, tu
     assert light["moves"] == turns
     assert any(f"{light['one_light']:.0%} between views" in line for line in record["assumed"]) == turns
     assert light["own_lights"] < 0.12 and (light["one_light"] > 0.12) == turns
+
+
+def test_views_that_differ_whatever_their_light_are_no_moving_light() -> None:
+    """The numbers of a rendered face whose photographs stand on their heads, in softboxes."""
+    turned = LightMotion(8, one_light=0.52, own_lights=0.42)
+    assert not turned.moves and "photographs do not belong to their cameras" in (turned.warning or "")
+    assert LightMotion(8, one_light=0.07, own_lights=0.06).warning is None

@@ -153,7 +153,7 @@ def test_orientation_is_applied_once_or_left_out_whoever_decodes(
                 mask=tmp_path / file, label=tmp_path / "labels.tif",
             )  # fmt: skip
             source = Source(tmp_path, (view,), exif_applied=shown)
-            taken = take(source, view, Reading("linear", 1, None, None, False, False, None, {2: "nose"}), set())
+            taken = take(source, view, Reading("linear", 1, None, False, False, {2: "nose"}), set())
             scale = 1 if dtype == np.float32 else np.iinfo(dtype).max
             np.testing.assert_allclose(taken.radiance, expected / scale, atol=0.02 if ending == ".jpg" else 1e-6)
             np.testing.assert_array_equal(taken.mask, seen)

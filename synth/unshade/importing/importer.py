@@ -137,6 +137,7 @@ class _Import:
     def __init__(self, format: str, path: Path, source: Source, choices: Choices, progress: Progress) -> None:
         self.format, self.path, self.source, self.choices, self.progress = format, path, source, choices, progress
         self.notes: set[str] = set(source.assumed)
+        self.light: LightMotion | None = None
         mesh = choices.mesh or source.mesh
         if mesh is None:
             raise CaptureError(f"{source.origin}: names no mesh; name an OBJ file with texture coordinates (mesh)")
@@ -189,11 +190,11 @@ class _Import:
             folder.view(taken, withheld=view.name in self.withheld)
         self._judge(report)
         self.notes |= report.notes(even=reading.reference is not None)
-        motion = light_motion(mesh, lit)
-        if motion is not None and motion.moves:
-            self._warn(motion.words)
+        self.light = light_motion(mesh, lit)
+        if self.light is not None and self.light.warning is not None:
+            self._warn(self.light.warning)
         folder.transforms(sorted({*LABELS.items()}, key=lambda item: item[1]))
-        folder.record(self._record(reading, verdict, placement, report, motion))
+        folder.record(self._record(reading, verdict, placement, report))
         folder.commit()
         self.progress(len(self.source.views), len(self.source.views), "capture")
 
@@ -331,12 +332,7 @@ class _Import:
         return "\n".join(parts)
 
     def _record(
-        self,
-        reading: Reading,
-        verdict: Verdict | None,
-        placement: Placement,
-        seen: ViewStatistics,
-        motion: LightMotion | None,
+        self, reading: Reading, verdict: Verdict | None, placement: Placement, seen: ViewStatistics
     ) -> dict[str, Any]:
         choices, stated = self.choices, len(self.source.views) + len(self.source.left_out)
         masks = "alpha" if reading.alpha else "silhouette"
@@ -364,7 +360,7 @@ class _Import:
                 "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
             },
             "front": placement.front,
-            "light": None if motion is None else motion.record(),
+            "light": None if self.light is None else self.light.record(),
             "source_to_capture": placement.matrix.tolist(),
             "overlap": {"median": seen.overlap, "views": seen.overlaps},
             "summary": summary(len(self.source.views), stated, placement.upright, masks, seen.overlap),
