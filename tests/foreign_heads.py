@@ -18,7 +18,8 @@ from unshade.importing.chart_mesh import read_mesh
 from unshade.importing.pinhole import Pinhole
 
 OPENCV_AXES = np.diag([1.0, -1.0, -1.0, 1.0])
-WIDTH, HEIGHT, FOCAL, CENTRE = 64, 48, 110.0, (34.0, 22.5)
+WIDTH, HEIGHT, FOCAL, CENTRE = 56, 56, 110.0, (30.0, 26.5)
+INTRINSICS = {"w": WIDTH, "h": HEIGHT, "fl_x": FOCAL, "fl_y": FOCAL, "cx": CENTRE[0], "cy": CENTRE[1]}
 NAMES = tuple(f"{number:03}" for number in range(6))
 _GREYS = {name: 40 + 30 * number for number, name in enumerate(NAMES)}
 
@@ -65,16 +66,16 @@ def photograph(path: Path, name: str, *, alpha: np.ndarray | None = None) -> Pat
     return path
 
 
-def silhouette(folder: Path, name: str, centre: tuple[float, float] = CENTRE) -> np.ndarray:
+def silhouette(obj: Path, name: str, centre: tuple[float, float] = CENTRE) -> np.ndarray:
     """The mask (height, width), 0 or 255."""
-    head = read_mesh(folder / "head.obj")
+    head = read_mesh(obj)
     camera = Pinhole(WIDTH, HEIGHT, (FOCAL, FOCAL), centre, pose(name))
     return np.where(camera.silhouette(head.vertices, head.triangles), 255, 0).astype(np.uint8)
 
 
 def mask(folder: Path, path: str, name: str) -> None:
     (folder / path).parent.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(silhouette(folder, name)).save(folder / path)
+    Image.fromarray(silhouette(folder / "head.obj", name)).save(folder / path)
 
 
 def photographs(folder: Path, paths: dict[str, str] | None = None, *, masks: bool = True) -> Path:
@@ -92,9 +93,8 @@ def frame(name: str, file_path: str, **more: Any) -> dict[str, Any]:
 
 
 def transforms(folder: Path, frames: list[dict[str, Any]] | None = None, file: str = "", **intrinsics: Any) -> None:
-    known = {"w": WIDTH, "h": HEIGHT, "fl_x": FOCAL, "fl_y": FOCAL, "cx": CENTRE[0], "cy": CENTRE[1]}
     listed = [frame(n, f"images/{n}.png", mask_path=f"masks/{n}.png") for n in NAMES] if frames is None else frames
-    document = {**(known | intrinsics), "frames": listed}
+    document = {**(INTRINSICS | intrinsics), "frames": listed}
     text = json.dumps({key: value for key, value in document.items() if value is not None})
     (folder / (file or "transforms.json")).write_text(text)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import foreign_captures
+import foreign_heads as heads
 import numpy as np
 import pytest
 from foreign_captures import OPENCV_AXES
@@ -21,14 +22,21 @@ Document = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
-def source(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A capture as files of a stranger: transforms.json, pictures, masks, mesh."""
-    capture = tiny_run / "captures" / "tiny-studio"
     folder = tmp_path_factory.mktemp("source")
-    foreign_captures.copy_pictures(capture, folder)
-    frames = foreign_captures.frames_of(capture)
-    for frame in frames:
-        frame.pop("label_path")
+    heads.mesh(folder).rename(folder / "mesh.obj")
+    for name in ("images", "masks", "labels"):
+        (folder / name).mkdir()
+    random = np.random.default_rng(0)
+    for name in heads.NAMES:
+        picture = random.random((heads.HEIGHT, heads.WIDTH, 3), np.float32)
+        unshade._native.write_colour(folder / "images" / f"{name}.exr", picture)
+        Image.fromarray(heads.silhouette(folder / "mesh.obj", name)).save(folder / "masks" / f"{name}.png")
+    frames = [
+        {"name": name, **heads.frame(name, f"images/{name}.exr", mask_path=f"masks/{name}.png"), **heads.INTRINSICS}
+        for name in heads.NAMES
+    ]
     (folder / "transforms.json").write_text(json.dumps({"mesh": "mesh.obj", "frames": frames}))
     return folder
 
@@ -82,7 +90,7 @@ PLANTED: dict[str, Callable[[Document], None]] = {
     "mesh-axes-(x, z, -y)": _matrices(lambda m: np.linalg.inv(Z_UP) @ m),
     "mesh-axes-(x, -z, y)": _matrices(lambda m: Z_UP @ m),
     "applied-transform": _applied,
-    "principal-point": _numbers(cx=lambda f: 0.0, cy=lambda f: 0.0),
+    "principal-point-from-middle": _numbers(cx=lambda f: f["cx"] - f["w"] / 2, cy=lambda f: f["cy"] - f["h"] / 2),
     "focal-mm-36": _numbers(fl_x=lambda f: f["fl_x"] * 36 / f["w"], fl_y=lambda f: f["fl_y"] * 36 / f["w"]),
     "focal-share": _numbers(fl_x=lambda f: f["fl_x"] / f["w"], fl_y=lambda f: f["fl_y"] / f["w"]),
     "focal-double": _numbers(fl_x=lambda f: f["fl_x"] / 2, fl_y=lambda f: f["fl_y"] / 2),

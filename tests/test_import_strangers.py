@@ -163,7 +163,9 @@ def _split(**files: list[tuple[str, str]]) -> Callable[[Path], object]:
         bare = dict.fromkeys(("w", "h", "fl_x", "fl_y", "cx", "cy"))
         for file, listed in files.items():
             for name, path in listed:
-                heads.photograph(folder / f"{path}.png", name, alpha=heads.silhouette(folder, name, MIDDLE))
+                heads.photograph(
+                    folder / f"{path}.png", name, alpha=heads.silhouette(folder / "head.obj", name, MIDDLE)
+                )
             frames = [heads.frame(name, f"./{path}") for name, path in listed]
             heads.transforms(folder, frames, f"transforms_{file}.json", **bare, camera_angle_x=angle)
 
@@ -204,7 +206,7 @@ _FROM_MIDDLE = {"cx": CENTRE[0] - WIDTH / 2, "cy": CENTRE[1] - HEIGHT / 2, "k1":
 def _halves(folder: Path) -> None:
     """Masks that lack the lower third of the head."""
     for name in NAMES:
-        plane = heads.silhouette(folder, name)
+        plane = heads.silhouette(folder / "head.obj", name)
         rows = np.flatnonzero(plane.any(1))
         plane[rows[int(len(rows) * 0.72)] :] = 0
         _mask_of(name, plane)(folder)
