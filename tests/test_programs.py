@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+import unshade as package
 from conftest import HERE, unshade
 
 CASE = "tiny-studio"
@@ -287,8 +288,10 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     assert "no colour" in failures(folder)["mine"]
     assert not (folder / "run" / "scores" / CASE / "mine.json").exists()
     write(folder, "shade.py", "def colour():\n    return 0.25\n")
-    assert go(folder).returncode == 0
+    steps: list[str] = []
+    package.run(folder / "suite.toml", folder / "run", progress=lambda *step: steps.append(step[2]))
     assert value(folder, "mine") == before
+    assert any(step.startswith(f"maps/{CASE}/mine: seen: [") for step in steps)
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,8 @@ impl Progress {
         let bars = std::io::stderr().is_terminal().then(|| {
             let all = MultiProgress::new();
             let run = all.add(ProgressBar::new(0));
-            run.set_style(style("{bar:30} {pos}/{len} stages  {elapsed}"));
+            // Without a length a bar shows as full.
+            run.set_style(style("{spinner} begins  {elapsed}"));
             run.enable_steady_tick(TICK);
             Bars { all, run, stages: BTreeMap::new() }
         });
@@ -70,6 +71,7 @@ impl Observer for Progress {
             self.begun.insert(id.to_owned(), (Instant::now(), Instant::now()));
             return;
         };
+        bars.run.set_style(style("{bar:30} {pos}/{len} stages  {elapsed}"));
         bars.run.set_length(total as u64);
         bars.run.set_position(done as u64);
         let stage = bars.all.add(ProgressBar::new(0));

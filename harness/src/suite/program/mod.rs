@@ -142,7 +142,7 @@ impl Program {
         };
         permissions.read.extend([capture, lights]);
         let mut usage = Usage::default();
-        let (lines, heard) = mpsc::channel();
+        let (ticks, heard) = mpsc::channel();
         let (limits, network, log) = (&self.limits, self.network, place.log);
         let watched = Watched { limits, network, log, interrupt };
         // A thread of its own: the kernel restricts threads, for good, and what they start.
@@ -150,10 +150,11 @@ impl Program {
             let usage = &mut usage;
             let running = scope.spawn(move || -> Result<End, String> {
                 usage.confined = confine::restrict(&permissions)?;
-                watch(command, &watched, &lines, usage)
+                watch(command, &watched, &ticks, usage)
                     .map_err(|error| format!("cannot start: {error}"))
             });
-            heard.iter().for_each(|line| progress(0, 0, &line));
+            heard.iter().for_each(|()| progress(0, 0, &last_line(log)));
+            progress(0, 0, &last_line(log));
             running.join().unwrap_or_else(|_| Err("its watch ended".to_owned()))
         });
         debug.end();

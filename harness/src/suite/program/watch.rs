@@ -16,8 +16,8 @@ use crate::synth::Interrupt;
 
 /// Between two looks at the program.
 const LOOK: Duration = Duration::from_millis(25);
-/// Between two looks at its last line.
-const LINE: Duration = Duration::from_millis(500);
+/// Between two ticks.
+const TICK: Duration = Duration::from_millis(500);
 /// Bytes at the end of a log that hold its last line.
 const END: u64 = 4096;
 /// A log that grows past this ends the program before it fills the disk, bytes.
@@ -69,12 +69,12 @@ pub(super) struct Watched<'a> {
     pub interrupt: &'a Interrupt,
 }
 
-/// Starts `command` in a process group of its own, which dies with this thread, and waits for it; `lines` gets the last
-/// line that it printed, again and again. Nothing of the group is left when this returns.
+/// Starts `command` in a process group of its own, which dies with this thread, and waits for it. `ticks` says again and
+/// again that it runs: this thread may not read its log. Nothing of the group is left when this returns.
 pub(super) fn watch(
     command: Command,
     watched: &Watched,
-    lines: &Sender<String>,
+    ticks: &Sender<()>,
     usage: &mut Usage,
 ) -> io::Result<End> {
     let Watched { limits, network, log, interrupt } = *watched;
@@ -86,10 +86,10 @@ pub(super) fn watch(
     (child, usage.network) = spawn(command, network)?;
     let mut said = start;
     let end = loop {
-        if said.elapsed() >= LINE {
+        if said.elapsed() >= TICK {
             said = Instant::now();
             // Nobody listens after a fault.
-            let _ = lines.send(last_line(log));
+            let _ = ticks.send(());
         }
         let members = members(child.id());
         usage.peak_bytes = usage.peak_bytes.max(memory(&members));
@@ -216,4 +216,23 @@ fn keep_to_processors(threads: usize) -> io::Result<()> {
 #[cfg(not(target_os = "linux"))]
 fn keep_to_processors(_: usize) -> io::Result<()> {
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_line_of_a_log_is_what_a_terminal_shows_last() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = folder.path().join("log");
+        let last = |text: &str| {
+            fs::write(&log, text).unwrap();
+            last_line(&log)
+        };
+        assert_eq!(last(""), "");
+        assert_eq!(last("loss 2\nloss 1\n\n"), "loss 1");
+        assert_eq!(last("begin\n 10 %\r 20 %\r"), "20 %");
+        assert_eq!(last(&format!("{}\n\u{1b}end", "x".repeat(9000))), "end");
+    }
 }
