@@ -54,7 +54,7 @@ class ViewStatistics:
     @property
     def overlap(self) -> float | None:
         """Median over the views whose masks say anything, None where none does."""
-        return median(self.overlaps.values()) if self.overlaps else None
+        return round(median(self.overlaps.values()), 4) if self.overlaps else None
 
     def below(self, least: float) -> dict[str, float]:
         """The views whose overlap is less, the worst first."""

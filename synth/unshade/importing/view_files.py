@@ -80,7 +80,7 @@ def with_planes(source: Source, masks: Path | None, labels: Path | None, *, skip
 def _count(source: Source, views: Sequence[SourceView], what: str) -> str:
     if len(views) == 1:
         return ""
-    return f", and {len(views)} of {len(source.views)} {what} in all: {listed(short_names(views))}"
+    return f" ({len(views)} of {len(source.views)} {what} are missing: {listed(short_names(views))})"
 
 
 def _named(
