@@ -122,7 +122,6 @@ fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
     let MethodKind::Program(program) = &last.kind else { panic!() };
     assert_eq!(program.settings_json(), r#"{"layers":[1,2],"lr":0.001,"seed":2}"#);
     assert_eq!(program.with_settings("--lr={lr} {seed} {maps}"), "--lr=0.001 2 {maps}");
-    // All methods of a table answer to its name, each to its own.
     let runs = |name: &str| {
         let suite = suite.clone().only(vec![name.to_owned()], Vec::new()).unwrap();
         suite.methods.iter().filter(|method| suite.runs_method(method)).count()
