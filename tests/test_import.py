@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +17,9 @@ from foreign_captures import OPENCV_AXES
 
 import unshade
 from conftest import unshade as command
+from unshade import _native
 from unshade.errors import CaptureError, StorageError
+from unshade.importing.importer import CaptureWarning
 
 Writer = Callable[[Path, Path], Path]
 
@@ -224,6 +227,52 @@ def test_shrinking_keeps_what_is_seen_where(capture: Path, tmp_path: Path) -> No
     small, large = half.image(name), whole.image(name)
     np.testing.assert_allclose(small, large.reshape(small.shape[0], 2, small.shape[1], 2, 3).mean((1, 3)), atol=1e-5)
     np.testing.assert_allclose(np.array(half.camera(name)["focal"]) * 2, whole.camera(name)["focal"], rtol=1e-6)
+
+
+def laid_out(mesh: Path, out: Path, place: Callable[[np.ndarray, np.ndarray], np.ndarray], material: str = "") -> Path:
+    """The mesh with a UV at every corner: ``place`` of the corner's UV (F,3,2) and whether its triangle is on the
+    right half of the chart (F,1,1); the right half has the ``material``."""
+    obj = _native.read_obj(mesh.read_bytes())[0]
+    corners = obj["uv"][obj["triangles"]]
+    right = corners.mean(1, keepdims=True)[..., :1] > 0.5
+    uv = place(corners, right).reshape(-1, 2)
+    lines = ["v %.9g %.9g %.9g" % tuple(v) for v in obj["vertices"]] + ["vt %.9g %.9g" % tuple(t) for t in uv]
+    faces = [f"f {a}/{3 * k + 1} {b}/{3 * k + 2} {c}/{3 * k + 3}" for k, (a, b, c) in enumerate(obj["triangles"] + 1)]
+    halves = [[face for face, r in zip(faces, right.ravel()) if r == side] for side in (False, True)]
+    out.write_text("\n".join([*lines, "usemtl left", *halves[0], f"usemtl {material or 'left'}", *halves[1]]))
+    return out
+
+
+LAYOUTS: dict[str, tuple[Callable[[np.ndarray, np.ndarray], np.ndarray], str, str]] = {
+    "pages": (lambda uv, right: uv * [1.8, 1] - right * [0.8, 0], "right", r'"left" and material "right" lie over each other in UV: two triangles claim \d+'),
+    "mirrored": (lambda uv, right: np.where(right, uv, [1, 0] - uv * [1, -1]), "", r'"left" overlaps in UV \(mirrored halves\)'),
+    "udim": (lambda uv, right: uv + right * [1, 0], "", "UVs lie on 2 tiles .UDIM 1001, 1002."),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_layout_whose_texels_have_several_places_is_refused(layout: str, capture: Path, tmp_path: Path) -> None:
+    place, material, words = LAYOUTS[layout]
+    mesh = laid_out(capture / "mesh.obj", tmp_path / "mesh.obj", place, material)
+    with pytest.raises(CaptureError, match=words) as refusal:
+        unshade.import_capture("transforms", capture, tmp_path / "out", mesh=mesh)
+    assert "\n" not in str(refusal.value)
+    if layout == "pages":  # as an import of another program would have left it
+        shutil.copytree(capture, tmp_path / "capture", ignore=shutil.ignore_patterns("truth"))
+        shutil.copy(mesh, tmp_path / "capture" / "mesh.obj")
+        done = command("check", tmp_path, "--capture", tmp_path / "capture", check=False)
+        assert done.returncode == 2 and "lie over each other in UV" in done.stderr
+
+
+def test_many_islands_are_a_warning(capture: Path, tmp_path: Path) -> None:
+    apart = lambda uv, _: uv.mean(1, keepdims=True) + 0.9 * (uv - uv.mean(1, keepdims=True))
+    mesh = laid_out(capture / "mesh.obj", tmp_path / "mesh.obj", apart)
+    with pytest.warns(CaptureWarning, match=r"has \d{3,} UV islands"), pytest.raises(CaptureError, match="no view 'x'"):
+        unshade.import_capture("transforms", capture, tmp_path / "out", mesh=mesh, holdout=["x"])
+    shutil.copytree(capture, tmp_path / "capture", ignore=shutil.ignore_patterns("truth"))
+    shutil.copy(mesh, tmp_path / "capture" / "mesh.obj")
+    said = command("solve", tmp_path / "capture", "--solver", "mean-texture", "-o", tmp_path / "maps").stderr
+    assert re.search(r"has \d{3,} UV islands; every seam costs a solve accuracy", said)
 
 
 def test_what_cannot_be_is_refused_in_one_line(capture: Path, tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ __all__ = [
     "commit_folder",
     "compare",
     "depth_of",
+    "examine_layout",
     "export",
     "exr_channels",
     "measure",
@@ -292,9 +293,20 @@ class _Object(TypedDict):
     uv: NDArray[np.float64] | None
     normals: NDArray[np.float64] | None
     line_without_uv: int | None
+    parts: list[str]
+    part_of: NDArray[np.int64]
 
 def read_obj(data: bytes) -> list[_Object]:
     """The objects of an OBJ file; raises ValueError with the line."""
+
+def examine_layout(
+    vertices: NDArray[np.float64],
+    uv: NDArray[np.float64],
+    triangles: NDArray[np.int64],
+    part_of: NDArray[np.int64],
+    parts: Sequence[str],
+) -> tuple[str | None, str | None, bool]:
+    """What is wrong with a UV layout, a warning, and whether parts (of each triangle) lie over each other."""
 
 def outward_turns(
     vertices: NDArray[np.float64], triangles: NDArray[np.int64], normals: NDArray[np.float64] | None = None

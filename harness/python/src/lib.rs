@@ -44,6 +44,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metrics::measure, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::shown, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::read_obj, module)?)?;
+    module.add_function(wrap_pyfunction!(meshes::examine_layout, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::outward_turns, module)?)?;
     module.add_function(wrap_pyfunction!(meshes::depth_of, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::exr_channels, module)?)?;

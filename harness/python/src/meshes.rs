@@ -2,17 +2,20 @@
 //! what a camera sees of them.
 
 use capture::gbuffer::rasterise;
+use capture::uv_layout::{self, Layout, LayoutFault, Parts};
 use capture::{Camera, Mesh, outward};
-use glam::{Mat4, Vec2, Vec3};
+use glam::{DVec2, DVec3, Mat4, Vec2, Vec3};
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 /// The objects of an OBJ file, each a dict of `name`, `vertices` (V,3) float64, `triangles` (F,3)
-/// int64, `uv` (V,2) and `normals` (V,3) float64 or None, and `line_without_uv`, a line number or
-/// None. Raises ValueError for what cannot be read, with the line.
+/// int64, `uv` (V,2) and `normals` (V,3) float64 or None, `line_without_uv`, a line number or None,
+/// `parts`, the materials (or the object) in words, and `part_of` (F,) int64. Raises ValueError for what cannot be read, with the line.
 #[pyfunction]
 pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py, PyList>> {
     let objects = py.detach(|| formats::obj::read(data));
@@ -29,9 +32,53 @@ pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py,
         dict.set_item("uv", object.uvs.as_deref().map(|uvs| rows(py, uvs)))?;
         dict.set_item("normals", object.normals.as_deref().map(|normals| rows(py, normals)))?;
         dict.set_item("line_without_uv", object.line_without_uv)?;
+        let mut parts = Parts::default();
+        parts.add(&object);
+        dict.set_item("parts", parts.names)?;
+        let part_of: Vec<i64> = parts.of.into_iter().map(i64::from).collect();
+        dict.set_item("part_of", part_of.into_pyarray(py))?;
         list.append(dict)?;
     }
     Ok(list)
+}
+
+/// What is wrong with a UV layout, and a warning; each a text or None. The third value is whether the
+/// fault is that of several `parts`, which `part_of` (F,) counts, on one page.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub(super) fn examine_layout(
+    py: Python<'_>,
+    vertices: PyReadonlyArray2<f64>,
+    uv: PyReadonlyArray2<f64>,
+    triangles: PyReadonlyArray2<i64>,
+    part_of: PyReadonlyArray1<i64>,
+    parts: Vec<String>,
+) -> PyResult<(Option<String>, Option<String>, bool)> {
+    let row = |array: &PyReadonlyArray2<f64>, i: usize, k: usize| array.as_array()[[i, k]];
+    let count = vertices.shape()[0];
+    if vertices.shape()[1] != 3 || uv.shape() != [count, 2] {
+        return Err(PyValueError::new_err("expected vertices (n, 3) and uv (n, 2)"));
+    }
+    let positions: Vec<DVec3> = (0..count)
+        .map(|i| DVec3::new(row(&vertices, i, 0), row(&vertices, i, 1), row(&vertices, i, 2)))
+        .collect();
+    let uvs: Vec<DVec2> = (0..count).map(|i| DVec2::new(row(&uv, i, 0), row(&uv, i, 1))).collect();
+    let triangles = corners(&triangles, count)?;
+    let known = |part: &i64| u32::try_from(*part).ok().filter(|p| (*p as usize) < parts.len());
+    let of: Option<Vec<u32>> = part_of.as_array().iter().map(known).collect();
+    let of = of.filter(|of| of.len() == triangles.len());
+    let of = of.ok_or_else(|| PyValueError::new_err("part_of: expected a part per triangle"))?;
+    let parts = Parts { names: parts, of };
+    Ok(py.detach(|| {
+        let (positions, uvs, triangles) = (&positions, &uvs, &triangles);
+        match uv_layout::examine(&Layout { positions, uvs, triangles, parts: &parts }) {
+            Ok(islands) => (None, uv_layout::islands_warning(islands), false),
+            Err(fault) => {
+                let is_of_pages = matches!(fault, LayoutFault::Pages { .. });
+                (Some(fault.to_string()), None, is_of_pages)
+            }
+        }
+    }))
 }
 
 /// Parts to turn for all surfaces to face outwards, away from the origin: triangles (F,) bool,

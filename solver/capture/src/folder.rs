@@ -12,6 +12,7 @@ use crate::first_look;
 use crate::mesh::Mesh;
 use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
+use crate::uv_layout;
 use crate::view::View;
 
 const TRANSFORMS: &str = "transforms.json";
@@ -61,11 +62,12 @@ impl Capture {
         let transforms = parsed(folder, &bytes)?;
         let open = |frame| View::open(frame);
         let (mesh, train) = rayon::join(
-            || Mesh::open(&transforms.mesh_path),
+            || Mesh::open_with_parts(&transforms.mesh_path),
             || transforms.train.par_iter().map(open).collect::<Result<Vec<_>, _>>(),
         );
-        let (mut mesh, train) = (mesh?, train?);
+        let ((mut mesh, parts), train) = (mesh?, train?);
         if look {
+            uv_layout::check(&transforms.mesh_path, &mesh, &parts)?;
             first_look::check(folder, &mesh, &train, transforms.applied)?;
         }
         let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();

@@ -20,6 +20,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod transforms;
+pub mod uv_layout;
 mod view;
 mod winding;
 

@@ -7,6 +7,7 @@ use formats::obj;
 use glam::{Vec2, Vec3};
 
 use super::error::CaptureError;
+use super::uv_layout::Parts;
 use super::winding::Winding;
 
 /// A triangle mesh; every vertex has a position, a unit normal and a texture coordinate.
@@ -25,23 +26,33 @@ pub struct Mesh {
 impl Mesh {
     /// Reads an OBJ file; all its objects become one mesh.
     pub fn open(path: &Path) -> Result<Self, CaptureError> {
+        Self::open_with_parts(path).map(|(mesh, _)| mesh)
+    }
+
+    /// As [`Mesh::open`], with the materials or objects that its triangles belong to.
+    pub(crate) fn open_with_parts(path: &Path) -> Result<(Self, Parts), CaptureError> {
         let bytes = std::fs::read(path).map_err(|error| CaptureError::Read {
             path: path.to_path_buf(),
             reason: error.to_string(),
         })?;
-        Self::from_bytes(path, &bytes)
+        Self::parse(&bytes)
+            .map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
     }
 
     /// Reads an OBJ file in memory; `path` is for messages.
     pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, CaptureError> {
-        Self::parse(bytes).map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
+        Self::parse(bytes)
+            .map(|(mesh, _)| mesh)
+            .map_err(|reason| CaptureError::Mesh { path: path.to_path_buf(), reason })
     }
 
-    fn parse(bytes: &[u8]) -> Result<Self, String> {
+    fn parse(bytes: &[u8]) -> Result<(Self, Parts), String> {
+        let mut parts = Parts::default();
         let mut mesh = Self { positions: vec![], normals: vec![], uvs: vec![], triangles: vec![] };
         let mut normals_given = true;
         for part in obj::read(bytes).map_err(|error| error.to_string())? {
             let base = mesh.positions.len() as u32;
+            parts.add(&part);
             let Some(uvs) = part.uvs else {
                 let (name, line) = (part.name, part.line_without_uv.unwrap_or_default());
                 return Err(format!(
@@ -64,7 +75,7 @@ impl Mesh {
             // Only a vertex without area can have none; no pixel ever meets it.
             *normal = normal.normalize_or(Vec3::Z);
         }
-        Ok(mesh)
+        Ok((mesh, parts))
     }
 
     /// Opposite corners of the smallest box around the mesh, the least coordinates first.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,8 @@ from .source import Matrix
 class ChartMesh:
     """Triangles with a UV at every vertex; ``normals`` are None where the file has none.
 
-    ``verbatim`` are the file's bytes while nothing of it was changed.
+    ``verbatim`` are the file's bytes while nothing of it was changed. ``parts`` are its materials (or objects)
+    in words, ``part_of`` (F,) which of them each triangle is of.
     """
 
     vertices: NDArray[np.float64]
@@ -25,6 +26,8 @@ class ChartMesh:
     uv: NDArray[np.float64]
     normals: NDArray[np.float64] | None
     verbatim: bytes | None
+    parts: tuple[str, ...]
+    part_of: NDArray[np.int64]
 
     def moved(self, similarity: Matrix) -> ChartMesh:
         """The mesh after a similarity (4, 4)."""
@@ -32,7 +35,14 @@ class ChartMesh:
         scale = np.cbrt(abs(np.linalg.det(linear)))
         normals = None if self.normals is None else self.normals @ (linear / scale).T
         vertices = self.vertices @ linear.T + similarity[:3, 3]
-        return ChartMesh(vertices, self.triangles, self.uv, normals, None)
+        return replace(self, vertices=vertices, normals=normals, verbatim=None)
+
+    def layout_faults(self, used: NDArray[np.bool_] | None = None) -> tuple[str | None, str | None, bool]:
+        """What is wrong with the UV layout of the triangles that are ``used`` (F,), a warning, and whether
+        materials lie over each other."""
+        used = np.ones(len(self.triangles), bool) if used is None else used
+        triangles, part_of = (np.ascontiguousarray(values[used]) for values in (self.triangles, self.part_of))
+        return _native.examine_layout(self.vertices, self.uv, triangles, part_of, self.parts)
 
     def text(self) -> bytes:
         """An OBJ file."""
@@ -69,7 +79,8 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
     chosen = [piece for piece in pieces if not objects or piece["name"] in objects]
     if not any(len(piece["triangles"]) for piece in chosen):
         raise CaptureError(f"{path}: has no triangles; export the mesh with its surface")
-    vertices, uvs, triangles, normals, start = [], [], [], [], 0
+    vertices, uvs, triangles, normals, part_of, start = [], [], [], [], [], 0
+    parts: dict[str, int] = {}
     for piece in chosen:
         uv = piece["uv"]
         if uv is None:
@@ -80,6 +91,8 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         uvs.append(uv)
         triangles.append(piece["triangles"] + start)
         normals.append(piece["normals"])
+        numbers = np.array([parts.setdefault(part, len(parts)) for part in piece["parts"]], np.int64)
+        part_of.append(numbers[piece["part_of"]])
         start += len(piece["vertices"])
     given = [n for n in normals if n is not None]
     joined = np.concatenate(vertices)
@@ -91,6 +104,8 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
         np.concatenate(uvs),
         np.concatenate(given) if len(given) == len(normals) else None,
         data if len(chosen) == len(pieces) else None,
+        tuple(parts),
+        np.concatenate(part_of),
     )
 
 

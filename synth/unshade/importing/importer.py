@@ -143,6 +143,11 @@ class _Import:
             raise CaptureError(f"{source.origin}: names no mesh; name an OBJ file with texture coordinates (mesh)")
         self.mesh_file = mesh
         self.mesh = read_mesh(mesh, choices.objects or source.objects)
+        fault, warning, _ = self.mesh.layout_faults()
+        if fault is not None:
+            raise CaptureError(f"{mesh}: {fault}")
+        if warning is not None:
+            self._warn(f"the mesh {warning}")
         self.source = self._with_files(source)
         self.withheld = withheld_views(self.source, choices.holdout)
         for words in left_out_by_reason(self.source):

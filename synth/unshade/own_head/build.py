@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
+from .. import _native
 from ..face import Chart, Face, Label, Maps, Part
 from ..face.chart import signed_areas
 from ..face.geometry import unit
@@ -16,16 +18,7 @@ from .map_files import linear, read_labels, read_normals, read_picture, resample
 from .mesh_file import Piece, read_pieces
 from .outward import oriented_outwards
 from .placement import axes, in_metres, origin, smooth_normals
-from .spec import SKIN_REFLECTANCE, HeadFiles
-
-_OVERLAP = 0.002
-"""Share of the UV area that may seem covered twice: what counting texels cannot tell."""
-
-_COUNTING_SIZE = 1024
-"""Texels along each edge when overlap is counted."""
-
-_COLLAPSED = 0.001
-"""Share of the surface that may lie on lines of the UVs, as slivers of fanned polygons do."""
+from .spec import SKIN_REFLECTANCE, HeadFiles, MeshWarning
 
 _LARGEST_SPECULAR = 0.05
 
@@ -78,11 +71,12 @@ def _joined(pieces: list[Piece], head: HeadFiles) -> dict[str, np.ndarray]:
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces[:-1])])
     triangles = np.concatenate([piece.triangles + first for piece, first in zip(pieces, starts)])
     _, areas = _areas(points, triangles)
-    triangles = triangles[areas > 0]  # no surface, and no normal
+    with_area = areas > 0
+    triangles = triangles[with_area]  # without area, without a normal
     used, triangles = np.unique(triangles, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     points, uv = points[used], uv[used]
-    _check_uv(points, uv, triangles, head)
+    _check_uv(points, uv, triangles, pieces, with_area, head)
     # Normals of the file only if it has all of them.
     given = [piece.normals for piece in pieces]
     normals = None if any(n is None for n in given) else np.concatenate(given)[used] @ axes(head).T
@@ -94,31 +88,23 @@ def _joined(pieces: list[Piece], head: HeadFiles) -> dict[str, np.ndarray]:
     return {"points": points, "normals": unit(normals), "uv": uv, "triangles": triangles}
 
 
-def _check_uv(points: np.ndarray, uv: np.ndarray, triangles: np.ndarray, head: HeadFiles) -> None:
-    if not len(triangles):
-        raise FaceError(f"{head.mesh}: all triangles of the chart are without area; export the mesh again")
-    if not np.isfinite(uv).all():
-        raise FaceError(
-            f"{head.mesh}: {int((~np.isfinite(uv).all(axis=1)).sum())} UVs are not finite; unwrap the mesh again"
-        )
-    if uv.min() < -1e-5 or uv.max() > 1 + 1e-5:
-        low, high = uv.min(axis=0), uv.max(axis=0)
-        raise FaceError(
-            f"{head.mesh}: UVs reach from ({low[0]:.3g}, {low[1]:.3g}) to ({high[0]:.3g}, {high[1]:.3g}); "
-            "move all islands into the unit square (one tile)"
-        )
-    unwrapped = _unwrapped(uv, triangles)
-    _, surface = _areas(points, triangles)
-    lost = 1 - surface[unwrapped].sum() / surface.sum()
-    if lost > _COLLAPSED:
-        raise FaceError(f"{head.mesh}: {100 * lost:.1f} % of the chart's surface has no area in UV; unwrap it")
-    areas = np.abs(signed_areas(uv, triangles))
-    covered = rasterise(uv, triangles[unwrapped], _COUNTING_SIZE).inside.sum() / _COUNTING_SIZE**2
-    twice = 1 - covered / areas.sum()
-    if twice > _OVERLAP:
-        raise FaceError(
-            f"{head.mesh}: {100 * twice:.1f} % of the UV area overlaps; unwrap it so that every texel has one place"
-        )
+def _check_uv(
+    points: np.ndarray,
+    uv: np.ndarray,
+    triangles: np.ndarray,
+    pieces: list[Piece],
+    with_area: np.ndarray,
+    head: HeadFiles,
+) -> None:
+    """Refuses a layout that cannot carry maps; ``with_area`` (F,) are the pieces' triangles that are left."""
+    names = [name for piece in pieces for name in piece.parts]
+    starts = np.cumsum([0, *(len(piece.parts) for piece in pieces[:-1])])
+    part_of = np.concatenate([piece.part_of + first for piece, first in zip(pieces, starts)])[with_area]
+    fault, warning, _ = _native.examine_layout(points, uv, triangles, part_of, names)
+    if fault is not None:
+        raise FaceError(f"{head.mesh}: {fault}")
+    if warning is not None:
+        warnings.warn(f"{head.mesh}: {warning}", MeshWarning, stacklevel=2)
 
 
 def _unwrapped(uv: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 """Component types (glTF 2.0 specification, 3.6.2.2)."""
 
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 _MAX_ZEROS = 1 << 24
 """Elements of an accessor that no bytes stand behind."""

@@ -1,10 +1,12 @@
-"""The triangles of a glTF 2.0 file, as its scene shows them: the shape of the default morph weights, under the nodes' transforms."""
+"""The triangles of a glTF 2.0 file, as its scene shows them: the shape of the default morph weights, in the pose of the
+joints or under the nodes' transforms."""
 
 from __future__ import annotations
 
 import base64
 import json
 import struct
+import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,6 +14,10 @@ import numpy as np
 
 from ..face.spec import FaceError
 from .gltf_accessor import Accessors, item
+from .gltf_node import local_transform
+from .gltf_skin import Skins
+from .gltf_uv import UvPlacement, uv_placement
+from .spec import MeshWarning
 
 _JSON_CHUNK, _BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 """Types of a GLB's chunks (glTF 2.0 specification, 4.4.3)."""
@@ -21,11 +27,13 @@ _NO_GEOMETRY = (
     "KHR_materials_",
     "KHR_texture_",
     "EXT_texture_",
+    "MSFT_texture_",
     "KHR_lights_",
     "EXT_lights_",
     "KHR_xmp",
 )
-"""Beginnings of extensions that a reader of shapes may leave out; the first one is read."""
+"""Beginnings of extensions that a reader of shapes may leave out; `KHR_mesh_quantization` and
+`KHR_texture_transform` are read."""
 
 _MENDS = {
     "KHR_draco_mesh_compression": "export it without compression",
@@ -39,13 +47,16 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
 class Surface(NamedTuple):
-    """Triangles of a primitive: the node's name, `vertices` (V,3), `triangles` (F,3), `uv` (V,2) v up, `normals` (V,3)."""
+    """Triangles of a primitive: the node's name, `vertices` (V,3), `triangles` (F,3), `uv` (V,2) v up, `normals` (V,3),
+    and its material in words as the one of the `parts`, which `part_of` (F,) are of."""
 
     name: str
     vertices: np.ndarray
     triangles: np.ndarray
     uv: np.ndarray | None
     normals: np.ndarray | None
+    parts: list[str]
+    part_of: np.ndarray
 
 
 def read_gltf(path: Path) -> list[Surface]:
@@ -56,24 +67,51 @@ def read_gltf(path: Path) -> list[Surface]:
     document, binary = _binary(path) if path.suffix.lower() == ".glb" else (json.loads(path.read_bytes()), None)
     if not isinstance(document, dict):
         raise FaceError(f"{path}: is no glTF 2.0; export it again")
-    for name in document.get("extensionsRequired", []):
-        if not str(name).startswith(_NO_GEOMETRY):
-            raise FaceError(
-                f"{path}: requires the extension {name}, which is not read; {_MENDS.get(name, 'export it without')}"
-            )
+    _check_extensions(path, document)
     accessors = Accessors(document, _buffers(path, document, binary))
+    skins = Skins(document, accessors)
     surfaces, vertices = [], 0
     for name, transform, node in _nodes(document):
+        if "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
+            raise FaceError(f"{path}: object {name!r} is drawn by EXT_mesh_gpu_instancing; export single objects")
         mesh = item(document, "meshes", node["mesh"])
         weights = node.get("weights", mesh.get("weights", []))
         for primitive in mesh["primitives"]:
             if primitive.get("mode", _TRIANGLES) not in (_TRIANGLES, _STRIP, _FAN):
-                continue  # points and lines are no surface
+                warnings.warn(f"{path}: points and lines of object {name!r} are left out", MeshWarning, stacklevel=2)
+                continue
             vertices += item(document, "accessors", primitive["attributes"]["POSITION"])["count"]
             if vertices > _MAX_VERTICES:
                 raise FaceError(f"{path}: has more than {_MAX_VERTICES} vertices; export a smaller mesh")
-            surfaces.append(_surface(path, name, transform, primitive, weights, accessors))
+            material = item(document, "materials", primitive["material"]) if "material" in primitive else {}
+            placement = uv_placement(path, material, primitive.get("material"))
+            shape = _shape(path, name, primitive, weights, placement, accessors)
+            if "skin" in node:
+                shape = skins.posed(path, name, node["skin"], primitive, shape)
+            else:
+                shape = _moved(name, transform, shape)
+            words = (
+                f"material {json.dumps(material.get('name', primitive['material']))}"
+                if material
+                else f"object {json.dumps(name)}"
+            )
+            surfaces.append(Surface(name, *shape, [words], np.zeros(len(shape.triangles), np.int64)))
     return surfaces
+
+
+def _check_extensions(path: Path, document: dict[str, Any]) -> None:
+    """Refuses required extensions that would change the shape, and names others that are not read."""
+    required = document.get("extensionsRequired", [])
+    unknown = [name for name in map(str, document.get("extensionsUsed", [])) if not name.startswith(_NO_GEOMETRY)]
+    for name in required:
+        if not str(name).startswith(_NO_GEOMETRY):
+            raise FaceError(
+                f"{path}: requires the extension {name}, which is not read; {_MENDS.get(name, 'export it without')}"
+            )
+    for name in unknown:
+        if name not in _MENDS:  # whose fallback, if there is none, is found empty
+            text = f"{path}: uses the extension {name[:80]}, which is not read; the mesh is taken without it"
+            warnings.warn(text, MeshWarning, stacklevel=3)
 
 
 def _binary(path: Path) -> tuple[Any, bytes | None]:
@@ -133,71 +171,68 @@ def _nodes(document: dict[str, Any]) -> list[tuple[str, np.ndarray, dict[str, An
         if number in seen:
             raise ValueError(f"node {number} stands in the scene twice")
         seen.add(number)
-        transform = above @ _transform(node)
+        transform = above @ local_transform(node)
         if "mesh" in node:
             shown.append((names[number], transform, node))
         waiting += [(child, transform) for child in reversed(node.get("children", []))]
     return shown
 
 
-def _transform(node: dict[str, Any]) -> np.ndarray:
-    matrix = np.eye(4)
-    if "matrix" in node:
-        matrix = np.array(node["matrix"], np.float64).reshape(4, 4).T
-    if "translation" in node:
-        moved = np.eye(4)
-        moved[:3, 3] = node["translation"]
-        matrix = matrix @ moved
-    if "rotation" in node:
-        x, y, z, w = np.array(node["rotation"], np.float64) / np.linalg.norm(node["rotation"])
-        rotated = np.eye(4)
-        rotated[:3, :3] = [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-        matrix = matrix @ rotated
-    if "scale" in node:
-        matrix = matrix @ np.diag([*node["scale"], 1.0])
-    return matrix
+class Shape(NamedTuple):
+    """`vertices` (V,3), `triangles` (F,3), `uv` (V,2) v up, `normals` (V,3)."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    uv: np.ndarray | None
+    normals: np.ndarray | None
 
 
-def _surface(
-    path: Path, name: str, transform: np.ndarray, primitive: dict[str, Any], weights: list[float], accessors: Accessors
-) -> Surface:
+def _shape(
+    path: Path, name: str, primitive: dict[str, Any], weights: list[float], placement: UvPlacement, accessors: Accessors
+) -> Shape:
+    """A primitive in its own space, in the shape of its morph weights."""
     attributes = primitive["attributes"]
     if accessors.is_empty(attributes["POSITION"]):
         known = [extension for extension in primitive.get("extensions", {}) if extension in _MENDS]
         mend = _MENDS[known[0]] if known else "export it again"
         raise FaceError(f"{path}: object {name!r} holds no positions{f' but {known[0]}' if known else ''}; {mend}")
-    vertices = accessors.read(attributes["POSITION"], 3).astype(np.float64)
-    normals = accessors.read(attributes["NORMAL"], 3).astype(np.float64) if "NORMAL" in attributes else None
-    for target, weight in zip(primitive.get("targets", []), weights):
-        if weight and "POSITION" in target:
-            vertices = vertices + weight * accessors.read(target["POSITION"], 3)
-        if weight and "NORMAL" in target and normals is not None:
-            normals = normals + weight * accessors.read(target["NORMAL"], 3)
-    uv = None
-    if "TEXCOORD_0" in attributes:
-        uv = accessors.read(attributes["TEXCOORD_0"], 2).copy()
+    targets = [(target, weight) for target, weight in zip(primitive.get("targets", []), weights) if weight]
+
+    def morphed(key: str, width: int) -> np.ndarray | None:
+        if key not in attributes:
+            return None
+        values = accessors.read(attributes[key], width).astype(np.float64)
+        for target, weight in targets:
+            if key in target:
+                values = values + weight * accessors.read(target[key], width)
+        return values
+
+    vertices, normals, uv = morphed("POSITION", 3), morphed("NORMAL", 3), morphed(f"TEXCOORD_{placement.number}", 2)
+    if uv is None and placement.number:
+        raise FaceError(
+            f"{path}: the textures of object {name!r} lie on TEXCOORD_{placement.number}, which it lacks; export it again"
+        )
+    if uv is not None:
+        uv = placement.applied(uv)
         uv[:, 1] = 1 - uv[:, 1]  # glTF counts v downwards
-        uv = uv.astype(np.float64)
     for what, values in (("normals", normals), ("uvs", uv)):
         if values is not None and len(values) != len(vertices):
             raise ValueError(f"object {name!r} has {len(vertices)} vertices, but {len(values)} {what}")
     corners = accessors.read_indices(primitive["indices"]) if "indices" in primitive else np.arange(len(vertices))
     if len(corners) and corners.max() >= len(vertices):
         raise ValueError(f"object {name!r} has {len(vertices)} vertices, but an index of {corners.max()}")
-    triangles = _triangles(corners, primitive.get("mode", _TRIANGLES))
+    return Shape(vertices, _triangles(corners, primitive.get("mode", _TRIANGLES)), uv, normals)
+
+
+def _moved(name: str, transform: np.ndarray, shape: Shape) -> Shape:
+    """A shape under the transform [4, 4] of its node."""
     linear = transform[:3, :3]
     determinant = np.linalg.det(linear)
     if not (np.isfinite(transform).all() and determinant != 0):
         raise ValueError(f"the nodes above object {name!r} scale it to nothing")
-    if determinant < 0:
-        triangles = triangles[:, ::-1]
-    if normals is not None:
-        normals = normals @ np.linalg.inv(linear)
-    return Surface(name, vertices @ linear.T + transform[:3, 3], triangles, uv, normals)
+    triangles = shape.triangles[:, ::-1] if determinant < 0 else shape.triangles
+    normals = None if shape.normals is None else shape.normals @ np.linalg.inv(linear)
+    return Shape(shape.vertices @ linear.T + transform[:3, 3], triangles, shape.uv, normals)
 
 
 def _triangles(corners: np.ndarray, mode: int) -> np.ndarray:

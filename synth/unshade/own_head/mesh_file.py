@@ -16,7 +16,8 @@ class Piece:
     """One object of a file, in the file's units and axes.
 
     `vertices` (V,3) f64, `triangles` (F,3) i64, `uv` (V,2) f64 (v up) and `normals` (V,3)
-    f64 where the file has them. Vertices are split where uvs or normals are.
+    f64 where the file has them. Vertices are split where uvs or normals are. `parts` are its
+    materials (or the object) in words, `part_of` (F,) i64 which of them each triangle is of.
     """
 
     name: str
@@ -24,6 +25,8 @@ class Piece:
     triangles: np.ndarray
     uv: np.ndarray | None
     normals: np.ndarray | None
+    parts: list[str]
+    part_of: np.ndarray
 
 
 def read_pieces(path: Path) -> list[Piece]:
@@ -55,7 +58,7 @@ def _read_obj(path: Path) -> list[Piece]:
         objects = _native.read_obj(path.read_bytes())
     except ValueError as error:
         raise FaceError(f"{path}: {error}") from error
-    return [Piece(o["name"], o["vertices"], o["triangles"], o["uv"], o["normals"]) for o in objects]
+    return [Piece(*(o[field.name] for field in dataclasses.fields(Piece))) for o in objects]
 
 
 def _line(error: Exception) -> str:

@@ -7,11 +7,7 @@ import warnings
 import numpy as np
 
 from .placement import middle
-from .spec import HeadFiles
-
-
-class MeshWarning(UserWarning):
-    """A mesh is read otherwise than its file says."""
+from .spec import HeadFiles, MeshWarning
 
 
 def oriented_outwards(

@@ -11,6 +11,11 @@ from typing import Any
 
 from ..face.spec import FaceError
 
+
+class MeshWarning(UserWarning):
+    """Something of a mesh that its maker should know, as that it is read otherwise than its file says."""
+
+
 UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "in": 0.0254}
 """Metres of each unit of length."""
 

@@ -33,20 +33,23 @@ pub struct Object {
     pub normals: Option<Vec<[f64; 3]>>,
     /// Vertex indices, in the file's winding.
     pub triangles: Vec<[u32; 3]>,
+    /// Names of the object's materials (`usemtl`), in the order of their first use; "" without one.
+    pub materials: Vec<String>,
+    /// Index into `materials`, one per triangle.
+    pub material_of: Vec<u32>,
     /// Line of the object's first face that has a corner without texture coordinate.
     pub line_without_uv: Option<usize>,
 }
 
 /// Reads the objects that have faces, in the order of their first faces; polygons become
-/// triangles. Materials, groups, lines, points and curves are no geometry of a surface and are
-/// skipped.
+/// triangles. Groups, lines, points and curves are no geometry of a surface and are skipped.
 pub fn read(bytes: &[u8]) -> Result<Vec<Object>, ObjError> {
     let mut file = File::default();
     for line in Lines::of(bytes)? {
         let number = line.number;
         file.take(line).map_err(|reason| ObjError { line: number, reason })?;
     }
-    file.objects()
+    file.into_objects()
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -59,6 +62,7 @@ struct Corner {
 struct Face {
     line: usize,
     object: usize,
+    material: usize,
     /// Corners, as a range of `File::corners`.
     first: usize,
     count: usize,
@@ -71,9 +75,28 @@ struct File {
     normals: Vec<[f64; 3]>,
     corners: Vec<Corner>,
     faces: Vec<Face>,
+    objects: Names,
+    materials: Names,
+    object: Option<usize>,
+    material: Option<usize>,
+}
+
+/// Names and their numbers, in the order of their first use.
+#[derive(Default)]
+struct Names {
     names: Vec<String>,
     numbers: HashMap<String, usize>,
-    object: Option<usize>,
+}
+
+impl Names {
+    fn number(&mut self, name: &str) -> usize {
+        if let Some(number) = self.numbers.get(name) {
+            return *number;
+        }
+        self.names.push(name.to_owned());
+        self.numbers.insert(name.to_owned(), self.names.len() - 1);
+        self.names.len() - 1
+    }
 }
 
 impl File {
@@ -92,21 +115,15 @@ impl File {
             b"vt" => self.uvs.push(values.numbers("a texture coordinate")?),
             b"vn" => self.normals.push(values.numbers("a normal")?),
             b"f" => self.face(line.number, values)?,
-            b"o" => self.object = Some(self.named(&values.rest())),
+            b"o" => self.object = Some(self.object_number(&values.rest())),
+            b"usemtl" => self.material = Some(self.materials.number(&values.rest())),
             _ => {}
         }
         Ok(())
     }
 
-    /// The number of the object with this name.
-    fn named(&mut self, name: &str) -> usize {
-        let name = if name.is_empty() { UNNAMED } else { name };
-        if let Some(number) = self.numbers.get(name) {
-            return *number;
-        }
-        self.names.push(name.to_owned());
-        self.numbers.insert(name.to_owned(), self.names.len() - 1);
-        self.names.len() - 1
+    fn object_number(&mut self, name: &str) -> usize {
+        self.objects.number(if name.is_empty() { UNNAMED } else { name })
     }
 
     fn face(&mut self, line: usize, values: Values) -> Result<(), String> {
@@ -135,25 +152,34 @@ impl File {
         }
         let object = match self.object {
             Some(object) => object,
-            None => self.named(""),
+            None => self.object_number(""),
         };
-        self.faces.push(Face { line, object, first, count });
+        let material = match self.material {
+            Some(material) => material,
+            None => self.materials.number(""),
+        };
+        self.faces.push(Face { line, object, material, first, count });
         Ok(())
     }
 
-    fn objects(self) -> Result<Vec<Object>, ObjError> {
-        let mut parts: Vec<(Object, HashMap<Corner, u32>)> = Vec::new();
-        let mut number_of = vec![None; self.names.len()];
+    fn into_objects(self) -> Result<Vec<Object>, ObjError> {
+        let mut parts: Vec<(Object, HashMap<Corner, u32>, HashMap<usize, u32>)> = Vec::new();
+        let mut number_of = vec![None; self.objects.names.len()];
         let mut cutter = polygon::Cutter::default();
         for face in &self.faces {
             let corners = &self.corners[face.first..face.first + face.count];
             let at = |reason: String| ObjError { line: face.line, reason };
             self.check(corners).map_err(at)?;
             let number = *number_of[face.object].get_or_insert_with(|| {
-                parts.push((Object::new(&self.names[face.object]), HashMap::new()));
+                let object = Object::new(&self.objects.names[face.object]);
+                parts.push((object, HashMap::new(), HashMap::new()));
                 parts.len() - 1
             });
-            let (object, known) = &mut parts[number];
+            let (object, known, known_materials) = &mut parts[number];
+            let material = *known_materials.entry(face.material).or_insert_with(|| {
+                object.materials.push(self.materials.names[face.material].clone());
+                object.materials.len() as u32 - 1
+            });
             if corners.iter().any(|corner| corner.uv == NONE) {
                 object.line_without_uv.get_or_insert(face.line);
                 object.uvs = None;
@@ -171,9 +197,10 @@ impl File {
                     *known.entry(corner).or_insert_with(|| object.add(&self, corner))
                 });
                 object.triangles.push(triangle);
+                object.material_of.push(material);
             }
         }
-        Ok(parts.into_iter().map(|(object, _)| object).collect())
+        Ok(parts.into_iter().map(|(object, ..)| object).collect())
     }
 
     /// Refuses indices beyond the end of the file's lists; faces may stand before their vertices.
@@ -203,6 +230,8 @@ impl Object {
             uvs: Some(vec![]),
             normals: Some(vec![]),
             triangles: vec![],
+            materials: vec![],
+            material_of: vec![],
             line_without_uv: None,
         }
     }

@@ -60,7 +60,8 @@ fn what_editors_and_exporters_write_is_the_same_mesh() {
         if !text.windows(2).any(|pair| pair == b"f " || pair == b"f\t") {
             text.extend_from_slice(face.as_bytes());
         }
-        assert_eq!(object(&text), plain, "{:?}", String::from_utf8_lossy(&text));
+        let found = Object { materials: plain.materials.clone(), ..object(&text) };
+        assert_eq!(found, plain, "{:?}", String::from_utf8_lossy(&text));
     }
 }
 
@@ -77,6 +78,21 @@ fn objects_keep_their_names_and_say_where_they_have_no_uv() {
     assert_eq!((objects[1].uvs.clone(), objects[1].line_without_uv), (None, Some(12)));
     let latin = read(b"v 0 0 0\no Sch\xE4del\nf 1 1 1\n").unwrap();
     assert_eq!(latin[0].name, "Schädel");
+}
+
+#[test]
+fn every_triangle_has_its_material() {
+    let faces = "f 1/1 2/2 3/3 4/4\nusemtl skin\nf 1/1 2/2 3/3\no eye\nf 1/1 3/3 4/4\nusemtl Grün\n\
+        f 1/1 2/2 4/4\nusemtl skin\nf 2/2 3/3 4/4\n";
+    let objects = read(format!("{SQUARE}{faces}").as_bytes()).unwrap();
+    assert_eq!(
+        (objects[0].materials.as_slice(), objects[0].material_of.as_slice()),
+        (["", "skin"].map(String::from).as_slice(), [0, 0, 1].as_slice())
+    );
+    assert_eq!(
+        (objects[1].materials.len(), objects[1].material_of.as_slice()),
+        (2, [0, 1, 0].as_slice())
+    );
 }
 
 #[test]
