@@ -77,6 +77,8 @@ FAULTS: dict[str, tuple[str, Callable[[Array], Array], str]] = {
     "albedo turned clockwise": (ALBEDO, lambda x: np.rot90(x, -1), "turned-90"),
     "albedo sRGB-encoded": (ALBEDO, srgb, "srgb-encoded"),
     "albedo 0 to 255": (ALBEDO, lambda x: 255 * x, "coded-0-255"),
+    "albedo of one colour, 0 to 255": (ALBEDO, lambda x: 0 * x + 180, "coded-0-255"),
+    "albedo bright and pale": (ALBEDO, lambda x: 1.5 * srgb(x), "exposure"),
     "albedo 0 to 255 and sRGB": (ALBEDO, lambda x: 255 * srgb(x), "coded-0-255"),
     "albedo four times as bright": (ALBEDO, lambda x: 4 * x, "exposure"),
     "albedo a tenth as bright": (ALBEDO, lambda x: 0.1 * x, "exposure"),
@@ -112,6 +114,7 @@ FAULTS: dict[str, tuple[str, Callable[[Array], Array], str]] = {
     "specular 0 to 255": (SPECULAR, lambda x: 255 * x / 0.05, "coded-0-255"),
     "specular as index of refraction": (SPECULAR, lambda x: (1 + x**0.5) / (1 - x**0.5), "index-of-refraction"),
     "specular sRGB-encoded": (SPECULAR, srgb, "srgb-encoded"),
+    "specular beyond skin's": (SPECULAR, lambda x: 0 * x + 0.06, "beyond-range"),
     "specular black": (SPECULAR, lambda x: 0 * x, "black"),
     "roughness for alpha": (ROUGHNESS, lambda x: np.dstack([np.sqrt(x[..., :2]), x[..., 2:]]), "perceptual-roughness"),
     "gloss for alpha": (ROUGHNESS, lambda x: np.dstack([1 - x[..., :2], x[..., 2:]]), "gloss"),
@@ -175,6 +178,15 @@ def test_sound_maps_pass(method: str, tiny_run: Path, capture: Path, tmp_path: P
 def test_some_faults_are_named_without_a_capture(fault: str, tiny_run: Path, tmp_path: Path) -> None:
     file, expected = plant(tiny_run / "maps" / CASE / "oracle", fault, tmp_path / "maps")
     assert (file, expected) in [(found["map"], found["id"]) for found in unshade.check(tmp_path / "maps")]
+
+
+def test_what_our_solver_wrote_is_not_called_encoded(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+    file, _ = plant(tiny_run / "maps" / CASE / "oracle", "specular sRGB-encoded", tmp_path / "maps")
+    write(tmp_path / "maps" / ALBEDO, srgb(read(tmp_path / "maps" / ALBEDO)))
+    (tmp_path / "maps" / "solve.json").write_text('{"solver": "unshade", "config": {}}')
+    said = {found["map"]: found for found in unshade.check(tmp_path / "maps", capture=capture)}
+    assert said[file]["id"] == "beyond-range" and "beyond 0.05" in said[file]["message"]
+    assert "sRGB" not in str(said)
 
 
 def test_empty_texels_tell_of_a_flip_without_a_capture(tiny_run: Path, tmp_path: Path) -> None:

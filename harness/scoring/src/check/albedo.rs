@@ -25,11 +25,13 @@ const DARK_SKIN: f64 = 0.05;
 /// .6 to 1.9 was measured, from one softbox to a uniform sphere.
 const FACTORS: std::ops::Range<f64> = 0.4..2.5;
 
-/// The faults of the values; `covered` are the texels that count.
+/// The faults of the values; `covered` are the texels that count, `own` says that our solver wrote
+/// them, which encodes nothing.
 pub(super) fn check(
     file: &str,
     map: &Picture,
     covered: &[bool],
+    own: bool,
     witness: Option<&Witness>,
     findings: &mut Vec<Finding>,
 ) {
@@ -45,22 +47,6 @@ pub(super) fn check(
         let mend = "write linear reflectance, 0 to 1";
         let message = "is black in every covered texel".to_owned();
         findings.push(Finding::error("black", file, message, mend));
-        return;
-    }
-    // Each channel for itself: a map of one colour may well have three values.
-    let spread = |channel: usize| {
-        let of = |q| quantile(texels().map(move |rgb| rgb[channel]), q).unwrap_or(0.0);
-        (of(1.0) - of(0.0)) / of(0.5).abs().max(1e-9)
-    };
-    let colours = || Colours::of(map, texels(), witness);
-    if (0..3).all(|channel| spread(channel) < CONSTANT) {
-        // One colour of the right kind is what a baseline makes of a face without labels.
-        if !colours().is_plausible() {
-            let message = format!("has one colour all over (median {middle:.3})");
-            let mend = "check that the solver's albedo is written, not its initial value";
-            let evidence = [("median", middle)];
-            findings.push(Finding::warning("constant", file, message, mend).with(evidence));
-        }
         return;
     }
     let negative = texels().filter(|rgb| rgb.iter().any(|v| *v < NEGATIVE)).count();
@@ -81,25 +67,54 @@ pub(super) fn check(
         findings.push(Finding::warning("coded-0-255", file, message, mend).with(evidence));
         return;
     }
-    let colours = colours();
-    if let Some(finding) = colours.swapped(file).or_else(|| colours.encoded(file)) {
-        findings.push(finding);
-        return;
-    }
-    if let Some(finding) = colours.exposed(file) {
-        findings.push(finding);
+    let colours = Colours::of(map, texels(), witness);
+    // Each channel for itself: a map of one colour may well have three values.
+    let spread = |channel: usize| {
+        let of = |q| quantile(texels().map(move |rgb| rgb[channel]), q).unwrap_or(0.0);
+        (of(1.0) - of(0.0)) / of(0.5).abs().max(1e-9)
+    };
+    if high <= 1.0 && low > f64::from(NEGATIVE) && (0..3).all(|channel| spread(channel) < CONSTANT)
+    {
+        // One colour of the right kind is what a baseline makes of a face without labels.
+        if !colours.is_plausible() {
+            let message = format!("has one colour all over (median {middle:.3})");
+            let mend = "check that the solver's albedo is written, not its initial value";
+            let evidence = [("median", middle)];
+            findings.push(Finding::warning("constant", file, message, mend).with(evidence));
+        }
         return;
     }
     let above = texels().filter(|rgb| rgb.iter().any(|v| *v > 1.0)).count();
     let fraction = above as f64 / total as f64;
-    if fraction > OUTSIDE_FRACTION {
-        let percent = 100.0 * fraction;
-        let message =
-            format!("is above 1 in {percent:.1} % of its covered texels (up to {high:.2})");
-        let mend = "write reflectance, 0 to 1, not radiance";
-        let evidence = [("share", fraction), ("maximum", high)];
-        findings.push(Finding::warning("above-one", file, message, mend).with(evidence));
+    // No curve takes a reflectance above 1.
+    let encoded = || colours.encoded(file).filter(|_| !own && fraction <= OUTSIDE_FRACTION);
+    if let Some(finding) = colours.swapped(file).or_else(encoded) {
+        findings.push(finding);
+        return;
     }
+    let exposed = colours.exposed(file);
+    if fraction <= OUTSIDE_FRACTION {
+        findings.extend(exposed);
+        return;
+    }
+    let percent = 100.0 * fraction;
+    let message = format!(
+        "is above 1 in {percent:.1} % of its covered texels (up to {high:.2}): brighter than \
+         white, the exposure is unknown"
+    );
+    let mend = if own {
+        "scale it by a reflectance that is known, or solve with reflectance.exposure_deviation = 1"
+    } else {
+        "divide by the exposure; if it is radiance or encoded, write linear reflectance, 0 to 1"
+    };
+    let id = if exposed.is_some() { "exposure" } else { "above-one" };
+    let evidence = [
+        ("share", fraction),
+        ("maximum", high),
+        ("median_luminance", colours.luminance),
+        ("factor", colours.factor().unwrap_or(f64::NAN)),
+    ];
+    findings.push(Finding::warning(id, file, message, mend).with(evidence));
 }
 
 /// Statistics of colour and brightness, beside the projected photographs where there are some.
@@ -182,10 +197,12 @@ impl Colours {
             && bright;
         encoded.then(|| {
             let message = format!(
-                "is sRGB-encoded: {factor:.1} times as bright as the projected photographs, its \
-                 colours paler (ln(red / blue) is {power:.2} of theirs; linear ones have 0.8 to 1.7)"
+                "is {factor:.1} times as bright as the projected photographs and its colours are \
+                 paler (ln(red / blue) is {power:.2} of theirs; linear ones have 0.8 to 1.7), as \
+                 sRGB-encoded values are"
             );
-            let mend = "write linear values: undo the sRGB curve";
+            let mend = "if they are, undo the sRGB curve; if they are linear, the photographs' \
+                        exposure is unknown: divide by it";
             Finding::warning("srgb-encoded", file, message, mend).with([
                 ("factor", factor),
                 ("power", power),
@@ -194,10 +211,15 @@ impl Colours {
         })
     }
 
+    /// The map's brightness over that of the photographs.
+    fn factor(&self) -> Option<f64> {
+        self.photographs.as_ref().map(|photographs| photographs.factor)
+    }
+
     /// A factor that no skin and no shading explains.
     fn exposed(&self, file: &str) -> Option<Finding> {
         let luminance = self.luminance;
-        let factor = self.photographs.as_ref().map(|photographs| photographs.factor);
+        let factor = self.factor();
         let (bright, dark) = match factor {
             Some(factor) => (
                 luminance > BRIGHTEST_SKIN || (luminance > BRIGHT_SKIN && factor > FACTORS.end),

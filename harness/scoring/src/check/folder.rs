@@ -27,6 +27,8 @@ pub(super) struct MapFolder {
     pub roughness: Option<Picture>,
     pub confidence: Option<Picture>,
     pub coverage: Option<GrayImage>,
+    /// Whether our solver wrote the folder.
+    pub own: bool,
 }
 
 impl MapFolder {
@@ -48,6 +50,7 @@ impl MapFolder {
             roughness: map(ROUGHNESS, &["alpha1", "alpha2", "share1"]),
             confidence: map(CONFIDENCE, &["Y"]),
             coverage: None,
+            own: is_own(folder),
         };
         let path = folder.join(COVERAGE);
         let coverage = path.exists().then(|| picture::read_png_gray(&path));
@@ -83,6 +86,13 @@ fn read_map(path: &Path, channels: &[&str]) -> Result<Picture, PictureError> {
     let colour = path.file_name().is_some_and(|name| name == DIFFUSE_ALBEDO);
     let content = if colour { Content::Colour } else { Content::Data };
     picture::read_exr_unchecked(path, channels, content)
+}
+
+/// Whether `solve.json` is the record of our solver, with its configuration.
+fn is_own(folder: &Path) -> bool {
+    let bytes = std::fs::read(folder.join("solve.json")).unwrap_or_default();
+    let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
+    record["solver"] == "unshade" && record["config"].is_object()
 }
 
 fn unreadable(file: &str, channels: &[&str], error: &PictureError) -> Finding {

@@ -84,7 +84,7 @@ pub fn check_with(maps: &Path, capture: Option<&Capture>) -> Result<Vec<Finding>
         let file = folder::DIFFUSE_ALBEDO;
         let reduced = Reduced::of(map);
         findings.extend(witness.and_then(|w| orientation::of_albedo(file, &reduced, w)));
-        albedo::check(file, map, &covered, witness, &mut findings);
+        albedo::check(file, map, &covered, found.own, witness, &mut findings);
     }
     for (file, map) in found.normals() {
         let covered = coverage::covered(map, found.coverage.as_ref(), witness);
@@ -92,7 +92,7 @@ pub fn check_with(maps: &Path, capture: Option<&Capture>) -> Result<Vec<Finding>
     }
     if let Some(map) = &found.specular_albedo {
         let covered = coverage::covered(map, found.coverage.as_ref(), witness);
-        specular::check(folder::SPECULAR_ALBEDO, map, &covered, &mut findings);
+        specular::check(folder::SPECULAR_ALBEDO, map, &covered, found.own, &mut findings);
     }
     if let Some(map) = &found.roughness {
         let covered = coverage::covered(map, found.coverage.as_ref(), witness);

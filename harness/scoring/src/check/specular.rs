@@ -11,13 +11,21 @@ const LARGEST: f64 = 0.0525;
 const NEGATIVE: f64 = -0.025;
 /// Indices of refraction of skin and what is on it.
 const INDICES: std::ops::Range<f64> = 1.1..1.7;
-/// The largest 0.05 after the sRGB curve.
+/// The largest 0.05 after the sRGB curve, and the least of skin, 0.01.
 const ENCODED: f64 = 0.26;
+const ENCODED_SKIN: f64 = 0.1;
 /// The largest 0.05 as a level of 0.08.
 const LEVEL: f64 = 0.66;
 
-/// The faults of the values; `covered` are the texels that count.
-pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut Vec<Finding>) {
+/// The faults of the values; `covered` are the texels that count, `own` says that our solver wrote
+/// them, which encodes nothing.
+pub(super) fn check(
+    file: &str,
+    map: &Picture,
+    covered: &[bool],
+    own: bool,
+    findings: &mut Vec<Finding>,
+) {
     let values = || {
         let values = map.data.iter().zip(covered).filter(|(_, covered)| **covered);
         values.map(|(value, _)| *value)
@@ -41,37 +49,49 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
     if high <= LARGEST {
         return;
     }
+    let beyond = format!("its median is {middle:.3} and 2 % are above {high:.3}, beyond 0.05");
     let (id, what, mend) = if middle > 5.0 {
         (
             "coded-0-255",
-            "values of 0 to 255",
+            "holds values of 0 to 255",
             "divide by 255, then by what 1 stands for: reflectance is 0 to 0.05",
         )
     } else if INDICES.contains(&middle) && INDICES.contains(&low) && high < INDICES.end {
-        ("index-of-refraction", "indices of refraction n", "write ((n - 1) / (n + 1))^2")
+        ("index-of-refraction", "holds indices of refraction n", "write ((n - 1) / (n + 1))^2")
     } else if high > 1.02 {
-        ("range", "values above 1", "write reflectance at normal incidence, 0 to 0.05")
+        ("range", "holds values above 1", "write reflectance at normal incidence, 0 to 0.05")
+    } else if high < ENCODED && (own || middle < ENCODED_SKIN) {
+        (
+            "beyond-range",
+            "is beyond what skin reflects",
+            if own {
+                "the exposure or the light is other than the solve took it: set \
+                 reflectance.exposure_deviation = 1 if nobody knows the exposure"
+            } else {
+                "write reflectance at normal incidence, 0 to 0.05; if the values are sRGB-encoded \
+                 or a specular level, undo that"
+            },
+        )
     } else if high < ENCODED {
         (
             "srgb-encoded",
-            "sRGB-encoded values of 0 to 0.05",
-            "undo the sRGB curve: reflectance at normal incidence is 0 to 0.05",
+            "is beyond what skin reflects, as sRGB-encoded values of 0 to 0.05 are",
+            "if they are, undo the sRGB curve; if it is a specular level, multiply by 0.08: \
+             reflectance at normal incidence is 0 to 0.05",
         )
     } else if high < LEVEL {
         (
             "specular-level",
-            "a specular level, as renderers take it",
+            "is beyond what skin reflects, as a specular level is, which renderers take",
             "multiply by 0.08 (or by 0.05 if 1 stands for 0.05): reflectance is 0 to 0.05",
         )
     } else {
         (
             "range-0-1",
-            "a share of the range, 0 to 1",
+            "is beyond what skin reflects, as a share of the range, 0 to 1, is",
             "multiply by 0.05 (or by 0.08 if it is a specular level): reflectance is 0 to 0.05",
         )
     };
-    let message = format!(
-        "holds {what}: its median is {middle:.3} and 2 % are above {high:.3}, expected at most 0.05"
-    );
+    let message = format!("{what}: {beyond}");
     findings.push(Finding::warning(id, file, message, mend).with(evidence));
 }
