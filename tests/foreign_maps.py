@@ -11,6 +11,7 @@ from scipy.ndimage import map_coordinates
 import unshade
 from unshade import _native
 from unshade.face.texels import Texels, rasterise
+from unshade.render.pictures import write_exr
 
 Array = np.ndarray
 
@@ -142,6 +143,22 @@ def avatarme(maps: unshade.Maps, layout: Layout, folder: Path) -> None:
     write_png(folder / "s_spec_normals.png", layout.tangent(layout.texture(maps.specular_normal)) / 2 + 0.5)
 
 
+LOBES = (0.2, 0.4, 0.6)
+
+
+def own(maps: unshade.Maps, layout: Layout, folder: Path) -> None:
+    """As `unshade solve` writes them, with lobes, a standard deviation and a part of the record."""
+    names = ("diffuse_albedo", "specular_albedo", "diffuse_normal", "specular_normal")
+    textures = {name: layout.texture(getattr(maps, name)).astype(np.float32) for name in names}
+    for name in names[2:]:
+        textures[name] /= np.linalg.norm(textures[name], axis=-1, keepdims=True)
+    lobes = np.broadcast_to(np.float32(LOBES), (layout.size, layout.size, 3))
+    unshade.Maps(**textures, roughness=lobes).write(folder)
+    layout.write_mesh(folder / "mesh.obj")
+    write_exr(folder / "diffuse_albedo_std.exr", {"Y": np.full((layout.size,) * 2, 0.25, np.float32)})
+    (folder / "solve.json").write_text('{"solver": "unshade", "config": {}, "seed": 7}')
+
+
 WRITERS = {
     "nextface": nextface,
     "nvdiffrec": nvdiffrec,
@@ -149,5 +166,6 @@ WRITERS = {
     "opendelight": opendelight,
     "wildcap": wildcap,
     "avatarme": avatarme,
+    "unshade": own,
 }
 """By the adapter that reads what each writes."""

@@ -13,6 +13,7 @@ from foreign_maps import Layout
 
 import unshade
 from conftest import unshade as command
+from unshade import _native
 from unshade.errors import MapsError, StorageError
 from unshade.importing.maps.statement import known_adapters
 
@@ -65,7 +66,8 @@ def test_foreign_files_of_another_layout_score_as_the_native_maps(
 ) -> None:
     maps = unshade.Maps.read(native)
     foreign_maps.WRITERS[adapter](maps, layout, tmp_path / "theirs")
-    out = bring(capture, tmp_path / "theirs", tmp_path / "maps", adapter=adapter)
+    # Ours are recognised.
+    out = bring(capture, tmp_path / "theirs", tmp_path / "maps", adapter=None if adapter == "unshade" else adapter)
     assert abs(albedo_db(capture, out) - native_db) < LOSS_DB
     said, back = record(out), unshade.Maps.read(out)
     assert said["covered"] > 0.999 and said["distance_mm"]["largest"] < 1e-3 and said["findings"] == []
@@ -75,7 +77,16 @@ def test_foreign_files_of_another_layout_score_as_the_native_maps(
     if adapter != "nextface":
         cosine = (back.specular_normal * maps.specular_normal).sum(-1)[inside]
         assert np.degrees(np.arccos(cosine.clip(-1, 1))).mean() < 0.8
-    if back.roughness is not None:
+    if adapter == "unshade":
+        np.testing.assert_allclose(
+            back.roughness[inside], np.broadcast_to(foreign_maps.LOBES, (inside.sum(), 3)), atol=1e-6
+        )
+        names, std = _native.read_exr(out / "diffuse_albedo_std.exr")
+        assert names == ["Y"] and np.allclose(std[inside], 0.25, atol=1e-6)
+        assert json.loads((out / "solve.json").read_text())["seed"] == 7
+        with pytest.raises(MapsError, match="holds alpha1, alpha2, share1, but settings says roughness.as = gloss"):
+            bring(capture, tmp_path / "theirs", tmp_path / "x", adapter="any", settings={"roughness": {"as": "gloss"}})
+    elif back.roughness is not None:
         alpha = 0.45**2 if adapter == "opendelight" else 0.3
         assert np.abs(back.roughness[..., :2] - alpha).max() < 0.01
 
@@ -211,4 +222,21 @@ def test_what_cannot_be_is_refused_in_one_line(capture: unshade.Capture, doubted
     refused("limit_mm is 0", limit_mm=0)
     refused("was not imported", place="source")
     refused("which is read; choose another folder", StorageError, out=doubted)
+    # Two materials whose halves of the face lie over each other: each has a texture, and one is read.
+    pages = Layout(capture, 64, own=True)
+    right = pages.vertices[pages.triangles].mean(1)[:, 0] > 0
+    pages.uv, pages.triangles = (
+        np.tile(pages.uv, (2, 1)),
+        np.where(right[:, None], pages.triangles + len(pages.uv), pages.triangles),
+    )
+    pages.uv[len(pages.uv) // 2 :] *= [-1, 1]
+    pages.uv[len(pages.uv) // 2 :] += [1, 0]
+    pages.vertices = np.tile(pages.vertices, (2, 1))
+    pages.write_mesh(tmp_path / "pages.obj")
+    lines = (tmp_path / "pages.obj").read_text().splitlines()
+    faces = [line for line in lines if line.startswith("f ")]
+    halves = [f for f, r in zip(faces, right) if not r], [f for f, r in zip(faces, right) if r]
+    lines = [*lines[: -len(faces)], "usemtl left", *halves[0], "usemtl right", *halves[1]]
+    (tmp_path / "pages.obj").write_text("\n".join(lines))
+    refused('material "left" and material "right" lie over each other in UV', mesh=tmp_path / "pages.obj", size=64)
     assert not (tmp_path / "out").exists() and (doubted / "head.obj").is_file()

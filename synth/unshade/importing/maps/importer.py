@@ -23,9 +23,10 @@ from ..placement import UNITS
 from . import decoding
 from .alignment import PLACES, Alignment, align, source_to_capture
 from .counterpart import Counterparts, Layout, facing_out, find_counterparts
+from .own_folder import OWN, is_own_folder, read_deviations
 from .preflight import Preflight, Witness
 from .statement import KINDS, Statement, read_statement
-from .texture import Codes, Floats, find_texture, halved, padded, read_codes, sampled
+from .texture import DEVIATION, Codes, Floats, find_texture, halved, padded, read_codes, sampled
 
 AnyPath = str | os.PathLike[str]
 
@@ -62,7 +63,8 @@ def import_maps(
     ``import.json`` that says what was stated, found and assumed; returns ``out``.
 
     ``mesh`` is the OBJ that they lie on (by default that in the folder which the adapter names), of which ``objects``
-    are the face. ``adapter`` is a format by name or a TOML file, ``settings`` are laid over it:
+    are the face. ``adapter`` is a format by name or a TOML file (by default ``unshade`` for a folder that `solve` wrote,
+    else ``any``, which finds every encoding), ``settings`` are laid over it:
     ``{"v": "down", "diffuse_albedo": {"curve": "linear"}}``. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
     mesh's; ``place`` is ``auto`` (units and axes are tried), ``keep``, ``source`` (where the capture was before its
     import) or ``fit`` (a similarity by ICP). Texels whose counterpart is further than ``limit_mm`` stay uncovered.
@@ -82,7 +84,8 @@ def import_maps(
     if not Path(folder).is_dir():
         raise MapsError(f"{folder}: is no folder; name the one that holds the maps")
     opened = capture if isinstance(capture, _native.Capture) else _native.Capture(capture)
-    statement = read_statement(None if adapter is None else os.fspath(adapter), settings or {})
+    name = os.fspath(adapter) if adapter is not None else OWN if is_own_folder(Path(folder)) else "any"
+    statement = read_statement(name, settings or {})
     shape = None if mesh is None else Path(mesh)
     job = _Import(Path(folder), shape, opened, statement, tuple(objects))
     job.place(unit, place, limit_mm / 1000)
@@ -98,6 +101,7 @@ class _Import:
     ) -> None:
         self.folder, self.capture, self.statement = folder, capture, statement
         self.codes = _textures(folder, statement)
+        self.deviations = read_deviations(statement, self.codes)
         self.mesh_file = mesh or _mesh_in(folder, statement)
         self.theirs = read_mesh(self.mesh_file, objects)
         self.alignment = Alignment(np.eye(4), "as it is", 0.0)
@@ -130,18 +134,25 @@ class _Import:
         trial = self._counterparts(_TRIAL, limit)
         if not trial.found.any():
             raise MapsError(f"{self.mesh_file}: has no counterpart of the capture's mesh within {1000 * limit:g} mm")
+        used = np.zeros(len(self.theirs.triangles), bool)
+        used[trial.triangle[trial.found]] = True
+        # Mirrored halves are a template's choice; of two pages one has other textures than those that are read.
+        fault, _, pages = self.theirs.layout_faults(used)
+        if fault is not None and pages:
+            raise MapsError(f"{self.mesh_file}: {fault} (object)")
         flight = Preflight(self.statement, self.codes, layouts, trial, self._witness(trial), apply=apply)
         settled = flight.settle()
         size = size or max(codes.size for codes in self.codes.values())
         counterparts = trial if size == _TRIAL else self._counterparts(size, limit)
-        maps = _Chart(settled, self.codes, layouts[settled.v], counterparts, self._turn()).maps()
+        maps = _Chart(settled, self.codes, self.deviations, layouts[settled.v], counterparts, self._turn()).maps()
         folder = ResumableFolder(out, self._key(settled, size, limit))
         for name, values in maps.items():
             _write_map(folder.path, name, values)
-        write_text(
-            folder.path / "solve.json",
-            json.dumps({"solver": self.folder.resolve().name if settled.name == "any" else settled.name}) + "\n",
-        )
+        solver = self.folder.resolve().name if settled.name == "any" else settled.name
+        write_text(folder.path / "solve.json", self._own_file("solve.json") or json.dumps({"solver": solver}) + "\n")
+        light = self.folder / "light.exr"
+        if settled.name == OWN and light.is_file() and np.allclose(self.alignment.matrix, np.eye(4)):
+            (folder.path / light.name).write_bytes(light.read_bytes())  # of a head that was moved it would be another
         findings = json.loads(_native.check_json(folder.path, self.capture.path))
         for finding in findings:
             warnings.warn(f"{finding['map']}: {finding['message']}; {finding['mend']}", MapsWarning, stacklevel=4)
@@ -164,8 +175,14 @@ class _Import:
         normals = counterparts.texels.sample(self.capture.mesh["normals"])
         return Witness(texture, seen > 0, normals, self._turn())
 
+    def _own_file(self, name: str) -> str | None:
+        """The text of a file of a folder of ours."""
+        path = self.folder / name
+        return path.read_text(encoding="utf-8") if self.statement.name == OWN and path.is_file() else None
+
     def _key(self, settled: Statement, size: int, limit: float) -> str:
-        files = [content_hash(codes.path) for codes in self.codes.values()]
+        files = [content_hash(codes.path) for codes in (*self.codes.values(), *self.deviations.values())]
+        files.append(self._own_file("solve.json") or "")
         places = [str(self.folder), str(self.capture.path), content_hash(self.capture.path / "transforms.json")]
         return "\n".join([*places, repr(settled), f"{size} {limit}", content_hash(self.mesh_file), *files])
 
@@ -205,10 +222,11 @@ class _Chart:
     """Textures looked up at the counterparts of the capture's texels."""
 
     def __init__(
-        self, settled: Statement, codes: dict[str, Codes], layout: Layout, counterparts: Counterparts,
-        turn: NDArray[np.float64],
+        self, settled: Statement, codes: dict[str, Codes], deviations: dict[str, Codes], layout: Layout,
+        counterparts: Counterparts, turn: NDArray[np.float64],
     ) -> None:  # fmt: skip
-        self.settled, self.codes, self.layout, self.counterparts, self.turn = settled, codes, layout, counterparts, turn
+        self.settled, self.codes, self.deviations, self.layout = settled, codes, deviations, layout
+        self.counterparts, self.turn = counterparts, turn
         self._uv = counterparts.at(layout.uv, layout.mesh.triangles)
 
     def maps(self) -> dict[str, Floats]:
@@ -220,13 +238,19 @@ class _Chart:
                 texture.scale
             )
         self._specular(maps)
-        if "roughness" in stated and (values := self._scalar("roughness")) is not None:
+        if "roughness" in stated and stated["roughness"].kind == "lobes":
+            maps["roughness"] = self._at(self.codes["roughness"].values)
+        elif "roughness" in stated and (values := self._scalar("roughness")) is not None:
             one = decoding.alpha(values, stated["roughness"].kind)
             maps["roughness"] = np.stack([one, one, np.ones_like(one)], -1)
         found_normals = {name: self._normals(name) for name in NORMALS if name in self.codes}
         for name in NORMALS[1:]:
             if (values := found_normals.get(name, found_normals.get(NORMALS[0]))) is not None:
                 maps[name] = values
+        if "confidence" in self.codes:
+            maps["confidence"] = self._at(self.codes["confidence"].plane("mean"))
+        for name, codes in self.deviations.items():
+            maps[name + DEVIATION] = self._at(codes.plane("mean") if codes.grey else codes.values)
         found = self.counterparts.found
         if "coverage" in self.codes:
             found = found & (self._at(self.codes["coverage"].plane(stated["coverage"].channel)) >= 0.5)
@@ -304,10 +328,10 @@ def _textures(folder: Path, statement: Statement) -> dict[str, Codes]:
         texture = statement.maps.get(name)
         if texture is None or not texture.file:
             continue
-        path = find_texture(folder, texture.file, read)
+        path = find_texture(folder, texture.file, read, below=not statement.certain)
         if path is not None:
             found[name] = read[path] = read.get(path) or read_codes(path)
-    if not set(found) - {"coverage"}:
+    if not set(found) - {"coverage", "confidence"}:
         names = sorted({name for texture in statement.maps.values() for name in texture.file})
         raise MapsError(f"{folder}: holds none of {', '.join(names)} ({statement.origin}); name the adapter that fits")
     return found

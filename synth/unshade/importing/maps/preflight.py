@@ -78,6 +78,7 @@ class Preflight:
             if name in self._codes:
                 self._normals(name)
         self._range("specular_albedo", ("reflectance", "level", "share", "ior"), decoding.reflectance, _SKIN_F0)
+        self._lobes()
         self._range("roughness", ("perceptual", "alpha", "gloss", "alpha-squared"), decoding.alpha, _SKIN_ALPHA)
         return self.statement
 
@@ -106,7 +107,7 @@ class Preflight:
         if stated == AUTO:
             sure = evidence[best] - rest >= decides
             taken, how = (best, "found") if sure else (default or best, "assumed")
-        elif evidence[best] - evidence.get(stated, -np.inf) < contradicts:
+        elif self.statement.certain or evidence[best] - evidence.get(stated, -np.inf) < contradicts:
             taken, how = stated, "stated"
         elif self._apply:
             taken, how = best, "applied"
@@ -201,12 +202,23 @@ class Preflight:
             green = self._settled(f"{name}.green", green, evidence, decides=0.1, contradicts=0.4, default="up")
         self.statement = self.statement.with_map(name, kind=kind, green=green)
 
+    def _lobes(self) -> None:
+        """An EXR with alpha1, alpha2, share1 says itself what it holds."""
+        codes, stated = self._codes.get("roughness"), self.statement.maps.get("roughness", Texture()).kind
+        if codes is None or codes.lobes == (stated == "lobes"):
+            return
+        if stated != AUTO:
+            held = "alpha1, alpha2, share1" if codes.lobes else "other channels than alpha1, alpha2, share1"
+            by = self.statement.stated_by("roughness.as")
+            raise MapsError(f"{codes.path}: holds {held}, but {by} says roughness.as = {stated}; state what it holds")
+        self.statement = self.statement.with_map("roughness", kind="lobes")
+
     def _range(
         self, name: str, kinds: tuple[str, ...], decoded: Callable[[Floats, str], Floats], skin: tuple[float, float]
     ) -> None:
         """The kind whose median is skin's, of several the first; what is stated counts unless only another one's is."""
         stated = self.statement.maps.get(name, Texture())
-        if name not in self._codes or stated.kind == "metalness":
+        if name not in self._codes or stated.kind in ("metalness", "lobes"):
             return
         values = self._looked_up(decoding.scalar(self._codes[name], stated), self.statement.v)
         middle = np.float32(np.median(values[self._counterparts.found]))

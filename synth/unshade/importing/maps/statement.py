@@ -25,16 +25,18 @@ KINDS: dict[str, tuple[str, ...]] = {
     "diffuse_normal": ("object", "tangent", AUTO),
     "specular_normal": ("object", "tangent", AUTO),
     "normal": ("object", "tangent", AUTO),
-    "roughness": ("alpha", "perceptual", "gloss", "alpha-squared", AUTO),
+    "roughness": ("alpha", "perceptual", "gloss", "alpha-squared", "lobes", AUTO),
     "specular_albedo": ("reflectance", "f0", "level", "share", "ior", "metalness", AUTO),
     "coverage": (AUTO,),
+    "confidence": (AUTO,),
     "diffuse_albedo": (AUTO,),
 }
 """The maps that a statement may have, and what the numbers of each may be (``as``). They are looked for
 in this order: a pattern takes no file that was taken before.
 
 Specular albedo: reflectance at normal incidence (``f0`` is the same), ``level`` / 0.08, ``share`` of 0.05, index of
-refraction, metalness. Roughness: GGX alpha, its root, 1 minus its root, its square.
+refraction, metalness. Roughness: GGX alpha, its root, 1 minus its root, its square, or ``lobes`` (an EXR with alpha1,
+alpha2, share1).
 """
 
 _V = ("up", "down", AUTO)
@@ -64,8 +66,9 @@ class Texture:
 @dataclass(frozen=True)
 class Statement:
     """``name`` of the format, ``origin`` the file that states it, ``source`` where that is known from, ``mesh`` patterns
-    of the OBJ in the folder, ``v`` whether the pictures' first row lies at v = 1 (``up``) or at v = 0 (``down``). ``laid_over`` are the keys that the
-    settings state."""
+    of the OBJ in the folder, ``v`` whether the pictures' first row lies at v = 1 (``up``) or at v = 0 (``down``).
+    ``certain`` statements are not doubted, and name files of the folder itself alone. ``laid_over`` are the keys that
+    the settings state."""
 
     name: str
     origin: str
@@ -73,6 +76,7 @@ class Statement:
     mesh: tuple[str, ...] = ()
     v: str = AUTO
     maps: Mapping[str, Texture] = field(default_factory=lambda: dict[str, Texture]())
+    certain: bool = False
     laid_over: frozenset[str] = frozenset()
 
     def stated_by(self, key: str) -> str:
@@ -89,10 +93,10 @@ def known_adapters() -> list[str]:
     return sorted(path.stem for path in ADAPTERS.glob("*.toml"))
 
 
-def read_statement(adapter: str | None, settings: Mapping[str, Any]) -> Statement:
-    """The statement of an adapter, a name or a TOML file (without one: ``any``, which states names alone), with
-    ``settings`` laid over it: ``{"v": "down", "diffuse_albedo": {"curve": "linear"}}``. Raises `MapsError`."""
-    name = adapter or "any"
+def read_statement(adapter: str, settings: Mapping[str, Any]) -> Statement:
+    """The statement of an adapter, a name or a TOML file, with ``settings`` laid over it:
+    ``{"v": "down", "diffuse_albedo": {"curve": "linear"}}``. Raises `MapsError`."""
+    name = adapter
     path = ADAPTERS / f"{name}.toml" if name in known_adapters() else Path(name)
     known = f"there are {', '.join(known_adapters())}, or a TOML file"
     try:
@@ -125,6 +129,8 @@ def _statement(origin: str, table: dict[str, Any], below: Statement) -> Statemen
             changes[key] = _names(origin, key, value)
         elif key == "source":
             changes[key] = str(value)
+        elif key == "certain":
+            changes[key] = value is True
         elif key == "v":
             changes[key] = _choice(origin, key, value, _V)
         else:

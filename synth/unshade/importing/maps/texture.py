@@ -12,11 +12,15 @@ from numpy.typing import NDArray
 from ... import _native
 from ...errors import MapsError
 from ...face.texels import Texels
+from ...render.pictures import ROUGHNESS_CHANNELS
 from ..pictures import decode, read_photograph
 
 Floats = NDArray[np.float32]
 
 ENDINGS = (".exr", ".png", ".tif", ".tiff", ".jpg", ".jpeg", ".hdr")
+
+DEVIATION = "_std"
+"""End of the name of a map's standard deviation per texel."""
 
 _CHANNELS = {"R": 0, "G": 1, "B": 2}
 
@@ -25,13 +29,16 @@ _CHANNELS = {"R": 0, "G": 1, "B": 2}
 class Codes:
     """A square picture's numbers (N,N,3) as stored, row 0 on top: 0 to 1 of integers, any of floats.
 
-    ``alpha`` (N,N) is its fourth channel, ``exact`` whether it holds floats.
+    ``alpha`` (N,N) is its fourth channel, ``exact`` whether it holds floats, ``lobes`` whether its channels are
+    alpha1, alpha2, share1, ``grey`` whether there is one.
     """
 
     path: Path
     values: Floats
     alpha: Floats | None
     exact: bool
+    lobes: bool = False
+    grey: bool = False
 
     @property
     def size(self) -> int:
@@ -49,10 +56,14 @@ class Codes:
         return self.values[..., _CHANNELS[channel]]
 
 
-def find_texture(folder: Path, patterns: tuple[str, ...], taken: Collection[Path] = ()) -> Path | None:
+def find_texture(
+    folder: Path, patterns: tuple[str, ...], taken: Collection[Path] = (), *, below: bool = True
+) -> Path | None:
     """The first file that a name or pattern fits, without regard to case; a name without an ending fits any picture.
-    A pattern fits no file that is ``taken``."""
-    files = [path for path in folder.rglob("*") if path.is_file() and path.suffix.lower() in ENDINGS]
+    A pattern fits no file that is ``taken``, and no standard deviation (``_std``); ``below`` takes folders in."""
+    paths = folder.rglob("*") if below else folder.glob("*")
+    files = [path for path in paths if path.is_file() and path.suffix.lower() in ENDINGS]
+    files = [path for path in files if not path.stem.endswith(DEVIATION)]
     files.sort(key=lambda path: (len(path.parts), path))
     for pattern in patterns:
         whole = Path(pattern).suffix.lower() in (*ENDINGS, ".*")
@@ -67,13 +78,18 @@ def read_codes(path: Path) -> Codes:
     """Reads a texture as it is stored. Raises `MapsError` or `PictureError`."""
     alpha = None
     exact = path.suffix.lower() in (".exr", ".hdr")
+    lobes = grey = False
     if path.suffix.lower() == ".exr":
         names, planes = _native.read_exr(path)
         short = [name.rsplit(".")[-1].upper() for name in names]
-        wanted = [short.index(name) for name in "RGB"] if set("RGB") <= set(short) else [0, 0, 0]
-        if not set("RGB") <= set(short) and len(set(short) - {"A"}) != 1:
-            raise MapsError(f"{path}: has channels {', '.join(names)}; write R, G, B, or one")
-        values = np.ascontiguousarray(planes[..., wanted])
+        lobes = set(short) == {name.upper() for name in ROUGHNESS_CHANNELS}
+        order = [name.upper() for name in ROUGHNESS_CHANNELS] if lobes else list("RGB")
+        grey = not set(order) <= set(short)
+        if grey and len(set(short) - {"A"}) != 1:
+            raise MapsError(
+                f"{path}: has channels {', '.join(names)}; write R, G, B, or one, or {', '.join(ROUGHNESS_CHANNELS)}"
+            )
+        values = np.ascontiguousarray(planes[..., [0, 0, 0] if grey else [short.index(name) for name in order]])
         alpha = planes[..., short.index("A")] if "A" in short else None
     else:
         photograph = read_photograph(path, "linear")
@@ -81,7 +97,7 @@ def read_codes(path: Path) -> Codes:
     height, width = values.shape[:2]
     if height != width:
         raise MapsError(f"{path}: is {width} x {height} texels; write a square texture that fills the unit square")
-    return Codes(path, values, alpha, exact)
+    return Codes(path, values, alpha, exact, lobes, grey)
 
 
 def linear(values: Floats, curve: str) -> Floats:
