@@ -140,6 +140,17 @@ pub fn examine(layout: &Layout) -> Result<usize, LayoutFault> {
         return Err(LayoutFault::NotFinite(infinite));
     }
     check_tile(uvs, triangles)?;
+    if let Some(shared) = claims::shared(layout)
+        && shared.share > LARGEST_SHARE
+    {
+        let share = shared.share;
+        let [first, second] = shared.parts.map(|part| parts.names[part as usize].clone());
+        return Err(if first == second {
+            LayoutFault::Overlap { share, part: first, mirrored: shared.mirrored }
+        } else {
+            LayoutFault::Pages { share, first, second }
+        });
+    }
     let (mut whole, mut collapsed) = (0.0, 0.0);
     for triangle in *triangles {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
@@ -151,17 +162,6 @@ pub fn examine(layout: &Layout) -> Result<usize, LayoutFault> {
     }
     if collapsed > LARGEST_COLLAPSED * whole {
         return Err(LayoutFault::Collapsed { share: collapsed / whole });
-    }
-    if let Some(shared) = claims::shared(layout)
-        && shared.share > LARGEST_SHARE
-    {
-        let share = shared.share;
-        let [first, second] = shared.parts.map(|part| parts.names[part as usize].clone());
-        return Err(if first == second {
-            LayoutFault::Overlap { share, part: first, mirrored: shared.mirrored }
-        } else {
-            LayoutFault::Pages { share, first, second }
-        });
     }
     Ok(islands::most(positions, uvs, triangles))
 }
