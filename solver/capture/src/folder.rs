@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::camera::Camera;
@@ -12,7 +12,7 @@ use crate::first_look;
 use crate::mesh::Mesh;
 use crate::orientation::{self, Flipped};
 use crate::transforms::Transforms;
-use crate::uv_layout;
+use crate::uv_layout::{self, Layout, LayoutFault, Parts};
 use crate::view::View;
 
 const TRANSFORMS: &str = "transforms.json";
@@ -67,7 +67,7 @@ impl Capture {
         );
         let ((mut mesh, parts), train) = (mesh?, train?);
         if look {
-            uv_layout::check(&transforms.mesh_path, &mesh, &parts)?;
+            check_layout(&transforms.mesh_path, &mesh, &parts)?;
             first_look::check(folder, &mesh, &train, transforms.applied)?;
         }
         let eyes: Vec<Vec3> = train.iter().map(|view| view.camera.position()).collect();
@@ -123,6 +123,29 @@ impl Capture {
     pub fn camera(&self, name: &str) -> Option<&Camera> {
         let train = self.train.iter().map(|view| &view.camera);
         train.chain(&self.withheld).find(|camera| camera.name == name)
+    }
+}
+
+/// Refuses a capture's mesh whose texels stand for several places, and warns of many seams.
+fn check_layout(path: &Path, mesh: &Mesh, parts: &Parts) -> Result<(), CaptureError> {
+    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
+    let uvs: Vec<DVec2> = mesh.uvs.iter().map(|uv| uv.as_dvec2()).collect();
+    let layout = Layout { positions: &positions, uvs: &uvs, triangles: &mesh.triangles, parts };
+    match uv_layout::examine(&layout) {
+        Ok(islands) => {
+            if let Some(warning) = uv_layout::islands_warning(islands) {
+                tracing::warn!("{}: {warning}", path.display());
+            }
+            Ok(())
+        }
+        // A surface without texels is not solved, which harms the rest of it little.
+        Err(fault @ LayoutFault::Collapsed { .. }) => {
+            tracing::warn!("{}: {fault}", path.display());
+            Ok(())
+        }
+        Err(fault) => {
+            Err(CaptureError::Mesh { path: path.to_path_buf(), reason: fault.to_string() })
+        }
     }
 }
 

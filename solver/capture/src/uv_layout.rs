@@ -3,68 +3,23 @@
 
 mod claims;
 mod islands;
+mod surface;
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
-use formats::obj::Object;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use crate::error::CaptureError;
-use crate::mesh::Mesh;
+use surface::{LINE, twice_area};
+pub use surface::{Layout, Parts};
 
 /// Share of the texels in use that may stand for two places: folds of a decimated mesh.
 const LARGEST_SHARE: f64 = 0.002;
 /// Share of the surface that may lie on lines of the UVs, as slivers of fanned polygons do.
 const LARGEST_COLLAPSED: f64 = 0.001;
-/// Twice the area in UV below which a triangle lies on a line.
-const LINE: f64 = 1e-14;
 /// Unwrapping tools round: this far outside of the unit square is inside.
 const OUTSIDE: f64 = 1e-5;
 /// Islands from which their seams are worth a warning.
 const MANY_ISLANDS: usize = 100;
-
-/// A surface with its UV layout.
-pub struct Layout<'a> {
-    /// One per vertex, in any unit.
-    pub positions: &'a [DVec3],
-    /// One per vertex, u right, v up.
-    pub uvs: &'a [DVec2],
-    /// Vertex indices.
-    pub triangles: &'a [[u32; 3]],
-    /// What the triangles belong to.
-    pub parts: &'a Parts,
-}
-
-/// The materials that triangles belong to, or the objects where a file names no material.
-#[derive(Clone, Debug, Default)]
-pub struct Parts {
-    /// In words: `material "skin"`.
-    pub names: Vec<String>,
-    /// Index into `names`, one per triangle.
-    pub of: Vec<u32>,
-}
-
-impl Parts {
-    /// Appends the triangles of an object of a file.
-    pub fn add(&mut self, object: &Object) {
-        let words = |material: &String| match material.as_str() {
-            "" => format!("object {:?}", object.name),
-            name => format!("material {name:?}"),
-        };
-        let numbers: Vec<u32> =
-            object.materials.iter().map(|material| self.number(words(material))).collect();
-        self.of.extend(object.material_of.iter().map(|material| numbers[*material as usize]));
-    }
-
-    fn number(&mut self, name: String) -> u32 {
-        let known = self.names.iter().position(|other| *other == name);
-        known.unwrap_or_else(|| {
-            self.names.push(name);
-            self.names.len() - 1
-        }) as u32
-    }
-}
 
 /// A layout that cannot carry maps; each message is what is wrong and the fix.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -177,29 +132,6 @@ pub fn islands_warning(islands: usize) -> Option<String> {
     })
 }
 
-/// Refuses a capture's mesh whose texels stand for several places, and warns of many seams.
-pub(crate) fn check(path: &Path, mesh: &Mesh, parts: &Parts) -> Result<(), CaptureError> {
-    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
-    let uvs: Vec<DVec2> = mesh.uvs.iter().map(|uv| uv.as_dvec2()).collect();
-    let layout = Layout { positions: &positions, uvs: &uvs, triangles: &mesh.triangles, parts };
-    match examine(&layout) {
-        Ok(islands) => {
-            if let Some(warning) = islands_warning(islands) {
-                tracing::warn!("{}: {warning}", path.display());
-            }
-            Ok(())
-        }
-        // A surface without texels is not solved, which harms the rest of it little.
-        Err(fault @ LayoutFault::Collapsed { .. }) => {
-            tracing::warn!("{}: {fault}", path.display());
-            Ok(())
-        }
-        Err(fault) => {
-            Err(CaptureError::Mesh { path: path.to_path_buf(), reason: fault.to_string() })
-        }
-    }
-}
-
 fn check_tile(uvs: &[DVec2], triangles: &[[u32; 3]]) -> Result<(), LayoutFault> {
     let corners = || triangles.iter().flatten().map(|corner| uvs[*corner as usize]);
     let low = corners().fold(DVec2::INFINITY, DVec2::min);
@@ -230,12 +162,6 @@ fn check_tile(uvs: &[DVec2], triangles: &[[u32; 3]]) -> Result<(), LayoutFault> 
         names.push("...".to_owned());
     }
     Err(LayoutFault::Tiles { tiles: names })
-}
-
-/// Twice the signed area of a triangle in UV, counter-clockwise positive.
-fn twice_area(uvs: &[DVec2], triangle: &[u32; 3]) -> f64 {
-    let [a, b, c] = triangle.map(|corner| uvs[corner as usize]);
-    (b - a).perp_dot(c - a)
 }
 
 fn percent(share: &f64) -> f64 {

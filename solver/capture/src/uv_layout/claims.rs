@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::{LINE, Layout, twice_area};
+use super::surface::{LINE, Layout, twice_area};
 
 /// Side of the grid on which claims are counted, texels.
 const SIDE: usize = 1024;

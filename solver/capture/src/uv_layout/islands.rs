@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::twice_area;
+use super::surface::twice_area;
 
 /// Share of the layout's area that counts: specks besides the islands of a face cost nothing.
 const MOST: f64 = 0.95;

@@ -1,3 +1,5 @@
+use glam::DVec3;
+
 use super::*;
 
 /// A grid of 16 x 16 quads in space, its UV by a function of the quad and the place in it.
