@@ -34,7 +34,6 @@ __all__ = [
     "read_obj",
     "read_png",
     "read_scores",
-    "reader_sources",
     "relight",
     "report",
     "run",
@@ -46,6 +45,7 @@ __all__ = [
     "study_json",
     "skin_reflected",
     "solve",
+    "sources",
     "synth",
     "write_colour",
     "write_scores",
@@ -57,7 +57,7 @@ _Byte = NDArray[np.uint8]
 _Progress = Callable[[int, int, str], object]
 
 __version__: str
-reader_sources: str
+sources: dict[str, str]
 
 class _Camera(TypedDict):
     width: int
@@ -242,13 +242,13 @@ def run_part(
     suite: _Path,
     out: _Path,
     stage: str,
-    contents: dict[str, str],
-    renderer: str,
+    contents: str,
+    renderer: dict[str, str],
     key_only: bool,
     processors: list[int] | None,
 ) -> str: ...
-def check_worker(suite: _Path, content: str, versions: str) -> str: ...
-def adopt(run: _Path, key: str, stage: str, content: str) -> None: ...
+def check_worker(suite: _Path, content: str, versions: str) -> dict[str, str]: ...
+def adopt(run: _Path, key: str, stage: str, record: str) -> None: ...
 def begin_folder(target: _Path, key: str) -> Path: ...
 def commit_folder(target: _Path, key: str) -> None: ...
 def report(run: _Path, out: _Path, progress: _Progress | None = None) -> None: ...

@@ -4,26 +4,28 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use harness::suite::{self, Suite, Wanted};
+use harness::synth::Fingerprints;
 use pyo3::prelude::*;
 
 use super::errors::{named_error, raise};
 use super::stages::watched;
 
 /// Raises where this machine has another version, or another suite, than what sends the work; returns the
-/// renderer's fingerprint.
+/// renderer's versions and code, by its stages.
 #[pyfunction]
 pub(super) fn check_worker(
     py: Python<'_>,
     suite: PathBuf,
     content: String,
     versions: String,
-) -> PyResult<String> {
+) -> PyResult<BTreeMap<String, String>> {
     watched(py, None, |tools, _| {
         suite::check_worker(&Suite::open(&suite)?, &content, &versions, tools)
     })
+    .map(|renderer| renderer.0)
 }
 
-/// Does a stage of a suite in a folder that holds what it reads (hashes by ids); JSON text of what became
+/// Does a stage of a suite in a folder that holds what it reads (JSON text of records by ids); JSON text of what became
 /// of it, on `processors` or on all. With `key_only`, only what it is made from. `renderer` is what `check_worker` returned.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
@@ -32,11 +34,13 @@ pub(super) fn run_part(
     suite: PathBuf,
     out: PathBuf,
     stage: String,
-    contents: BTreeMap<String, String>,
-    renderer: String,
+    contents: &str,
+    renderer: BTreeMap<String, String>,
     key_only: bool,
     processors: Option<Vec<usize>>,
 ) -> PyResult<String> {
+    let contents = serde_json::from_str(contents).map_err(unread)?;
+    let renderer = Fingerprints(renderer);
     let done = watched(py, None, |tools, _| {
         let wanted = Wanted {
             id: &stage,
@@ -46,11 +50,16 @@ pub(super) fn run_part(
         };
         suite::run_part(&Suite::open(&suite)?, &out, wanted, key_only, tools, &mut |_, _, _| {})
     })?;
-    serde_json::to_string(&done).map_err(|error| named_error("UnshadeError", &error.to_string()))
+    serde_json::to_string(&done).map_err(unread)
 }
 
-/// Takes the output of a stage, which lies in the run's folder, for finished.
+/// Takes the output of a stage, which lies in the run's folder, for finished; `record` is JSON text of its hashes.
 #[pyfunction]
-pub(super) fn adopt(run: PathBuf, key: &str, stage: &str, content: &str) -> PyResult<()> {
-    suite::adopt(&run, key, stage, content).map_err(raise)
+pub(super) fn adopt(run: PathBuf, key: &str, stage: &str, record: &str) -> PyResult<()> {
+    let output = serde_json::from_str(record).map_err(unread)?;
+    suite::adopt(&run, key, stage, &output).map_err(raise)
+}
+
+fn unread(error: serde_json::Error) -> PyErr {
+    named_error("UnshadeError", &error.to_string())
 }

@@ -15,6 +15,7 @@ mod stages;
 mod tangents;
 
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// Functions and classes behind the Python package `unshade`.
 #[pymodule]
@@ -22,7 +23,12 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let package = module.py().import("unshade")?.filename()?.extract::<std::path::PathBuf>()?;
     harness::suite::set_scenes_folder(package.with_file_name("scenes"));
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("reader_sources", harness::suite::READER_SOURCES)?;
+    let sources = PyDict::new(module.py());
+    sources.set_item("readers", harness::suite::READER_SOURCES)?;
+    sources.set_item("capture", harness::suite::CAPTURE_SOURCES)?;
+    let all = [harness::suite::SOLVER_SOURCES, harness::suite::SCORE_SOURCES].concat();
+    sources.set_item("all", all)?;
+    module.add("sources", sources)?;
     module.add_class::<capture::Capture>()?;
     module.add_class::<maps::Maps>()?;
     module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;

@@ -107,9 +107,15 @@ pub(super) enum Verb {
         /// The run's folder.
         run: PathBuf,
         /// Kinds of folders to keep, with commas: captures, lights, maps, relit, logs, debug, scores,
-        /// report, store. Without it nothing is removed.
+        /// report, earlier, store. Without it no such folder is removed.
         #[arg(long, value_delimiter = ',', value_name = "KINDS")]
         keep: Vec<String>,
+        /// Remove the oldest results of earlier settings until the rest takes no more than so many GB (10^9 bytes).
+        #[arg(long, value_name = "GB", value_parser = not_negative)]
+        earlier_gb: Option<f64>,
+        /// Remove results of earlier settings that were replaced longer ago than so many days.
+        #[arg(long, value_name = "DAYS", value_parser = not_negative)]
+        earlier_days: Option<f64>,
     },
     /// Write a run's report: one folder that opens offline.
     Report {
@@ -326,4 +332,9 @@ mod tests {
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
     }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
+    number.ok_or_else(|| "must be a number from 0".to_owned())
 }

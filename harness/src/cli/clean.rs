@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
-use crate::suite::{self, RunError};
+use crate::suite::{self, Bound, RunError};
 
 /// Says what each kind takes, and what was removed of it.
-pub(super) fn clean(run: &Path, keep: &[String]) -> Result<(), RunError> {
-    let cleaned = suite::clean(run, keep)?;
+pub(super) fn clean(run: &Path, keep: &[String], bound: Bound) -> Result<(), RunError> {
+    let cleaned = suite::clean(run, keep, bound)?;
     for part in &cleaned.parts {
-        let what = match part.removed {
-            0 => format!("{} stay", suite::in_bytes(part.bytes)),
-            removed => format!("{} removed", suite::in_bytes(removed)),
+        let [stay, removed] = [part.bytes, part.removed].map(suite::in_bytes);
+        let what = match (part.bytes, part.removed) {
+            (_, 0) => format!("{stay} stay"),
+            (0, _) => format!("{removed} removed"),
+            _ => format!("{removed} removed, {stay} stay"),
         };
         say!("{:<9} {what}", part.name);
     }

@@ -64,7 +64,11 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
             );
         }
         Verb::Run(arguments) => return run_suite(arguments),
-        Verb::Clean { run, keep } => clean::clean(&run, &keep)?,
+        Verb::Clean { run, keep, earlier_gb, earlier_days } => {
+            let bytes = earlier_gb.map(|gb| (gb * 1e9) as u64);
+            let seconds = earlier_days.map(|days| days * 86_400.0);
+            clean::clean(&run, &keep, suite::Bound { bytes, seconds })?;
+        }
         Verb::Report { run, out } => {
             alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
             say!("{}", out.join("index.html").display());

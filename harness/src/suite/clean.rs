@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use formats::atomic::{Folder, FolderError, MARK, remove_folder};
 use serde_json::Value;
 
+use super::earlier::{self, Bound};
 use super::error::RunError;
 use super::plan::Kind;
 use super::run::lock;
@@ -14,8 +15,8 @@ use super::size::size_of;
 use super::workshop::DEBUG;
 
 /// The folders of a run, beside its records.
-const PARTS: [&str; 9] =
-    ["captures", "lights", "maps", "relit", "scores", "logs", DEBUG, "report", STORE];
+const PARTS: [&str; 10] =
+    ["captures", "lights", "maps", "relit", "scores", "logs", DEBUG, "report", earlier::FOLDER, STORE];
 /// Folder that an interrupted run on a cluster leaves: outputs by their content.
 const STORE: &str = "store";
 
@@ -41,9 +42,10 @@ pub struct Cleaned {
     pub foreign: Vec<PathBuf>,
 }
 
-/// Removes every folder of `run` but those that `keep` names; of an empty `keep`, nothing. Only what stages
-/// of the run left is removed, and nothing that holds a file of somebody else.
-pub fn clean(run: &Path, keep: &[String]) -> Result<Cleaned, RunError> {
+/// Removes every folder of `run` but those that `keep` names, of an empty `keep` none, and outputs of earlier settings
+/// that are beyond the bound. Only what stages of the run left is removed, and nothing that holds a file of somebody
+/// else.
+pub fn clean(run: &Path, keep: &[String], bound: Bound) -> Result<Cleaned, RunError> {
     if let Some(unknown) = keep.iter().find(|name| !PARTS.contains(&name.as_str())) {
         return Err(RunError::Keep { name: unknown.clone(), known: PARTS.join(", ") });
     }
@@ -58,6 +60,8 @@ pub fn clean(run: &Path, keep: &[String]) -> Result<Cleaned, RunError> {
         let before = size_of(&run.join(name))?;
         if !kept {
             remove_part(run, name, &mut cleaned.foreign)?;
+        } else if name == earlier::FOLDER {
+            earlier::bound(run, bound)?;
         }
         let bytes = size_of(&run.join(name))?;
         cleaned.parts.push(Part { name, kept, bytes, removed: before.saturating_sub(bytes) });
@@ -70,6 +74,11 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     let part = run.join(name);
     if name == "report" {
         return remove_ours(&part, foreign);
+    }
+    if name == earlier::FOLDER {
+        earlier::bound(run, Bound { bytes: Some(0), ..Bound::default() })?;
+        foreign.extend(part.exists().then_some(part));
+        return Ok(());
     }
     if name == STORE {
         return remove_store(&part, foreign);

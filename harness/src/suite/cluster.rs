@@ -18,7 +18,7 @@ use super::record::{Record, Records};
 use super::stages::words;
 use super::tools::{Observer, Tools};
 use super::workshop::{Contents, Workshop};
-use crate::synth::run_stage;
+use crate::synth::{Fingerprints, run_stage};
 
 /// Where stages are done.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,16 +96,17 @@ fn order(workshop: &Workshop, plan: &[Task], records: &Records) -> Result<Value,
     let mut contents = Contents::new();
     let mut tasks = Vec::new();
     for task in plan {
-        let key = workshop.key(task, &contents).ok();
-        let kept = key.and_then(|key| records.finished(&task.id, &key.hash, &workshop.path(task)));
-        if let Some(content) = &kept {
-            contents.insert(task.id.clone(), content.clone());
-        } else if !task.wanted {
-            continue;
+        let (key, path) = (workshop.key(task, &contents).ok(), workshop.path(task));
+        let valid = key.map(|key| records.valid(&task.id, &key.hash, &path)).transpose()?.flatten();
+        match &valid {
+            Some(record) => drop(contents.insert(task.id.clone(), record.output.clone())),
+            None if !task.wanted => continue,
+            // What comes back takes its place.
+            None => records.set_aside(&task.id, "", &path)?,
         }
         tasks.push(json!({
             "id": task.id, "after": task.after.iter().map(|at| &plan[*at].id).collect::<Vec<_>>(),
-            "path": task.path, "case": suite.cases[task.case].id, "content": kept,
+            "path": task.path, "case": suite.cases[task.case].id, "output": valid.map(|record| record.output),
             "name": task.name(suite).filter(|_| task.kind >= Kind::Maps),
         }));
     }
@@ -119,15 +120,15 @@ fn absolute(path: &Path) -> io::Result<String> {
     Ok(std::path::absolute(path)?.to_string_lossy().into_owned())
 }
 
-/// Refuses to work for a suite that this machine has otherwise, or with another version; returns the
-/// renderer's fingerprint, which takes a start of Python.
+/// Refuses to work for a suite that this machine has otherwise, or with another version; returns the renderer's versions
+/// and code, which takes a start of Python.
 pub fn check_worker(
     suite: &Suite,
     suite_content: &str,
     wanted: &str,
     tools: &Tools,
-) -> Result<String, RunError> {
-    let renderer = tools.interpreter.fingerprint()?;
+) -> Result<Fingerprints, RunError> {
+    let renderer = tools.interpreter.fingerprints()?;
     let here = versions(&renderer);
     if here != wanted {
         return Err(RunError::Worker(format!(

@@ -60,7 +60,7 @@ pub fn forecast(
     claimable(out)?;
     preflight::files(suite)?;
     let ready = preflight::methods(suite, tools)?;
-    let renderer = tools.interpreter.fingerprint()?;
+    let renderer = tools.interpreter.fingerprints()?;
     let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
     let mut known = Costs::default();
     let mut around = None;
@@ -82,12 +82,12 @@ pub fn forecast(
     for task in plan(suite) {
         let key = workshop.key(&task, &contents).ok();
         let kept =
-            key.and_then(|key| records.seems_finished(&task.id, &key.hash, &workshop.path(&task)));
+            key.and_then(|key| records.seems_valid(&task.id, &key.hash, &workshop.path(&task)));
         let before = task.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
         let stages = forecast.kinds.entry(task.kind.word()).or_default();
         let seconds = match kept {
-            Some(content) => {
-                contents.insert(task.id.clone(), content);
+            Some(output) => {
+                contents.insert(task.id.clone(), output);
                 stages.cached += 1;
                 0.0
             }

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::file::Suite;
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
+use crate::synth::Fingerprints;
 
 /// Facts of a run that has ended.
 pub(super) struct Made<'a> {
@@ -33,7 +34,7 @@ impl Default for Made<'_> {
 }
 
 /// The content of `run.json`.
-pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
+pub(super) fn manifest(suite: &Suite, renderer: &Fingerprints, made: &Made) -> Value {
     let cases: Vec<Value> = suite
         .cases
         .iter()
@@ -88,7 +89,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &str, made: &Made) -> Value {
     let mut manifest = json!({
         "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
         "versions": {
-            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer,
+            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer.to_string(),
             "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
         },
         "suite_toml": suite.text,

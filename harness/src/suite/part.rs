@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::RunError;
 use super::file::Suite;
+use super::output::Output;
 use super::plan::{Kind, Task, plan};
 use super::preflight;
 use super::processors::keep_to;
@@ -18,6 +19,7 @@ use super::record::{Record, Records};
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use super::tools::Tools;
 use super::workshop::{Contents, Done, Workshop};
+use crate::synth::Fingerprints;
 
 /// A stage that is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +28,8 @@ pub struct Wanted<'a> {
     pub id: &'a str,
     /// Hashes of the outputs that it reads, by ids.
     pub contents: &'a Contents,
-    /// The renderer's fingerprint here, as `check_worker` found it.
-    pub renderer: &'a str,
+    /// Versions and code of the renderer here, as `check_worker` found them.
+    pub renderer: &'a Fingerprints,
     /// Processors that it keeps to; none is all.
     pub processors: &'a Option<Vec<usize>>,
 }
@@ -46,7 +48,7 @@ pub struct PartDone {
 }
 
 /// Versions and sources of all of unshade: where they are equal, two machines give the same bytes.
-pub(super) fn versions(renderer: &str) -> String {
+pub(super) fn versions(renderer: &Fingerprints) -> String {
     let [solver, scores] = [SOLVER_SOURCES, SCORE_SOURCES];
     format!("{} {renderer} solver={solver} scores={scores}", env!("CARGO_PKG_VERSION"))
 }
@@ -106,6 +108,6 @@ fn write_scene(suite: &Suite, task: &Task, out: &Path) -> Result<(), RunError> {
 }
 
 /// Takes the output of a stage that lies in the run's folder, and was made elsewhere, for finished.
-pub fn adopt(run: &Path, key: &str, id: &str, content: &str) -> Result<(), RunError> {
-    Ok(Records::of(run).adopt(id, key, content)?)
+pub fn adopt(run: &Path, key: &str, id: &str, output: &Output) -> Result<(), RunError> {
+    Ok(Records::of(run).adopt(id, key, output)?)
 }

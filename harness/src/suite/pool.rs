@@ -14,7 +14,7 @@ use std::thread;
 
 use super::error::RunError;
 use super::memory::{Memory, estimate};
-use super::plan::Task;
+use super::plan::{Kind, Task};
 use super::processors;
 use super::record::{Records, Times};
 use super::tools::Observer;
@@ -233,7 +233,7 @@ impl<'a> Schedule<'a> {
             Ok(Some(Done { record, kept })) => {
                 *(if kept { &mut self.outcome.skipped } else { &mut self.outcome.ran }) += 1;
                 self.finished.insert(at);
-                self.outcome.contents.insert(task.id.clone(), record.content.clone());
+                self.outcome.contents.insert(task.id.clone(), record.output.clone());
                 observer.stage_ends(&task.id, (!kept).then_some(record.seconds));
                 times.add(record, kept).map_err(RunError::from)
             }
@@ -271,7 +271,9 @@ impl<'a> Schedule<'a> {
         let of = |at: &usize| self.plan[*at].name(suite).is_some_and(|other| other == name);
         self.waiting.retain(|at| !of(at));
         // Scores of an earlier state of the method must not pass for this one's.
-        let scores = self.workshop.out.join("scores").join(format!("{name}.json"));
+        let out = self.workshop.out;
+        let scores = out.join("scores").join(format!("{name}.json"));
+        Records::of(out).set_aside(&format!("{}/{name}", Kind::Scores.word()), "", &scores)?;
         self.outcome.failed.insert(name, reason);
         match fs::remove_file(scores) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),

@@ -1,4 +1,4 @@
-//! Records of a run folder on its finished stages.
+//! Records of a run folder on its finished stages, and on those of earlier settings.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,61 +6,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use formats::atomic;
+use formats::atomic::{self, FolderError};
 use formats::content_hash::hash_path;
 use serde::{Deserialize, Serialize};
 
+use super::earlier::{Earlier, refuse_foreign};
+use super::finished::Finished;
+pub use super::finished::{Made, Record};
+use super::output::Output;
 use super::plan::Task;
-use super::program::Usage;
 use super::size::size_of;
-
-/// A finished stage: what went in, what came out.
-#[derive(Serialize, Deserialize)]
-struct Finished {
-    key: String,
-    content: String,
-}
-
-/// How an output came about, beside what it was made from. It is no content: two runs differ in it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Made {
-    /// When, in UTC.
-    #[serde(default)]
-    pub at: String,
-    /// By what, in words.
-    #[serde(default)]
-    pub from: String,
-    /// Time and memory that a program took.
-    #[serde(flatten)]
-    pub usage: Option<Usage>,
-}
-
-/// A finished stage with what it cost.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Record {
-    /// The stage.
-    pub id: String,
-    /// The hash of its output.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub content: String,
-    /// Wall time of the run that did it.
-    pub seconds: f64,
-    /// Size of its output, without what is no content.
-    #[serde(default)]
-    pub bytes: u64,
-    /// How much there was to do, see [`cost`](super::cost).
-    #[serde(default)]
-    pub work: f64,
-    /// Size of the output as bare numbers, bytes.
-    #[serde(default)]
-    pub raw: f64,
-    /// Key of the records that it is compared with, see [`cost`](super::cost).
-    #[serde(default)]
-    pub what: String,
-    /// How it came about.
-    #[serde(default)]
-    pub made: Made,
-}
 
 /// A stage in `RUN/timing.json`, and whether the last run could skip it.
 #[derive(Clone, Serialize, Deserialize)]
@@ -109,13 +64,14 @@ pub(super) fn costs_of(run: &Path) -> (BTreeMap<String, Record>, Around) {
 /// The records below `RUN/stages`.
 pub(super) struct Records {
     run: PathBuf,
-    earlier: BTreeMap<String, Record>,
+    /// What stages cost in earlier runs.
+    costs: BTreeMap<String, Record>,
 }
 
 impl Records {
     /// Records of a folder that need not be there; nothing is written.
     pub fn of(run: &Path) -> Self {
-        Self { run: run.to_path_buf(), earlier: costs_of(run).0 }
+        Self { run: run.to_path_buf(), costs: costs_of(run).0 }
     }
 
     pub fn open(run: &Path) -> io::Result<Self> {
@@ -125,7 +81,7 @@ impl Records {
 
     /// With what stages cost that were done elsewhere.
     pub fn with(mut self, records: Vec<Record>) -> Self {
-        self.earlier.extend(records.into_iter().map(|record| (record.id.clone(), record)));
+        self.costs.extend(records.into_iter().map(|record| (record.id.clone(), record)));
         self
     }
 
@@ -133,39 +89,80 @@ impl Records {
         self.run.join("stages").join(format!("{}.json", id.replace('/', ".")))
     }
 
-    /// The content hash of a stage that was finished with this key and whose output is intact.
-    pub fn finished(&self, id: &str, key: &str, output: &Path) -> Option<String> {
-        let record: Finished = serde_json::from_slice(&fs::read(self.path(id)).ok()?).ok()?;
-        let valid = record.key == key && hash_path(output).ok()? == record.content;
-        valid.then_some(record.content)
+    fn stated(&self, id: &str) -> Option<Finished> {
+        serde_json::from_slice(&fs::read(self.path(id)).ok()?).ok()
     }
 
-    /// Notes a finished stage and returns the hash of its output.
-    pub fn note(&self, id: &str, key: &str, output: &Path) -> io::Result<String> {
-        let content = hash_path(output)?;
-        self.adopt(id, key, &content)?;
-        Ok(content)
+    fn earlier(&self, id: &str) -> Earlier {
+        Earlier::of(&self.run, id)
     }
 
-    /// Record of a stage whose output is kept, with its cost in the run that did it.
-    pub fn kept(&self, id: &str, content: String, output: &Path) -> io::Result<Record> {
-        let mut record = self.earlier.get(id).cloned().unwrap_or_default();
-        (record.id, record.content) = (id.to_owned(), content);
+    /// A stage that was finished with this key and whose output is intact, with its cost in the run that did it. A
+    /// result of earlier settings is put back in its place for that.
+    pub fn valid(&self, id: &str, key: &str, output: &Path) -> Result<Option<Record>, FolderError> {
+        let intact = |found: &Finished, path: &Path| {
+            found.key == key && hash_path(path).is_ok_and(|hash| hash == found.output.content)
+        };
+        if let Some(found) = self.stated(id).filter(|found| intact(found, output)) {
+            return self.kept(id, found.output, output).map(Some).map_err(FolderError::io(output));
+        }
+        let earlier = self.earlier(id);
+        let Some((found, record)) = earlier.find(key) else { return Ok(None) };
+        if !intact(&found, &earlier.output(key)) {
+            return Ok(None);
+        }
+        self.set_aside(id, key, output)?;
+        // The record first: without its output it is not believed, and the output is still found where it lies.
+        self.adopt(id, key, &found.output).map_err(FolderError::io(output))?;
+        earlier.put_back(key, output)?;
+        Ok(Some(record))
+    }
+
+    /// As [`Self::valid`], but nothing is read or moved: an output is there, and as large as it was.
+    pub fn seems_valid(&self, id: &str, key: &str, output: &Path) -> Option<Output> {
+        let as_large = |_: &Finished| {
+            let bytes = size_of(output).ok().filter(|bytes| *bytes > 0);
+            let known = self.costs.get(id).map(|known| known.bytes);
+            bytes.is_some_and(|bytes| known.is_none_or(|known| known == bytes))
+        };
+        let here = self.stated(id).filter(|found| found.key == key).filter(as_large);
+        let found = here.or_else(|| {
+            let (found, _) = self.earlier(id).find(key)?;
+            self.earlier(id).output(key).exists().then_some(found)
+        });
+        found.map(|found| found.output)
+    }
+
+    /// Keeps the output of a stage that is about to be made with another `key` among those of earlier settings. An
+    /// output that nobody stated a key of stays where it is.
+    pub fn set_aside(&self, id: &str, key: &str, output: &Path) -> Result<(), FolderError> {
+        let Some(found) = self.stated(id).filter(|found| found.key != key) else { return Ok(()) };
+        if !output.exists() {
+            return Ok(());
+        }
+        refuse_foreign(output)?;
+        let record =
+            self.kept(id, found.output.clone(), output).map_err(FolderError::io(output))?;
+        self.earlier(id).put(&found, &record, output)?;
+        fs::remove_file(self.path(id)).map_err(FolderError::io(output))
+    }
+
+    /// Removes what was kept of a stage with this key: it is made anew.
+    pub fn forget(&self, id: &str, key: &str) -> io::Result<()> {
+        self.earlier(id).remove(key)
+    }
+
+    /// The record of a stage whose output is kept, with its cost in the run that did it.
+    fn kept(&self, id: &str, hashes: Output, output: &Path) -> io::Result<Record> {
+        let mut record = self.costs.get(id).cloned().unwrap_or_default();
+        (record.id, record.output) = (id.to_owned(), hashes);
         record.bytes = size_of(output)?;
         Ok(record)
     }
 
-    /// As [`Self::finished`], without reading the output: it is there, and as large as it was.
-    pub fn seems_finished(&self, id: &str, key: &str, output: &Path) -> Option<String> {
-        let record: Finished = serde_json::from_slice(&fs::read(self.path(id)).ok()?).ok()?;
-        let bytes = size_of(output).ok().filter(|bytes| *bytes > 0)?;
-        let as_large = self.earlier.get(id).is_none_or(|known| known.bytes == bytes);
-        (record.key == key && as_large).then_some(record.content)
-    }
-
     /// Takes what somewhere else was made for finished here.
-    pub fn adopt(&self, id: &str, key: &str, content: &str) -> io::Result<()> {
-        let record = Finished { key: key.to_owned(), content: content.to_owned() };
+    pub fn adopt(&self, id: &str, key: &str, output: &Output) -> io::Result<()> {
+        let record = Finished { key: key.to_owned(), output: output.clone() };
         atomic::write_file(&self.path(id), &serde_json::to_vec_pretty(&record)?)
     }
 }

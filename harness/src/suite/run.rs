@@ -1,6 +1,6 @@
 //! Runs a suite: capture, solve, relight, score for every case, then the report.
 //!
-//! A stage whose inputs have not changed is skipped; every output appears complete or not at
+//! A stage whose inputs have not changed, or are those of an earlier run, is skipped; every output appears complete or not at
 //! all, so a run that was killed goes on where it stopped and ends with the same bytes.
 
 use std::collections::BTreeMap;
@@ -111,7 +111,7 @@ pub(super) fn stages(
     let ready = preflight::methods(suite, tools)?;
     let lock = claim(suite, out)?;
     program::clear_scratch(&program::scratch_prefix(out));
-    let renderer = tools.interpreter.fingerprint()?;
+    let renderer = tools.interpreter.fingerprints()?;
     let plan = plan(suite);
     let records = Records::open(out)?;
     let mut times = Times::new(out, &plan);
@@ -242,7 +242,7 @@ fn prepare(
     let mut pending = Vec::new();
     for task in plan.iter().filter(|task| task.kind == Kind::Capture && task.wanted) {
         let key = workshop.key(task, &Contents::new())?.hash;
-        if records.finished(&task.id, &key, &workshop.path(task)).is_none() {
+        if records.valid(&task.id, &key, &workshop.path(task))?.is_none() {
             pending.push(&suite.cases[task.case]);
         }
     }

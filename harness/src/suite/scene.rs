@@ -187,6 +187,12 @@ impl Scene {
         self
     }
 
+    /// This scene in its own light alone.
+    pub fn without_relight(mut self) -> Self {
+        self.set_relight(Vec::new());
+        self
+    }
+
     /// This scene with single values replaced: tables are merged.
     pub fn with_changes(mut self, changes: &Table) -> Self {
         overlay(&mut self.table, changes);

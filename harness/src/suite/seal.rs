@@ -1,6 +1,5 @@
 //! Sealed suites: faces that a secret makes, handed out without their truth.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -18,6 +17,7 @@ use super::program::copy_blind;
 use super::run::{RunOptions, stages};
 use super::scene::SceneError;
 use super::tools::{Observer, Tools};
+use super::workshop::Contents;
 
 /// Folders of a round: for others, and to be kept here.
 pub(super) const PUBLIC: &str = "public";
@@ -156,7 +156,7 @@ fn hand_out(
     private: &Path,
     public: &Path,
     sealing: &Sealing,
-    contents: &BTreeMap<String, String>,
+    contents: &Contents,
 ) -> Result<Round, RunError> {
     let mut cases = Vec::new();
     for case in &suite.cases {
@@ -168,7 +168,9 @@ fn hand_out(
             light: case.scene.name_of("light").to_owned(),
             variant: case.variant.clone(),
             capture: hash_path(&blind)?,
-            truth: contents.get(&format!("{}/{}", Kind::Capture.word(), case.id)).cloned(),
+            truth: contents
+                .get(&format!("{}/{}", Kind::Capture.word(), case.id))
+                .map(|capture| capture.content.clone()),
         });
     }
     let round = Round {

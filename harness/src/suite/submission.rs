@@ -320,13 +320,13 @@ impl Scoring<'_> {
                 })
             })
             .collect();
-        let renderer = self.tools.interpreter.fingerprint()?;
+        let renderer = self.tools.interpreter.fingerprints()?;
         let run = json!({
             "format": 1, "suite": round.suite,
             "title": format!("{}, round {}: {} by {}", round.suite, round.round, name, self.submission.by),
             "cases": cases,
             "versions": {
-                "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer, "scoring sources": SCORE_SOURCES,
+                "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer.to_string(), "scoring sources": SCORE_SOURCES,
             },
         });
         let text = serde_json::to_vec_pretty(&run).map_err(io::Error::from)?;

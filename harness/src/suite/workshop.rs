@@ -7,14 +7,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use formats::content_hash::{hash_parts, hash_path};
 use scoring::score;
 
 use super::cost;
 use super::error::RunError;
-use super::file::{RENDERERS, Suite};
+use super::file::Suite;
 use super::make_maps;
-use super::method::MethodKind;
+use super::output::Output;
 use super::perceptual::lpips;
 use super::plan::{Kind, Task};
 use super::preflight::Ready;
@@ -22,10 +21,11 @@ use super::program::{self, Place};
 use super::record::{Made, Record, Records, now};
 use super::relit::{lights, relit};
 use super::size::size_of;
-use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
+use super::sources::Sources;
 use super::stages::words;
 use super::tools::Tools;
-use crate::synth::run_stage;
+use super::tree_hashes::TreeHashes;
+use crate::synth::{Fingerprints, run_stage};
 
 /// Everything that the stages of a run share.
 pub(super) struct Workshop<'a> {
@@ -33,27 +33,24 @@ pub(super) struct Workshop<'a> {
     /// The run's folder.
     pub out: &'a Path,
     pub tools: &'a Tools,
-    /// Fingerprint of the renderer, part of keys.
-    pub renderer: &'a str,
+    /// Versions and code of the renderer, part of keys.
+    pub renderer: &'a Fingerprints,
     pub ready: &'a [Ready<'a>],
     /// Methods whose maps are made anew.
     pub redo: &'a [String],
     /// Hashes of photographed captures, by case: gigabytes, read once.
-    photographed: Mutex<BTreeMap<usize, String>>,
+    photographed: Mutex<BTreeMap<usize, Output>>,
+    /// Hashes of what programs import.
+    pub trees: TreeHashes,
+    /// Code of this program, part of keys.
+    pub sources: Sources,
 }
 
 /// Folder of a run for what programs leave beside their maps.
 pub(super) const DEBUG: &str = "debug";
 
-/// Content hashes of finished stages, by their ids.
-pub(super) type Contents = BTreeMap<String, String>;
-
-/// Key of a stage's inputs, as a hash and in words: an earlier output is valid while it is the
-/// same.
-pub(super) struct Key {
-    pub hash: String,
-    pub made_from: String,
-}
+/// Hashes of finished stages' outputs, by their ids.
+pub(super) type Contents = BTreeMap<String, Output>;
 
 /// A stage that is finished.
 pub(super) struct Done {
@@ -67,21 +64,23 @@ impl<'a> Workshop<'a> {
         suite: &'a Suite,
         out: &'a Path,
         tools: &'a Tools,
-        renderer: &'a str,
+        renderer: &'a Fingerprints,
         ready: &'a [Ready<'a>],
         redo: &'a [String],
     ) -> Self {
-        Self { suite, out, tools, renderer, ready, redo, photographed: Mutex::default() }
+        let (photographed, trees) = (Mutex::default(), TreeHashes::of_user());
+        let sources = Sources::BUILT;
+        Self { suite, out, tools, renderer, ready, redo, photographed, trees, sources }
     }
 
-    /// The hash of a case's photographed capture; none of a rendered one.
-    fn photographed(&self, case: usize) -> io::Result<Option<String>> {
+    /// The hashes of a case's photographed capture; none of a rendered one.
+    pub fn photographed(&self, case: usize) -> io::Result<Option<Output>> {
         let Some(path) = &self.suite.cases[case].photographed else { return Ok(None) };
         let mut known = self.photographed.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(hash) = known.get(&case) {
             return Ok(Some(hash.clone()));
         }
-        let hash = hash_path(path)?;
+        let hash = Output::of(Kind::Capture, path)?;
         known.insert(case, hash.clone());
         Ok(Some(hash))
     }
@@ -98,53 +97,8 @@ impl<'a> Workshop<'a> {
         case.photographed.clone().unwrap_or_else(rendered)
     }
 
-    fn ready(&self, task: &Task) -> Option<&'a Ready<'a>> {
+    pub fn ready(&self, task: &Task) -> Option<&'a Ready<'a>> {
         self.ready.get(task.method?)
-    }
-
-    /// Key of a stage; `contents` hold the stages that come before it.
-    pub fn key(&self, task: &Task, contents: &Contents) -> Result<Key, RunError> {
-        let case = &self.suite.cases[task.case];
-        let of = |kind: Kind| {
-            let name = task.id.split_once('/').map_or("", |(_, name)| name);
-            let name = if matches!(kind, Kind::Capture | Kind::Lights) { &case.id } else { name };
-            contents.get(&format!("{}/{name}", kind.word())).map(String::as_str)
-        };
-        let missing =
-            || RunError::Folder(io::Error::other(format!("{}: comes too early", task.id)));
-        let photographed = self.photographed(task.case)?;
-        let capture = || photographed.as_deref().or(of(Kind::Capture)).ok_or_else(missing);
-        let plain = |inputs: &[&str]| Key { hash: hash_parts(inputs), made_from: String::new() };
-        let renderer = self.renderer;
-        Ok(match task.kind {
-            Kind::Capture => {
-                let scene = case.scene.to_toml().map_err(io::Error::other)?;
-                plain(&["capture", renderer, &scene, &case.scene.content()?])
-            }
-            Kind::Lights => plain(&["lights", capture()?, renderer]),
-            Kind::Maps => {
-                let ready = self.ready(task).filter(|ready| ready.found).ok_or_else(missing)?;
-                let (key, made_from) = method_key(ready, renderer)?;
-                let mut inputs = vec!["maps", capture()?, &key];
-                inputs.extend(of(Kind::Lights).filter(|_| ready.method.gives_pictures()));
-                Key { hash: hash_parts(&inputs), made_from }
-            }
-            Kind::Relit => {
-                let mut how = self.suite.scales.join(" ");
-                if self.suite.relight != RENDERERS[0] {
-                    how = format!("{how} {}", self.suite.relight);
-                }
-                let maps = of(Kind::Maps).ok_or_else(missing)?;
-                plain(&["relit", capture()?, maps, renderer, SCORE_SOURCES, &how])
-            }
-            Kind::Scores => {
-                let maps = of(Kind::Maps).ok_or_else(missing)?;
-                let relit = of(Kind::Relit).ok_or_else(missing)?;
-                let mut inputs = vec!["scores", capture()?, maps, relit, SCORE_SOURCES];
-                inputs.extend(self.suite.lpips);
-                plain(&inputs)
-            }
-        })
     }
 
     /// Whether a stage is done whatever was kept.
@@ -162,8 +116,8 @@ impl<'a> Workshop<'a> {
     ) -> Result<Option<Done>, RunError> {
         let path = self.path(task);
         let Ok(key) = self.key(task, contents) else { return Ok(None) };
-        let Some(content) = records.finished(&task.id, &key.hash, &path) else { return Ok(None) };
-        Ok(Some(Done { record: records.kept(&task.id, content, &path)?, kept: true }))
+        let record = records.valid(&task.id, &key.hash, &path)?;
+        Ok(record.map(|record| Done { record, kept: true }))
     }
 
     /// Does a stage unless its output is there, intact, and made from the same inputs.
@@ -174,22 +128,36 @@ impl<'a> Workshop<'a> {
         records: &Records,
         step: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<Done, RunError> {
+        self.run_by(task, contents, records, |path| self.make(task, path, step))
+    }
+
+    /// As [`Self::run`], by whatever makes the output.
+    pub(super) fn run_by(
+        &self,
+        task: &Task,
+        contents: &Contents,
+        records: &Records,
+        make: impl FnOnce(&Path) -> Result<Made, RunError>,
+    ) -> Result<Done, RunError> {
         let key = self.key(task, contents)?;
         let path = self.path(task);
-        let kept = records.finished(&task.id, &key.hash, &path).filter(|_| !self.again(task));
-        if let Some(content) = kept {
-            return Ok(Done { record: records.kept(&task.id, content, &path)?, kept: true });
+        if self.again(task) {
+            records.forget(&task.id, &key.hash)?;
+        } else if let Some(record) = records.valid(&task.id, &key.hash, &path)? {
+            return Ok(Done { record, kept: true });
         }
+        records.set_aside(&task.id, &key.hash, &path)?;
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
         let start = Instant::now();
-        let made = self.make(task, &path, step)?;
-        let content = records.note(&task.id, &key.hash, &path)?;
+        let made = make(&path)?;
+        let output = Output::of(task.kind, &path)?;
+        records.adopt(&task.id, &key.hash, &output)?;
         let made = Made { at: now(), from: key.made_from, ..made };
         let record = Record {
             id: task.id.clone(),
-            content,
+            output,
             seconds: start.elapsed().as_secs_f64(),
             bytes: size_of(&path)?,
             work: cost::work(self.suite, task),
@@ -253,34 +221,4 @@ impl<'a> Workshop<'a> {
         }
         Ok(Made::default())
     }
-}
-
-/// Key of a method's maps beside the capture: a hash's text, and words.
-fn method_key(ready: &Ready, renderer: &str) -> Result<(String, String), RunError> {
-    Ok(match (&ready.method.kind, &ready.files) {
-        (MethodKind::Fields { config, backend }, _) => {
-            // The resolved values, so that a preset that changed is solved again; and what
-            // computes here, since no two devices give the same bytes.
-            let config = solver::Config::from_toml(config)?.to_toml();
-            let backend = backend.open()?.name();
-            let from = format!("this program's sources of the solver, on {backend}");
-            (hash_parts(&["fields", &config, &backend, SOLVER_SOURCES]), from)
-        }
-        (MethodKind::Program(program), Some(files)) => {
-            (hash_parts(&["program", &files.key(program)?]), files.in_words(program))
-        }
-        (MethodKind::Baseline { baseline, texture_size }, _) => {
-            let size = texture_size.to_string();
-            (hash_parts(&["baseline", baseline.name(), &size, SOLVER_SOURCES]), String::new())
-        }
-        (MethodKind::Competitor { competitor, settings }, _) => {
-            (hash_parts(&["competitor", competitor.name, settings, renderer]), String::new())
-        }
-        (MethodKind::LabelMeans, _) => {
-            (hash_parts(&["label-means", SOLVER_SOURCES, SCORE_SOURCES]), String::new())
-        }
-        (MethodKind::Oracle | MethodKind::Program(_), _) => {
-            (hash_parts(&["oracle", SCORE_SOURCES]), String::new())
-        }
-    })
 }

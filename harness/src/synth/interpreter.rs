@@ -1,7 +1,12 @@
 //! Which Python runs the rendering stages.
 
+use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use formats::content_hash::hash_parts;
+use serde::{Deserialize, Serialize};
 
 /// Why no Python was found, or why it cannot render.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +33,27 @@ pub enum InterpreterError {
         /// The last line of what Python said.
         reason: String,
     },
+}
+
+/// Versions and code of each stage of the renderer, as `python -m unshade.fingerprint` names them: what a stage left is
+/// valid while they are the same.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Fingerprints(pub BTreeMap<String, String>);
+
+impl Fingerprints {
+    /// That of one stage, unless the renderer has none of this name.
+    pub fn of(&self, stage: &str) -> Option<&str> {
+        self.0.get(stage).map(String::as_str)
+    }
+}
+
+impl fmt::Display for Fingerprints {
+    /// Versions and code of a capture, and a hash of all.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let parts: Vec<&str> = self.0.iter().flat_map(|(name, of)| [&**name, &**of]).collect();
+        write!(f, "{} all={}", self.of("capture").unwrap_or_default(), &hash_parts(&parts)[..16])
+    }
 }
 
 /// A Python with the package `unshade`.
@@ -69,20 +95,18 @@ impl Interpreter {
         &self.path
     }
 
-    /// Versions and sources of the renderer: a rendering is valid while they are the same.
-    pub fn fingerprint(&self) -> Result<String, InterpreterError> {
+    /// Versions and code of the renderer.
+    pub fn fingerprints(&self) -> Result<Fingerprints, InterpreterError> {
         let output =
             self.command().args(["-m", "unshade.fingerprint"]).output().map_err(|error| {
                 InterpreterError::Start { path: self.path.clone(), reason: error.to_string() }
             })?;
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
-        if output.status.success() {
-            return Ok(text(&output.stdout));
-        }
-        let said = text(&output.stderr);
-        Err(InterpreterError::Package {
-            path: self.path.clone(),
-            reason: said.lines().last().unwrap_or("no message").to_owned(),
-        })
+        let said = String::from_utf8_lossy(&output.stderr).trim().to_owned();
+        let reason = match serde_json::from_slice(&output.stdout) {
+            Ok(found) if output.status.success() => return Ok(found),
+            Err(_) if output.status.success() => "it is of another version than this program",
+            _ => said.lines().last().unwrap_or("no message"),
+        };
+        Err(InterpreterError::Package { path: self.path.clone(), reason: reason.to_owned() })
     }
 }

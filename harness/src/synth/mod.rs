@@ -6,5 +6,5 @@
 mod interpreter;
 mod process;
 
-pub use interpreter::{Interpreter, InterpreterError};
+pub use interpreter::{Fingerprints, Interpreter, InterpreterError};
 pub use process::{Interrupt, StageError, run_stage};

@@ -38,9 +38,9 @@ def collect(
     """Do all stages; returns ``{"failed": ..., "records": ...}``, with all outputs in the run's folder."""
     done: dict[str, Done] = {}
     for task in order.tasks:
-        if task.content is not None:
-            store.put(task.content, order.run / task.path)
-            done[task.id] = _valid(task)
+        if task.output is not None:
+            store.put(task.output["content"], order.run / task.path)
+            done[task.id] = _valid(task, task.output)
     records: list[dict[str, Any]] = []
     failed: dict[str, str] = {}
     while len(done) < len(order.tasks):
@@ -108,7 +108,7 @@ def _round(
         if result["record"] is not None:
             content = result["record"]["content"]
             store.get(content, order.run / task.path)
-            _native.adopt(order.run, result["key"], task.id, content)
+            _native.adopt(order.run, result["key"], task.id, json.dumps(result["record"]))
             records.append(result["record"])
             said = {"stage": task.id, "seconds": result["record"]["seconds"], "worker": result["worker"]}
             progress(len(done) + 1, len(order.tasks), json.dumps(said))
@@ -140,8 +140,8 @@ def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, process
     }  # fmt: skip
 
 
-def _valid(task: Task) -> Done:
-    record = {"id": task.id, "content": task.content}
+def _valid(task: Task, output: dict[str, str]) -> Done:
+    record = {"id": task.id, **output}
     return {
         "id": task.id, "key": "", "record": record, "failed": None, "log": None, "name": task.name, "worker": "",
     }  # fmt: skip

@@ -21,8 +21,8 @@ class Task:
     case: str
     name: str | None
     """``<case>/<method>`` of a stage that fails with its method."""
-    content: str | None
-    """Hash of an output that is valid already."""
+    output: dict[str, str] | None
+    """Hashes of an output that is valid already."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def read_order(path: Path) -> Order:
     tasks = tuple(
         Task(
             id=task["id"], after=tuple(task["after"]), path=task["path"], case=task["case"],
-            name=task["name"], content=task["content"],
+            name=task["name"], output=task["output"],
         )
         for task in said["tasks"]
     )  # fmt: skip

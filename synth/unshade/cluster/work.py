@@ -55,8 +55,8 @@ class Job(TypedDict):
 os.environ.pop("MALLOC_TRIM_THRESHOLD_", None)
 
 _ALONE = threading.Lock()
-_CHECKED: dict[tuple[str, str], str] = {}
-"""The renderer's fingerprint, by suites and versions that were compared."""
+_CHECKED: dict[tuple[str, str], dict[str, str]] = {}
+"""The renderer's versions and code, by suites and versions that were compared."""
 
 
 def do(job: Job, *before: Done) -> Done:
@@ -69,16 +69,16 @@ def do(job: Job, *before: Done) -> Done:
         if checked not in _CHECKED:
             _CHECKED[checked] = _native.check_worker(job["suite"], *checked)
         store = Store(job["store"])
-        contents = {earlier["id"]: (earlier["record"] or {})["content"] for earlier in before}
+        records = {earlier["id"]: earlier["record"] or {} for earlier in before}
         place = Path(get_worker().local_directory) / f"unshade-{job['suite_content'][:12]}"
-        part = job["suite"], place, job["id"], contents, _CHECKED[checked]
+        part = job["suite"], place, job["id"], json.dumps(records), _CHECKED[checked]
         key = json.loads(_native.run_part(*part, True, None))["key"]
         known = store.known(key)
         if known is not None:
             return _done(job, key, record=known["record"], log=known.get("log"))
         _forget_other_cases(place, job["case"])
-        for stage, content in contents.items():
-            _bring(store, place, job["inputs"][stage], content)
+        for stage, record in records.items():
+            _bring(store, place, job["inputs"][stage], record["content"])
         with _share(job) as processors:
             said = json.loads(_native.run_part(*part, False, processors))
         log = _keep_log(store, place, job)

@@ -50,7 +50,7 @@ def relight(
         warn(f"tier {render.tier}: Cycles renders the opaque skin; compare with a capture of that tier")
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
     hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
-    key = f"cycles {blender} {scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+    key = f"cycles {blender} {scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     folder = ResumableFolder(out, key)
     pictures = len(set(scales.values())) * len(scene.lights) * len(views) * PASSES
     meter = Meter(progress, pictures, render.width * render.height * samples_each(render.samples))

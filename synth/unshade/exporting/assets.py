@@ -54,7 +54,7 @@ def export(
     surface = read_surface(maps, capture, mesh, warn)
     require_maps(surface, maps)
     inputs = [*sorted(maps.glob("*.exr")), maps / "coverage.png", mesh or (capture or maps) / "mesh.obj"]
-    folder = ResumableFolder(out, f"{options} {fingerprint()} {[content_hash(path) for path in inputs]}")
+    folder = ResumableFolder(out, f"{options} {fingerprint(__name__)} {[content_hash(path) for path in inputs]}")
     setting = setting_of(capture, surface)
     said = _write(surface, folder.path, options, setting)
     document = {"format": options.format, "generator": _generator(), "texels": surface.size, **said}

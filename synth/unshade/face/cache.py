@@ -14,14 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ..cache_folder import cache_folder
 from . import base_mesh, chart, expression, head, subdivide
 from .head import Head, make_head
-
-
-def cache_folder() -> Path:
-    """`$XDG_CACHE_HOME/unshade`, or `~/.cache/unshade`."""
-    root = os.environ.get("XDG_CACHE_HOME")
-    return (Path(root) if root else Path.home() / ".cache") / "unshade"
 
 
 def _key() -> str:

@@ -66,7 +66,7 @@ class Capture:
         files = [light.path for light in scene.lights if light.path]
         files += scene.face.files().values() if isinstance(scene.face, HeadFiles) else []
         contents = [content_hash(Path(path)) for path in files]
-        self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint()}\n{contents}")
+        self.folder = ResumableFolder(out, f"{scene_text(self.stated)}\n{fingerprint(__name__)}\n{contents}")
         self.path = self.folder.path
         self.truth = self.path / "truth"
         render = scene.render

@@ -8,9 +8,9 @@ import platform
 from typing import Any
 
 from .. import perceptual
+from ..cache_folder import cache_folder
 from ..face import FaceError
 from ..face.base_mesh import data_folder, data_version
-from ..face.cache import cache_folder
 from . import llvm
 
 _PACKAGES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "pillow")

@@ -89,7 +89,7 @@ def write_budget(
     truth, found = read_maps(capture / "truth", warn), read_maps(maps, warn)
     found = replace(found, diffuse_albedo=found.diffuse_albedo * np.float32(factor))
     hashes = [content_hash(folder / f"{name}.exr") for folder in (capture / "truth", maps) for name in MAP_FILES]
-    key = [scene_text(scene), fingerprint(), *hashes, repr(factor), chosen_light.name, camera.name]
+    key = [scene_text(scene), fingerprint(__name__), *hashes, repr(factor), chosen_light.name, camera.name]
     folder = ResumableFolder(out, "\n".join(key))
     mixes = subsets(list(PLAYERS))
     meter = Meter(progress, len(mixes), scene.render.width * scene.render.height * scene.render.samples)

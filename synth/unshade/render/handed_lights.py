@@ -18,7 +18,7 @@ def write_lights(scene: Scene, out: Path) -> list[str]:
 
     Linear Rec.709 radiance, lat-long in Mitsuba's convention, exposed for this face as the relit truth is.
     """
-    folder = ResumableFolder(out, f"{fingerprint()}\n{scene_text(scene)}")
+    folder = ResumableFolder(out, f"{fingerprint(__name__)}\n{scene_text(scene)}")
     chart = build_head(scene.face).chart
     others = [light for light in scene.lights if light.name != scene.light.name]
     for light in others:

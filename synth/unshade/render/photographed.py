@@ -89,7 +89,9 @@ def relight_photographed(
     render = Render(width=16, height=16, samples=_SAMPLES)
     hashes = [content_hash(maps / name) for name in (*(f"{name}.exr" for name in MAP_FILES), "light.exr", "solve.json")]
     inputs = [content_hash(folder / name) for name in ("transforms.json", "mesh.obj", LIGHTS_FILE)]
-    target = ResumableFolder(out, f"{inputs}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}")
+    target = ResumableFolder(
+        out, f"{inputs}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+    )
     mesh = capture.mesh
     chart = Chart(mesh["vertices"], mesh["normals"], mesh["uvs"], mesh["triangles"])
     shots = Shots(Photographed(chart), chart_maps, render, PictureStore.of_user())  # type: ignore[arg-type]

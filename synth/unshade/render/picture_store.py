@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..cache_folder import cache_folder
 from ..errors import StorageError
-from ..face.cache import cache_folder
 from .layers import Layers
 
 SWITCH = "UNSHADE_RENDER_CACHE"

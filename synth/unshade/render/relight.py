@@ -55,7 +55,7 @@ def relight(
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
     hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
     folder = ResumableFolder(
-        out, f"{scene_text(scene)}\n{fingerprint()}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+        out, f"{scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     )
     jobs = [(scale, light, view) for scale in scales for light in scene.lights for view in views]
     meter = Meter(progress, len(jobs), render.width * render.height * render.samples)

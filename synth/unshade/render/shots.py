@@ -34,7 +34,7 @@ class Shots:
         self._store = store
         self._models: dict[str, lights.AnyLight | CellSphere] = {}
         self._lit: dict[str, LitHead] = {}
-        self._shapes_key = content_key(fingerprint(), face.surface, face.parts, render)
+        self._shapes_key = content_key(fingerprint(__name__), face.surface, face.parts, render)
         self._maps_key = content_key(maps)
 
     @cached_property

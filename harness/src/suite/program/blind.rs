@@ -7,23 +7,29 @@ use std::path::{Component, Path};
 
 use serde_json::Value;
 
-/// Copies the mesh, the cameras, and the pictures, masks and labels of the training views of `capture`
-/// into the folder `to`. Nothing of a withheld view but its camera is in it.
-pub(in crate::suite) fn copy_blind(capture: &Path, to: &Path) -> io::Result<()> {
-    let text = fs::read(capture.join("transforms.json"))?;
+const CAMERAS: &str = "transforms.json";
+
+/// Files of `capture` that a method is given, below it: the cameras, the mesh, and the pictures, masks and labels of the
+/// training views. Nothing of a withheld view but its camera is in them.
+pub(in crate::suite) fn given_files(capture: &Path) -> io::Result<BTreeSet<String>> {
+    let text = fs::read(capture.join(CAMERAS))?;
     let transforms: Value = serde_json::from_slice(&text)?;
-    fs::create_dir_all(to)?;
-    fs::write(to.join("transforms.json"), &text)?;
-    for file in training_files(&transforms) {
-        let path = Path::new(&file);
-        // A capture of ours names nothing else; one that does is refused when it is opened.
-        if path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-            let target = to.join(path);
-            if let Some(folder) = target.parent() {
-                fs::create_dir_all(folder)?;
-            }
-            fs::copy(capture.join(path), target)?;
+    let mut files = training_files(&transforms);
+    // A capture of ours names nothing else; one that does is refused when it is opened.
+    let plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
+    files.retain(|file| Path::new(file).components().all(plain));
+    files.insert(CAMERAS.to_owned());
+    Ok(files)
+}
+
+/// Copies what a method is given of `capture` into the folder `to`.
+pub(in crate::suite) fn copy_blind(capture: &Path, to: &Path) -> io::Result<()> {
+    for file in given_files(capture)? {
+        let target = to.join(&file);
+        if let Some(folder) = target.parent() {
+            fs::create_dir_all(folder)?;
         }
+        fs::copy(capture.join(file), target)?;
     }
     Ok(())
 }

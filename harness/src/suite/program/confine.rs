@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Paths of the system that every program needs to read.
-const SYSTEM: [&str; 12] = [
-    "/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc", "/opt", "/nix", "/proc", "/sys",
-    "/run",
-];
+/// Paths of the system that every program needs to read: they change with its releases.
+const SYSTEM: [&str; 11] =
+    ["/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc", "/nix", "/proc", "/sys", "/run"];
+/// What is in them is the user's, as `/opt` is: read by who states it.
+const LOCAL: &str = "/usr/local";
 /// Devices, and the memory that processes share.
 const DEVICES: &str = "/dev";
 
@@ -30,7 +30,7 @@ impl Permissions {
         let secrets: Vec<PathBuf> =
             self.secret.iter().filter_map(|s| s.canonicalize().ok()).collect();
         let mut readable = Vec::new();
-        let mut open: Vec<PathBuf> = SYSTEM.iter().map(PathBuf::from).collect();
+        let mut open: Vec<PathBuf> = SYSTEM.iter().flat_map(|path| without_local(path)).collect();
         open.extend(self.read.iter().cloned());
         while let Some(path) = open.pop() {
             let Ok(real) = path.canonicalize() else { continue };
@@ -79,5 +79,14 @@ pub(super) fn restrict(_: &Permissions) -> Result<bool, String> {
 
 /// Whether `path` leads to one of the paths that a program may read anyway.
 pub(super) fn is_system(path: &Path) -> bool {
-    SYSTEM.iter().any(|system| path.starts_with(system))
+    SYSTEM.iter().any(|system| path.starts_with(system)) && !path.starts_with(LOCAL)
+}
+
+/// A path of the system, taken apart if it holds what is not the system's.
+fn without_local(path: &str) -> Vec<PathBuf> {
+    if !Path::new(LOCAL).starts_with(path) {
+        return vec![PathBuf::from(path)];
+    }
+    let entries = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    entries.filter(|entry| entry != Path::new(LOCAL)).collect()
 }

@@ -1,26 +1,30 @@
 """What a Python program is made of, as one line of JSON; run by the program's own interpreter.
 
-Arguments: FOLDER, then ``script PATH`` or ``module NAME[:FUNCTION]``. ``files`` are the program's file
-and all that it imports from its folder, found without running it; ``system`` are the folders of the
-interpreter and its packages; ``arguments`` are the names that the function takes beside the capture, null where
-its text does not tell; ``error`` says why it cannot run.
+Arguments: FOLDER, then ``script PATH`` or ``module NAME[:FUNCTION]``. Found without running it: ``files`` are the
+program's file and all that it imports from its folder, ``packages`` are folders of what it imports from elsewhere
+(PYTHONPATH, a ``.pth`` file, an editable install). ``installed`` are files and folders of the interpreter and of all
+that is installed for it, ``listed`` are folders in which it looks for modules. ``arguments`` are the names that the
+function takes beside the capture, null where its text does not tell; ``error`` says why it cannot run.
 """
 
 import ast
+import importlib.machinery
 import importlib.util
 import json
 import modulefinder
 import os
+import re
 import sys
+import sysconfig
 
 
 def main(folder, kind, name):
     del sys.path[0]  # of this text, not of the program
-    system = {sys.prefix, sys.base_prefix, sys.exec_prefix, os.path.dirname(os.path.realpath(sys.executable))}
-    system |= {path for path in sys.path if os.path.exists(path)}
-    answer = {"executable": sys.executable, "system": sorted(system), "files": []}
+    answer = {"executable": sys.executable, "files": [], "packages": [], "installed": installed()}
+    answer["listed"] = sorted(path for path in {folder, *sys.path, *stdlib()} if os.path.isdir(path))
     try:
-        answer["files"] = of_script(os.path.join(folder, name)) if kind == "script" else of_module(folder, name)
+        found = of_script(os.path.join(folder, name)) if kind == "script" else of_module(folder, name)
+        answer["files"], answer["packages"] = found
         answer["arguments"] = arguments(answer["files"], name)
     except (ImportError, OSError, SyntaxError, ValueError) as error:
         place = f"{error.filename}:{error.lineno}: " if isinstance(error, SyntaxError) else ""
@@ -43,13 +47,7 @@ def of_module(folder, spec):
     top = importlib.util.find_spec(module.partition(".")[0])
     if top is None:
         raise ImportError(f"there is no module {module} in {folder} or among the packages of {sys.executable}")
-    if not top.submodule_search_locations:
-        return [top.origin] if top.origin and os.path.isfile(top.origin) else []
-    found = []
-    for location in top.submodule_search_locations:
-        for root, _, files in os.walk(location):
-            found += [os.path.join(root, file) for file in files if file.endswith(".py")]
-    return sorted(found)
+    return elsewhere({module.partition(".")[0]})
 
 
 def names(path):
@@ -91,13 +89,88 @@ def arguments(files, spec):
     return None
 
 
+class Finder(modulefinder.ModuleFinder):
+    def find_module(self, name, path, parent=None):
+        try:
+            return super().find_module(name, path, parent)
+        except AttributeError:  # its own, for a folder without __init__.py
+            raise ImportError(name) from None
+
+
 def imported(path, folder):
-    """The file and every module below ``folder`` that it reaches."""
-    finder = modulefinder.ModuleFinder(path=[folder])
+    """The file and every module below ``folder`` that it reaches; folders of what it imports from elsewhere."""
+    finder = Finder(path=[folder])
     finder.run_script(path)
     files = {os.path.realpath(path)}
     files |= {os.path.realpath(module.__file__) for module in finder.modules.values() if module.__file__}
-    return sorted(files)
+    more, packages = elsewhere({name.partition(".")[0] for name in finder.badmodules}, folder)
+    return sorted(files | set(more)), packages
+
+
+def elsewhere(names, folder=None):
+    """Files and folders of modules that are not installed, and of what those import."""
+    sys.path[:0] = [folder] if folder else []
+    files, packages, seen, known = set(), set(), set(), installed()
+    while names - seen:
+        name = (names - seen).pop()
+        seen.add(name)
+        try:
+            spec = importlib.util.find_spec(name)
+        except (ImportError, ValueError, AttributeError):
+            spec = None
+        if spec is None or spec.origin in ("built-in", "frozen"):
+            continue
+        places = [os.path.realpath(place) for place in spec.submodule_search_locations or [spec.origin]]
+        if all(any(place == path or place.startswith(path + os.sep) for path in known) for place in places):
+            continue
+        new = {path for place in places for path in below(place)}
+        if spec.origin is None or not spec.submodule_search_locations:
+            files |= new  # of a folder without __init__.py, which may hold anything else
+        else:
+            packages |= set(places)
+        for path in new:
+            if path.endswith(".py"):
+                with open(path, encoding="utf-8", errors="replace") as file:
+                    names = names | imports(file.read())
+    return sorted(files), sorted(packages)
+
+
+def below(place):
+    if os.path.isfile(place):
+        return [place]
+    endings = (".py", *importlib.machinery.EXTENSION_SUFFIXES)
+    walked = os.walk(place)
+    return [os.path.join(root, file) for root, _, files in walked for file in files if file.endswith(endings)]
+
+
+def imports(text):
+    """The first parts of the modules that a text may import; a name too many does no harm."""
+    found = re.findall(r"(?m)(?:^|[;:])[ \t]*(?:from[ \t]+(\w[\w.]*)[ \t]+import|import[ \t]+([^\n;#]+))", text)
+    names = [name.strip() for module, several in found for name in [module, *several.split(",")]]
+    return {name.split()[0].partition(".")[0] for name in names if name}
+
+
+def stdlib():
+    return {os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib")}
+
+
+def installed():
+    """Files and folders of the interpreter and its packages, without other environments that lie in them."""
+    prefix = os.path.realpath(sys.prefix)
+    found = set()
+    if any(os.path.exists(os.path.join(prefix, mark)) for mark in ("pyvenv.cfg", "conda-meta")):
+        found |= set(entries(prefix, ("envs", "pkgs")))
+    for path in map(os.path.realpath, [*sys.path, *stdlib()]):
+        if path in stdlib():
+            found |= set(entries(path, ("site-packages", "dist-packages")))
+        elif os.path.basename(path) in ("site-packages", "dist-packages", "lib-dynload"):
+            found.add(path)
+    return sorted(path for path in found if not any(path.startswith(other + os.sep) for other in found))
+
+
+def entries(folder, without):
+    listed = os.listdir(folder) if os.path.isdir(folder) else []
+    return [os.path.realpath(os.path.join(folder, name)) for name in listed if name not in ("__pycache__", *without)]
 
 
 main(*sys.argv[1:])

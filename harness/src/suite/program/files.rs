@@ -1,7 +1,8 @@
-//! Files of a program: found before anything is rendered, and part of its result's key.
+//! Files of a program: found before anything is rendered. They are all that it can read beside the system, and part of
+//! its result's key.
 
-use std::fs::File;
-use std::io::Read;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -12,6 +13,7 @@ use super::confine::is_system;
 use super::pictures::Gives;
 use super::start::{Program, Start};
 use crate::suite::near;
+use crate::suite::tree_hashes::TreeHashes;
 use crate::synth::Interpreter;
 
 /// Says what a Python program is made of; for any Python from 3.8 on.
@@ -23,20 +25,26 @@ pub struct ProgramFiles {
     pub(super) executable: PathBuf,
     /// With `{capture}` and `{maps}` still in them.
     pub(super) arguments: Vec<String>,
-    /// Its own files: their content decides whether an earlier result is still valid.
+    /// Its own files.
     own: Vec<PathBuf>,
-    /// Folders of its interpreter.
-    interpreter: Vec<PathBuf>,
+    /// Folders of what it imports that is neither its own nor installed.
+    packages: Vec<PathBuf>,
+    /// Files and folders of its interpreter, and of all that is installed for it.
+    installed: Vec<PathBuf>,
+    /// Folders in which it looks for modules.
+    listed: Vec<PathBuf>,
 }
 
 /// The answer of `dependencies.py`.
 #[derive(Deserialize)]
 struct Answer {
     executable: PathBuf,
-    system: Vec<PathBuf>,
     files: Vec<PathBuf>,
     #[serde(default)]
     arguments: Option<Vec<String>>,
+    packages: Vec<PathBuf>,
+    installed: Vec<PathBuf>,
+    listed: Vec<PathBuf>,
     error: Option<String>,
 }
 
@@ -57,12 +65,11 @@ impl Program {
                     return Err(near::unknown(&format!("{function} has no argument"), key, known));
                 }
                 let arguments = ["-m", "unshade.plugin", function, "{capture}", "{maps}"];
-                Ok(ProgramFiles {
-                    executable: answer.executable,
-                    arguments: arguments.map(str::to_owned).to_vec(),
-                    own: answer.files,
-                    interpreter: answer.system,
-                })
+                let arguments = arguments.map(str::to_owned).to_vec();
+                let mut files = ProgramFiles { arguments, ..ProgramFiles::default() };
+                files.executable.clone_from(&answer.executable);
+                files.add(answer, self);
+                Ok(files)
             }
             Start::Command(words) => self.find_command(words),
         }
@@ -90,11 +97,12 @@ impl Program {
         files.own.extend(named.filter(|path| path.is_file()));
         let name = executable.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !name.starts_with("python") {
-            files.own.push(executable.clone());
-            if let Some(python) = self.python_of(&executable) {
-                let answer = self.ask(&python, "script", &executable.to_string_lossy())?;
-                files.own.extend(answer.files);
-                files.interpreter = answer.system;
+            match self.python_of(&executable) {
+                Some(python) => {
+                    let answer = self.ask(&python, "script", &executable.to_string_lossy())?;
+                    files.add(answer, self);
+                }
+                None => files.own.extend(self.libraries(&executable)),
             }
             files.executable = executable;
             return Ok(files);
@@ -110,9 +118,8 @@ impl Program {
             },
         };
         let answer = self.ask(&executable, kind, name)?;
-        files.own.extend(answer.files);
-        files.executable = answer.executable;
-        files.interpreter = answer.system;
+        files.executable.clone_from(&answer.executable);
+        files.add(answer, self);
         Ok(files)
     }
 
@@ -151,6 +158,10 @@ impl Program {
             .arg(&self.folder)
             .args([kind, name])
             .current_dir(&self.folder)
+            .env_clear()
+            .envs(self.all_variables(python.parent().unwrap_or(&self.folder)))
+            // A version manager's stand-in for Python finds the real one by these.
+            .envs(["PATH", "HOME"].iter().filter_map(|name| Some((name, std::env::var_os(name)?))))
             .envs(&self.environment)
             .output()
             .map_err(|error| format!("{} cannot be started: {error}", python.display()))?;
@@ -166,18 +177,54 @@ impl Program {
     }
 }
 
+impl Program {
+    /// Shared libraries of an executable that are not the system's, as its loader finds them.
+    fn libraries(&self, executable: &Path) -> Vec<PathBuf> {
+        if executable.canonicalize().is_ok_and(|real| is_system(&real)) {
+            return Vec::new();
+        }
+        let said = Command::new("ldd").arg(executable).envs(self.variables()).output();
+        let text = said.map(|said| String::from_utf8_lossy(&said.stdout).into_owned());
+        let words = text.unwrap_or_default();
+        let found =
+            words.split_whitespace().filter(|word| word.starts_with('/')).map(PathBuf::from);
+        found.filter(|path| path.is_file() && !is_system(path)).collect()
+    }
+}
+
 impl ProgramFiles {
-    /// Files of the user that the program may read, without `inputs`.
-    pub(super) fn readable(&self) -> impl Iterator<Item = &PathBuf> {
-        self.own.iter().chain(&self.interpreter).chain([&self.executable])
+    fn add(&mut self, answer: Answer, program: &Program) {
+        self.own.extend(answer.files);
+        (self.packages, self.installed) = (answer.packages, answer.installed);
+        self.installed.extend(program.libraries(&answer.executable));
+        self.installed.push(answer.executable);
+        self.listed = answer.listed;
     }
 
-    /// A key of all that decides the program's result: equal keys, equal programs.
-    pub fn key(&self, program: &Program) -> std::io::Result<String> {
+    /// Files and folders that the program may read beside the system's, without `inputs`.
+    pub(super) fn readable(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.own, &self.packages, &self.installed].into_iter().flatten().chain([&self.executable])
+    }
+
+    /// Folders of which it may see the names.
+    pub(super) fn listed(&self) -> &[PathBuf] {
+        &self.listed
+    }
+
+    /// A key of all that decides the program's result: equal keys, equal programs. `ours` are the versions and the code of
+    /// the package `unshade`, as far as functions may call it.
+    pub(in crate::suite) fn key(
+        &self,
+        program: &Program,
+        trees: &TreeHashes,
+        ours: &str,
+    ) -> io::Result<String> {
         let mut parts = vec![
             format!("{:?}", program.start),
-            format!("{:?}", program.environment),
+            format!("{:?}", program.variables()),
             format!("{:?}", program.version),
+            // What is part of the system is as its release has it.
+            system_release(),
         ];
         if program.gives == Gives::Pictures {
             parts.push(format!("pictures {}", program.texture_size));
@@ -188,16 +235,22 @@ impl ProgramFiles {
         if !program.settings.is_empty() {
             parts.push(format!("set {}", program.settings_json()));
         }
-        for path in self.own.iter().chain(&program.inputs) {
-            // A path of the system's changes with its packages, not with the method.
-            let content = if is_system(path) { String::new() } else { hash_path(path)? };
-            parts.push(format!("{} {content}", path.display()));
+        for path in self.own.iter().chain(&program.inputs).chain([&self.executable]) {
+            parts.push(format!("{} {}", path.display(), hash_path(path)?));
         }
+        let is_ours = |path: &&PathBuf| {
+            matches!(program.start, Start::Python(_)) && path.ends_with("unshade")
+        };
+        let (own, others): (Vec<_>, Vec<_>) = self.packages.iter().partition(is_ours);
+        parts.extend(own.iter().map(|_| ours.to_owned()));
+        let others: Vec<PathBuf> = others.into_iter().cloned().collect();
+        parts.push(trees.hash(&others)?);
+        parts.push(trees.once(&self.installed)?);
         Ok(hash_parts(&parts.iter().map(String::as_str).collect::<Vec<_>>()))
     }
 
     /// All that makes it this program, wherever it lies: settings, and names and hashes of its files.
-    pub(in crate::suite) fn content(&self, program: &Program) -> std::io::Result<Vec<String>> {
+    pub(in crate::suite) fn content(&self, program: &Program) -> io::Result<Vec<String>> {
         let mut parts = Vec::new();
         for path in self.own.iter().chain(&program.inputs).filter(|path| !is_system(path)) {
             let name = match path.strip_prefix(&program.folder) {
@@ -226,4 +279,13 @@ impl ProgramFiles {
             None => words,
         }
     }
+}
+
+/// The name and version of the system's release.
+fn system_release() -> String {
+    let text = fs::read_to_string("/etc/os-release").unwrap_or_default();
+    let stated = |line: &&str| ["ID=", "VERSION_ID="].iter().any(|key| line.starts_with(key));
+    let mut words: Vec<&str> = text.lines().filter(stated).collect();
+    words.push(std::env::consts::ARCH);
+    words.join(" ")
 }

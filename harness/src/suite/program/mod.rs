@@ -6,13 +6,13 @@
 
 mod blind;
 mod confine;
+mod environment;
 mod files;
 mod pictures;
 mod spawn;
 mod start;
 mod watch;
 
-use std::env;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ use formats::content_hash::hash_parts;
 
 use super::error::RunError;
 use crate::synth::Interrupt;
-pub(in crate::suite) use blind::copy_blind;
+pub(in crate::suite) use blind::{copy_blind, given_files};
 use confine::Permissions;
 pub use files::ProgramFiles;
 pub use pictures::Gives;
@@ -34,15 +34,8 @@ pub use start::{PLACES, Program, Start};
 use watch::{End, Watched, last_line, watch};
 pub use watch::{Limits, Usage};
 
-/// Environment variables that libraries take their number of threads from.
-const THREADS: [&str; 6] = [
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-    "NUMEXPR_NUM_THREADS",
-    "RAYON_NUM_THREADS",
-    "NUMBA_NUM_THREADS",
-];
+/// Messages of a program that misses a variable, such as `PATH` or `LD_LIBRARY_PATH`.
+const MISSING: [&str; 3] = ["cannot open shared object file", "not found", "KeyError"];
 
 /// Folder below the debug folder that is the program's home.
 const HOME: &str = "home";
@@ -136,7 +129,7 @@ impl Program {
         let command = self.command(files, [&capture, &maps, &own, &lights, &debug.path], &log)?;
         let mut permissions = Permissions {
             read: files.readable().chain(&self.inputs).cloned().collect(),
-            list: vec![self.folder.clone()],
+            list: files.listed().iter().chain([&self.folder]).cloned().collect(),
             write: vec![results, own, debug.path.clone()],
             secret: place.secret.clone(),
         };
@@ -207,27 +200,16 @@ impl Program {
         command
             .args(files.arguments.iter().map(fill))
             .current_dir(&self.folder)
-            .env("PYTHONUNBUFFERED", "1")
-            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env_clear()
             .env("TMPDIR", own)
             .env("XDG_CACHE_HOME", own)
             .env("HOME", debug.join(HOME))
             .env("UNSHADE_DEBUG", debug)
             .env("UNSHADE_SET", self.settings_json())
+            .envs(self.all_variables(files.executable.parent().unwrap_or(Path::new("/"))))
             .stdin(Stdio::null())
             .stdout(log.try_clone()?)
             .stderr(log.try_clone()?);
-        // Packages of the user lie in the home folder that is theirs.
-        if let (None, Some(home)) = (env::var_os("PYTHONUSERBASE"), env::var_os("HOME")) {
-            command.env("PYTHONUSERBASE", Path::new(&home).join(".local"));
-        }
-        if let Some(threads) = self.limits.threads {
-            command.envs(THREADS.map(|name| (name, threads.to_string())));
-        }
-        if let Some(seed) = self.settings.get("seed") {
-            command.env(SEED, seed.to_string());
-        }
-        command.envs(&self.environment);
         Ok(command)
     }
 
@@ -244,6 +226,11 @@ impl Program {
         if usage.confined && text.contains("Permission denied") {
             said.push_str(
                 "; it may read its own files and inputs = [...], and write {maps}, {debug}, HOME and TMPDIR",
+            );
+        }
+        if MISSING.iter().any(|words| text.contains(words)) {
+            said.push_str(
+                "; its environment is what environment = { ... } states, without the shell's variables",
             );
         }
         format!("{said} (log: {})", log.display())

@@ -1,0 +1,55 @@
+//! What is known of a finished stage.
+
+use serde::{Deserialize, Serialize};
+
+use super::output::Output;
+use super::program::Usage;
+
+/// A finished stage: what went in, what came out.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct Finished {
+    pub key: String,
+    #[serde(flatten)]
+    pub output: Output,
+}
+
+/// How an output came about, beside what it was made from. It is no content: two runs differ in it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Made {
+    /// When, in UTC.
+    #[serde(default)]
+    pub at: String,
+    /// By what, in words.
+    #[serde(default)]
+    pub from: String,
+    /// Time and memory that a program took.
+    #[serde(flatten)]
+    pub usage: Option<Usage>,
+}
+
+/// A finished stage with what it cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// The stage.
+    pub id: String,
+    /// The hashes of its output.
+    #[serde(flatten)]
+    pub output: Output,
+    /// Wall time of the run that did it.
+    pub seconds: f64,
+    /// Size of its output, without what is no content.
+    #[serde(default)]
+    pub bytes: u64,
+    /// How much there was to do, see [`cost`](super::cost).
+    #[serde(default)]
+    pub work: f64,
+    /// Size of the output as bare numbers, bytes.
+    #[serde(default)]
+    pub raw: f64,
+    /// Key of the records that it is compared with, see [`cost`](super::cost).
+    #[serde(default)]
+    pub what: String,
+    /// How it came about.
+    #[serde(default)]
+    pub made: Made,
+}
