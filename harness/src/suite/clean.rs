@@ -15,8 +15,18 @@ use super::size::size_of;
 use super::workshop::DEBUG;
 
 /// The folders of a run, beside its records.
-const PARTS: [&str; 10] =
-    ["captures", "lights", "maps", "relit", "scores", "logs", DEBUG, "report", earlier::FOLDER, STORE];
+const PARTS: [&str; 10] = [
+    "captures",
+    "lights",
+    "maps",
+    "relit",
+    "scores",
+    "logs",
+    DEBUG,
+    "report",
+    earlier::FOLDER,
+    STORE,
+];
 /// Folder that an interrupted run on a cluster leaves: outputs by their content.
 const STORE: &str = "store";
 
