@@ -18,7 +18,10 @@ from pathlib import Path
 from doc_examples import ROOT, examples
 
 SOURCES = ROOT / "synth"
-PUBLIC = ("__init__.pyi", "_native.pyi", "metrics.pyi", "errors.py", "scores.py", "stages.py")
+PUBLIC = (
+    "__init__.pyi", "_native.pyi", "metrics.pyi", "bookkeeping.py", "errors.py", "exr.py", "maps.py", "own_metrics.py",
+    "scores.py", "stages.py", "stopping.py",
+)  # fmt: skip
 COMPILED = ("unshade._native", "unshade.metrics")
 
 

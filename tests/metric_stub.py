@@ -7,10 +7,11 @@ A stub beside the module would hide its `Definition`, so that is stated here aga
 
 from __future__ import annotations
 
+import inspect
 import textwrap
 from pathlib import Path
 
-from unshade.metrics import DEFINITIONS, Definition
+from unshade.metrics import DEFINITIONS, Definition, evaluate
 
 STUB = Path(__file__).parents[1] / "synth" / "unshade" / "metrics.pyi"
 
@@ -36,7 +37,7 @@ class Definition(NamedTuple):
 DEFINITIONS: dict[str, Definition]
 '''
 
-_EVALUATE = '''
+_EVALUATE = """
 def evaluate(
     names: Iterable[str],
     prediction: ArrayLike,
@@ -47,15 +48,15 @@ def evaluate(
     scale: _Scale = "none",
     **beside: ArrayLike,
 ) -> dict[str, float | None]:
-    """The metrics ``names`` of one pair at once, by name, on all cores; what several need is computed once."""
-'''
+"""
 
 
 def stub() -> str:
     """The text of ``metrics.pyi``."""
     names = "\n".join(f'    "{name}",' for name in ("DEFINITIONS", "Definition", "evaluate", *DEFINITIONS))
     functions = "".join(map(_function, DEFINITIONS.values()))
-    return f"{_HEAD}\n__all__ = [\n{names}\n]\n{_EVALUATE}{functions}"
+    evaluated = textwrap.indent(f'"""{inspect.getdoc(evaluate)}\n"""\n', "    ")
+    return f"{_HEAD}\n__all__ = [\n{names}\n]\n{_EVALUATE}{evaluated}{functions}"
 
 
 def _function(metric: Definition) -> str:

@@ -99,9 +99,9 @@ def test_a_stopped_solve_returns_its_maps_and_goes_on(tiny_run: Path, tmp_path: 
 
     first: list[int] = []
 
-    def until_70(_stage: str, iteration: int, _total: int, _loss: float) -> bool:
+    def until_70(_stage: str, iteration: int, _total: int, _loss: float) -> object:
         first.append(iteration)
-        return iteration < 70
+        return unshade.STOP if iteration == 70 else False
 
     out = tmp_path / "maps"
     stopped = unshade.solve(capture, config=text, out=out, progress=until_70)

@@ -141,6 +141,42 @@ def test_texels_without_coverage_may_hold_anything(arrays, tmp_path: Path) -> No
         maps.coverage = np.full((SIZE, SIZE), 255)
 
 
+def test_maps_are_a_mapping_of_what_there_is(arrays) -> None:
+    maps = Maps(confidence=arrays["confidence"], diffuse_albedo=arrays["diffuse_albedo"])
+    assert maps.keys() == list(maps) == ["diffuse_albedo", "confidence"] and len(maps) == 2
+    assert "confidence" in maps and "coverage" not in maps
+    np.testing.assert_array_equal(maps["confidence"], arrays["confidence"])
+    maps["confidence"] = None
+    maps["coverage"] = arrays["coverage"]
+    assert maps.keys() == ["diffuse_albedo", "coverage"]
+    for wrong in (lambda: maps["confidence"], lambda: maps.__setitem__("albedo", arrays["confidence"])):
+        with pytest.raises(KeyError, match="there are diffuse_albedo, coverage|use one of diffuse_albedo, "):
+            wrong()
+    html = maps._repr_html_()
+    assert html.count("data:image/png;base64,") == 2 and "http" not in html.replace("data:", "")
+
+
+def test_resized_maps_keep_means_lengths_and_holes(arrays) -> None:
+    maps = Maps(**arrays)
+    half = maps.resize(SIZE // 2)
+    covered = (arrays["coverage"] > 127).reshape(SIZE // 2, 2, SIZE // 2, 2)
+    blocks = arrays["specular_albedo"].reshape(covered.shape)
+    count = covered.sum((1, 3))
+    mean = (blocks * covered).sum((1, 3)) / np.maximum(count, 1)
+    np.testing.assert_allclose(half.specular_albedo, mean, atol=1e-5)
+    np.testing.assert_array_equal(half.coverage, np.where(count >= 2, 255, 0))
+    lengths = np.linalg.norm(half.diffuse_normal, axis=-1)[count > 0]
+    np.testing.assert_allclose(lengths, 1, atol=1e-5)
+    flat = Maps(diffuse_albedo=np.full((SIZE, SIZE, 3), 0.25))
+    for side in (3, 20):
+        other = flat.resize(side)
+        assert other.size == side and other.coverage is None
+        np.testing.assert_allclose(other.diffuse_albedo, 0.25, atol=1e-6)
+    assert maps.resize(SIZE) == maps and maps.resize(SIZE) is not maps
+    with pytest.raises(MapsError, match="side is 0; give a size from 1"):
+        maps.resize(0)
+
+
 def test_the_truth_has_its_roughness(tiny_run: Path) -> None:
     capture = unshade.Capture(tiny_run / "captures" / "tiny-studio")
     truth = capture.truth()

@@ -9,6 +9,7 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import unshade
@@ -46,17 +47,17 @@ def test_a_finished_run_tells_every_stage(tiny_run: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("stage", ["synth", "relight", "run", "report"])
-@pytest.mark.parametrize("how", ["False", "exception", "Ctrl-C"])
+@pytest.mark.parametrize("how", ["STOP", "exception", "Ctrl-C"])
 def test_a_stage_stops_when_it_is_asked_to(stage: str, how: str, tiny_run: Path, tmp_path: Path) -> None:
     heard = []
 
-    def progress(*step: object) -> bool:
+    def progress(*step: object) -> object:
         heard.append(step)
         if how == "exception":
             raise LookupError("enough")
         if how == "Ctrl-C":
             os.kill(os.getpid(), signal.SIGINT)
-        return how != "False"
+        return unshade.STOP if how == "STOP" else None
 
     out = tmp_path / "out"
     calls = {
@@ -67,13 +68,51 @@ def test_a_stage_stops_when_it_is_asked_to(stage: str, how: str, tiny_run: Path,
         "run": lambda: unshade.run(SUITE, out, progress=progress),
         "report": lambda: unshade.report(tiny_run, out, progress=progress),
     }
-    raised = {"False": Stopped, "exception": LookupError, "Ctrl-C": KeyboardInterrupt}[how]
+    raised = {"STOP": Stopped, "exception": LookupError, "Ctrl-C": KeyboardInterrupt}[how]
     with pytest.raises(raised) as caught:
         calls[stage]()
     assert len(heard) == 1 and not (out / "report").exists()
-    if how == "False":
+    if how == "STOP":
         assert isinstance(caught.value, UnshadeError) and caught.value.exit_code == 3
         assert "goes on from here" in str(caught.value)
+
+
+def test_no_falsy_answer_stops_a_stage(tiny_run: Path, tmp_path: Path) -> None:
+    answers = iter([False, 0, "", [], None, np.False_])
+    page = unshade.report(tiny_run, tmp_path / "report", progress=lambda *_: next(answers, False))
+    assert page.is_file() and repr(unshade.STOP) == "unshade.STOP"
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="counts threads as Linux lists them")
+def test_ctrl_c_ends_a_call_that_tells_nothing(tiny_run: Path) -> None:
+    """It comes once the call has threads of its own: without a callback nothing else would see it before the end."""
+    tasks = Path("/proc/self/task")
+    done = threading.Event()
+
+    def interrupt() -> None:
+        before = len(list(tasks.iterdir()))
+        ready.set()
+        while len(list(tasks.iterdir())) <= before and not done.is_set():
+            pass
+        os.kill(os.getpid(), signal.SIGINT)
+
+    case = tiny_run / "captures" / CASE
+    for call in (
+        lambda: unshade.score(case, tiny_run / "maps" / CASE / "quick", relit=tiny_run / "relit" / CASE / "quick"),
+        lambda: unshade.solve(case, config="fast"),
+    ):
+        done.clear()
+        ready = threading.Event()
+        thread = threading.Thread(target=interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            try:
+                thread.start()
+                ready.wait()
+                call()
+                pytest.fail("came to its end")
+            finally:
+                done.set()
+        thread.join()
 
 
 def test_ctrl_c_stops_a_solve(tiny_run: Path) -> None:

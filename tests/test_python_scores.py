@@ -56,8 +56,19 @@ def test_a_value_is_that_of_exactly_one_row(quick: Path) -> None:
     scores = unshade.Scores.read(quick)
     with pytest.raises(ScoreError, match="rows have metric='psnr_srgb'; choose one by subject: diffuse_albedo,"):
         scores.value(metric="psnr_srgb")
-    with pytest.raises(ScoreError, match="no row has metric='psnr'; there are subject: .*; metric: psnr_srgb,"):
-        scores.value(metric="psnr")
+    with pytest.raises(ScoreError, match="no row has metric='rmse', subject='view'|no row has subject='view'"):
+        scores.value(subject="view", metric="rmse")
+    near = {
+        "metric: 'psnr' is unknown; did you mean psnr_": dict(metric="psnr"),
+        "metric: 'ssmi' is unknown; did you mean ssim": dict(metric=["psnr_srgb", "ssmi"]),
+        "subject: 'diffuse' is unknown; did you mean diffuse_": dict(subject="diffuse"),
+        "light: 'studios' is unknown; did you mean studio": dict(light="studios"),
+        "scale: 'x' is unknown; there are channel, global": dict(scale="x"),
+    }
+    for message, asked in near.items():
+        with pytest.raises(ScoreError, match=message):
+            scores.select(scale="none").select(**asked)
+    assert len(scores.select(subject="mesh_specular_normal", metric="lpips_alex_0_1")) == 0
     with pytest.raises(KeyError):
         scores["diffuse_albedo/psnr_srgb"]
     with pytest.raises(TypeError):
@@ -74,6 +85,18 @@ def test_scores_print_copy_and_are_written_as_the_command_line_does(quick: Path,
     assert first == f"Scores of quick on {CASE}, {len(few)} rows" and len(rows) == len(few)
     assert "specular_albedo/rmse@coverage-e5:none" in rows[0] and f"{few.value(metric='rmse'):.4g}" in rows[0]
     assert repr(scores).splitlines()[-1].endswith("more; select(...) chooses")
+    table = scores.to_arrow()
+    assert table.num_rows == len(scores) and table.column_names[:3] == ["id", "subject", "metric"]
+    assert table["value"].to_pylist() == [row.value for row in scores]
+    assert type(few.__arrow_c_stream__()).__name__ == "PyCapsule"
+    try:
+        import pandas  # noqa: F401
+    except ImportError:
+        with pytest.raises(ScoreError, match="pandas"):
+            scores.to_pandas()
+    else:
+        assert list(scores.to_pandas()["id"]) == table["id"].to_pylist()
+    assert few._repr_html_().count("<tr>") == len(few) + 1
     (tmp_path / "broken.json").write_text("{")
     with pytest.raises(ScoreError, match="broken.json"):
         unshade.Scores.read(tmp_path / "broken.json")
@@ -120,7 +143,7 @@ def test_stages_take_paths_and_objects(
     for picture in sorted((tiny_run / "relit" / CASE / "mean_texture").rglob("*.exr")):
         name = picture.relative_to(tiny_run / "relit" / CASE / "mean_texture")
         assert (relit / name).read_bytes() == picture.read_bytes(), name
-    assert unshade.solve(str(capture.path), config="fast", progress=lambda *_: False).interrupted
+    assert unshade.solve(str(capture.path), config="fast", progress=lambda *_: unshade.STOP).interrupted
     # Nothing of the maps is left behind, and a failure leaves nothing either.
     with pytest.raises(ScoreError):
         unshade.score(capture, unshade.Maps())

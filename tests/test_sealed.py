@@ -54,8 +54,8 @@ def _quick() -> str:
 @pytest.fixture(scope="module")
 def scored(place: Path, submission: Path) -> Path:
     out = place / "scored"
-    words = ["--score", submission, "--private", place / "out" / "private", "--seeds-from", place / "secret"]
-    unshade("seal", *words, "-o", out)
+    failed = package.score_submission(submission, place / "out" / "private", out, seeds_from=place / "secret")
+    assert failed == {}
     return out
 
 
@@ -105,6 +105,7 @@ def test_a_submission_is_accepted_scored_and_signed(place: Path, submission: Pat
     assert scores["solver"] == "theirs" and relit and all(row["value"] > 15 for row in relit)
     key = json.loads((public / "round.json").read_text())["public_key"]
     assert "theirs by a stranger" in unshade("verify", scored, "--key", key).stdout
+    assert package.verify(scored) == key
     statement = json.loads((scored / "statement.json").read_text())
     assert statement["maps"] == {"tiny-studio": blake3_of_folder(submission / "maps" / "tiny-studio")}
     assert statement["captures"] == {"tiny-studio": blake3_of_folder(public / "captures" / "tiny-studio")}

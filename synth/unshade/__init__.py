@@ -9,31 +9,57 @@ The stages hand folders to each other, on disk::
     scores.value(subject="relit", light="studio", metric="psnr_srgb", scale="global")
 
 Every fault is an exception of :mod:`unshade.errors` whose message says what is wrong, where,
-and the mend.
+and the fix.
+
+A process that was forked (:mod:`multiprocessing` with ``fork``) can call everything that its parent can.
 """
 
 import os
+import sys
 from importlib import import_module
 
 # The solver chooses its device itself; without a desktop Mesa's own choice prints an error line.
 os.environ.setdefault("NODEVICE_SELECT", "1")
+
+
+def _after_fork() -> None:
+    """OpenCV's threads are not in the child, which would wait for them; the core's pools are made anew."""
+    cv2 = sys.modules.get("cv2")
+    if cv2 is not None:
+        cv2.setNumThreads(1)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_after_fork)
 
 _HOMES = {
     "Budget": "stages",
     "Fidelity": "stages",
     "Finding": "stages",
     "Capture": "_native",
-    "Maps": "_native",
+    "Maps": "maps",
+    "STOP": "stopping",
     "Score": "scores",
     "Scores": "scores",
     "Study": "studies",
     "__version__": "_native",
     "budget": "stages",
-    "solve": "_native",
+    "solve": "stages",
+    "calibrate": "bookkeeping",
+    "exr_channels": "exr",
+    "figure": "bookkeeping",
+    "read_exr": "exr",
+    "score_submission": "bookkeeping",
+    "seal": "bookkeeping",
+    "site": "bookkeeping",
+    "table": "bookkeeping",
+    "verify": "bookkeeping",
+    "write_exr": "exr",
     "check": "stages",
     "compare": "stages",
     "consistency": "importing",
     "export": "stages",
+    "metric": "own_metrics",
     "import_capture": "importing",
     "import_maps": "importing.maps",
     "relight": "stages",

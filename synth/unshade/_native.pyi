@@ -3,16 +3,32 @@
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import ClassVar, TypedDict, final
+from typing import Any, TypedDict, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .maps import Maps
+
 __all__ = [
     "Capture",
-    "Maps",
     "__version__",
     "adopt",
+    "calibrate",
+    "coverage_array",
+    "figure",
+    "judged_rows_json",
+    "map_array",
+    "picture_array",
+    "read_maps",
+    "score_submission",
+    "seal",
+    "site",
+    "subjects",
+    "table",
+    "verify",
+    "write_exr",
+    "write_maps",
     "begin_folder",
     "check_json",
     "check_worker",
@@ -42,6 +58,7 @@ __all__ = [
     "run_part",
     "score_json",
     "shown",
+    "shown_json",
     "study_json",
     "skin_reflected",
     "solve",
@@ -58,6 +75,7 @@ _Progress = Callable[[int, int, str], object]
 
 __version__: str
 sources: dict[str, str]
+subjects: list[str]
 
 class _Camera(TypedDict):
     width: int
@@ -95,9 +113,10 @@ class Capture:
     def mesh(self) -> _Mesh:
         """Vertices and normals (V, 3), uvs (V, 2), triangles (F, 3); metres, world space."""
     def image(self, name: str) -> _Float:
-        """(height, width, 3) linear radiance of a training view."""
+        """Return (height, width, 3) linear radiance of a view. That of a withheld view is its
+        photograph, or part of the truth; raises ``errors.CaptureError`` where the capture comes without it."""
     def mask(self, name: str) -> _Byte:
-        """(height, width), 255 where the mesh is the first surface."""
+        """Return (height, width) of any view, 255 where the mesh is the first surface."""
     def labels(self, name: str) -> _Byte | None:
         """(height, width) region ids."""
     def camera(self, name: str) -> _Camera:
@@ -121,97 +140,54 @@ class Capture:
         """Pictures (height, width, 3) of training views by name as a texture (size, size, 3): the mean of
         what they show at a texel, weighted by the cosine, and 255 where one of them shows it."""
     def truth(self) -> Maps:
-        """The true maps of a synthetic capture."""
-
-@final
-class Maps:
-    """Square reflectance maps of one size; what a solver does not recover is None.
-
-    A map may be given as anything numpy makes a float array of; it is kept as float32. Reading one
-    gives a view that cannot be written to, without a copy; assign a new array to change a map. A
-    map of another size than the others, with other channels, or with NaN where there is coverage
-    (anywhere without one) raises ``errors.MapsError``, which names it. Maps with equal values are
-    equal, wherever a solve was stopped.
-    """
-
-    def __new__(
-        cls,
-        *,
-        diffuse_albedo: ArrayLike | None = None,
-        specular_albedo: ArrayLike | None = None,
-        diffuse_normal: ArrayLike | None = None,
-        specular_normal: ArrayLike | None = None,
-        confidence: ArrayLike | None = None,
-        roughness: ArrayLike | None = None,
-        coverage: ArrayLike | None = None,
-    ) -> Maps: ...
-    @property
-    def diffuse_albedo(self) -> _Float | None:
-        """(size, size, 3) linear Rec.709 reflectance."""
-    @diffuse_albedo.setter
-    def diffuse_albedo(self, array: ArrayLike | None) -> None: ...
-    @property
-    def specular_albedo(self) -> _Float | None:
-        """(size, size) reflectance at normal incidence, 0 to 0.05."""
-    @specular_albedo.setter
-    def specular_albedo(self, array: ArrayLike | None) -> None: ...
-    @property
-    def diffuse_normal(self) -> _Float | None:
-        """(size, size, 3) unit vectors in object space."""
-    @diffuse_normal.setter
-    def diffuse_normal(self, array: ArrayLike | None) -> None: ...
-    @property
-    def specular_normal(self) -> _Float | None:
-        """(size, size, 3) unit vectors in object space."""
-    @specular_normal.setter
-    def specular_normal(self, array: ArrayLike | None) -> None: ...
-    @property
-    def confidence(self) -> _Float | None:
-        """(size, size) 0 to 1: the solver's own trust in the diffuse albedo."""
-    @confidence.setter
-    def confidence(self, array: ArrayLike | None) -> None: ...
-    @property
-    def roughness(self) -> _Float | None:
-        """(size, size, 3) GGX alphas of the two lobes, and the share of the first."""
-    @roughness.setter
-    def roughness(self, array: ArrayLike | None) -> None: ...
-    @property
-    def coverage(self) -> _Byte | None:
-        """(size, size) 255 where a map had data; booleans become 0 and 255."""
-    @coverage.setter
-    def coverage(self, array: ArrayLike | None) -> None: ...
-    @property
-    def size(self) -> int | None:
-        """Texels along a side; None without any map."""
-    def __eq__(self, value: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
-    @property
-    def interrupted(self) -> str | None:
-        """Where the solve was stopped; None if it came to its end."""
-    @staticmethod
-    def read(path: _Path) -> Maps:
-        """Read whatever maps the folder has."""
-    def write(self, path: _Path) -> None:
-        """Write the folder, completely or not at all. Texels without coverage that hold no number
-        are written as 0."""
+        """Return the true maps of a synthetic capture. Raises ``errors.MapsError`` without a truth."""
+    def _repr_html_(self) -> str: ...
 
 def solve(
-    capture: Capture | _Path,
-    *,
-    config: str = "unshade",
+    capture: Capture,
+    config: str,
+    is_text: bool,
     out: _Path | None = None,
     progress: Callable[[str, int, int, float], object] | None = None,
     backend: str = "auto",
-) -> Maps:
-    """Recover maps from a capture or its folder; ``config`` is a preset's name or the text of a configuration.
-
-    ``progress(stage, iteration, total, loss)`` hears how it goes. What it raises stops the solve
-    and is raised here, as is Ctrl-C; returning ``False`` stops it and returns the maps so far,
-    whose ``interrupted`` says where. With ``out`` the whole maps folder is written there, after a
-    stop as well; the same call then goes on from there, to the same bytes. ``backend`` is ``auto``
-    (a real GPU if there is one), ``cpu`` or ``gpu``.
-    """
-
+) -> tuple[dict[str, NDArray[Any]], str | None]: ...
+def read_maps(path: _Path) -> tuple[dict[str, NDArray[Any]], str | None]: ...
+def write_maps(maps: dict[str, NDArray[Any]], path: _Path) -> None: ...
+def map_array(name: str, value: ArrayLike) -> _Float: ...
+def coverage_array(value: ArrayLike) -> _Byte: ...
+def picture_array(name: str, value: ArrayLike) -> _Float: ...
+def write_exr(path: _Path, picture: _Float, names: list[str]) -> None: ...
+def shown_json(capture: _Path, maps: _Path, relit: _Path | None = None, factor: float | None = None) -> str: ...
+def judged_rows_json(capture: _Path, shown: str, metric: str, values: list[float | None]) -> str: ...
+def figure(
+    kind: str,
+    runs: list[_Path],
+    out: _Path,
+    methods: list[str],
+    cases: list[str],
+    progress: _Progress | None = None,
+) -> None: ...
+def table(runs: list[_Path], out: _Path) -> None: ...
+def site(runs: list[_Path], out: _Path) -> Path: ...
+def seal(
+    suite: _Path, seeds_from: _Path, out: _Path, round: str, jobs: int, progress: _Progress | None = None
+) -> str: ...
+def score_submission(
+    submission: _Path, private: _Path, seeds_from: _Path, out: _Path, progress: _Progress | None = None
+) -> dict[str, str]: ...
+def verify(folder: _Path, key: str | None = None) -> str: ...
+def calibrate(
+    out: _Path,
+    suite: _Path | None,
+    runs: list[_Path],
+    seeds: int,
+    vary: str,
+    keep: _Path | None,
+    baseline: _Path | None,
+    false_alarms: float,
+    rules: _Path | None,
+    progress: _Progress | None = None,
+) -> None: ...
 def run_command_line(arguments: list[str]) -> int: ...
 def study_json(runs: list[_Path], out: _Path | None = None) -> tuple[str, str]: ...
 def budget(
@@ -227,7 +203,12 @@ def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
 def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
 def relight(
-    capture: _Path, maps: _Path, out: _Path, progress: _Progress | None = None, renderer: str = "mitsuba"
+    capture: _Path,
+    maps: _Path,
+    out: _Path,
+    progress: _Progress | None = None,
+    renderer: str = "mitsuba",
+    light: _Path | None = None,
 ) -> Path: ...
 def export(
     maps: _Path,

@@ -46,7 +46,7 @@ class ClusterError(UnshadeError):
 
 
 class Stopped(UnshadeError):
-    """A stage was stopped by its ``progress``, which returned False; the same call goes on from there."""
+    """A stage was stopped by its ``progress``, which returned `unshade.STOP`; the same call resumes there."""
 
     exit_code = 3
 

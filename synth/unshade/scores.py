@@ -6,6 +6,8 @@ import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from difflib import get_close_matches
+from importlib import import_module
 from typing import Any, Literal, overload
 
 from . import _native
@@ -25,6 +27,16 @@ _ANY = _Any()
 _Wanted = str | None | Iterable[str | None] | _Any
 _FILTERS = ("subject", "metric", "light", "region", "scale", "label")
 _ROWS_SHOWN = 30
+_COLUMNS = ("id", *_FILTERS, "value", "ci95_low", "ci95_high", "n", "floor", "block")
+
+
+def _known(name: str) -> tuple[str, ...]:
+    """Names that scores may have, whether these have them or not."""
+    if name == "metric":
+        from .metrics import DEFINITIONS
+
+        return tuple(DEFINITIONS)
+    return {"subject": tuple(_native.subjects), "scale": ("none", "global", "channel", "median")}.get(name, ())
 
 
 @dataclass(frozen=True)
@@ -68,12 +80,14 @@ class Scores:
     ``scores["rows"]``, ``scores["protocol"]``, ... what the file holds under that key.
     """
 
-    __slots__ = ("_document", "_rows")
+    __slots__ = ("_all", "_document", "_rows")
 
     def __init__(self, document: dict[str, Any]) -> None:
         """``document`` is what a scores file holds."""
         self._document = document
         self._rows = tuple(_row(row) for row in document["rows"])
+        # The rows that a selection was made of: they say which names there are.
+        self._all = self._rows
 
     @classmethod
     def read(cls, path: _Path) -> Scores:
@@ -96,15 +110,29 @@ class Scores:
     ) -> Scores:
         """The rows with these properties, each one value or several of which any will do.
 
-        ``None`` is a value: ``label=None`` is all of the face, ``light=None`` no relit picture.
+        ``None`` is a value: ``label=None`` is all of the face, ``light=None`` no relit picture. Raises
+        ``errors.ScoreError`` for a name that nothing has, with the names that are near.
         """
         wanted = tuple(map(_several, (subject, metric, light, region, scale, label)))
+        for name, values in zip(_FILTERS, wanted, strict=True):
+            if not isinstance(values, _Any):
+                self._check_known(name, values)
         chosen = [
             given
             for row, given in zip(self._rows, self._document["rows"], strict=True)
             if all(map(_fits, (getattr(row, name) for name in _FILTERS), wanted))
         ]
-        return Scores({**self._document, "rows": chosen})
+        selection = Scores({**self._document, "rows": chosen})
+        selection._all = self._all
+        return selection
+
+    def _check_known(self, name: str, wanted: tuple[str | None, ...]) -> None:
+        known = {*_known(name), *(getattr(row, name) for row in self._all)} - {None}
+        for value in wanted:
+            if value is not None and value not in known:
+                near = get_close_matches(str(value), sorted(known), n=4, cutoff=0.5)
+                fix = f"did you mean {', '.join(near)}?" if near else f"there are {_listed(sorted(known)) or 'none'}"
+                raise ScoreError(f"{name}: {value!r} is unknown; {fix}")
 
     def value(
         self,
@@ -138,6 +166,47 @@ class Scores:
             {"id": row.id, "light": None, "label": None, **given}
             for row, given in zip(self._rows, self._document["rows"], strict=True)
         ]
+
+    def to_arrow(self) -> Any:
+        """Return a ``pyarrow.Table`` of one row a score; the numbers of single frames are left out.
+
+        Raises ``errors.ScoreError`` without pyarrow (``unshade[parquet]``).
+        """
+        try:
+            pa: Any = import_module("pyarrow")
+        except ImportError as error:
+            raise ScoreError("Arrow needs the Python package pyarrow; install unshade[parquet]") from error
+        number, text = pa.float64(), pa.string()
+        types: dict[str, Any] = {"value": number, "ci95_low": number, "ci95_high": number, "floor": number}
+        types |= {"n": pa.int64(), "block": pa.int64()}
+        return pa.table(self._columns(), schema=pa.schema([(name, types.get(name, text)) for name in _COLUMNS]))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def to_pandas(self) -> Any:
+        """Return a ``pandas.DataFrame`` of one row a score; the numbers of single frames are left out.
+
+        Raises ``errors.ScoreError`` without pandas.
+        """
+        try:
+            pd: Any = import_module("pandas")
+        except ImportError as error:
+            raise ScoreError("a data frame needs the Python package pandas; install pandas") from error
+        return pd.DataFrame(self._columns())
+
+    def _columns(self) -> dict[str, list[Any]]:
+        def cell(row: Score, name: str) -> Any:
+            if name.startswith("ci95_"):
+                return None if row.ci95 is None else row.ci95[name == "ci95_high"]
+            return getattr(row, name)
+
+        return {name: [cell(row, name) for row in self._rows] for name in _COLUMNS}
+
+    def _repr_html_(self) -> str:
+        from .thumbnails import of_scores
+
+        return of_scores(self, _ROWS_SHOWN)
 
     def _values(self, name: str) -> list[Any]:
         return list(dict.fromkeys(getattr(row, name) for row in self._rows))

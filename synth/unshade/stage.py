@@ -62,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--out", type=Path, required=True)
     relight.add_argument("--scale", type=_scale, action="append", required=True, metavar="NAME=FACTOR")
     relight.add_argument("--seed-offset", type=int, default=0)
+    relight.add_argument("--light", type=Path)
     relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
 
@@ -94,6 +95,10 @@ def _parser() -> argparse.ArgumentParser:
     lpips.add_argument("--net", required=True)
     lpips.add_argument("--pictures", type=Path, required=True)
     lpips.set_defaults(stage=_lpips)
+
+    metrics = verbs.add_parser("metrics", help="call a user's metrics")
+    metrics.add_argument("--request", type=Path, required=True)
+    metrics.set_defaults(stage=_metrics)
 
     figure = verbs.add_parser("figure", help="draw a figure that was gathered from runs")
     figure.add_argument("--folder", type=Path, required=True)
@@ -143,6 +148,7 @@ def _parser() -> argparse.ArgumentParser:
         lights,
         export,
         lpips,
+        metrics,
         figure,
         method,
         cluster,
@@ -195,10 +201,16 @@ def _relight(options: argparse.Namespace) -> dict[str, Any]:
         from .render.relight import relight
 
     relight(
-        scene, options.maps, options.out,
+        scene, options.maps, options.out, given=_given_light(options),
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}
+
+
+def _given_light(options: argparse.Namespace):
+    from .render.given_light import given_light
+
+    return given_light(options.light) if options.light else None
 
 
 def _budget(options: argparse.Namespace) -> dict[str, Any]:
@@ -241,6 +253,12 @@ def _lpips(options: argparse.Namespace) -> dict[str, Any]:
     return {"values": judge(options.net, json.loads(options.pictures.read_text()))}
 
 
+def _metrics(options: argparse.Namespace) -> dict[str, Any]:
+    from .own_metrics import answer
+
+    return answer(json.loads(options.request.read_text()))
+
+
 def _figure(options: argparse.Namespace) -> dict[str, Any]:
     from .figures.draw import draw
 
@@ -254,7 +272,7 @@ def _relight_photographed(options: argparse.Namespace) -> dict[str, Any]:
     from .render.photographed import relight_photographed
 
     relight_photographed(
-        options.capture, options.maps, options.out,
+        options.capture, options.maps, options.out, given=_given_light(options),
         scales=dict(options.scale), seed_offset=options.seed_offset, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": str(options.out), "variant": choice.variant}

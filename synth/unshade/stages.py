@@ -1,9 +1,8 @@
 """The stages that the command line runs, from Python.
 
-``progress(done, total, what)``, where a stage takes it, hears how it goes, on the caller's thread.
-What it raises stops the stage and is raised here, as is Ctrl-C (``KeyboardInterrupt``); returning
-``False`` stops it too, and raises :class:`unshade.errors.Stopped`. What was finished is kept: the same
-call goes on from there.
+A stage calls ``progress(done, total, what)``, where it takes one, on the caller's thread. What that raises
+stops the stage and is raised here, as is Ctrl-C (``KeyboardInterrupt``); returning `unshade.STOP` stops it
+too, and raises :class:`unshade.errors.Stopped`. What was finished is kept: the same call resumes there.
 """
 
 from __future__ import annotations
@@ -14,21 +13,70 @@ import tempfile
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal, TypedDict
+from typing import Any, Literal, TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from unshade import _native
-from unshade._native import Capture, Maps
+from unshade._native import Capture
 
+from .documents import Document, as_file, toml_of
+from .errors import ConfigError, PictureError, SceneError
+from .exr import write_exr
+from .maps import Maps
+from .own_metrics import OwnMetric, rows
 from .scores import Scores
 
 _Path = str | os.PathLike[str]
 _Progress = Callable[[int, int, str], object]
 
 
-def synth(scene: _Path, out: _Path, *, progress: _Progress | None = None) -> Capture:
-    """Render the scene file ``scene`` into the capture folder ``out``, truth included."""
-    _native.synth(scene, out, progress)
+def synth(scene: Document, out: _Path, *, progress: _Progress | None = None) -> Capture:
+    """Render a scene into the capture folder ``out``, truth included.
+
+    ``scene`` is a scene file, the name of a scene that comes with unshade, or a dictionary of what such a file
+    holds. Raises ``errors.SceneError``, `VariantError`, `RendererError` and `StorageError`.
+    """
+    with as_file(scene, "scene", SceneError) as file:
+        _native.synth(file, out, progress)
     return Capture(out)
+
+
+def solve(
+    capture: Capture | _Path,
+    *,
+    config: Document = "unshade",
+    out: _Path | None = None,
+    progress: Callable[[str, int, int, float], object] | None = None,
+    backend: Literal["auto", "cpu", "gpu"] = "auto",
+) -> Maps:
+    """Recover maps from a capture or its folder.
+
+    ``config`` is a preset's name, a TOML file, a dictionary of what such a file holds, or its text.
+    ``progress(stage, iteration, total, loss)`` is called after every step. What it raises stops the solve and is
+    raised here, as is Ctrl-C; returning `unshade.STOP` stops it and returns the maps so far, whose ``interrupted``
+    says where. With ``out`` the whole maps folder is written there, after `unshade.STOP` as well; the same call
+    then resumes there, to the same bytes. ``backend`` is ``auto`` (a real GPU if there is one), ``cpu`` or ``gpu``.
+    Raises ``errors.CaptureError``, `ConfigError`, `BackendError`, `SolveError`, `MapsError` and `StorageError`.
+    """
+    if isinstance(config, (str, os.PathLike)):
+        text = os.fspath(config)
+        is_text = "\n" in text or ("=" in text and not os.path.exists(text))
+    else:
+        text, is_text = toml_of(config, "config", ConfigError), True
+    if not isinstance(capture, Capture):
+        try:
+            capture = Capture(os.fspath(capture))
+        except TypeError:
+            raise TypeError(f"capture: expected a Capture or a path, got {type(capture).__name__}") from None
+    try:
+        found = _native.solve(capture, text, is_text, out, progress, backend)
+    except ConfigError as error:
+        if isinstance(config, (str, os.PathLike)):
+            raise
+        raise ConfigError(f"the config (a dict): {error}") from None
+    return Maps._of(*found)  # pyright: ignore[reportPrivateUsage]
 
 
 def relight(
@@ -36,15 +84,37 @@ def relight(
     maps: Maps | _Path,
     out: _Path,
     *,
+    light: ArrayLike | _Path | None = None,
     renderer: Literal["mitsuba", "cycles"] = "mitsuba",
     progress: _Progress | None = None,
 ) -> Path:
-    """Render maps in the capture's lights into the folder ``out``, as they are and after one factor.
+    """Render maps in the withheld views into the folder ``out``, as they are and after one factor.
 
-    ``maps`` is a maps folder, or the maps themselves. ``cycles`` is Blender's path tracer, a second judge.
+    ``maps`` is a maps folder, or the maps themselves. Without ``light`` they are lit as the capture's lights. A
+    ``light`` is a lat-long picture of linear radiance, an EXR or Radiance file or an array (rows, 2 rows, 3), and is
+    called by the file's name or ``light``. The first row is up, +Y; the centre is +Z, in front of the face.
+    ``cycles`` is Blender's path tracer, a second judge. Raises ``errors.CaptureError``, `MapsError`,
+    `PictureError`, `VariantError`, `RendererError` and `StorageError`.
     """
-    with _folder_of(maps) as folder:
-        return _native.relight(_path_of(capture), folder, out, progress, renderer)
+    with _folder_of(maps) as folder, _light_file(light) as file:
+        return _native.relight(_path_of(capture), folder, out, progress, renderer, file)
+
+
+@contextmanager
+def _light_file(light: ArrayLike | _Path | None) -> Generator[_Path | None]:
+    if light is None or isinstance(light, (str, os.PathLike)):
+        yield light
+        return
+    array = _native.picture_array("light", light)
+    rows, columns, *channels = array.shape
+    if columns != 2 * rows or channels != [3]:
+        raise PictureError(f"light: has shape {array.shape}, expected (rows, 2 rows, 3)")
+    if not np.isfinite(array).all() or (array < 0).any():
+        raise PictureError("light: holds a number that is not finite, or a negative one; fix the pixel")
+    with tempfile.TemporaryDirectory(prefix="unshade-") as folder:
+        path = Path(folder) / "light.exr"
+        write_exr(path, array)
+        yield path
 
 
 class Fidelity(TypedDict):
@@ -87,21 +157,32 @@ def export(
     with _folder_of(maps) as folder:
         place = None if capture is None else _path_of(capture)
         said = json.loads(_native.export(folder, out, options, place, mesh, progress))
-    rows: list[Fidelity] = said["fidelity"]
-    return rows
+    fidelities: list[Fidelity] = said["fidelity"]
+    return fidelities
 
 
 def score(
-    capture: Capture | _Path, maps: Maps | _Path, *, relit: _Path | None = None, lpips: str | None = None
+    capture: Capture | _Path,
+    maps: Maps | _Path,
+    *,
+    relit: _Path | None = None,
+    lpips: Literal["alex", "vgg"] | None = None,
+    metrics: Sequence[OwnMetric | str] = (),
 ) -> Scores:
     """Scores of maps (and of what ``relight`` made of them) against the truth.
 
-    ``lpips`` (``alex`` or ``vgg``) adds the rows of that network, which needs the extra ``lpips``.
-
-    ``maps`` is a maps folder, or the maps themselves, which have no synthesis of the withheld views.
+    ``maps`` is a maps folder, or the maps themselves, which have no synthesis of the withheld views. ``lpips`` adds
+    the rows of that network, which needs the extra ``lpips``. ``metrics`` adds yours, made by `unshade.metric`:
+    objects, or names as a suite has them (``module:function``, ``file.py``). Raises ``errors.ScoreError``,
+    `MapsError`, `CaptureError` and `MetricError`.
     """
     with _folder_of(maps) as folder:
-        return Scores(json.loads(_native.score_json(_path_of(capture), folder, relit, lpips)))
+        document: dict[str, Any] = json.loads(_native.score_json(_path_of(capture), folder, relit, lpips))
+        if metrics:
+            factor: float | None = document["scale"]["global"] if document["scale"] else None
+            document["metrics"], own = rows(metrics, _path_of(capture), folder, relit, factor)
+            document["rows"] += own
+    return Scores(document)
 
 
 class Budget(TypedDict):
@@ -136,21 +217,24 @@ def budget(
     """
     with _folder_of(maps) as folder:
         said = json.loads(_native.budget(_path_of(capture), folder, out, light, view, progress))
-    rows: list[Budget] = said["maps"]
-    return rows
+    shares: list[Budget] = said["maps"]
+    return shares
 
 
 def run(
-    suite: _Path, out: _Path, *, redo: Sequence[str] = (), jobs: int = 1, progress: _Progress | None = None
+    suite: Document, out: _Path, *, redo: Sequence[str] = (), jobs: int = 1, progress: _Progress | None = None
 ) -> Path:
     """Run a suite in the folder ``out``, resuming it; returns its report's page.
 
-    ``jobs`` stages are done at once, each with its share of the processors. ``redo`` names methods whose
-    maps are made anew. Raises `SolveError` at the end if a method failed; the others are scored all the same.
+    ``suite`` is a suite file, the name of one that comes with unshade, or a dictionary of what such a file holds.
+    ``jobs`` stages run at once, each with its share of the processors. ``redo`` names methods whose maps are made
+    anew. Raises ``errors.SceneError`` for a wrong suite, and `SolveError` at the end if a method failed; the others
+    are scored all the same.
 
     ``progress`` counts the suite's stages; ``what`` says how far the present one is.
     """
-    return _native.run(suite, out, list(redo), progress, jobs)
+    with as_file(suite, "suite", SceneError) as file:
+        return _native.run(file, out, list(redo), progress, jobs)
 
 
 class Finding(TypedDict):
@@ -186,7 +270,10 @@ def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path
 
 
 def compare(run: _Path, baseline: _Path, *, tolerances: _Path | None = None) -> bool:
-    """True if no metric of ``run`` is worse than in ``baseline`` beyond its tolerance."""
+    """True if no metric of ``run`` is worse than in ``baseline`` beyond its tolerance.
+
+    Raises ``errors.CompareError``.
+    """
     return _native.compare(run, baseline, tolerances)
 
 

@@ -6,10 +6,7 @@
 
 use formats::picture::{GrayImage, Picture};
 use numpy::ndarray::{Array2, Array3};
-use numpy::{
-    IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArrayDyn,
-    PyUntypedArrayMethods,
-};
+use numpy::{IntoPyArray, PyArrayDyn, PyReadonlyArray2, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -213,17 +210,8 @@ fn doubles(array: &Bound<PyAny>) -> PyResult<Vec<f64>> {
     Ok(array.as_array().iter().copied().collect())
 }
 
-/// Takes an array's permission to be written to, so that it may be handed out without a copy.
-pub(super) fn freeze<T: numpy::Element>(array: &Bound<PyArrayDyn<T>>) -> PyResult<()> {
-    let flags = pyo3::types::PyDict::new(array.py());
-    flags.set_item("write", false)?;
-    array.call_method("setflags", (), Some(&flags))?;
-    Ok(())
-}
-
 /// A copy of an array of ours as a picture.
-pub(super) fn picture_of(array: &Bound<PyArrayDyn<f32>>) -> Picture {
-    let array = array.readonly();
+pub(super) fn picture_of(array: &PyReadonlyArrayDyn<f32>) -> Picture {
     let view = array.as_array();
     let (height, width) = (view.shape()[0], view.shape()[1]);
     let channels = view.shape().get(2).copied().unwrap_or(1);
@@ -231,14 +219,8 @@ pub(super) fn picture_of(array: &Bound<PyArrayDyn<f32>>) -> Picture {
 }
 
 /// A copy of an array of ours as an 8-bit image.
-pub(super) fn gray_of(array: &Bound<PyArrayDyn<u8>>) -> GrayImage {
-    let array = array.readonly();
+pub(super) fn gray_of(array: &PyReadonlyArrayDyn<u8>) -> GrayImage {
     let view = array.as_array();
     let (height, width) = (view.shape()[0], view.shape()[1]);
     GrayImage { width, height, data: view.iter().copied().collect() }
-}
-
-/// Rows of an array of ours.
-pub(super) fn side<T: numpy::Element>(array: &Bound<PyArrayDyn<T>>) -> usize {
-    array.shape()[0]
 }

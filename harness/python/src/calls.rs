@@ -2,19 +2,23 @@
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use harness::cli;
 use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
-use pyo3::types::PyBool;
-use scoring::compare::{self as comparing, Baseline, Tolerances};
+use pyo3::types::PyDict;
+use scoring::compare::{self as comparing, Baseline, CompareError, Tolerances};
+use scoring::metrics::OwnMetric;
 use scoring::{check, score, study};
 use solver::{Choice, Options};
 
 use super::capture::Capture;
 use super::errors::{named_error, raise};
-use super::maps::Maps;
+use super::gpu_of_process;
+use super::maps;
 use super::stages::watched;
+use super::threads::{End, detached, interruptible, long};
 
 /// Runs the command line and returns its exit code.
 #[pyfunction]
@@ -22,66 +26,56 @@ pub(super) fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString
     py.detach(|| cli::main(arguments))
 }
 
-/// Recovers maps from a capture or its folder; `progress(stage, iteration, total, loss)` may be given. What it
-/// raises (or Ctrl-C) stops the solve and is raised here; `False` stops it too, and the maps so far
-/// are returned. With `out`, the whole maps folder is written there, after a stop as well, and the
-/// same call goes on from where it stopped.
+/// Recovers maps from a capture: the maps by name, and where the solve was stopped.
+///
+/// `config` is the text of a configuration if `is_text`, else a preset's name or a file's path.
+/// `progress(stage, iteration, total, loss)` may be given.
 #[pyfunction]
-#[pyo3(signature = (capture, *, config="unshade", out=None, progress=None, backend="auto"))]
-pub(super) fn solve(
-    py: Python<'_>,
-    capture: &Bound<'_, PyAny>,
+#[pyo3(signature = (capture, config, is_text, out=None, progress=None, backend="auto"))]
+pub(super) fn solve<'py>(
+    py: Python<'py>,
+    capture: &Bound<'py, Capture>,
     config: &str,
+    is_text: bool,
     out: Option<PathBuf>,
-    progress: Option<Py<PyAny>>,
+    progress: Option<&Bound<'py, PyAny>>,
     backend: &str,
-) -> PyResult<Maps> {
-    // A preset's name, or the text of a configuration.
-    let mut config = if config.contains('=') {
-        solver::Config::from_toml(config)
+) -> PyResult<(Bound<'py, PyDict>, Option<String>)> {
+    let mut config = if is_text {
+        solver::Config::from_toml(config).map_err(raise)?
     } else {
-        solver::Config::preset(config)
-    }
-    .map_err(raise)?;
+        suite::solver_config(config).map_err(raise)?
+    };
     if out.is_none() {
         // Nobody would see them.
         config.records = solver::config::RecordConfig { stages: false, layers: false };
     }
     let backend: Choice = backend.parse().map_err(raise)?;
-    let capture = Capture::given(capture)?;
     let capture = &capture.get().inner;
-    let opened = py.detach(|| backend.open()).map_err(raise)?;
-    let mut raised: Option<PyErr> = None;
-    let solution = py.detach(|| {
+    let backend = py.detach(|| gpu_of_process::open(backend))?;
+    let end = interruptible(py, progress, true, |interrupt, reporter| {
         let mut hear = |step: &solver::Progress| {
-            let go_on = Python::attach(|py| {
-                py.check_signals()?;
-                let Some(progress) = &progress else { return Ok(true) };
-                let arguments = (step.stage, step.iteration, step.total, step.loss);
-                let answer = progress.call1(py, arguments)?;
-                // None, as of a function that returns nothing, goes on.
-                Ok(!answer.bind(py).is(PyBool::new(py, false)))
-            });
-            match go_on {
-                Ok(true) => return ControlFlow::Continue(()),
-                Ok(false) => {}
-                Err(error) => raised = Some(error),
+            let said = (step.stage.to_owned(), step.iteration, step.total, step.loss);
+            match reporter.send(said) && !interrupt.load(Ordering::Relaxed) {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
             }
-            ControlFlow::Break(())
         };
-        let backend = &*opened;
+        let backend = &*backend;
         match &out {
             Some(out) => {
                 solver::solve_into(backend, out, SOLVER_SOURCES, capture, &config, &mut hear)
             }
             None => solver::solve_on(backend, capture, &config, Options::default(), &mut hear),
         }
-    });
-    if let Some(error) = raised {
-        return Err(error);
+    })?;
+    match end {
+        End::Done(solution) => {
+            let solution = solution.map_err(raise)?;
+            Ok((maps::to_dict(py, solution.maps)?, solution.record.interrupted))
+        }
+        End::Stopped => Err(raise(suite::RunError::Interrupted)),
     }
-    let solution = solution.map_err(raise)?;
-    Maps::new_from(py, solution.maps, solution.record.interrupted)
 }
 
 /// The scores of a maps folder as JSON text.
@@ -95,12 +89,48 @@ pub(super) fn score_json(
     lpips: Option<&str>,
 ) -> PyResult<String> {
     let relit = relit.as_deref();
-    let mut scores = py.detach(|| score::score(&capture, &maps, relit)).map_err(raise)?;
+    let mut scores = long(py, || score::score(&capture, &maps, relit))?.map_err(raise)?;
     if let Some(net) = lpips {
         let rows = watched(py, None, |tools, _| suite::lpips(net, &capture, &maps, relit, tools))?;
         scores.rows.extend(rows);
     }
     json_of(&scores)
+}
+
+/// The pictures and maps that own metrics compare, as JSON text; `factor` is that of the albedo after one factor.
+#[pyfunction]
+#[pyo3(signature = (capture, maps, relit=None, factor=None))]
+pub(super) fn shown_json(
+    py: Python<'_>,
+    capture: PathBuf,
+    maps: PathBuf,
+    relit: Option<PathBuf>,
+    factor: Option<f64>,
+) -> PyResult<String> {
+    let all = || {
+        let mut shown = score::shown_maps(&capture, &maps, factor);
+        shown.extend(score::shown(&capture, &maps, relit.as_deref())?);
+        Ok::<_, score::ScoreError>(shown)
+    };
+    let shown = long(py, all)?.map_err(raise)?;
+    serde_json::to_string(&shown).map_err(|error| named_error("ScoreError", &error.to_string()))
+}
+
+/// The rows of an own metric with these values of `shown`, as JSON texts; `metric` is its statement.
+#[pyfunction]
+pub(super) fn judged_rows_json(
+    py: Python<'_>,
+    capture: PathBuf,
+    shown: &str,
+    metric: &str,
+    values: Vec<Option<f64>>,
+) -> PyResult<String> {
+    let text = |error: serde_json::Error| named_error("ScoreError", &error.to_string());
+    let shown: Vec<score::Shown> = serde_json::from_str(shown).map_err(text)?;
+    let metric: OwnMetric = serde_json::from_str(metric).map_err(text)?;
+    metric.register().map_err(raise)?;
+    let rows = long(py, || score::judged_rows(&capture, &shown, &metric.id, &values))?;
+    serde_json::to_string(&rows.map_err(raise)?).map_err(text)
 }
 
 /// Likely faults of a maps folder, as JSON text: a list of findings.
@@ -111,7 +141,7 @@ pub(super) fn check_json(
     maps: PathBuf,
     capture: Option<PathBuf>,
 ) -> PyResult<String> {
-    let findings = py.detach(|| check::check(&maps, capture.as_deref())).map_err(raise)?;
+    let findings = long(py, || check::check(&maps, capture.as_deref()))?.map_err(raise)?;
     serde_json::to_string(&findings).map_err(|error| named_error("MapsError", &error.to_string()))
 }
 
@@ -120,13 +150,13 @@ pub(super) fn check_json(
 pub(super) fn write_scores(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<()> {
     let scores: score::Scores = serde_json::from_str(text)
         .map_err(|error| named_error("ScoreError", &format!("no scores: {error}")))?;
-    py.detach(|| scores.write(&path)).map_err(raise)
+    detached(py, || scores.write(&path))?.map_err(raise)
 }
 
 /// Reads a scores file as JSON text.
 #[pyfunction]
 pub(super) fn read_scores(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    json_of(&py.detach(|| score::Scores::read(&path)).map_err(raise)?)
+    json_of(&detached(py, || score::Scores::read(&path))?.map_err(raise)?)
 }
 
 /// The study of runs as JSON text: (the study, its observations). With `out`, its folder is written.
@@ -145,7 +175,7 @@ pub(super) fn study_json(
         }
         Ok::<_, study::StudyError>((found, observations))
     };
-    let (found, observations) = py.detach(made).map_err(raise)?;
+    let (found, observations) = long(py, made)?.map_err(raise)?;
     let text = |error: serde_json::Error| named_error("ScoreError", &error.to_string());
     let found = serde_json::to_string(&found).map_err(text)?;
     Ok((found, serde_json::to_string(&observations).map_err(text)?))
@@ -159,16 +189,19 @@ fn json_of(scores: &score::Scores) -> PyResult<String> {
 #[pyfunction]
 #[pyo3(signature = (run, baseline, tolerances=None))]
 pub(super) fn compare(
+    py: Python<'_>,
     run: PathBuf,
     baseline: PathBuf,
     tolerances: Option<PathBuf>,
 ) -> PyResult<bool> {
-    let tolerances = match tolerances {
-        Some(path) => Tolerances::read(&path),
-        None => Tolerances::built_in(),
-    }
-    .map_err(raise)?;
-    let current = Baseline::of_run(&run).map_err(raise)?;
-    let baseline = Baseline::read(&baseline).map_err(raise)?;
-    Ok(comparing::compare(&current, &baseline, &tolerances).map_err(raise)?.passed())
+    let passed = || {
+        let tolerances = match tolerances {
+            Some(path) => Tolerances::read(&path),
+            None => Tolerances::built_in(),
+        }?;
+        let current = Baseline::of_run(&run)?;
+        let baseline = Baseline::read(&baseline)?;
+        Ok::<_, CompareError>(comparing::compare(&current, &baseline, &tolerances)?.passed())
+    };
+    long(py, passed)?.map_err(raise)
 }

@@ -4,38 +4,41 @@ use std::path::PathBuf;
 
 use capture::gbuffer::GBuffer;
 use capture::{Camera, Mesh, View};
-use formats::picture::{GrayImage, Picture};
+use formats::picture::{self, GrayImage, Picture};
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn};
-use pyo3::exceptions::{PyKeyError, PyTypeError};
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scoring::score;
 use solver::transport::{Beside, CHANNELS, Sky, Transport};
 
 use super::arrays::{self, Argument};
-use super::errors::raise;
-use super::maps::Maps;
+use super::errors::{named_error, raise};
+use super::threads::{detached, long};
 
 type Floats<'py> = Bound<'py, PyArrayDyn<f32>>;
 
-/// A capture folder, opened and checked.
+/// A capture folder, opened and checked; raises ``errors.CaptureError``. A pickle holds the path.
 #[pyclass(module = "unshade", frozen)]
 pub(super) struct Capture {
     pub(super) inner: capture::Capture,
 }
 
 impl Capture {
-    /// The capture that an argument is or names.
-    pub(super) fn given(value: &Bound<PyAny>) -> PyResult<Py<Self>> {
-        if let Ok(capture) = value.cast::<Self>() {
-            return Ok(capture.clone().unbind());
-        }
-        Py::new(value.py(), Self::new(value.py(), path_of("capture", value)?)?)
-    }
-
     fn view(&self, name: &str) -> PyResult<&View> {
         let found = self.inner.train.iter().find(|view| view.camera.name == name);
         found.ok_or_else(|| PyKeyError::new_err(format!("no training view is named {name:?}")))
+    }
+}
+
+impl Capture {
+    fn is_withheld(&self, name: &str) -> bool {
+        self.inner.withheld.iter().any(|camera| camera.name == name)
+    }
+
+    fn mask_file(&self, name: &str) -> PyResult<GrayImage> {
+        picture::read_png_gray(&self.inner.folder.join(format!("masks/{name}.png"))).map_err(raise)
     }
 }
 
@@ -43,7 +46,7 @@ impl Capture {
 impl Capture {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let inner = py.detach(|| capture::Capture::open(&path)).map_err(raise)?;
+        let inner = long(py, || capture::Capture::open(&path))?.map_err(raise)?;
         Ok(Self { inner })
     }
 
@@ -65,17 +68,41 @@ impl Capture {
         self.inner.withheld.iter().map(|camera| camera.name.clone()).collect()
     }
 
-    /// Linear radiance of a training view.
-    fn image<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        arrays::picture_to_array(py, self.view(name)?.image.clone())
+    /// Return (height, width, 3) linear radiance of a view. That of a withheld view is its
+    /// photograph, or part of the truth; raises ``errors.CaptureError`` where the capture comes
+    /// without it.
+    fn image<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Floats<'py>> {
+        if !self.is_withheld(name) {
+            return arrays::picture_to_array(py, self.view(name)?.image.clone());
+        }
+        let path = score::withheld_picture(&self.inner.folder, name).map_err(raise)?;
+        if !path.is_file() {
+            let path = path.display();
+            let reason =
+                format!("{path}: is missing; this capture comes without its withheld pictures");
+            return Err(named_error("CaptureError", &reason));
+        }
+        let mask = self.mask_file(name)?;
+        let read = || picture::read_colour_unchecked(&path);
+        let mut picture = detached(py, read)?.map_err(raise)?;
+        if (picture.width, picture.height) != (mask.width, mask.height) {
+            let reason = format!("{}: has another size than its mask", path.display());
+            return Err(named_error("CaptureError", &reason));
+        }
+        picture.blacken_not_finite(|pixel| mask.data[pixel] < 128);
+        arrays::picture_to_array(py, picture)
     }
 
-    /// 255 where the mesh is the first surface.
+    /// Return (height, width) of any view, 255 where the mesh is the first surface.
     fn mask<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
-        arrays::gray_to_array(py, self.view(name)?.mask.clone())
+        let mask = match self.is_withheld(name) {
+            true => self.mask_file(name)?,
+            false => self.view(name)?.mask.clone(),
+        };
+        arrays::gray_to_array(py, mask)
     }
 
-    /// Region ids, or None.
+    /// (height, width) region ids.
     fn labels<'py>(
         &self,
         py: Python<'py>,
@@ -85,7 +112,7 @@ impl Capture {
         labels.map(|labels| arrays::gray_to_array(py, labels.clone())).transpose()
     }
 
-    /// Size, focal lengths, principal point (pixels) and camera-to-world matrix of any view.
+    /// Any view's camera: pixels, and camera to world with OpenGL axes (4, 4).
     fn camera<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
         let camera = self.inner.camera(name);
         let camera =
@@ -93,18 +120,19 @@ impl Capture {
         camera_to_dict(py, camera)
     }
 
-    /// Vertices, normals, texture coordinates and triangles.
+    /// Vertices and normals (V, 3), uvs (V, 2), triangles (F, 3); metres, world space.
     #[getter]
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         mesh_to_dict(py, &self.inner.mesh)
     }
 
-    /// The mesh as any view sees it: positions, normals and uvs, NaN where it sees none.
+    /// The mesh at the pixel centres of any view: positions (metres) and unit normals (height,
+    /// width, 3), uvs (height, width, 2); NaN where it sees nothing of it.
     fn gbuffer<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
         let camera = self.inner.camera(name);
         let camera =
             camera.ok_or_else(|| PyKeyError::new_err(format!("no view is named {name:?}")))?;
-        let gbuffer = py.detach(|| GBuffer::new(&self.inner.mesh, camera, None));
+        let gbuffer = detached(py, || GBuffer::new(&self.inner.mesh, camera, None))?;
         let plane = |channels: usize, of: &dyn Fn(usize) -> Vec<f32>| {
             let mut picture = Picture::new(gbuffer.width, gbuffer.height, channels);
             picture.data.fill(f32::NAN);
@@ -121,9 +149,9 @@ impl Capture {
         Ok(dict)
     }
 
-    /// The diffuse shading S_d of the mesh in a lat-long environment, shadows and bounces
-    /// included, on a texture: a white Lambert texel in radiance 1 from everywhere has 1. The
-    /// environment is a sphere of 1 / `nearness` metres around the head.
+    /// The diffuse shading (N, N, 3) of the mesh in an environment (rows, 2 rows, 3), lat-long as
+    /// ``truth/light.exr``, on a sphere of 1 / ``nearness`` metres, with the mesh's own shadows and
+    /// bounces: 1 for radiance 1 from everywhere. A diffuse layer is albedo times shading.
     #[pyo3(signature = (light, *, texture_size=128, nearness=0.0, bounces=2, bounce_albedo=0.4))]
     fn shading<'py>(
         &self,
@@ -149,17 +177,17 @@ impl Capture {
         (transport.texture_size, transport.rows) = (texture_size, light.height);
         (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
         config.validate().map_err(raise)?;
-        let data = py.detach(|| {
+        let data = long(py, || {
             let sky = Sky::even(light.height).at(nearness);
             let (mesh, transport) = (&self.inner.mesh, &config.transport);
             Transport::new(mesh, &sky, transport, config.seed, Beside::Nothing).shading(&light.data)
-        });
+        })?;
         let (width, height) = (texture_size, texture_size);
         arrays::picture_to_array(py, Picture { width, height, channels: CHANNELS, data })
     }
 
-    /// Pictures of training views as a texture: the mean of what they show at a texel, weighted by
-    /// the cosine, and 255 where one of them shows it.
+    /// Pictures (height, width, 3) of training views by name as a texture (size, size, 3): the mean
+    /// of what they show at a texel, weighted by the cosine, and 255 where one of them shows it.
     fn project<'py>(
         &self,
         py: Python<'py>,
@@ -180,17 +208,20 @@ impl Capture {
             }
             views.push(View { image, ..view.clone() });
         }
-        let found = py.detach(|| capture::mean_texture::project(&self.inner.mesh, &views, size));
+        let found = long(py, || capture::mean_texture::project(&self.inner.mesh, &views, size))?;
         let data = found.seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
         let seen = GrayImage { width: size, height: size, data };
         Ok((arrays::picture_to_array(py, found.mean)?, arrays::gray_to_array(py, seen)?))
     }
 
-    /// The true maps of a synthetic capture.
-    fn truth(&self, py: Python<'_>) -> PyResult<Maps> {
-        let folder = self.inner.folder.join("truth");
-        let inner = py.detach(|| formats::Maps::read(&folder)).map_err(raise)?;
-        Maps::new_from(py, inner, None)
+    /// Return the true maps of a synthetic capture. Raises ``errors.MapsError`` without a truth.
+    fn truth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let maps = py.import("unshade.maps")?.getattr("Maps")?;
+        maps.call_method1("read", (self.inner.folder.join("truth"),))
+    }
+
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("unshade.thumbnails")?.call_method1("of_capture", (slf,))
     }
 
     /// For pickles and copies: the folder is opened again.
@@ -204,14 +235,6 @@ impl Capture {
         let folder = self.inner.folder.display();
         format!("Capture({folder}: {train} training views, {withheld} withheld)")
     }
-}
-
-/// The path that an argument is.
-fn path_of(name: &str, value: &Bound<PyAny>) -> PyResult<PathBuf> {
-    value.extract().map_err(|_| {
-        let given = value.get_type().qualname().map_or_else(|_| String::new(), |n| n.to_string());
-        PyTypeError::new_err(format!("{name}: expected a Capture or a path, got {given}"))
-    })
 }
 
 fn camera_to_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyDict>> {

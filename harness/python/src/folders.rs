@@ -6,6 +6,7 @@ use formats::atomic::Folder;
 use pyo3::prelude::*;
 
 use super::errors::raise;
+use super::threads::detached;
 
 /// Starts the folder `target`, or takes up an attempt with the same key; returns where to write.
 /// Raises `StorageError` if the target is not unshade's to replace.
@@ -17,5 +18,5 @@ pub(super) fn begin_folder(target: PathBuf, key: &str) -> PyResult<PathBuf> {
 /// Puts the folder that `begin_folder` started with these arguments in the target's place.
 #[pyfunction]
 pub(super) fn commit_folder(py: Python<'_>, target: PathBuf, key: &str) -> PyResult<()> {
-    py.detach(|| Folder::resume(&target, key)?.commit()).map_err(raise)
+    detached(py, || Folder::resume(&target, key)?.commit())?.map_err(raise)
 }

@@ -1,11 +1,13 @@
 //! The extension module `unshade._native`: bindings, nothing else.
 
 mod arrays;
+mod bookkeeping;
 mod calls;
 mod capture;
 mod cluster;
 mod errors;
 mod folders;
+mod gpu_of_process;
 mod maps;
 mod meshes;
 mod metrics;
@@ -13,6 +15,7 @@ mod pictures;
 mod skin;
 mod stages;
 mod tangents;
+mod threads;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -29,11 +32,24 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let all = [harness::suite::SOLVER_SOURCES, harness::suite::SCORE_SOURCES].concat();
     sources.set_item("all", all)?;
     module.add("sources", sources)?;
+    module.add("subjects", report::subjects().collect::<Vec<_>>())?;
     module.add_class::<capture::Capture>()?;
-    module.add_class::<maps::Maps>()?;
+    module.add_function(wrap_pyfunction!(maps::read_maps, module)?)?;
+    module.add_function(wrap_pyfunction!(maps::write_maps, module)?)?;
+    module.add_function(wrap_pyfunction!(maps::map_array, module)?)?;
+    module.add_function(wrap_pyfunction!(maps::coverage_array, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::figure, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::table, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::site, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::seal, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::score_submission, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::verify, module)?)?;
+    module.add_function(wrap_pyfunction!(bookkeeping::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(calls::run_command_line, module)?)?;
     module.add_function(wrap_pyfunction!(calls::solve, module)?)?;
     module.add_function(wrap_pyfunction!(calls::score_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::shown_json, module)?)?;
+    module.add_function(wrap_pyfunction!(calls::judged_rows_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::study_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::check_json, module)?)?;
     module.add_function(wrap_pyfunction!(calls::compare, module)?)?;
@@ -58,6 +74,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(pictures::read_colour, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_light, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::write_colour, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::write_exr, module)?)?;
+    module.add_function(wrap_pyfunction!(pictures::picture_array, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_png, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_gray, module)?)?;
     module.add_function(wrap_pyfunction!(pictures::read_ids, module)?)?;

@@ -13,12 +13,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// The objects of an OBJ file, each a dict of `name`, `vertices` (V,3) float64, `triangles` (F,3)
-/// int64, `uv` (V,2) and `normals` (V,3) float64 or None, `line_without_uv`, a line number or None,
-/// `parts`, the materials (or the object) in words, and `part_of` (F,) int64. Raises ValueError for what cannot be read, with the line.
+use super::threads::detached;
+
+/// The objects of an OBJ file; raises ValueError with the line.
 #[pyfunction]
 pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py, PyList>> {
-    let objects = py.detach(|| formats::obj::read(data));
+    let objects = detached(py, || formats::obj::read(data))?;
     let objects = objects.map_err(|error| PyValueError::new_err(error.to_string()))?;
     let list = PyList::empty(py);
     for object in objects {
@@ -69,7 +69,7 @@ pub(super) fn examine_layout(
     let of = of.filter(|of| of.len() == triangles.len());
     let of = of.ok_or_else(|| PyValueError::new_err("part_of: expected a part per triangle"))?;
     let parts = Parts { names: parts, of };
-    Ok(py.detach(|| {
+    detached(py, || {
         let (positions, uvs, triangles) = (&positions, &uvs, &triangles);
         match uv_layout::examine(&Layout { positions, uvs, triangles, parts: &parts }) {
             Ok(islands) => (None, uv_layout::islands_warning(islands), false),
@@ -78,12 +78,11 @@ pub(super) fn examine_layout(
                 (Some(fault.to_string()), None, is_of_pages)
             }
         }
-    }))
+    })
 }
 
-/// Parts to turn for all surfaces to face outwards, away from the origin: triangles (F,) bool,
-/// normals (V,) bool (empty without normals), and the number of triangles on surfaces with one side
-/// only.
+/// Triangles and normals to turn so that all face away from the origin, and triangles on one-sided
+/// surfaces.
 #[pyfunction]
 #[pyo3(signature = (vertices, triangles, normals=None))]
 #[allow(clippy::type_complexity)]
@@ -99,13 +98,13 @@ pub(super) fn outward_turns<'py>(
         return Err(PyValueError::new_err("normals: expected one per vertex"));
     }
     let faces = corners(&triangles, positions.len())?;
-    let found = py.detach(|| outward::outward(&positions, normals.as_deref(), &faces));
+    let found = detached(py, || outward::outward(&positions, normals.as_deref(), &faces))?;
     let flipped = found.triangles.into_pyarray(py);
     Ok((flipped, found.normals.into_pyarray(py), found.one_sided))
 }
 
-/// Depth along a pinhole's axis at every pixel's centre (height, width), infinite where there is no
-/// surface, whichever side it shows. `camera_to_world` (4, 4) has OpenGL axes.
+/// Depth at every pixel's centre (height, width) for a pinhole of ``size`` (width, height);
+/// infinite beside the mesh.
 #[pyfunction]
 pub(super) fn depth_of<'py>(
     py: Python<'py>,
@@ -124,7 +123,7 @@ pub(super) fn depth_of<'py>(
     let (width, height) = size;
     let camera_to_world = Mat4::from_cols_array_2d(&camera_to_world).transpose();
     let camera = Camera { name: String::new(), width, height, focal, centre, camera_to_world };
-    let raster = py.detach(|| rasterise(&mesh, &camera));
+    let raster = detached(py, || rasterise(&mesh, &camera))?;
     let depth = |(row, column): (usize, usize)| {
         raster.hits[row * width + column].map_or(f32::INFINITY, |hit| hit.depth)
     };

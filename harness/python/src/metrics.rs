@@ -13,6 +13,7 @@ use scoring::metrics::{
 use super::arrays::Argument;
 use super::errors::{named_error, raise};
 use super::pictures::array;
+use super::threads::detached;
 
 /// (id, name, unit, direction, definition, link, needs) of every metric; `needs` is the argument
 /// that it takes beside prediction, truth and mask, or empty.
@@ -72,7 +73,7 @@ pub(super) fn measure(
     }
     let halves = given("halves")?.map(|given| halves(&given, truth)).transpose()?;
     let inputs = Inputs { labels, pictures, halves };
-    py.detach(|| values(&metrics, &compared, erode, &inputs)).map_err(raise)
+    detached(py, || values(&metrics, &compared, erode, &inputs))?.map_err(raise)
 }
 
 /// The pictures as they are looked at: sRGB values in [0, 1], black outside the region, float32 of the

@@ -4,21 +4,24 @@ use std::path::PathBuf;
 
 use formats::picture::{self, Content, ExrFile, GrayImage, Picture, PictureError, Png};
 use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayDyn, PyReadonlyArray3};
 use pyo3::prelude::*;
 
+use super::arrays::{Argument, picture_to_array};
 use super::errors::raise;
+use super::threads::detached;
 
 type Floats<'py> = PyResult<Bound<'py, PyArray3<f32>>>;
 
-/// Channel names, in the file's order.
+/// Names of an EXR's channels, from its header; raises ``errors.PictureError``, as all readers
+/// here.
 #[pyfunction]
 pub(super) fn exr_channels(py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
-    py.detach(|| picture::exr_channel_names(&path)).map_err(raise)
+    detached(py, || picture::exr_channel_names(&path))?.map_err(raise)
 }
 
-/// Channels of an EXR (all of them if `names` is None) and their names; of colours, each R, G, B
-/// is converted to linear Rec.709.
+/// Channels (all without ``names``) and their names; (height, width, channels), in the display
+/// window.
 #[pyfunction]
 #[pyo3(signature = (path, names=None, *, colour=false, finite=true))]
 pub(super) fn read_exr<'py>(
@@ -39,57 +42,81 @@ pub(super) fn read_exr<'py>(
         }
         Ok::<_, PictureError>((names, picture))
     };
-    let (names, picture) = py.detach(read).map_err(raise)?;
+    let (names, picture) = detached(py, read)?.map_err(raise)?;
     Ok((names, array(py, picture)?))
 }
 
-/// An EXR or Radiance file as linear Rec.709, (height, width, 3).
+/// EXR or Radiance as linear Rec.709, (height, width, 3).
 #[pyfunction]
 pub(super) fn read_colour<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
-    array(py, py.detach(|| picture::read_colour(&path)).map_err(raise)?)
+    array(py, detached(py, || picture::read_colour(&path))?.map_err(raise)?)
 }
 
-/// A lat-long light as linear Rec.709, (height, width, 3).
+/// As ``read_colour``, lat-long pictures of 2 : 1 alone.
 #[pyfunction]
 pub(super) fn read_light<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
-    array(py, py.detach(|| picture::read_light(&path)).map_err(raise)?)
+    array(py, detached(py, || picture::read_light(&path))?.map_err(raise)?)
 }
 
-/// Writes linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes.
+/// Linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes.
 #[pyfunction]
 pub(super) fn write_colour(
     py: Python<'_>,
     path: PathBuf,
     picture: PyReadonlyArray3<f32>,
 ) -> PyResult<()> {
+    write_exr(py, path, picture, ["R", "G", "B"].map(str::to_owned).to_vec())
+}
+
+/// Writes channels (height, width, n) by their names as a float EXR; equal pictures give equal bytes.
+#[pyfunction]
+pub(super) fn write_exr(
+    py: Python<'_>,
+    path: PathBuf,
+    picture: PyReadonlyArray3<f32>,
+    names: Vec<String>,
+) -> PyResult<()> {
     let view = picture.as_array();
     let (height, width, channels) = view.dim();
-    if channels != 3 {
-        return Err(pyo3::exceptions::PyValueError::new_err("picture: expected (h, w, 3)"));
+    if channels != names.len() {
+        let reason = format!("picture: expected (h, w, {})", names.len());
+        return Err(pyo3::exceptions::PyValueError::new_err(reason));
     }
     let picture = Picture { width, height, channels, data: view.iter().copied().collect() };
-    py.detach(|| picture::write_exr_rgb(&path, &picture)).map_err(raise)
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    detached(py, || picture::write_exr(&path, &picture, &names))?.map_err(raise)
 }
 
-/// A PNG's values from 0 to 1, (height, width, 1) for a grey one, else three channels.
+/// A picture as a new array: float32 (height, width[, channels]) of anything that numpy makes floats of. Raises
+/// `PictureError` with the argument's name.
+#[pyfunction]
+pub(super) fn picture_array<'py>(
+    name: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+    let picture = Argument { name, class: "PictureError" }.picture(value)?;
+    picture_to_array(value.py(), picture)
+}
+
+/// Values from 0 to 1, (height, width, 1 or 3).
 #[pyfunction]
 pub(super) fn read_png<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
-    array(py, py.detach(|| Png::open(&path)?.picture(&path)).map_err(raise)?)
+    array(py, detached(py, || Png::open(&path)?.picture(&path))?.map_err(raise)?)
 }
 
-/// An 8-bit grey PNG, (height, width).
+/// 8-bit grey PNG, (height, width).
 #[pyfunction]
 pub(super) fn read_gray<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyArray2<u8>>> {
     let GrayImage { width, height, data } =
-        py.detach(|| picture::read_png_gray(&path)).map_err(raise)?;
+        detached(py, || picture::read_png_gray(&path))?.map_err(raise)?;
     Ok(Array2::from_shape_vec((height, width), data).map_err(shape)?.into_pyarray(py))
 }
 
-/// The samples of a PNG of one channel as they are, (height, width).
+/// Samples of a PNG of one channel as they are, (height, width).
 #[pyfunction]
 pub(super) fn read_ids<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyArray2<u16>>> {
     let Png { width, height, samples, .. } =
-        py.detach(|| Png::open(&path)?.ids(&path)).map_err(raise)?;
+        detached(py, || Png::open(&path)?.ids(&path))?.map_err(raise)?;
     Ok(Array2::from_shape_vec((height, width), samples).map_err(shape)?.into_pyarray(py))
 }
 

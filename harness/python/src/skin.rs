@@ -8,10 +8,8 @@ use solver::transport::skin::reflected;
 
 use super::arrays::rows;
 
-/// Specular BRDF of skin times the cosine of the light, 1/sr: (N,) float32, for the reflectance at normal incidence
-/// that the default configuration states.
-///
-/// `normals`, `views` and `lights` (N,3) float32, unit, from the surface. Raises ValueError for shapes that do not fit.
+/// The solver's specular BRDF of skin times the cosine (N,), 1/sr; unit vectors (N, 3); raises
+/// ValueError.
 #[pyfunction]
 pub(super) fn skin_reflected<'py>(
     py: Python<'py>,

@@ -1,23 +1,16 @@
 //! The stages that render or take long, as functions.
 //!
 //! Each takes `progress(done, total, what)`. What it raises (or Ctrl-C) stops the stage and is raised
-//! here; `False` stops it too, and raises `errors.Stopped`.
+//! here; `unshade.STOP` stops it too, and raises `errors.Stopped`.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
-use std::thread;
-use std::time::Duration;
 
 use harness::suite::{self, Observer, RunError, RunOptions, Suite, Tools};
-use harness::synth::{Interpreter, Interrupt, StageError};
+use harness::synth::{Interpreter, StageError};
 use pyo3::prelude::*;
-use pyo3::types::PyBool;
 
 use super::errors::{named_error, raise};
-
-/// How often Ctrl-C is looked out for.
-const TICK: Duration = Duration::from_millis(20);
+use super::threads::{End, Reporter, interruptible};
 
 type Heard<'py> = Option<&'py Bound<'py, PyAny>>;
 
@@ -30,9 +23,9 @@ pub(super) fn synth(py: Python<'_>, scene: PathBuf, out: PathBuf, progress: Hear
     })
 }
 
-/// Renders maps in a capture's lights.
+/// Renders maps in a capture's lights, or in a lat-long picture.
 #[pyfunction]
-#[pyo3(signature = (capture, maps, out, progress=None, renderer="mitsuba"))]
+#[pyo3(signature = (capture, maps, out, progress=None, renderer="mitsuba", light=None))]
 pub(super) fn relight(
     py: Python<'_>,
     capture: PathBuf,
@@ -40,10 +33,18 @@ pub(super) fn relight(
     out: PathBuf,
     progress: Heard,
     renderer: &str,
+    light: Option<PathBuf>,
 ) -> PyResult<PathBuf> {
     watched(py, progress, |tools, said| {
-        let step = &mut |done, total, what: &str| said.say(done, total, what);
-        suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
+        let relight = suite::Relight {
+            capture: &capture,
+            maps: &maps,
+            out: &out,
+            renderer,
+            scales: &suite::SCALES,
+            light: light.as_deref(),
+        };
+        suite::relight(&relight, tools, &mut |done, total, what| said.say(done, total, what))
     })?;
     Ok(out)
 }
@@ -105,9 +106,9 @@ pub(super) fn run(
     jobs: usize,
 ) -> PyResult<PathBuf> {
     watched(py, progress, |tools, said| {
-        let mut teller = Teller { said, done: 0, total: 0 };
+        let mut reporter = RunReporter::new(said);
         let options = RunOptions { redo, jobs, cluster: None };
-        let summary = suite::run(&Suite::open(&suite)?, &out, &options, tools, &mut teller)?;
+        let summary = suite::run(&Suite::open(&suite)?, &out, &options, tools, &mut reporter)?;
         match summary.failed.into_iter().next() {
             None => Ok(summary.report),
             Some((name, reason)) => Err(RunError::Methods { name, reason, report: summary.report }),
@@ -124,30 +125,30 @@ pub(super) fn report(py: Python<'_>, run: PathBuf, out: PathBuf, progress: Heard
     })
 }
 
-/// Arguments of the callback: done, total, and what.
-type Step = (u64, u64, String);
+/// The callback's arguments: done, total, and what.
+pub(super) type Step = (u64, u64, String);
 
-/// The worker's end of the line to the callback.
-pub(super) struct Said(Option<(SyncSender<Step>, Receiver<()>)>);
-
-impl Said {
-    /// Returns when it was heard, so that no more is done once the callback asks to stop.
+impl Reporter<Step> {
     pub(super) fn say(&self, done: u64, total: u64, what: &str) {
-        if let Some((steps, heard)) = &self.0 {
-            // After a stop nobody listens any more.
-            let _ = steps.send((done, total, what.to_owned())).map(|()| heard.recv());
-        }
+        // A stop raises the interrupt, which the stage sees by itself.
+        self.send((done, total, what.to_owned()));
     }
 }
 
 /// Counts the stages of a run, and says in words how far the stage is.
-struct Teller<'a> {
-    said: &'a Said,
+pub(super) struct RunReporter<'a> {
+    said: &'a Reporter<Step>,
     done: u64,
     total: u64,
 }
 
-impl Observer for Teller<'_> {
+impl<'a> RunReporter<'a> {
+    pub(super) fn new(said: &'a Reporter<Step>) -> Self {
+        Self { said, done: 0, total: 0 }
+    }
+}
+
+impl Observer for RunReporter<'_> {
     fn stage_begins(&mut self, id: &str, done: usize, total: usize) {
         (self.done, self.total) = (done as u64, total as u64);
         self.said.say(self.done, self.total, id);
@@ -171,69 +172,25 @@ impl Observer for Teller<'_> {
     }
 }
 
-/// Does `work` on another thread while this one, the caller's, hears its progress and looks out for
+/// Does `work` on other threads while this one, the caller's, hears its progress and looks out for
 /// Ctrl-C.
 pub(super) fn watched<T: Send>(
     py: Python<'_>,
     progress: Heard,
-    work: impl FnOnce(&Tools, &Said) -> Result<T, RunError> + Send,
+    work: impl FnOnce(&Tools, &Reporter<Step>) -> Result<T, RunError> + Send,
 ) -> PyResult<T> {
     let python: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
-    let tools =
-        Tools { interpreter: Interpreter::at(Path::new(&python)), interrupt: Interrupt::default() };
-    let (sender, steps) = mpsc::sync_channel(0);
-    let (answer, heard) = mpsc::sync_channel(1);
-    let said = Said(progress.map(|_| (sender, heard)));
-    let progress = progress.map(|progress| progress.clone().unbind());
-    let mut stopped: PyResult<bool> = Ok(true);
-    let result = py.detach(|| {
-        thread::scope(|scope| {
-            let tools = &tools;
-            let worker = scope.spawn(move || work(tools, &said));
-            let mut steps = Some(steps);
-            while !worker.is_finished() {
-                let step = match &steps {
-                    Some(steps) => steps.recv_timeout(TICK),
-                    None => Err(RecvTimeoutError::Disconnected),
-                };
-                if let Err(RecvTimeoutError::Disconnected) = step {
-                    thread::sleep(TICK);
-                }
-                if !matches!(stopped, Ok(true)) {
-                    continue;
-                }
-                let spoke = step.is_ok();
-                stopped = Python::attach(|py| hear(py, progress.as_ref(), step.ok()));
-                if !matches!(stopped, Ok(true)) {
-                    tools.interrupt.store(true, Ordering::Relaxed);
-                    steps = None;
-                }
-                if spoke {
-                    let _ = answer.send(());
-                }
-            }
-            worker.join()
-        })
-    });
-    stopped?;
-    match result {
-        Ok(Ok(value)) => Ok(value),
+    let interpreter = Interpreter::at(Path::new(&python));
+    let end = interruptible(py, progress, false, |interrupt, said| {
+        work(&Tools { interpreter, interrupt: interrupt.clone() }, said)
+    })?;
+    match end {
+        End::Done(Ok(value)) => Ok(value),
         // The renderer's own exception keeps its name.
-        Ok(Err(RunError::Stage(StageError::Input { kind, message }))) => {
+        End::Done(Err(RunError::Stage(StageError::Input { kind, message }))) => {
             Err(named_error(&kind, &message))
         }
-        Ok(Err(error)) => Err(raise(error)),
-        Err(panic) => std::panic::resume_unwind(panic),
+        End::Done(Err(error)) => Err(raise(error)),
+        End::Stopped => Err(raise(RunError::Interrupted)),
     }
-}
-
-/// Whether to go on, after Python has seen to its signals and the callback has heard the step.
-fn hear(py: Python<'_>, progress: Option<&Py<PyAny>>, step: Option<Step>) -> PyResult<bool> {
-    py.check_signals()?;
-    let (Some(progress), Some(step)) = (progress, step) else { return Ok(true) };
-    let answer = progress.call1(py, step)?;
-    // A signal that came meanwhile is no news of the next step.
-    py.check_signals()?;
-    // None, as of a function that returns nothing, goes on.
-    Ok(!answer.bind(py).is(PyBool::new(py, false)))
 }

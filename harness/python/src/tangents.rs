@@ -8,11 +8,7 @@ use pyo3::prelude::*;
 
 use super::arrays::rows;
 
-/// Tangents of a triangle mesh after MikkTSpace: (F, 3, 4) float32, xyz unit and the sign of the bitangent,
-/// v up.
-///
-/// `vertices` and `normals` (V,3) and `uv` (V,2) float32, `triangles` (F,3) int64. Raises ValueError for
-/// shapes that do not fit.
+/// Tangents (F, 3, 4) of a mesh: xyz unit, and the sign of the bitangent; raises ValueError.
 #[pyfunction]
 pub(super) fn mikktspace<'py>(
     py: Python<'py>,

@@ -46,6 +46,7 @@ pub use changed::write_changes;
 pub use error::ReportError;
 pub use figures::{FigureKind, FigureRequest, write_figure};
 use link::WayToRun;
+pub use metric::subjects;
 use page::Page;
 pub use page::ProgressCallback;
 pub use results::write_results;

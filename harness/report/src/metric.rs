@@ -81,6 +81,11 @@ pub(super) fn subject(id: &str) -> &str {
     SUBJECTS.iter().find(|(subject, _)| *subject == id).map_or(id, |(_, name)| name)
 }
 
+/// The subjects that scores may have.
+pub fn subjects() -> impl Iterator<Item = &'static str> {
+    SUBJECTS.into_iter().map(|(id, _)| id)
+}
+
 /// A region in words.
 pub(super) fn region(id: &str, label: Option<&str>) -> String {
     let words = match id {

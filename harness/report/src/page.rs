@@ -1,5 +1,6 @@
 //! Everything the page shows, gathered from a run and laid out by the templates.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use minijinja::syntax::SyntaxConfig;
@@ -133,7 +134,7 @@ impl Page {
             summary: summaries,
             matrices,
             cases,
-            metrics: METRICS.iter().map(Definition::of).collect(),
+            metrics: METRICS.iter().chain(own_metrics(&scores)).map(Definition::of).collect(),
             protocols: protocols(scores.iter().flatten().flatten()),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
@@ -190,6 +191,13 @@ fn protocols<'a>(scores: impl Iterator<Item = &'a Scores>) -> Vec<Protocol> {
         }
     }
     protocols
+}
+
+/// The metrics that users wrote, as the scores state them.
+fn own_metrics(scores: &[Vec<Option<Scores>>]) -> Vec<&'static Metric> {
+    let stated = scores.iter().flatten().flatten().flat_map(|scores| &scores.metrics);
+    let ids: BTreeSet<&str> = stated.map(|metric| metric.id.as_str()).collect();
+    ids.into_iter().filter_map(|id| Metric::find(id).ok()).collect()
 }
 
 /// Solvers first, then the baselines to beat, then the oracle that bounds them.

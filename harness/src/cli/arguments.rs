@@ -45,6 +45,9 @@ pub(super) enum Verb {
         /// The path tracer.
         #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
         renderer: RendererName,
+        /// A lat-long picture (EXR or HDR) in the place of the capture's lights, with the radiance that it has.
+        #[arg(long, value_name = "FILE")]
+        light: Option<PathBuf>,
     },
     /// Say which map makes how much of the error of a relit view: Shapley values over the maps.
     Budget {
@@ -91,6 +94,9 @@ pub(super) enum Verb {
         /// Also ask a network (LPIPS), which is the extra `lpips`.
         #[arg(long, value_name = "NET", value_parser = NETS)]
         lpips: Option<String>,
+        /// A metric of yours: module:function, file.py or file.py:function; may be given again.
+        #[arg(long, value_name = "FUNCTION")]
+        metric: Vec<String>,
         /// The scores' file.
         #[arg(short, long)]
         out: PathBuf,

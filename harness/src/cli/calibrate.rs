@@ -8,7 +8,7 @@ use scoring::compare::{Baseline, Calibration, MIN_RUNS, Tolerances};
 use super::alone::tools;
 use super::exit::{CHECK_FAILED, DONE};
 use super::progress::Progress;
-use crate::suite::{self, RunError, RunOptions, Suite, Vary};
+use crate::suite::{CalibrationRuns, Observer, RunError, Suite, Vary};
 
 /// How many of the rows that see least are named.
 const NAMED: usize = 3;
@@ -89,30 +89,19 @@ fn make_runs(
     arguments: &CalibrateArgs,
 ) -> Result<Result<Vec<PathBuf>, u8>, RunError> {
     let suite = Suite::open(suite)?;
-    let keep = arguments.keep.clone().unwrap_or_else(|| {
-        let stem = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
-        arguments.out.with_file_name(format!("{stem}-runs"))
-    });
-    let tools = tools();
-    let mut folders: Vec<PathBuf> = Vec::new();
-    for round in 1..=arguments.seeds {
-        let folder = keep.join(format!("seed-{round:02}"));
-        let suite = suite.reseeded(round, arguments.vary)?;
+    let beside = || CalibrationRuns::beside(&arguments.out);
+    let runs = CalibrationRuns {
+        seeds: arguments.seeds,
+        vary: arguments.vary,
+        keep: arguments.keep.clone().unwrap_or_else(beside),
+    };
+    let begin = &mut |round| {
         eprintln!("calibrate: run {round} of {}", arguments.seeds);
-        let mut progress = Progress::new();
-        let options = RunOptions::default();
-        if let (Some(first), true) = (folders.first(), arguments.vary.keeps_captures()) {
-            suite::begin_from(first, &suite, &folder)?;
-        }
-        let summary = suite::run(&suite, &folder, &options, &tools, &mut progress);
-        progress.finish();
-        let summary = summary?;
-        if !summary.failed.is_empty() {
-            return Ok(Err(CHECK_FAILED));
-        }
-        folders.push(folder);
-    }
-    Ok(Ok(folders))
+        Box::new(Progress::new()) as Box<dyn Observer>
+    };
+    let made = runs.make(&suite, &tools(), begin)?;
+    // The observer has told of each failure.
+    Ok(made.map_err(|_| CHECK_FAILED))
 }
 
 /// Says what the tolerances can see.

@@ -1,6 +1,5 @@
 //! The verbs of the command line.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use formats::atomic;
@@ -14,20 +13,26 @@ use super::exit::DONE;
 use super::run::run_suite;
 use super::{bench, calibrate, check, clean, compare, doctor, export, figure, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, Budget, RunError};
+use crate::suite::{self, BaselineMethod, Budget, OwnMetrics, Relight, RunError};
 
 pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
     match verb {
         Verb::Synth(arguments) => synth(arguments)?,
         Verb::Solve(arguments) => solve(&arguments)?,
-        Verb::Relight { capture, maps, out, renderer } => {
+        Verb::Relight { capture, maps, out, renderer, light } => {
             let renderer = match renderer {
                 RendererName::Mitsuba => "mitsuba",
                 RendererName::Cycles => "cycles",
             };
-            alone("relight", |tools, step| {
-                suite::relight(renderer, &capture, &maps, &out, &suite::SCALES, tools, step)
-            })?;
+            let relight = Relight {
+                capture: &capture,
+                maps: &maps,
+                out: &out,
+                renderer,
+                scales: &suite::SCALES,
+                light: light.as_deref(),
+            };
+            alone("relight", |tools, step| suite::relight(&relight, tools, step))?;
         }
         Verb::Budget { capture, maps, out, light, view } => {
             let (light, view) = (light.as_deref(), view.as_deref());
@@ -44,7 +49,7 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
         }
         Verb::Seal(arguments) => return seal::seal(&arguments),
         Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref())?,
-        Verb::Score { capture, maps, relit, lpips, out } => {
+        Verb::Score { capture, maps, relit, lpips, metric, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
             let mut scores = score::score(&capture, &maps, relit.as_deref())?;
@@ -52,6 +57,8 @@ pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
                 let rows = suite::lpips(&net, &capture, &maps, relit.as_deref(), &tools())?;
                 scores.rows.extend(rows);
             }
+            let own = OwnMetrics::new(metric, PathBuf::new());
+            own.add_rows(&mut scores, [&capture, &maps], relit.as_deref(), &tools())?;
             scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
             scores.write(&out)?;
         }
@@ -127,16 +134,7 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 }
 
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
-    let mut config = if arguments.config.ends_with(".toml") {
-        let path = PathBuf::from(&arguments.config);
-        match fs::read_to_string(&path) {
-            Ok(text) => solver::Config::from_toml(&text)
-                .map_err(|reason| RunError::ConfigFile { path, reason })?,
-            Err(reason) => return Err(RunError::File { path, reason }),
-        }
-    } else {
-        solver::Config::preset(&arguments.config)?
-    };
+    let mut config = suite::solver_config(&arguments.config)?;
     if arguments.no_records {
         config.records = solver::config::RecordConfig { stages: false, layers: false };
     }

@@ -1,6 +1,6 @@
 //! `unshade figure`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use report::{FigureKind, FigureRequest};
@@ -65,22 +65,34 @@ impl KindName {
     }
 }
 
+/// The request for a figure by the name of its kind, and the command that makes it; the error names the kinds.
+pub fn figure_request(
+    kind: &str,
+    runs: Vec<PathBuf>,
+    methods: Vec<String>,
+    cases: Vec<String>,
+    out: &Path,
+) -> Result<FigureRequest, String> {
+    let found = KindName::from_str(kind, false).map_err(|_| {
+        let kinds = KindName::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        let kinds: Vec<String> = kinds.map(|kind| kind.get_name().to_owned()).collect();
+        format!("figure {kind:?} is unknown; use one of {}", kinds.join(", "))
+    })?;
+    let mut words = vec![format!("unshade figure {kind}")];
+    words.extend(runs.iter().map(|run| run.display().to_string()));
+    words.extend(methods.iter().map(|name| format!("--method {name}")));
+    words.extend(cases.iter().map(|name| format!("--case {name}")));
+    words.push(format!("-o {}", out.display()));
+    Ok(FigureRequest { kind: found.kind(), runs, methods, cases, command: words.join(" ") })
+}
+
 /// Gathers and draws the figure.
 pub(super) fn figure(arguments: &FigureArgs) -> Result<(), RunError> {
     let FigureArgs { kind, runs, out, method, case } = arguments;
     let name = kind.to_possible_value().map_or(String::new(), |name| name.get_name().to_owned());
-    let mut words = vec!["unshade figure".to_owned(), name];
-    words.extend(runs.iter().map(|run| run.display().to_string()));
-    words.extend(method.iter().map(|name| format!("--method {name}")));
-    words.extend(case.iter().map(|name| format!("--case {name}")));
-    words.push(format!("-o {}", out.display()));
-    let request = FigureRequest {
-        kind: kind.kind(),
-        runs: runs.clone(),
-        methods: method.clone(),
-        cases: case.clone(),
-        command: words.join(" "),
-    };
+    let request = figure_request(&name, runs.clone(), method.clone(), case.clone(), out);
+    // The parser lets no other kind through.
+    let Ok(request) = request else { return Ok(()) };
     alone("figure", |tools, step| suite::figure(&request, out, tools, step))?;
     say!("{}", out.join("figure.png").display());
     Ok(())

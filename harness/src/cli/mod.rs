@@ -35,6 +35,7 @@ use tracing_subscriber::filter::LevelFilter;
 
 use arguments::Cli;
 use exit::{BAD_INPUT, DONE, INTERRUPTED};
+pub use figure::figure_request;
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {

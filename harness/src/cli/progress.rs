@@ -12,6 +12,12 @@ use crate::suite::{Observer, TIME_LEFT};
 const PAUSE: Duration = Duration::from_secs(30);
 const TICK: Duration = Duration::from_millis(500);
 
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
 /// Bars where standard error is a terminal, lines where it is not.
 pub(super) struct Progress {
     bars: Option<Bars>,

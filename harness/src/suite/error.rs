@@ -95,7 +95,8 @@ impl RunError {
             Self::Interrupted | Self::Stopped { .. } | Self::Folder(_) | Self::Busy(_) => false,
             Self::Worker(_) => false,
             Self::Output(FolderError::Io { .. } | FolderError::Space { .. }) => false,
-            Self::Stage(StageError::Input { kind, .. }) => !storage(kind),
+            // A metric that fails is not a fault of the maps that it is given.
+            Self::Stage(StageError::Input { kind, .. }) => !storage(kind) && kind != "MetricError",
             Self::Stage(StageError::Interpreter(_)) | Self::Interpreter(_) => false,
             _ => true,
         }

@@ -8,12 +8,14 @@ use super::cases::{self, Case};
 use super::error::RunError;
 use super::method::{self, Method};
 use super::near;
+use super::own_metrics::OwnMetrics;
 use super::packaged::Kind;
+use super::place;
 use super::scene::{self, Scene, SceneError};
 
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "format", "name", "title", "author", "scene", "captures", "faces", "lights", "face", "render",
-    "variant", "seeds", "scales", "relight", "lpips", "method",
+    "variant", "seeds", "scales", "relight", "lpips", "metrics", "method",
 ];
 
 /// Keys that say something of a scene.
@@ -48,6 +50,8 @@ pub struct Suite {
     pub relight: &'static str,
     /// Network that judges pictures beside the scores, one of [`NETS`]; none if nobody asks for it.
     pub lpips: Option<&'static str>,
+    /// Metrics of the user, beside unshade's own.
+    pub metrics: OwnMetrics,
     /// The file's text, kept with the results.
     pub text: String,
     /// Names of the methods that are run; empty for all.
@@ -105,6 +109,7 @@ impl Suite {
         let scales = scales_of(path, &table)?;
         let relight = one_of(path, &table, "relight", &RENDERERS)?.unwrap_or(RENDERERS[0]);
         let lpips = one_of(path, &table, "lpips", &NETS)?;
+        let metrics = own_metrics(path, &table)?;
         let title = table.get("title").and_then(Value::as_str).unwrap_or(&name).to_owned();
         let text = std::fs::read_to_string(path).map_err(|error| SceneError::Read {
             path: path.to_path_buf(),
@@ -121,6 +126,7 @@ impl Suite {
             scales,
             relight,
             lpips,
+            metrics,
             text,
             only_methods,
             only_cases,
@@ -174,6 +180,17 @@ fn rendered(path: &Path, table: &Table) -> Result<Vec<Case>, SceneError> {
         Some(_) => return Err(SceneError::value(path, "render", "must be a table")),
     }
     cases::cases_of(path, &base, table)
+}
+
+fn own_metrics(path: &Path, table: &Table) -> Result<OwnMetrics, SceneError> {
+    let Some(listed) = table.get("metrics") else { return Ok(OwnMetrics::default()) };
+    let names: Option<Vec<String>> =
+        listed.as_array().and_then(|l| l.iter().map(|v| v.as_str().map(str::to_owned)).collect());
+    let names = names.filter(|names| !names.is_empty()).ok_or_else(|| {
+        let reason = "must be a list of functions; write [\"module:function\"] or [\"file.py\"]";
+        SceneError::value(path, "metrics", reason)
+    })?;
+    Ok(OwnMetrics::new(names, place::beside(path, "")))
 }
 
 fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError> {

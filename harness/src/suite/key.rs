@@ -69,6 +69,7 @@ impl Workshop<'_> {
                 if let Some(net) = self.suite.lpips {
                     parts.extend([net, self.rendered_by("lpips")?]);
                 }
+                parts.extend(self.suite.metrics.key(self.tools)?);
                 Key::of(&parts)
             }
         })

@@ -1,5 +1,6 @@
 //! Turns a capture into maps, whichever way a method of the suite does it.
 
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -49,6 +50,22 @@ pub(super) fn make_maps(
         (MethodKind::Oracle | MethodKind::Program(_), _) => score::oracle_maps(capture, maps)?,
     }
     Ok(None)
+}
+
+/// The configuration that a preset's name or a file's path stands for. What has a folder or an ending in it, or is
+/// a file here, is a path.
+pub fn solver_config(given: &str) -> Result<solver::Config, RunError> {
+    let path = Path::new(given);
+    if !path.is_file() && path.extension().is_none() && path.components().count() < 2 {
+        return Ok(solver::Config::preset(given)?);
+    }
+    let path = path.to_path_buf();
+    match fs::read_to_string(&path) {
+        Ok(text) => {
+            solver::Config::from_toml(&text).map_err(|reason| RunError::ConfigFile { path, reason })
+        }
+        Err(reason) => Err(RunError::File { path, reason }),
+    }
 }
 
 /// Our own solver. An interrupt leaves maps of what there is, and a checkpoint beside them; it is an

@@ -1,6 +1,7 @@
 //! Suites: every face in every light and variant through every solver, resumable, nothing done twice.
 
 mod baseline;
+mod calibration_runs;
 mod case_place;
 mod cases;
 mod clean;
@@ -20,6 +21,7 @@ mod memory;
 mod method;
 mod near;
 mod output;
+mod own_metrics;
 mod packaged;
 mod part;
 mod perceptual;
@@ -45,6 +47,7 @@ mod tree_hashes;
 mod workshop;
 
 pub use baseline::BaselineMethod;
+pub use calibration_runs::CalibrationRuns;
 pub use case_place::case_places;
 pub use cases::Case;
 pub use clean::{Cleaned, Part, clean};
@@ -54,19 +57,22 @@ pub use earlier::Bound;
 pub use error::RunError;
 pub use file::{NETS, RENDERERS, SCALES, Suite};
 pub use forecast::{Forecast, StageForecast, forecast};
-pub use make_maps::{TIME_LEFT, in_words, solve};
+pub use make_maps::{TIME_LEFT, in_words, solve, solver_config};
 pub use method::{Method, MethodKind};
 pub use output::Output;
+pub use own_metrics::OwnMetrics;
 pub use packaged::set_folder as set_scenes_folder;
 pub use part::{PartDone, Wanted, adopt, run_part};
 pub use perceptual::lpips;
 pub use program::{Gives, Limits, Program, ProgramFiles, Start, Usage};
 pub use run::{RunOptions, RunSummary, begin_from, report, run};
 pub use scene::{Scene, SceneError};
-pub use seal::{Round, SealedCase, Sealing, seal};
+pub use seal::{Round, SealedCase, Sealing, seal, seal_verify, secret};
 pub use seeds::Vary;
 pub use size::in_words as in_bytes;
 pub use sources::{CAPTURE_SOURCES, READER_SOURCES, SCORE_SOURCES, SOLVER_SOURCES};
-pub use stages::{Budget, Export, budget, contact_sheet, describe, export, figure, relight, synth};
+pub use stages::{
+    Budget, Export, Relight, budget, contact_sheet, describe, export, figure, relight, synth,
+};
 pub use submission::{Checked, check_submission, score_submission};
 pub use tools::{Observer, Tools};

@@ -90,7 +90,9 @@ pub fn run_part(
     if task.kind == Kind::Capture {
         write_scene(suite, task, out)?;
     }
-    match keep_to(processors, || workshop.run(task, contents, &records, step)) {
+    match keep_to(processors, formats::cancel::flag(), || {
+        workshop.run(task, contents, &records, step)
+    }) {
         Ok(Done { record, .. }) => Ok(PartDone { key, record: Some(record), failed: None }),
         Err(error) if task.method.is_some() && error.is_of_method() => {
             Ok(PartDone { key, record: None, failed: Some(error.to_string()) })

@@ -20,7 +20,7 @@ pub fn lpips(
     tools: &Tools,
 ) -> Result<Vec<Row>, RunError> {
     let shown = score::shown(capture, maps, relit)?;
-    let values = judge(net, &shown, tools)?;
+    let values: Vec<Option<f64>> = judge(net, &shown, tools)?.into_iter().map(Some).collect();
     Ok(score::judged_rows(capture, &shown, &format!("lpips_{net}_0_1"), &values)?)
 }
 

@@ -91,9 +91,16 @@ pub(super) fn only(sources: &[PathBuf], states: impl Fn(&str) -> bool) -> Option
     places.next().is_none().then_some(first)
 }
 
+/// Stands beside a file that a dictionary was written to, and names the folder that its relative paths start from.
+const RELATIVE_TO: &str = ".relative-to";
+
 /// A file that `path` names, which lies beside it.
 pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
-    path.parent().unwrap_or(Path::new("")).join(name)
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match fs::read_to_string(folder.join(RELATIVE_TO)) {
+        Ok(other) => Path::new(&other).join(name),
+        Err(_) => folder.join(name),
+    }
 }
 
 /// The absolute path of the folder that holds a file. The parent of a plain file name is the empty path, which the

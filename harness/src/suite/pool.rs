@@ -12,6 +12,8 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{self, Receiver, Sender, SyncSender};
 use std::thread;
 
+use formats::cancel;
+
 use super::error::RunError;
 use super::memory::{Memory, estimate};
 use super::plan::{Kind, Task};
@@ -77,9 +79,10 @@ pub(super) fn run(
         for own in processors::of_workers(jobs) {
             let (orders, ordered) = mpsc::channel::<(usize, Contents)>();
             let line = Line(sender.clone());
+            let flag = cancel::flag();
             scope.spawn(move || {
                 let work = move || worker(workshop, plan, records, &ordered, &line);
-                processors::keep_to(&own, work)
+                processors::keep_to(&own, flag, work)
             });
             lines.push(orders);
         }
@@ -112,7 +115,10 @@ fn worker(
             true => workshop.run(task, &contents, records, &mut step).map(Some),
             false => workshop.kept(task, &contents, records),
         });
-        let done = panic::catch_unwind(work).unwrap_or_else(|_| {
+        let done = panic::catch_unwind(work).unwrap_or_else(|payload| {
+            if cancel::is_cancelled(&*payload) {
+                return Err(RunError::Interrupted);
+            }
             Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", task.id))))
         });
         line.say(Event::Ends(at, Box::new(done)));

@@ -64,6 +64,12 @@ pub(super) fn methods<'a>(suite: &'a Suite, tools: &Tools) -> Result<Vec<Ready<'
 
 /// The judge that the suite asks for can be called.
 pub(super) fn judge(suite: &Suite, tools: &Tools) -> Result<(), RunError> {
+    match suite.metrics.key(tools) {
+        Err(RunError::Stage(StageError::Input { message, .. }) | RunError::Submission(message)) => {
+            return Err(SceneError::value(&suite.path, "metrics", message).into());
+        }
+        other => drop(other?),
+    }
     let Some(net) = suite.lpips else { return Ok(()) };
     match perceptual::require(net, tools) {
         Err(RunError::Stage(StageError::Input { message, .. })) => {

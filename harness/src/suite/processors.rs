@@ -2,6 +2,8 @@
 
 use std::thread;
 
+use formats::cancel::{self, Flag};
+
 /// The processors of a worker; none is all, and nothing is set.
 pub(super) type Processors = Option<Vec<usize>>;
 
@@ -24,12 +26,17 @@ fn divided(processors: &[usize], jobs: usize) -> Vec<Vec<usize>> {
     (0..jobs).map(part).collect()
 }
 
-/// Does `work` on these processors, and so all that it starts.
-pub(super) fn keep_to<T: Send>(processors: &Processors, work: impl FnOnce() -> T + Send) -> T {
-    let Some(processors) = processors else { return work() };
-    pin(processors);
+/// Does `work` on these processors, and so all that it starts. Its threads know the flag `cancel`.
+pub(super) fn keep_to<T: Send>(
+    processors: &Processors,
+    cancel: Option<Flag>,
+    work: impl FnOnce() -> T + Send,
+) -> T {
+    if let Some(processors) = processors {
+        pin(processors);
+    }
     // A pool of the worker's own, whose threads inherit what was set here.
-    match rayon::ThreadPoolBuilder::new().num_threads(processors.len()).build() {
+    match cancel::pool(processors.as_ref().map_or(0, Vec::len), cancel) {
         Ok(pool) => pool.install(work),
         Err(error) => {
             tracing::warn!("no threads of its own for a worker: {error}");
@@ -90,7 +97,7 @@ mod tests {
     fn a_worker_and_its_pool_keep_to_their_processors() {
         let own = of_workers(2)[0].clone();
         let seen = thread::scope(|scope| {
-            let work = || keep_to(&own, || (all(), rayon::current_num_threads()));
+            let work = || keep_to(&own, None, || (all(), rayon::current_num_threads()));
             scope.spawn(work).join().unwrap()
         });
         assert_eq!(Some(seen.0), own);

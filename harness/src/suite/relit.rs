@@ -9,7 +9,7 @@ use scoring::score;
 use super::error::RunError;
 use super::method::{Method, MethodKind};
 use super::program::Gives;
-use super::stages::{relight, words};
+use super::stages::{Relight, relight, words};
 use super::tools::Tools;
 use crate::synth::run_stage;
 
@@ -31,7 +31,8 @@ pub(super) fn relit(
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
     if !method.gives_pictures() || maps.join("diffuse_albedo.exr").is_file() && !own(maps) {
-        return relight(renderer, capture, maps, out, scales, tools, step);
+        let relit = Relight { capture, maps, out, renderer, scales, light: None };
+        return relight(&relit, tools, step);
     }
     if own(maps) {
         return Ok(score::keep_own_relit(capture, maps, out, scales)?);

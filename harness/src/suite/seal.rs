@@ -70,6 +70,16 @@ pub struct Relight {
     pub renderer: String,
 }
 
+/// The secret in a file of 32 bytes or more.
+pub fn secret(path: &Path) -> Result<Secret, RunError> {
+    Ok(Secret::read(path)?)
+}
+
+/// Checks the signature of scores, by `key` if it is given; the public key that signed them.
+pub fn seal_verify(folder: &Path, key: Option<&str>) -> Result<String, RunError> {
+    Ok(sealing::verify(folder, key)?.public_key)
+}
+
 impl Round {
     /// Reads the round of a public or private folder.
     pub fn read(folder: &Path) -> Result<Self, RunError> {
@@ -107,6 +117,10 @@ pub fn seal(
     if suite.lpips.is_some() {
         let reason = "a round is scored without the network; leave it out".to_owned();
         return Err(SceneError::value(&suite.path, "lpips", reason).into());
+    }
+    if suite.metrics.is_any() {
+        let reason = "a round is scored by unshade's own metrics; leave it out".to_owned();
+        return Err(SceneError::value(&suite.path, "metrics", reason).into());
     }
     let mut suite = suite.clone();
     // A round has captures alone; methods are the business of those who take part.

@@ -21,6 +21,12 @@ pub enum Vary {
 }
 
 impl Vary {
+    /// The one of this name; the error names all.
+    pub fn named(name: &str) -> Result<Self, String> {
+        clap::ValueEnum::from_str(name, false)
+            .map_err(|_| format!("vary is {name:?}; use both, method or rounding"))
+    }
+
     /// Whether captures are made once.
     pub fn keeps_captures(self) -> bool {
         self != Self::Both

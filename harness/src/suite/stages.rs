@@ -67,19 +67,31 @@ fn resolved(scene: &Path) -> Result<tempfile::NamedTempFile, RunError> {
     Ok(file)
 }
 
-/// Renders `maps` in the capture's lights, under each of `scales` (of [`SCALES`](super::SCALES)).
-///
-/// `renderer` is one of [`RENDERERS`](super::RENDERERS).
+/// Maps to be rendered in a capture's lights.
+pub struct Relight<'a> {
+    /// The capture.
+    pub capture: &'a Path,
+    /// The maps.
+    pub maps: &'a Path,
+    /// The pictures' folder.
+    pub out: &'a Path,
+    /// One of [`RENDERERS`](super::RENDERERS).
+    pub renderer: &'a str,
+    /// Some of [`SCALES`](super::SCALES).
+    pub scales: &'a [&'a str],
+    /// A lat-long picture in the place of the capture's lights.
+    pub light: Option<&'a Path>,
+}
+
+/// Renders maps in the capture's lights, under each of the scales.
 pub fn relight(
-    renderer: &str,
-    capture: &Path,
-    maps: &Path,
-    out: &Path,
-    scales: &[&str],
+    relight: &Relight,
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    atomic::refuse_overlap(out, &[capture, maps])?;
+    let Relight { capture, maps, out, renderer, scales, light } = *relight;
+    let inputs: Vec<&Path> = [capture, maps].into_iter().chain(light).collect();
+    atomic::refuse_overlap(out, &inputs)?;
     // Without a truth nothing says what the albedo is to be multiplied by.
     let photographed = score::is_photographed(capture);
     let scales: &[&str] = if photographed { &["none"] } else { scales };
@@ -96,6 +108,7 @@ pub fn relight(
     if renderer != RENDERERS[0] {
         arguments.extend(words(&[("--renderer", OsStr::new(renderer))]));
     }
+    arguments.extend(light.into_iter().flat_map(|light| words(&[("--light", light.as_os_str())])));
     run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
     Ok(())
 }

@@ -19,7 +19,7 @@ use super::part::versions;
 use super::plan::Kind;
 use super::seal::{Relight, Round, SealedCase};
 use super::sources::SCORE_SOURCES;
-use super::stages::relight;
+use super::stages;
 use super::tools::{Observer, Tools};
 
 const FILE: &str = "submission.toml";
@@ -293,7 +293,15 @@ impl Scoring<'_> {
         let scratch = tempfile::tempdir()?;
         let pictures = scratch.path().join("relit");
         let scales: Vec<&str> = scales.iter().map(String::as_str).collect();
-        relight(&renderer, &capture, maps, &pictures, &scales, self.tools, step)?;
+        let relit = stages::Relight {
+            capture: &capture,
+            maps,
+            out: &pictures,
+            renderer: &renderer,
+            scales: &scales,
+            light: None,
+        };
+        stages::relight(&relit, self.tools, step)?;
         let mut scores = score::score(&capture, maps, Some(&pictures))?;
         scores.solver.clone_from(&self.submission.name);
         let file = self.out.join(self.file(&case.id));

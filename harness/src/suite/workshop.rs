@@ -217,6 +217,8 @@ impl<'a> Workshop<'a> {
                 let relit = below(Kind::Relit);
                 scores.rows.extend(lpips(net, &capture, &maps, Some(&relit), tools)?);
             }
+            let (of, relit) = ([capture.as_path(), &maps], below(Kind::Relit));
+            self.suite.metrics.add_rows(&mut scores, of, Some(&relit), tools)?;
             scores.write(path)?;
         }
         Ok(Made::default())

@@ -1,5 +1,6 @@
 //! From a texel back to the pictures: where a point of the surface is seen, and how well.
 
+use formats::cancel;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -92,6 +93,7 @@ pub fn per_texel<T: Clone + Default + Send + Sync>(
     texel: impl Fn(&[(usize, Observation)]) -> T + Sync,
 ) -> Vec<T> {
     let one = |index: usize| {
+        cancel::check();
         if !atlas.inside[index] {
             return T::default();
         }

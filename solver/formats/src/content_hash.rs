@@ -4,6 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::cancel;
+
 /// Wall times differ from run to run, and the mark of a folder says nothing that its files do not.
 const NOT_CONTENT: [&str; 2] = ["timing.json", crate::atomic::MARK];
 
@@ -13,6 +15,7 @@ pub fn hash_path(path: &Path) -> io::Result<String> {
     if path.is_dir() {
         for file in files_below(path)? {
             let name = file.strip_prefix(path).unwrap_or(&file).to_string_lossy().into_owned();
+            cancel::check();
             let bytes = fs::read(&file)?;
             hasher.update(name.as_bytes()).update(&[0]);
             hasher.update(&(bytes.len() as u64).to_le_bytes()).update(&bytes);

@@ -3,6 +3,7 @@
 //! Nothing here knows what is recovered or scored, or how.
 
 pub mod atomic;
+pub mod cancel;
 pub mod content_hash;
 pub mod fill;
 pub mod maps;

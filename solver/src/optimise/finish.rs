@@ -3,9 +3,9 @@
 use capture::Camera;
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::projection::{Projection, per_texel};
-use formats::fill;
 use formats::maps::Maps;
 use formats::picture::{GrayImage, Picture};
+use formats::{cancel, fill};
 
 use super::clock::Work;
 use super::context::SolveContext;
@@ -202,6 +202,7 @@ fn synthesised(
     state: &State,
     highlights: Option<&Highlights>,
 ) -> ViewLayers {
+    cancel::check();
     let gbuffer = GBuffer::new(&context.capture.mesh, camera, None);
     let samples = context.space.withheld(&gbuffer, state.size);
     let shading = layers(&samples, deviation, state, context.backend);

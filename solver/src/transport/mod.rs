@@ -24,7 +24,7 @@ mod specular_term;
 use capture::Mesh;
 use capture::gbuffer::Atlas;
 use capture::rays::{Impact, Occluder};
-use formats::fill;
+use formats::{cancel, fill};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -118,6 +118,7 @@ impl Transport {
             .map(|[direct, open, gain]| Seen { direct, open, gain })
             .collect();
         let cast = |(texel, seen): (&usize, Seen)| {
+            cancel::check();
             let normal = atlas.normals[*texel];
             caster.texel(atlas.positions[*texel] + lift * normal, normal, seen)
         };

@@ -1,5 +1,6 @@
 //! The highlights that a light makes on skin, by the transport's visibility.
 
+use formats::cancel;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -56,6 +57,7 @@ impl Transport {
         let (cells, lobes) = (self.cells(), self.lobes(self.light_exponent));
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
+            cancel::check();
             let specular = SpecularTerm::at(specular, i);
             let scale = scale(skin, peak) * specular.reflectance;
             let skin = &specular.lobes_of(skin);

@@ -16,6 +16,7 @@ from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..render import lights
 from ..render.folder import ResumableFolder, content_hash
+from ..render.given_light import GivenLight
 from ..render.meter import Meter, Progress
 from ..render.pictures import write_exr, write_text
 from ..render.relight import MAP_FILES, read_maps
@@ -33,6 +34,7 @@ def relight(
     *,
     scales: Mapping[str, float],
     seed_offset: int = 0,
+    given: GivenLight | None = None,
     progress: Progress,
     warn: Callable[[str], None],
 ) -> None:
@@ -51,14 +53,16 @@ def relight(
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
     hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
     key = f"cycles {blender} {scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
-    folder = ResumableFolder(out, key)
-    pictures = len(set(scales.values())) * len(scene.lights) * len(views) * PASSES
+    folder = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
+    pictures = len(set(scales.values())) * (1 if given else len(scene.lights)) * len(views) * PASSES
     meter = Meter(progress, pictures, render.width * render.height * samples_each(render.samples))
     meter.note("face")
     face = build_head(scene.face)
     chart, raised = face.chart, face.surface
     surface = Surface(Mesh(raised.vertices, raised.normals, raised.uv, raised.triangles.astype(np.int64)), chart_maps)
     exposed = {light.name: lights.exposed(light, chart.vertices, chart.normals) for light in scene.lights}
+    if given:
+        exposed = {given.light.name: given.model}
     first: dict[float, str] = {}
     for scale, factor in scales.items():
         target = folder.path / scale

@@ -7,10 +7,13 @@ import os
 import shutil
 import tempfile
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, Literal, TypedDict
 
 from .. import _native, metrics
+from ..documents import Document
 from ..errors import CaptureError
+from ..maps import Maps
+from ..stages import solve
 
 AnyPath = str | os.PathLike[str]
 
@@ -31,14 +34,18 @@ class Consistency(TypedDict):
 
 
 def consistency(
-    capture: AnyPath, *, config: str = "unshade", out: AnyPath | None = None, backend: str = "auto"
+    capture: _native.Capture | AnyPath,
+    *,
+    config: Document = "unshade",
+    out: AnyPath | None = None,
+    backend: Literal["auto", "cpu", "gpu"] = "auto",
 ) -> Consistency:
     """Solve every second training view, and the others, and compare the maps; no truth is needed.
 
     Views are taken alternately in the order of their names. With ``out`` the maps are kept in ``out/first`` and
     ``out/second``. Raises `CaptureError` for a capture of fewer than four training views, and what `solve` raises.
     """
-    folder = Path(capture)
+    folder = Path(capture.path if isinstance(capture, _native.Capture) else capture)
     document: dict[str, Any] = {}
     if (folder / "transforms.json").is_file():
         document = json.loads((folder / "transforms.json").read_bytes())
@@ -51,11 +58,11 @@ def consistency(
             place = Path(scratch) / name
             _half(folder, place, document | {"train_filenames": half, "test_filenames": []})
             kept = None if out is None else Path(out) / name
-            found.append(_native.solve(place, config=config, out=kept, backend=backend))
+            found.append(solve(place, config=config, out=kept, backend=backend))
     return compare_halves(*found, views=(len(train[0::2]), len(train[1::2])))
 
 
-def compare_halves(first: _native.Maps, second: _native.Maps, *, views: tuple[int, int]) -> Consistency:
+def compare_halves(first: Maps, second: Maps, *, views: tuple[int, int]) -> Consistency:
     """How far the maps of two halves agree."""
     coverage = [maps.coverage for maps in (first, second)]
     if coverage[0] is None or coverage[1] is None or coverage[0].shape != coverage[1].shape:

@@ -20,6 +20,7 @@ from ..scene_file import Light, Render, read_table
 from ..scene_file.light import parse_light
 from .camera import Camera
 from .folder import ResumableFolder, content_hash
+from .given_light import GivenLight
 from .lights.found import found_light
 from .meter import Meter, Progress
 from .passes import seed_of
@@ -72,32 +73,34 @@ def relight_photographed(
     *,
     scales: Mapping[str, float],
     seed_offset: int = 0,
+    given: GivenLight | None = None,
     progress: Progress,
     warn: Callable[[str], None],
 ) -> None:
     """Writes ``out/<scale>/<light>/<frame>.exr`` of every withheld frame of the capture in ``folder``.
 
-    Lights are ``found``, if the maps have one, and those of `LIGHTS_FILE`, by default a studio's and an even
-    one. An interrupted call is taken up. Raises `CaptureError`, `MapsError` or `SceneError`.
+    Lights are the ``given`` one, or ``found``, if the maps have one, and those of `LIGHTS_FILE`, by default a
+    studio's and an even one. An interrupted call is taken up. Raises `CaptureError`, `MapsError` or `SceneError`.
     """
     chart_maps = read_maps(maps, warn)
     capture = _native.Capture(folder)
     if not capture.withheld:
         raise CaptureError(f"{folder}: has no withheld view to relight; import it with a holdout")
-    others = _lights(folder)
-    found = found_light(maps)
+    others = [given.light] if given else _lights(folder)
+    found = None if given else found_light(maps)
     render = Render(width=16, height=16, samples=_SAMPLES)
     hashes = [content_hash(maps / name) for name in (*(f"{name}.exr" for name in MAP_FILES), "light.exr", "solve.json")]
     inputs = [content_hash(folder / name) for name in ("transforms.json", "mesh.obj", LIGHTS_FILE)]
-    target = ResumableFolder(
-        out, f"{inputs}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
-    )
+    key = f"{inputs}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+    target = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
     mesh = capture.mesh
     chart = Chart(mesh["vertices"], mesh["normals"], mesh["uvs"], mesh["triangles"])
     shots = Shots(Photographed(chart), chart_maps, render, PictureStore.of_user())  # type: ignore[arg-type]
     lights = [*([Light(FOUND, "envmap")] if found else []), *others]
     if found:
         shots.set_light(FOUND, found)
+    if given:
+        shots.set_light(given.light.name, given.model)
     jobs = [(scale, light, name) for scale in scales for light in lights for name in capture.withheld]
     first = capture.camera(capture.withheld[0])
     meter = Meter(progress, len(jobs), first["width"] * first["height"] * render.samples)

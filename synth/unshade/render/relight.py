@@ -14,6 +14,7 @@ from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..scene_file import Scene
 from .folder import ResumableFolder, content_hash
+from .given_light import GivenLight
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
@@ -40,10 +41,11 @@ def relight(
     *,
     scales: Mapping[str, float],
     seed_offset: int = 0,
+    given: GivenLight | None = None,
     progress: Progress,
     warn: Callable[[str], None],
 ) -> None:
-    """Writes ``out/<scale>/<light>/<frame>.exr`` for the maps of a solver.
+    """Writes ``out/<scale>/<light>/<frame>.exr`` for the maps of a solver; ``given`` replaces the scene's lights.
 
     ``scene`` is the capture's own (`truth_scene.captured_scene`); each scale multiplies the
     recovered diffuse albedo before rendering. Pictures have as many samples as the truth
@@ -54,14 +56,16 @@ def relight(
     render = scene.render
     views = [camera for camera in cameras(scene.rig, render.width, render.height) if not camera.train]
     hashes = [content_hash(maps / f"{name}.exr") for name in MAP_FILES]
-    folder = ResumableFolder(
-        out, f"{scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
-    )
-    jobs = [(scale, light, view) for scale in scales for light in scene.lights for view in views]
+    key = f"{scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
+    folder = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
+    lights = [given.light] if given else scene.lights
+    jobs = [(scale, light, view) for scale in scales for light in lights for view in views]
     meter = Meter(progress, len(jobs), render.width * render.height * render.samples)
     meter.note("face")
     face = build_head(scene.face)
     shots = Shots(face, chart_maps, render, PictureStore.of_user())
+    if given:
+        shots.set_light(given.light.name, given.model)
     current = None
     for scale, light, view in jobs:
         report = meter.begin(f"view {view.name} in {light.name}, scale {scale}")

@@ -73,6 +73,14 @@ pub enum MetricError {
         /// The metric's id.
         metric: &'static str,
     },
+    /// A metric that a user wrote is stated wrongly.
+    #[error("metric {id:?}: {reason}")]
+    Own {
+        /// Its id.
+        id: String,
+        /// The fault and its fix.
+        reason: String,
+    },
     /// No metric has this id.
     #[error("there is no metric {id:?}; there are {known}")]
     Unknown {

@@ -1,5 +1,6 @@
 //! Gaussian filters for the metrics that look at a neighbourhood.
 
+use formats::cancel;
 use rayon::prelude::*;
 
 /// A separable Gaussian cut off at `radius`; the picture is mirrored at its border, edge pixel
@@ -21,6 +22,7 @@ pub fn gaussian(
     let mut across = vec![0.0; values.len()];
     across.par_chunks_exact_mut(width).zip(values.par_chunks_exact(width)).for_each(
         |(out, row)| {
+            cancel::check();
             let padded: Vec<f64> = columns.iter().map(|from| row[*from]).collect();
             for (shift, w) in weights.iter().enumerate() {
                 out.iter_mut().zip(&padded[shift..]).for_each(|(out, value)| *out += w * value);

@@ -72,6 +72,8 @@ pub enum Quantity {
     Compatible(Protocol),
     /// What a network sees in both, which is computed elsewhere.
     Perceptual,
+    /// A user's function, which is called elsewhere.
+    Own,
 }
 
 /// Where the truth is flat: within this of the mesh's normal, degrees.
@@ -106,6 +108,7 @@ impl Quantity {
             | Self::Band(_)
             | Self::Compatible(_)
             | Self::Perceptual
+            | Self::Own
             | Self::LowPassError => None,
         }
     }
@@ -118,7 +121,8 @@ impl Quantity {
             | Self::Ranks
             | Self::Projection
             | Self::CrossProduct
-            | Self::ColourAngle => "linear",
+            | Self::ColourAngle
+            | Self::Own => "linear",
             Self::Compatible(Protocol::OrbHdr | Protocol::OrbAlbedo) => "linear, as there",
             Self::Compatible(_) => "gamma, as there",
             Self::SquaredErrorSrgb | Self::CrossProductSrgb | Self::AreaSquaredErrorSrgb => {
@@ -223,7 +227,7 @@ impl Quantity {
                     .ok_or_else(|| needs("halves of the samples of both pictures"))?
             }
             Self::Compatible(protocol) => protocol.errors(pair),
-            Self::Perceptual => return Err(MetricError::Elsewhere { metric }),
+            Self::Perceptual | Self::Own => return Err(MetricError::Elsewhere { metric }),
             Self::LogError => signed_log_errors(pair).collect(),
             Self::SquaredLogError => signed_log_errors(pair).map(|error| error * error).collect(),
             Self::Band(texels) => {
@@ -268,6 +272,7 @@ impl Quantity {
             | Self::InventedRelief
             | Self::Compatible(_)
             | Self::Perceptual
+            | Self::Own
             | Self::ColourDifference
             | Self::Typology => ("3", found == 3),
             Self::SquaredError

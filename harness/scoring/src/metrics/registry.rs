@@ -1,9 +1,11 @@
 //! Every metric, stated once: the scores, the report, the comparison and Python read this list.
 
+use formats::cancel;
+
 use super::compatible::Protocol as P;
 use super::quantity::Quantity as Q;
 use super::statistic::Statistic as S;
-use super::{MetricError, Pair};
+use super::{MetricError, Pair, own};
 
 /// Which values are better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +62,7 @@ pub struct Metric {
 impl Metric {
     /// The metric with an id.
     pub fn find(id: &str) -> Result<&'static Self, MetricError> {
-        METRICS.iter().find(|metric| metric.id == id).ok_or_else(|| {
+        METRICS.iter().find(|metric| metric.id == id).or_else(|| own::find(id)).ok_or_else(|| {
             let known: Vec<_> = METRICS.iter().map(|metric| metric.id).collect();
             MetricError::Unknown { id: id.to_owned(), known: known.join(", ") }
         })
@@ -68,6 +70,7 @@ impl Metric {
 
     /// The quantity at every pixel of the region, in its order, `statistic.arity()` numbers each.
     pub fn measure(&self, pair: &Pair) -> Result<Vec<f64>, MetricError> {
+        cancel::check();
         self.quantity.measure(pair, self.id)
     }
 

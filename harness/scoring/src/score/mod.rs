@@ -37,7 +37,7 @@ pub use own::keep_own_relit;
 pub use photographs::{FOUND_LIGHT, is_photographed};
 pub use protocol::Protocol;
 pub use scores::{Inputs, RegionSize, Row, Scores};
-pub use shown::{Shown, judged_rows, shown};
+pub use shown::{Shown, judged_rows, shown, shown_maps, withheld_picture};
 
 use crate::check::check;
 use geometry::Geometry;
@@ -103,6 +103,7 @@ pub fn score(capture: &Path, maps: &Path, relit: Option<&Path>) -> Result<Scores
         scale,
         regions,
         findings,
+        metrics: Vec::new(),
         rows,
     })
 }

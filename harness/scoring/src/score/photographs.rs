@@ -57,6 +57,7 @@ pub(super) fn score(
         scale: None,
         regions: frames.iter().map(Frame::region_size).collect(),
         findings,
+        metrics: Vec::new(),
         rows,
     })
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use formats::cancel;
 use rayon::prelude::*;
 
 use super::ScoreError;
@@ -72,6 +73,7 @@ fn row(
     (block, samples): &(usize, Vec<Sample>),
     floor: Option<&[f64]>,
 ) -> Row {
+    cancel::check();
     let statistic = metric.statistic;
     let owned = |text: Option<&str>| text.map(str::to_owned);
     let per_frame: BTreeMap<String, f64> = compared

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::ScoreError;
 use super::protocol::Protocol;
 use crate::check::Finding;
-use crate::metrics::{Region, Scale};
+use crate::metrics::{OwnMetric, Region, Scale};
 
 /// The format that is written and read.
 const FORMAT: u32 = 1;
@@ -43,6 +43,9 @@ pub struct Scores {
     /// Likely faults of the maps; absent of sound ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
+    /// Metrics of the rows that are not unshade's own; absent where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub metrics: Vec<OwnMetric>,
     /// The numbers.
     pub rows: Vec<Row>,
 }
@@ -163,6 +166,9 @@ impl Scores {
             let reason =
                 format!("has format {}, this version reads {FORMAT}; score again", scores.format);
             return Err(ScoreError::text(path, reason));
+        }
+        for metric in &scores.metrics {
+            metric.register().map_err(|error| ScoreError::text(path, error))?;
         }
         Ok(scores)
     }

@@ -5,6 +5,7 @@
 //! clipping at a near plane is needed. A common edge of two triangles has exactly opposite edge
 //! functions, so no pixel falls between them.
 
+use formats::cancel;
 use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -80,6 +81,7 @@ pub(super) fn paint(
     let mut hits = vec![None; width * height];
     hits.par_chunks_mut((width * BAND).max(1)).zip(&bands).enumerate().for_each(
         |(band, (pixels, members))| {
+            cancel::check();
             for member in members {
                 facets[*member as usize].paint(pixels, width, band * BAND);
             }

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use super::colour::{self, Chromaticities};
 use super::exr_channels::{self, NoPlace, Place};
 use super::{Picture, PictureError, exr_dwa, kind, limits};
+use crate::cancel;
 
 /// A layer whose R, G, B are no colour, but the variances of one.
 const VARIANCE: &str = "variance.";
@@ -46,6 +47,7 @@ impl ExrFile {
 
     /// Reads the header of a file in memory; `path` is for messages.
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, PictureError> {
+        cancel::check();
         if !kind::is_exr(&bytes) {
             return Err(match kind::why_not(&bytes) {
                 Some(reason) => PictureError::Refused { path: path.to_path_buf(), reason },

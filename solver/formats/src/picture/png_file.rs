@@ -6,6 +6,7 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 
 use super::{GrayImage, Picture, PictureError, kind, limits};
+use crate::cancel;
 
 /// A PNG's samples as they are in the file: not scaled, not looked up in a palette.
 pub struct Png {
@@ -31,6 +32,7 @@ impl Png {
 
     /// Reads a file in memory; `path` is for messages.
     pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Self, PictureError> {
+        cancel::check();
         decode(bytes).map_err(|reason| PictureError::Read { path: path.to_path_buf(), reason })
     }
 

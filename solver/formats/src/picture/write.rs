@@ -8,7 +8,7 @@ use exr::prelude::{
 };
 
 use super::{GrayImage, Picture, PictureError};
-use crate::atomic;
+use crate::{atomic, cancel};
 
 fn write_error(path: &Path, reason: impl ToString) -> PictureError {
     PictureError::Write { path: path.to_path_buf(), reason: reason.to_string() }
@@ -34,6 +34,7 @@ fn write_channels(
     names: &[&str],
     samples: impl Fn(Vec<f32>) -> FlatSamples,
 ) -> Result<(), PictureError> {
+    cancel::check();
     if names.len() != picture.channels {
         return Err(write_error(
             path,
