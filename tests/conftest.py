@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -22,9 +24,20 @@ def unshade(*arguments: object, check: bool = True) -> subprocess.CompletedProce
     return done
 
 
+def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
+    """The folder ``name`` that ``make`` fills once for all processes of a test session; tests only read it."""
+    base = factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder, finished = shared / name, shared / f"{name}.finished"
+    with (shared / f"{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not finished.exists():
+            make(folder)
+            finished.touch()
+    return folder
+
+
 @pytest.fixture(scope="session")
 def tiny_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a finished run of ``tests/scenes/tiny.toml``."""
-    run = tmp_path_factory.mktemp("runs") / "tiny"
-    unshade("run", TINY, "-o", run)
-    return run
+    """The folder of a finished run of ``tests/scenes/tiny.toml``; a test that changes it takes a copy."""
+    return made_once(tmp_path_factory, "tiny", lambda folder: unshade("run", TINY, "-o", folder))

@@ -142,9 +142,9 @@ def plant(maps: Path, fault: str, out: Path) -> tuple[str, str]:
 
 
 @pytest.fixture(scope="session")
-def capture(tiny_run: Path) -> Path:
+def capture(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A capture without its truth."""
-    blind = tiny_run.parent / "blind"
+    blind = tmp_path_factory.mktemp("blind") / "capture"
     shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
     opened = unshade.Capture(blind)
     VIEW[:] = opened.camera(opened.train[0])["camera_to_world"][:3, :3]

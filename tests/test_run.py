@@ -98,33 +98,46 @@ def test_a_wrong_configuration_is_named_by_its_file(tmp_path: Path) -> None:
     assert not (tmp_path / "maps").exists()
 
 
-def test_a_second_run_does_nothing(tiny_run: Path) -> None:
-    before = digest(tiny_run)
-    said = unshade("run", TINY, "-o", tiny_run).stderr
+def test_a_second_run_does_nothing(tiny_run: Path, tmp_path: Path) -> None:
+    run = shutil.copytree(tiny_run, tmp_path / "run")
+    said = unshade("run", TINY, "-o", run).stderr
     assert "0 stages run" in said, said
-    assert digest(tiny_run) == before
+    assert digest(run) == digest(tiny_run)
+
+
+def started(run: Path, **options: int) -> subprocess.Popen[str]:
+    command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", run]
+    return subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True, **options)
+
+
+def until_partial(run: Path, kind: str, process: subprocess.Popen[str]) -> None:
+    """Waits until a stage of ``kind`` has begun to write."""
+    while not list((run / kind).rglob("*.partial")) and process.poll() is None:
+        time.sleep(0.05)
 
 
 def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -> None:
-    """Killed again and again, at moments three seconds apart, until it is through."""
+    """Killed while it renders, and as soon as its first maps and its first scores are there."""
     run = tmp_path / "run"
-    command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", run]
-    for attempt in range(3):
-        process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(4 + 3 * attempt)
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-    unshade(*command[1:])
+    with started(run) as process:
+        until_partial(run, "captures", process)
+        process.kill()
+    for stage in ("maps/", "scores/"):
+        with started(run) as process:
+            assert process.stderr is not None
+            assert any(line.startswith(stage) for line in process.stderr)
+            process.kill()
+    unshade("run", TINY, "-o", run)
     assert digest(run) == digest(tiny_run)
     assert not list(run.rglob("*.partial"))
 
 
 def test_an_interrupt_exits_with_3(tmp_path: Path) -> None:
-    command = [Path(sys.executable).with_name("unshade"), "run", TINY, "-o", tmp_path / "run"]
-    process = subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    time.sleep(4)
-    os.kill(process.pid, signal.SIGINT)
-    _, said = process.communicate(timeout=60)
+    run = tmp_path / "run"
+    with started(run, stdout=subprocess.DEVNULL) as process:
+        until_partial(run, "captures", process)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
     assert process.returncode == 3, said
     assert "the same command goes on from here" in said
 

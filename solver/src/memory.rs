@@ -102,12 +102,12 @@ impl Estimate {
         let frame: usize = views.iter().map(|view| view.mask.data.len()).sum();
         let covered = |data: &[u8]| data.iter().filter(|value| **value == 255).count();
         let pixels = views.iter().map(|view| covered(&view.mask.data)).sum();
-        Self::of(views.len(), frame, pixels, config)
+        let size = texture_size(config.fine_tuning.texture_size, capture);
+        Self::of(views.len(), frame, pixels, size, config)
     }
 
-    /// For `frame` pixels of which `pixels` are covered.
-    pub(crate) fn of(views: usize, frame: usize, pixels: usize, config: &Config) -> Self {
-        let size = texture_size(config.fine_tuning.texture_size, pixels);
+    /// For `frame` pixels of which `pixels` are covered, and textures of side `size`.
+    fn of(views: usize, frame: usize, pixels: usize, size: usize, config: &Config) -> Self {
         let square = |side: usize| (side * side) as f64;
         let texels = square(size);
         let (all, covered) = (frame as f64, pixels as f64);
@@ -244,18 +244,15 @@ impl Drop for KeepFreedMemory {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::TextureSize;
 
     #[test]
     fn more_of_anything_needs_more_and_the_refusal_says_what_to_do() {
-        let mut config = Config::default();
-        let peak = |frame, pixels, config: &Config| Estimate::of(10, frame, pixels, config).peak;
-        config.fine_tuning.texture_size = TextureSize::Side(512);
-        let small = peak(655_360, 250_000, &config);
-        assert!(peak(10_485_760, 4_000_000, &config) > 4 * small);
-        config.fine_tuning.texture_size = TextureSize::Side(4096);
-        assert!(peak(655_360, 250_000, &config) > 2_500_000_000);
-        let estimate = Estimate::of(10, 655_360, 250_000, &config);
+        let config = Config::default();
+        let of = |frame, pixels, size| Estimate::of(10, frame, pixels, size, &config);
+        let small = of(655_360, 250_000, 512).peak;
+        assert!(of(10_485_760, 4_000_000, 512).peak > 4 * small);
+        let estimate = of(655_360, 250_000, 4096);
+        assert!(estimate.peak > 2_500_000_000);
         assert!(estimate.fits(None).is_ok() && estimate.fits(Some(estimate.peak)).is_ok());
         let error = estimate.fits(Some(1 << 30)).unwrap_err().to_string();
         for word in ["fine_tuning.texture_size", "views", "half", "1.1 GB", "4096"] {

@@ -33,7 +33,11 @@ impl Camera {
     /// World point to (column, row, depth): pixels, and metres along the optical axis. The depth
     /// is positive in front of the camera; elsewhere the pixel means nothing.
     pub fn project(&self, point: Vec3) -> Vec3 {
-        let local = self.world_to_camera().transform_point3(point);
+        self.project_local(self.world_to_camera().transform_point3(point))
+    }
+
+    /// As [`Camera::project`], of a point in the camera's axes.
+    pub fn project_local(&self, local: Vec3) -> Vec3 {
         let depth = -local.z;
         Vec3::new(
             self.centre[0] + self.focal[0] * local.x / depth,

@@ -15,6 +15,7 @@ pub mod outward;
 mod paths;
 pub mod projection;
 pub mod rays;
+pub mod sampling;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! The tables of a configuration.
 
+use capture::Capture;
+use capture::sampling::finest_sampling;
 use serde::{Deserialize, Serialize};
 
 /// Section 5.3, "Tiny MLPs": spatial light, diffuse kernel and specular kernel.
@@ -119,9 +121,9 @@ pub struct FineTuningConfig {
     pub rounds: usize,
     /// Full-batch steps per stage; 250.
     pub iterations: usize,
-    /// Side of the textures; 2048, or "auto": the power of two nearest to one texel per pixel
-    /// of the training views, from 128 to 2048; maps are then written with 512 texels or more, since
-    /// coarser ones lose the mesh normal.
+    /// Side of the textures; 2048, or "auto": the power of two nearest to two texels per pixel of the
+    /// training view that sees a place finest, on average over the surface, from 128 to 2048; maps are
+    /// then written with 512 texels or more, since coarser ones lose the mesh normal.
     pub texture_size: TextureSize,
     /// Weight of the albedo prior in the diffuse stages; the paper has it in the warm-up only.
     pub prior: f32,
@@ -150,7 +152,7 @@ pub struct FineTuningConfig {
 pub enum TextureSize {
     /// Texels.
     Side(usize),
-    /// From the number of pixels.
+    /// From the pictures' sampling of the surface.
     Rule(TextureRule),
 }
 
@@ -158,16 +160,18 @@ pub enum TextureSize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TextureRule {
-    /// The power of two nearest to one texel per pixel.
+    /// The power of two nearest to two texels per pixel of the finest view.
     Auto,
 }
 
-/// The side of the fine-tuned textures for training views of so many pixels.
-pub(crate) fn texture_size(size: TextureSize, pixels: usize) -> usize {
+/// The side of the fine-tuned textures for the training views of a capture.
+pub(crate) fn texture_size(size: TextureSize, capture: &Capture) -> usize {
     match size {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => {
-            let exponent = (pixels.max(1) as f64).sqrt().log2().round() as u32;
+            // Two: the pixel grids of views that see a place about as finely lie between one another.
+            let texels = 2.0 * finest_sampling(&capture.mesh, &capture.train);
+            let exponent = texels.max(1.0).sqrt().log2().round() as u32;
             2usize.pow(exponent.clamp(7, 11))
         }
     }

@@ -68,7 +68,7 @@ impl<'a> SolveContext<'a> {
             gain,
             gbuffers,
             pixels,
-            size: texture_size(config.fine_tuning.texture_size, pixels),
+            size: texture_size(config.fine_tuning.texture_size, capture),
             pictures: OnceCell::new(),
             far_transport: OnceCell::new(),
             transport: OnceCell::new(),

@@ -60,7 +60,7 @@ fn bytes_on_disk(capture: &Capture, config: &Config) -> u64 {
     let pixels = |camera: &Camera| (camera.width * camera.height) as u64;
     let withheld: u64 = capture.withheld.iter().map(pixels).sum();
     let train: u64 = capture.train.iter().map(|view| pixels(&view.camera)).sum();
-    let solved = texture_size(config.fine_tuning.texture_size, train as usize);
+    let solved = texture_size(config.fine_tuning.texture_size, capture);
     let layers = if config.records.layers { train * 9 * 2 } else { 0 };
     let side = map_size(config.fine_tuning.texture_size, solved) as u64;
     side * side * 11 * 4 + withheld * 9 * 4 + layers
