@@ -106,7 +106,7 @@ impl Estimate {
     }
 
     /// For `frame` pixels of which `pixels` are covered.
-    pub(crate) fn of(views: usize, frame: usize, pixels: usize, config: &Config) -> Self {
+    pub fn of(views: usize, frame: usize, pixels: usize, config: &Config) -> Self {
         let size = texture_size(config.fine_tuning.texture_size, pixels);
         let square = |side: usize| (side * side) as f64;
         let texels = square(size);

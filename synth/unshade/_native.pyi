@@ -190,9 +190,11 @@ class Maps:
     @staticmethod
     def read(path: _Path) -> Maps:
         """Read whatever maps the folder has."""
-    def write(self, path: _Path) -> None:
+    def write(self, path: _Path, *, light: ArrayLike | None = None) -> None:
         """Write the folder, completely or not at all. Texels without coverage that hold no number
-        are written as 0."""
+        are written as 0. ``light``, if the method recovers one, is written as ``light.exr``: radiance
+        (rows, 2 rows, 3) of an environment at infinity, lat-long as ``truth/light.exr``, in the exposure in
+        which the maps reproduce the photographs; the maps are then relit in it too."""
 
 def solve(
     capture: Capture | _Path,

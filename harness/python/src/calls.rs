@@ -7,7 +7,7 @@ use harness::cli;
 use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
-use scoring::compare::{self as comparing, Baseline, Tolerances};
+use scoring::compare::{self as comparing, Tolerances};
 use scoring::{check, score, study};
 use solver::{Choice, Options};
 
@@ -168,7 +168,6 @@ pub(super) fn compare(
         None => Tolerances::built_in(),
     }
     .map_err(raise)?;
-    let current = Baseline::of_run(&run).map_err(raise)?;
-    let baseline = Baseline::read(&baseline).map_err(raise)?;
+    let [current, baseline] = comparing::sides(&run, &baseline).map_err(raise)?;
     Ok(comparing::compare(&current, &baseline, &tolerances).map_err(raise)?.passed())
 }

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use formats::picture::{GrayImage, Picture};
+use formats::MapsError;
+use formats::atomic::Folder;
+use formats::picture::{self, GrayImage, Picture};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -201,10 +203,20 @@ impl Maps {
         Self::new_from(py, inner, solver::solution::interrupted(&path))
     }
 
-    /// Writes the folder, completely or not at all.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    /// Writes the folder, completely or not at all; `light` becomes its `light.exr`.
+    #[pyo3(signature = (path, *, light=None))]
+    fn write(&self, py: Python<'_>, path: PathBuf, light: Given) -> PyResult<()> {
         let maps = self.to_solver(py);
-        py.detach(|| maps.write(&path)).map_err(raise)
+        let light = light.map(|light| argument("light").light(light)).transpose()?;
+        py.detach(|| {
+            let folder = Folder::begin(&path)?;
+            maps.write_into(folder.path())?;
+            if let Some(light) = &light {
+                picture::write_exr_rgb(&folder.path().join("light.exr"), light)?;
+            }
+            Ok(folder.commit()?)
+        })
+        .map_err(|error: MapsError| raise(error))
     }
 
     /// Where the solve was stopped; None for maps of a solve that came to its end.

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod case_place;
+mod case_size;
 mod cases;
 mod clean;
 mod cluster;
