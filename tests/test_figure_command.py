@@ -38,7 +38,8 @@ def test_a_figure_of_a_run_has_its_drawings_its_numbers_and_its_latex(tiny_run: 
 
 def test_what_a_run_does_not_hold_is_bad_input(tiny_run: Path, tmp_path: Path) -> None:
     done = unshade("figure", "fig9", tiny_run, "-o", tmp_path / "figure", check=False)
-    assert done.returncode == 2 and "captures in two lights" in done.stderr
+    assert done.returncode == 2 and "captures of one face in two lights" in done.stderr
+    assert "tiny-studio (face tiny, light studio)" in done.stderr and "quick (solver)" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 

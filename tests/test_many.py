@@ -91,7 +91,7 @@ def test_a_dry_run_says_what_is_cached_and_writes_nothing(tiny_run: Path, tmp_pa
     assert _table(said) == {"capture": (1, 0), "maps": (2, 1), "relit": (2, 1), "scores": (2, 1)}
     assert digest(run) == before
     said = unshade("run", TINY, "-o", tmp_path / "new", "--dry-run").stdout
-    assert "never measured" in said and not (tmp_path / "new").exists()
+    assert "no timings yet" in said and not (tmp_path / "new").exists()
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.tex").write_text("years")
     done = unshade("run", TINY, "-o", tmp_path / "mine", "--dry-run", check=False)

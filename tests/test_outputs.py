@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import unshade as package
 from conftest import HERE, TINY, unshade
 
 CASE = "tiny-studio"
@@ -93,8 +94,6 @@ def test_our_own_folder_is_replaced_until_somebody_puts_a_file_into_it(parts: di
 
 
 def test_python_is_as_careful(parts: dict[str, Path], tmp_path: Path) -> None:
-    import unshade as package
-
     maps = package.Maps(diffuse_albedo=np.full((8, 8, 3), 0.5, np.float32))
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis" / "a.tex").write_text("years")
@@ -168,3 +167,26 @@ def test_compare_names_what_is_wrong(parts: dict[str, Path], tmp_path: Path) -> 
     (tmp_path / "other.json").write_text(json.dumps(other))
     done = unshade("compare", parts["run"], tmp_path / "other.json", check=False)
     assert done.returncode == 2 and '"another"' in done.stderr and '"tiny"' in done.stderr
+
+
+def test_either_side_of_a_comparison_is_a_run_a_baseline_or_scores(parts: dict[str, Path], tmp_path: Path) -> None:
+    run = parts["run"]
+    scores = {method: next(run.glob(f"scores/*/{method}.json")) for method in ("quick", "oracle")}
+    sides = (run, run / "run.json", run / "report", run / "report" / "baseline.json", scores["quick"])
+    for current in sides:
+        for baseline in (sides[0], sides[-1]):
+            assert package.compare(current, baseline), (current, baseline)
+    assert unshade("compare", sides[-1], sides[1]).returncode == 0
+    other = json.loads(scores["quick"].read_text())
+    other["solver"] = "mine"
+    (tmp_path / "scores.json").write_text(json.dumps(other))
+    for current, baseline, words in (
+        (tmp_path, run, f"{tmp_path}: has no scores; name the folder of a finished run"),
+        (run, run / "timing.json", "timing.json: has no scores; name"),
+        (tmp_path / "scores.json", run, "scores of the method mine on the capture"),
+        (run, run / "none.json", "none.json"),
+    ):
+        done = unshade("compare", current, baseline, check=False)
+        assert done.returncode == 2 and words in done.stderr and done.stderr.count("\n") == 1, done.stderr
+        with pytest.raises(package.errors.CompareError):
+            package.compare(current, baseline)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import foreign_captures
@@ -66,18 +67,35 @@ def test_the_found_light_has_the_photographs_exposure(photographed: Path) -> Non
     np.testing.assert_allclose(relit[mask].mean(0) / photograph[mask].mean(0), 1, atol=0.15)
 
 
-def test_a_method_without_a_light_is_relit_in_the_others(photographed: Path) -> None:
-    lights = photographed / "run" / "relit" / "head" / "mean_texture" / "none"
+def test_a_baseline_without_a_light_is_scored_by_its_unlit_views(photographed: Path) -> None:
+    run = photographed / "run"
+    lights = run / "relit" / "head" / "mean_texture" / "none"
     assert [light.name for light in lights.iterdir()] == ["even"]
-    assert [row.subject for row in _scores(photographed / "run", "head", "mean_texture")] == []
+    found = _scores(run, "head", "mean_texture")
+    assert {row.subject for row in found} == {"view"}
+    # The projected texture has the photographs' shading in it, but no highlight that moves.
+    psnr = {"subject": "view", "metric": "psnr_srgb", "scale": "none"}
+    assert 15 < (found.value(**psnr) or 0) < (_scores(run, "head", "quick").value(**psnr) or 0)
+    assert [path.name for path in (run / "maps" / "head" / "mean_texture" / "views").iterdir()] == ["004.exr"]
 
 
 def test_the_report_shows_them_and_the_run_resumes(photographed: Path) -> None:
     page = (photographed / "run" / "report" / "index.html").read_text()
-    assert "maps relit: found, the capture&#x27;s light" in page.replace("&#39;", "&#x27;").replace("'", "&#x27;")
-    assert "view 004" in page and "Relit" in page
+    assert "Withheld photograph, maps relit: the light that the method recovered" in page
+    assert "mean projected texture recovers no light, so its maps cannot be relit" in page
+    assert "view 004" in page and "Relit" in page and ">truth<" not in page
     again = command("run", photographed / "suite.toml", "-o", photographed / "run")
     assert "0 stages run" in again.stderr
+
+
+def test_a_dry_run_counts_the_pixels_of_the_photographs(photographed: Path, tmp_path: Path) -> None:
+    suite, run = photographed / "suite.toml", photographed / "run"
+    said = command("run", suite, "-o", tmp_path / "new", "--dry-run", "--costs", run).stdout
+    times = json.loads((run / "timing.json").read_text())
+    expected = sum(stage["seconds"] for stage in times["stages"])
+    found = re.search(r"^in all: (\d+) (s|min)", said, re.MULTILINE)
+    assert found is not None and "no timings yet" not in said
+    assert 0.5 * expected < int(found[1]) * {"s": 1, "min": 60}[found[2]] < 2 * expected + 10, said
 
 
 def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_path: Path, photographed: Path) -> None:

@@ -4,9 +4,11 @@
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::mean_texture::with_mesh_normals;
 use capture::projection::{Observation, Projection, per_texel};
-use capture::{Capture, CaptureError};
+use capture::{Camera, Capture, CaptureError};
 use formats::Maps;
+use formats::picture::Picture;
 
+use crate::model::taps::Taps;
 use crate::{Config, semantic};
 
 /// The semantic initialisation alone, see [`semantic::initial_diffuse_albedo`]; the rest as in
@@ -19,6 +21,21 @@ pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, C
     let projections = Projection::of_views(&capture.train, &gbuffers);
     let seen = per_texel(&atlas, &projections, |_: &[(usize, Observation)]| true);
     with_mesh_normals(capture, &atlas, albedo, &seen)
+}
+
+/// The picture of a camera of `capture` with the diffuse albedo `texture` as radiance: a baseline has no light,
+/// and its albedo still contains the shading. Black beside the mesh.
+pub fn unlit_view(capture: &Capture, texture: &Picture, camera: &Camera) -> Picture {
+    let gbuffer = GBuffer::new(&capture.mesh, camera, None);
+    let (taps, order) = Taps::sorted(texture.width, &gbuffer.uvs);
+    let colours = taps.sample::<3>(&texture.data);
+    let mut picture = Picture::new(camera.width, camera.height, 3);
+    for (sample, at) in order.into_iter().enumerate() {
+        let pixel = gbuffer.pixels[at] as usize;
+        let (x, y) = (pixel % camera.width, pixel / camera.width);
+        picture.pixel_mut(x, y).copy_from_slice(&colours.sample::<3>(sample, 0));
+    }
+    picture
 }
 
 #[cfg(test)]

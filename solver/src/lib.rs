@@ -25,7 +25,7 @@ pub use config::{Config, ConfigError};
 pub use optimise::checkpoint::Checkpoint;
 pub use optimise::error::SolveError;
 pub use optimise::progress::{LayerSink, Options, Progress};
-pub use optimise::solve::{solve_into, solve_on};
+pub use optimise::solve::{Extent, seconds_on_two_cores, solve_into, solve_on};
 pub use solution::{Record, Solution, StageMaps, Timing, ViewLayers};
 
 /// The instruction set that the processor backend uses on this machine.

@@ -107,7 +107,7 @@ impl Estimate {
     }
 
     /// For `frame` pixels of which `pixels` are covered, and textures of side `size`.
-    fn of(views: usize, frame: usize, pixels: usize, size: usize, config: &Config) -> Self {
+    pub fn of(views: usize, frame: usize, pixels: usize, size: usize, config: &Config) -> Self {
         let square = |side: usize| (side * side) as f64;
         let texels = square(size);
         let (all, covered) = (frame as f64, pixels as f64);

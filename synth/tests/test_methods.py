@@ -115,6 +115,7 @@ def test_a_known_flash_gives_the_albedo_as_it_is(smooth: unshade.Capture) -> Non
 def test_path_tracing_reproduces_a_truth_of_its_own_model(smooth: unshade.Capture) -> None:
     fit = path_traced.fit(smooth, texture_size=64, samples=16, basis_steps=10, free_steps=60)
     assert quality(smooth, fit.maps, "diffuse_albedo", "psnr_srgb", "global") > 33
+    assert fit.light.shape == (16, 32, 3) and 0.8 < np.percentile(smooth.shading(fit.light), 99) < 1.2
     for (sensor, picture, mask), name in zip(fit.views, smooth.train):
         inside = np.array(mask)[..., 0] > 0
         again = np.array(mi.render(fit.scene, fit.params, sensor=sensor, spp=512, seed=99))
@@ -128,8 +129,10 @@ def test_path_tracing_reproduces_a_truth_of_its_own_model(smooth: unshade.Captur
 @pytest.mark.parametrize("shadows", [False, True])
 def test_even_light_is_found_and_divided_out(smooth: unshade.Capture, shadows: bool) -> None:
     """What is left are highlights, which the model has not."""
-    maps = sh_lambert.recover(smooth, texture_size=64, shadows=shadows)
+    maps, light = sh_lambert.recover(smooth, texture_size=64, shadows=shadows)
     assert quality(smooth, maps, "diffuse_albedo", "psnr_srgb", "global") > 25
+    # As all lights here, it shades a white front with 1 at most.
+    assert light.shape == (16, 32, 3) and 0.8 < np.percentile(smooth.shading(light, texture_size=64), 99) < 1.3
 
 
 def test_settings_that_a_method_has_not_are_named() -> None:

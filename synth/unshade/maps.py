@@ -104,9 +104,14 @@ class Maps:
         maps.interrupted = interrupted
         return maps
 
-    def write(self, path: _Path) -> None:
-        """Write the folder, completely or not at all; texels without coverage that hold no number become 0."""
-        _native.write_maps(self._arrays, path)
+    def write(self, path: _Path, *, light: ArrayLike | None = None) -> None:
+        """Write the folder, completely or not at all; texels without coverage that hold no number become 0.
+
+        ``light``, if the method recovers one, is written as ``light.exr``: radiance (rows, 2 rows, 3) of an environment
+        at infinity, lat-long as ``truth/light.exr``, in the exposure in which the maps reproduce the photographs; the
+        maps are then relit in it too. Raises ``errors.MapsError`` for a light of another shape or with NaN.
+        """
+        _native.write_maps(self._arrays, path, light)
 
     @property
     def size(self) -> int | None:

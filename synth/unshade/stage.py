@@ -297,7 +297,9 @@ def _method(options: argparse.Namespace) -> dict[str, Any]:
         from .methods.laboratory import Laboratory
 
         given.append(Laboratory(scene, _progress))
-    recover(*given, **options.settings).write(options.out)
+    recovered = recover(*given, **options.settings)
+    maps, light = recovered if isinstance(recovered, tuple) else (recovered, None)
+    maps.write(options.out, light=light)
     return {"maps": str(options.out)}
 
 

@@ -272,7 +272,10 @@ def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path
 def compare(run: _Path, baseline: _Path, *, tolerances: _Path | None = None) -> bool:
     """True if no metric of ``run`` is worse than in ``baseline`` beyond its tolerance.
 
-    Raises ``errors.CompareError``.
+
+    Each is the folder of a run or its ``run.json``, a ``baseline.json``, or a file of scores; beside the last, only
+    that method on that capture is compared. Raises ``errors.CompareError`` for anything else, or if the two share
+    nothing.
     """
     return _native.compare(run, baseline, tolerances)
 

@@ -101,6 +101,19 @@ impl Argument<'_> {
         Ok(Picture { width, height, channels, data })
     }
 
+    /// A light: finite radiance of the whole sphere, lat-long, three channels, twice as wide as high.
+    pub(super) fn light(self, value: &Bound<PyAny>) -> PyResult<Picture> {
+        let light = self.picture(value)?;
+        if light.channels != 3 || light.width != 2 * light.height {
+            let shape = (light.height, light.width, light.channels);
+            return Err(self.refused(&format!("expected (rows, 2 x rows, 3), got shape {shape:?}")));
+        }
+        match light.data.iter().find(|value| !value.is_finite()) {
+            Some(value) => Err(self.refused(&format!("holds {value}; fix the pixel"))),
+            None => Ok(light),
+        }
+    }
+
     /// A mask of 0 and 255 from booleans, from zeros and ones of any type, or from integers up to
     /// 255, of which those above 127 are inside, as in the masks of a capture.
     pub(super) fn mask(self, value: &Bound<PyAny>) -> PyResult<GrayImage> {

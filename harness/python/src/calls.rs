@@ -8,7 +8,7 @@ use harness::cli;
 use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scoring::compare::{self as comparing, Baseline, CompareError, Tolerances};
+use scoring::compare::{self as comparing, CompareError, Tolerances};
 use scoring::metrics::OwnMetric;
 use scoring::{check, score, study};
 use solver::{Choice, Options};
@@ -199,8 +199,7 @@ pub(super) fn compare(
             Some(path) => Tolerances::read(&path),
             None => Tolerances::built_in(),
         }?;
-        let current = Baseline::of_run(&run)?;
-        let baseline = Baseline::read(&baseline)?;
+        let [current, baseline] = comparing::sides(&run, &baseline)?;
         Ok::<_, CompareError>(comparing::compare(&current, &baseline, &tolerances)?.passed())
     };
     long(py, passed)?.map_err(raise)

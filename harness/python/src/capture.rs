@@ -162,16 +162,7 @@ impl Capture {
         bounces: usize,
         bounce_albedo: f32,
     ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        let argument = Argument { name: "light", class: "ValueError" };
-        let light = argument.picture(light)?;
-        if light.channels != CHANNELS || light.width != 2 * light.height {
-            let shape = (light.height, light.width, light.channels);
-            let message = format!("expected (rows, 2 x rows, 3), got shape {shape:?}");
-            return Err(argument.refused(&message));
-        }
-        if let Some(value) = light.data.iter().find(|value| !value.is_finite()) {
-            return Err(argument.refused(&format!("holds {value}; mend the pixel")));
-        }
+        let light = Argument { name: "light", class: "ValueError" }.light(light)?;
         let mut config = solver::Config::default();
         let transport = &mut config.transport;
         (transport.texture_size, transport.rows) = (texture_size, light.height);

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use formats::Maps;
-use formats::picture::Picture;
+use formats::atomic::Folder;
+use formats::picture::{self, Picture};
+use formats::{Maps, MapsError};
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -51,9 +52,18 @@ pub(super) fn read_maps(
 }
 
 /// Writes maps, arrays as `map_array` returns them by name, completely or not at all. Texels that hold no number
-/// are written as 0, because a renderer interpolates across the border of the coverage.
+/// are written as 0, because a renderer interpolates across the border of the coverage. `light` becomes `light.exr`.
 #[pyfunction]
-pub(super) fn write_maps(py: Python<'_>, maps: &Bound<PyDict>, path: PathBuf) -> PyResult<()> {
+#[pyo3(signature = (maps, path, light=None))]
+pub(super) fn write_maps(
+    py: Python<'_>,
+    maps: &Bound<PyDict>,
+    path: PathBuf,
+    light: Option<&Bound<PyAny>>,
+) -> PyResult<()> {
+    let light = light
+        .map(|light| Argument { name: "light", class: "MapsError" }.light(light))
+        .transpose()?;
     let mut own = Maps::default();
     for (name, slot) in floats(&mut own) {
         let Some(array) = maps.get_item(name)? else { continue };
@@ -64,7 +74,15 @@ pub(super) fn write_maps(py: Python<'_>, maps: &Bound<PyDict>, path: PathBuf) ->
     if let Some(coverage) = maps.get_item(COVERAGE)? {
         own.coverage = Some(arrays::gray_of(&coverage.extract::<PyReadonlyArrayDyn<u8>>()?));
     }
-    detached(py, || own.write(&path))?.map_err(raise)
+    let write = || {
+        let folder = Folder::begin(&path)?;
+        own.write_into(folder.path())?;
+        if let Some(light) = &light {
+            picture::write_exr_rgb(&folder.path().join("light.exr"), light)?;
+        }
+        Ok(folder.commit()?)
+    };
+    detached(py, write)?.map_err(|error: MapsError| raise(error))
 }
 
 /// A map as a new array: float32 (height, width[, channels]) of anything that numpy makes floats of. Raises

@@ -12,6 +12,7 @@ use super::exports::{Export, Links};
 use super::lead::{self, Lead};
 use super::link::WayToRun;
 use super::methods::{self as made, MethodRow};
+use super::reference::Reference;
 use super::run::{Case, Frames, Timing};
 use super::solve::Solve;
 use super::table::{self, Column, Table};
@@ -24,6 +25,7 @@ pub(super) struct CaseView {
     face: String,
     light: String,
     variant: Option<String>,
+    photographed: bool,
     train: usize,
     test: usize,
     inputs: Vec<Input>,
@@ -143,6 +145,7 @@ impl CaseView {
             face: case.face.clone(),
             light: case.light.clone(),
             variant: case.variant.clone(),
+            photographed: frames.reference == Reference::Photograph,
             train: frames.train.len(),
             test: frames.test.len(),
             inputs,

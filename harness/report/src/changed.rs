@@ -14,6 +14,7 @@ use super::comparison_figures::{Show, read_if_present, read_mask_if_present};
 use super::difference::{Measure, field, resample};
 use super::error::ReportError;
 use super::maps::MAPS;
+use super::reference::Reference;
 use super::run::{Case, Frames, Method, RunFile};
 use super::tone::{self, Field};
 use super::views::Layer;
@@ -26,6 +27,7 @@ struct Shown {
     old: Option<Picture>,
     new: Picture,
     truth: Picture,
+    reference: Reference,
     mask: Option<GrayImage>,
     show: Show,
     measure: Measure,
@@ -62,11 +64,15 @@ fn fill(
 ) -> Result<usize, ReportError> {
     let manifest = RunFile::open(new)?;
     let before = old.map(RunFile::open).transpose()?;
-    let mut page = "# What changed\n\nEach row: the baseline's run, this run, the truth, the difference of \
-                    the first two (of this run and the truth, where the baseline's pictures are not at \
-                    hand), from black (none) to pale yellow (the largest, as stated); of colours the same \
-                    two by FLIP, which is what an eye would see when it flips between them.\n"
-        .to_owned();
+    let reference = Reference::common_word(
+        manifest.cases.iter().map(|case| Reference::of(&new.join(&case.capture))),
+    );
+    let mut page = format!(
+        "# What changed\n\nEach row: the baseline's run, this run, the {reference}, the difference of the first two \
+         (of this run and the {reference}, where the baseline's pictures are not at hand), from black (none) to pale \
+         yellow (the largest, as stated); of colours the same two by FLIP, which is what an eye would see when it \
+         flips between them.\n"
+    );
     let mut count = 0;
     let mut seen = BTreeSet::new();
     for finding in findings {
@@ -78,7 +84,7 @@ fn fill(
             continue;
         };
         count += 1;
-        let Shown { old, new, truth, mask, show, measure } = &shown;
+        let Shown { old, new, truth, reference, mask, show, measure } = &shown;
         let other = old.as_ref().unwrap_or(truth);
         let Some(error) = field(new, other, mask.as_ref(), *measure, 1.0) else { continue };
         let flip = flip(new, other, mask.as_ref(), *measure);
@@ -87,7 +93,7 @@ fn fill(
         let pictures = [
             ("old", old.as_ref().map(|picture| show.raster(picture))),
             ("new", Some(show.raster(new))),
-            ("truth", Some(show.raster(truth))),
+            (reference.word(), Some(show.raster(truth))),
             ("difference", Some(seen_by(&error))),
             ("flip", flip.as_ref().map(seen_by)),
         ];
@@ -163,6 +169,7 @@ fn shown(
             new: fitted(now),
             mask: read_mask_if_present(&capture.join("truth/coverage.png"))?,
             truth,
+            reference: Reference::Truth,
             show: kind.show,
             measure: kind.measure,
         }));
@@ -210,7 +217,8 @@ fn picture(
     let before = old.and_then(|(run, manifest)| path(run, find(manifest, finding)?.1));
     let mask = frame.mask.as_deref().map(read_mask_if_present).transpose()?.flatten();
     let show = Show::Colour { exposure: layer.exposure };
-    Ok(Some(Shown { old: read(before)?, new, truth, mask, show, measure: Measure::Display }))
+    let (reference, measure) = (frames.reference, Measure::Display);
+    Ok(Some(Shown { old: read(before)?, new, truth, reference, mask, show, measure }))
 }
 
 fn find<'m>(manifest: &'m RunFile, finding: &Finding) -> Option<(&'m Case, &'m Method)> {

@@ -13,6 +13,7 @@ use super::difference::{self, Measure};
 use super::error::ReportError;
 use super::float_picture;
 use super::link::WayToRun;
+use super::reference::Reference;
 use super::run::{Frame, Frames};
 use super::table::{self, Column};
 use super::tone::{self, Raster};
@@ -55,7 +56,7 @@ pub(super) struct Entry {
     pub errors: Vec<Option<Tile>>,
 }
 
-/// One truth and what the methods made of it.
+/// One picture of the reference and what the methods made of it.
 #[derive(Debug, Serialize)]
 pub(super) struct Strip {
     pub title: String,
@@ -75,6 +76,8 @@ pub(super) struct ComparisonFigure {
     #[serde(skip)]
     pub subject: (String, Option<String>),
     pub id: String,
+    /// The name of the pictures that it compares with.
+    pub reference: &'static str,
     pub title: String,
     pub tone: String,
     pub error: &'static str,
@@ -88,6 +91,7 @@ impl ComparisonFigure {
     /// A figure of `strips`; all have one tone and one measure.
     pub fn new(
         (subject, light): (&str, Option<&str>),
+        reference: Reference,
         title: String,
         show: Show,
         measure: Measure,
@@ -97,6 +101,7 @@ impl ComparisonFigure {
         Self {
             id: file_name(&id.join("-")),
             subject: (subject.to_owned(), light.map(str::to_owned)),
+            reference: reference.word(),
             title,
             tone: show.words(),
             error: measure.label(),
@@ -151,7 +156,7 @@ pub(super) struct MethodFolders<'a> {
     pub relit: Option<PathBuf>,
 }
 
-/// A truth that the methods' pictures are compared with.
+/// A picture of the reference, which the methods' are compared with.
 pub(super) struct Subject {
     /// Names its files.
     pub name: String,

@@ -12,6 +12,7 @@ use super::comparison_figures::{self, MethodFolders, Studio, Tile};
 use super::difference::{self, Measure};
 use super::error::ReportError;
 use super::maps::{MAPS, MapKind};
+use super::reference::Reference;
 use super::tone::{self, Raster};
 use super::views::Layer;
 use super::{light, table};
@@ -67,8 +68,8 @@ impl Studio<'_> {
         let averaged = truth.as_ref().and_then(|t| light::in_cells(t, found.width, found.height));
         let (mut columns, mut tiles) = (Vec::new(), Vec::new());
         for (title, name, picture) in [
-            ("exact", "light-exact", truth.as_ref()),
-            ("exact, mean of each cell", "light-cells", averaged.as_ref()),
+            ("truth", "light-exact", truth.as_ref()),
+            ("truth, mean of each cell", "light-cells", averaged.as_ref()),
             ("recovered", "light", Some(&found)),
         ] {
             if let Some(picture) = picture {
@@ -90,13 +91,14 @@ impl Studio<'_> {
         }))
     }
 
-    /// The withheld views of photographs in every light, for most of which there is no truth.
+    /// The withheld views of photographs in every light, most of which have no reference.
     fn relit_sheet(
         &self,
         group: &str,
         method: &MethodFolders,
     ) -> Result<Option<ContactSheet>, ReportError> {
-        let relit = method.relit.as_ref().filter(|_| !self.frames.root.join("truth").is_dir());
+        let photographed = self.frames.reference == Reference::Photograph;
+        let relit = method.relit.as_ref().filter(|_| photographed);
         let lights = relit.map_or(Ok(Vec::new()), |relit| folders(&relit.join("none")))?;
         let mut rows = Vec::new();
         for frame in &self.frames.test {
@@ -116,8 +118,8 @@ impl Studio<'_> {
         }
         let names = lights.iter().filter_map(|light| light.file_name());
         let columns = names.map(|name| name.to_string_lossy().into_owned()).collect();
-        let caption = "The withheld views with the recovered maps, path-traced in the light that was \
-                       found and in others; linear colour, sRGB curve.";
+        let caption = "The withheld views with the recovered maps, path-traced in the recovered light \
+                       (found), if the method recovers one, and in other lights; linear colour, sRGB curve.";
         Ok((!rows.is_empty()).then(|| ContactSheet {
             title: "Relit",
             caption: caption.to_owned(),
@@ -153,15 +155,20 @@ impl Studio<'_> {
             Some(format!("{} {}", Metric::find(id).ok()?.name, table::shown(Some(value), 2)))
         });
         let scores: Vec<String> = scores.collect();
+        let error = match columns.len() {
+            1 => String::new(),
+            _ => format!(
+                " Error: {} after one factor, from 0 to {}; larger values take the last colour, grey is not scored.",
+                Measure::ColourDifference.label(),
+                Measure::ColourDifference.top(),
+            ),
+        };
         let scored =
             if scores.is_empty() { String::new() } else { format!(" {}.", scores.join("; ")) };
         Ok(Some(ContactSheet {
             title: "Confidence",
             caption: format!(
-                "The method's own trust in its texels, black 0, white 1. Error: {} after one factor, \
-                 from 0 to {}; larger values take the last colour, grey is not scored.{scored}",
-                Measure::ColourDifference.label(),
-                Measure::ColourDifference.top(),
+                "The method's confidence in its texels, black 0, white 1.{error}{scored}"
             ),
             columns,
             rows: vec![SheetRow { title: String::new(), tiles }],
@@ -189,14 +196,15 @@ impl Studio<'_> {
 
     fn stage_sheet(&self, group: &str, maps: &Path) -> Result<Option<ContactSheet>, ReportError> {
         let stages = folders(&maps.join("stages"))?;
+        let truth = self.truth();
         let mut rows = Vec::new();
         for kind in &MAPS {
             let file = format!("{}.exr", kind.subject);
             if !stages.iter().any(|stage| stage.join(&file).is_file()) {
                 continue;
             }
-            let truth = self.frames.root.join("truth");
-            let tiles = (stages.iter().map(PathBuf::as_path).chain([maps, truth.as_path()]))
+            let columns = stages.iter().map(PathBuf::as_path).chain([maps]);
+            let tiles = (columns.chain(truth.as_deref()))
                 .enumerate()
                 .map(|(column, folder)| self.stage_tile(group, kind, column, &folder.join(&file)))
                 .collect::<Result<_, _>>()?;
@@ -206,7 +214,8 @@ impl Studio<'_> {
             return Ok(None);
         }
         let mut columns: Vec<String> = stages.iter().map(|stage| stage_title(stage)).collect();
-        columns.extend(["result".to_owned(), "exact".to_owned()]);
+        columns.push("result".to_owned());
+        columns.extend(truth.map(|_| Reference::Truth.word().to_owned()));
         Ok(Some(ContactSheet {
             title: "Maps after each stage",
             caption: "What each stage changed, with the factors of the result; shown as above."
@@ -216,6 +225,12 @@ impl Studio<'_> {
             tile_rem: 9.5,
             folded: false,
         }))
+    }
+
+    /// The folder of the truth, of a capture that has one.
+    fn truth(&self) -> Option<PathBuf> {
+        let rendered = self.frames.reference == Reference::Truth;
+        rendered.then(|| self.frames.root.join("truth"))
     }
 
     fn stage_tile(
@@ -241,16 +256,19 @@ impl Studio<'_> {
         if frames.is_empty() {
             return Ok(None);
         }
-        let truth = self.frames.root.join("truth/layers");
+        let truth = self.truth().map(|truth| truth.join("layers"));
         let mut rows = Vec::new();
         for (title, name, layer, folder) in [
-            ("photograph", "photograph", Layer::ALL, None),
+            ("input", "input", Layer::ALL, None),
             ("recovered", "whole", Layer::ALL, Some(&folder)),
-            ("diffuse, exact", "diffuse-exact", Layer::DIFFUSE, Some(&truth)),
+            ("diffuse, truth", "diffuse-exact", Layer::DIFFUSE, truth.as_ref()),
             ("diffuse, recovered", "diffuse", Layer::DIFFUSE, Some(&folder)),
-            ("specular, exact", "specular-exact", Layer::SPECULAR, Some(&truth)),
+            ("specular, truth", "specular-exact", Layer::SPECULAR, truth.as_ref()),
             ("specular, recovered", "specular", Layer::SPECULAR, Some(&folder)),
         ] {
+            if folder.is_none() && name != "input" {
+                continue;
+            }
             let tile = |frame: &&super::run::Frame| {
                 let path = match folder {
                     Some(folder) => folder.join(format!("{}.exr", frame.name)),
@@ -268,11 +286,12 @@ impl Studio<'_> {
                 rows.push(SheetRow { title: title.to_owned(), tiles });
             }
         }
+        let beside = if truth.is_some() { " beside the true one" } else { "" };
         Ok(Some(ContactSheet {
             title: "Layers of the training views",
             caption: format!(
-                "The method's own split of the photographs beside the exact one; linear colour, sRGB \
-                 curve, the specular layer × {}.",
+                "The method's split of the inputs into layers{beside}; linear colour, sRGB curve, the \
+                 specular layer × {}.",
                 Layer::SPECULAR.exposure
             ),
             columns: frames.iter().map(|frame| frame.name.clone()).collect(),

@@ -62,11 +62,14 @@ pub enum ReportError {
     /// The user interrupted.
     #[error("interrupted; the same command makes the report anew")]
     Interrupted,
+    /// A table's file has an unknown ending.
+    #[error("{0}: cannot tell the format of the table from the name; end it in .md, .tex or .csv")]
+    TableFormat(PathBuf),
     /// There is nothing to make a table of.
     #[error("{0}: nothing was scored yet; finish the run with `unshade run`")]
     NoScores(PathBuf),
     /// A figure is to be of what no run has.
-    #[error("{what} {name:?}: not in {runs}; run.json there lists what is")]
+    #[error("{what} {name:?}: not in {runs}; name one of {known}")]
     Unknown {
         /// `case` or `method`.
         what: &'static str,
@@ -74,16 +77,18 @@ pub enum ReportError {
         name: String,
         /// The runs' folders.
         runs: String,
+        /// The names that there are.
+        known: String,
     },
     /// The runs do not hold what a figure shows.
-    #[error(
-        "{run}: holds no {wanted}, which this figure is of; docs/figures.md says what each needs"
-    )]
+    #[error("{runs}: the figure needs {wanted}; there are {has}")]
     NoFigure {
-        /// The first run's folder.
-        run: PathBuf,
-        /// The part of a run that the figure is made of.
-        wanted: &'static str,
+        /// The runs' folders.
+        runs: String,
+        /// What the figure is made of.
+        wanted: String,
+        /// The cases with their lights, and the methods.
+        has: String,
     },
     /// A page could not be laid out.
     #[error("the report's page cannot be laid out: {0}")]

@@ -137,7 +137,7 @@ fn csv_cell(value: &Value) -> String {
     }
 }
 
-fn csv_text(text: &str) -> String {
+pub(super) fn csv_text(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

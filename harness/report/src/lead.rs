@@ -1,4 +1,4 @@
-//! The figure that tells a case: what was given, what is true, what each method made of it, and its error.
+//! The figure that tells a case: the input, the reference, what each method made of it, and its error.
 
 use serde::Serialize;
 
@@ -9,6 +9,8 @@ use super::table::Table;
 #[derive(Debug, Serialize)]
 pub(super) struct Lead {
     pub rows: Vec<LeadRow>,
+    /// Whether maps are compared too.
+    has_maps: bool,
 }
 
 /// One comparison: a withheld view, or a map.
@@ -17,6 +19,8 @@ pub(super) struct LeadRow {
     pub title: String,
     pub input: Option<Tile>,
     pub truth: Tile,
+    /// The name of the picture of the reference.
+    pub reference: &'static str,
     pub made: Vec<Made>,
     /// Quantity of the error, and the value where its colours end.
     pub error: &'static str,
@@ -34,8 +38,9 @@ pub(super) struct Made {
     pub caption: String,
 }
 
-/// A view relit in another light than the capture's (in its own where there is no other), the diffuse albedo
-/// after its factor, and the specular normal. None of a case of which nothing is known.
+/// A view relit in another light than the capture's, the diffuse albedo after its factor, and the specular normal;
+/// of photographs, of which no other light and no map is known, the method's own view and the view relit in its
+/// own light. None of a case without a reference.
 pub(super) fn lead(
     views: &[ComparisonFigure],
     maps: &[ComparisonFigure],
@@ -47,14 +52,18 @@ pub(super) fn lead(
     let other = |figure: &&ComparisonFigure| figure.subject.1.as_deref() != Some(own);
     let view = views.iter().filter(relit).find(other).or_else(|| views.iter().find(relit));
     let map = |subject: &str| maps.iter().find(|figure| figure.subject.0 == subject);
-    let chosen = [view.or(views.first()), map("diffuse_albedo"), map("specular_normal")];
+    let own_view = views.iter().find(|figure| figure.subject.0 == "view");
+    let chosen = match maps {
+        [] => [own_view, view, None],
+        _ => [view.or(own_view), map("diffuse_albedo"), map("specular_normal")],
+    };
     let rows: Vec<LeadRow> = chosen
         .into_iter()
         .flatten()
         .enumerate()
         .filter_map(|(at, figure)| row(figure, table, input.filter(|_| at == 0)))
         .collect();
-    (!rows.is_empty()).then_some(Lead { rows })
+    (!rows.is_empty()).then_some(Lead { rows, has_maps: !maps.is_empty() })
 }
 
 fn row(figure: &ComparisonFigure, table: &Table, input: Option<&Tile>) -> Option<LeadRow> {
@@ -74,6 +83,7 @@ fn row(figure: &ComparisonFigure, table: &Table, input: Option<&Tile>) -> Option
         title: format!("{}{view}", figure.title),
         input: input.cloned(),
         truth: strip.truth.clone(),
+        reference: figure.reference,
         made: made.collect(),
         error: figure.error,
         top: figure.top.clone(),

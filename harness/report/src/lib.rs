@@ -15,6 +15,7 @@ mod error;
 mod exports;
 mod figures;
 mod float_picture;
+mod framing;
 mod lead;
 mod light;
 mod link;
@@ -23,6 +24,7 @@ mod matrix;
 mod methods;
 mod metric;
 mod page;
+mod reference;
 mod results;
 mod run;
 mod site;
@@ -62,7 +64,7 @@ pub struct ReportSummary {
     pub index: PathBuf,
     /// Captures that were compared.
     pub cases: usize,
-    /// The baseline for later runs; absent while a method has no scores.
+    /// The baseline for later runs; absent while a method is not scored, or where nothing can be scored.
     pub baseline: Option<PathBuf>,
 }
 

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::comparison_figures::{self, ComparisonFigure, Made, Show, Studio, Subject};
 use super::difference::{self, Measure};
 use super::error::ReportError;
+use super::reference::Reference;
 
 /// A map as it is shown and compared.
 pub(super) struct MapKind {
@@ -111,6 +112,7 @@ impl Studio<'_> {
         let title = kind.title.to_owned();
         Ok(Some(ComparisonFigure::new(
             (kind.subject, None),
+            Reference::Truth,
             title,
             kind.show,
             kind.measure,

@@ -7,7 +7,7 @@ use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
 use scoring::metrics::{METRICS, Metric};
-use scoring::score::{Protocol, Scores};
+use scoring::score::{Protocol, Row, Scores};
 use serde::Serialize;
 
 use super::case::CaseView;
@@ -15,9 +15,10 @@ use super::error::ReportError;
 use super::exports::{Export, Links};
 use super::link::WayToRun;
 use super::matrix::{self, Matrix};
+use super::reference::Reference;
 use super::run::{self, Case, Method, RunFile, SolverTiming, Timing};
 use super::solve::plain;
-use super::summary::{KEY_FIGURE_NAMES, SummaryCase, summary};
+use super::summary::Summary;
 use super::table::Column;
 use super::tone;
 
@@ -50,8 +51,11 @@ pub(super) struct Page {
     suite: String,
     heat: String,
     mark: &'static str,
-    summary: Vec<SummaryCase>,
+    summary: Summary,
     summary_export: Links,
+    /// Whether any case was rendered, and whether any was photographed.
+    has_truth: bool,
+    has_photographs: bool,
     run: String,
     matrices: Vec<Matrix>,
     cases: Vec<CaseView>,
@@ -106,14 +110,18 @@ impl Page {
         let columns: Vec<Vec<Column>> = pairs.map(|(case, scores)| columns(case, scores)).collect();
         let timing: Timing =
             run::read_json_if_present(&run.join("timing.json"))?.unwrap_or_default();
-        let (mut summaries, mut cases) = (Vec::new(), Vec::new());
+        let mut cases = Vec::new();
         for (done, (case, columns)) in manifest.cases.iter().zip(&columns).enumerate() {
             if !progress(done as u64, manifest.cases.len() as u64, &case.id) {
                 return Err(ReportError::Interrupted);
             }
-            summaries.push(summary(case, columns));
             cases.push(CaseView::make(run, case, columns, &timing, root, way)?);
         }
+        let references: Vec<Reference> =
+            manifest.cases.iter().map(|case| Reference::of(&run.join(&case.capture))).collect();
+        let summarised = manifest.cases.iter().zip(&columns).zip(&references);
+        let summarised = summarised.map(|((case, columns), at)| (case, columns.as_slice(), *at));
+        let summary = Summary::of(&summarised.collect::<Vec<_>>());
         let pairs = manifest.cases.iter().zip(&cases).zip(&columns);
         let sources = pairs.map(|((case, view), columns)| matrix::Source {
             face: &case.face,
@@ -123,27 +131,37 @@ impl Page {
             figures: &view.views,
             input: view.main_input(),
         });
+        let rows: Vec<&Row> = columns.iter().flatten().flat_map(Column::rows).collect();
+        let used = |metric: &&Metric| rows.iter().any(|row| row.metric == metric.id);
         let matrices = matrix::matrices(&sources.collect::<Vec<_>>());
         Ok(Self {
             title: manifest.title.clone().unwrap_or_else(|| manifest.suite.clone()),
             suite: manifest.suite.clone(),
             heat: tone::heat_gradient(),
             mark: MARK,
-            summary_export: exported(&summaries).write(root, "tables", "key-figures")?,
+            summary_export: exported(&summary).write(root, "tables", "key-figures")?,
             run: way.to(Path::new("")).trim_end_matches('/').to_owned(),
-            summary: summaries,
+            summary,
+            has_truth: references.contains(&Reference::Truth),
+            has_photographs: references.contains(&Reference::Photograph),
             matrices,
             cases,
-            metrics: METRICS.iter().chain(own_metrics(&scores)).map(Definition::of).collect(),
+            metrics: METRICS
+                .iter()
+                .filter(used)
+                .chain(own_metrics(&scores))
+                .map(Definition::of)
+                .collect(),
             protocols: protocols(scores.iter().flatten().flatten()),
             versions: manifest.versions.iter().map(|(k, v)| (k.clone(), plain(v))).collect(),
             suite_toml: manifest.suite_toml.clone(),
             times: Times::of(run, manifest, timing)?,
-            has_every_score: scores.iter().flatten().all(Option::is_some),
+            has_every_score: scores.iter().flatten().all(Option::is_some)
+                && scores.iter().flatten().flatten().any(|scores| !scores.rows.is_empty()),
         })
     }
 
-    /// Whether every method was scored in every case.
+    /// Whether every method was scored in every case, and any of them has a score.
     pub fn has_every_score(&self) -> bool {
         self.has_every_score
     }
@@ -172,14 +190,15 @@ pub(super) fn read_scores(run: &Path, case: &Case) -> Result<Vec<Option<Scores>>
 }
 
 /// The key figures as files.
-fn exported(cases: &[SummaryCase]) -> Export {
-    let headings = ["case", "method"].iter().chain(&KEY_FIGURE_NAMES);
-    let rows = cases.iter().flat_map(|case| {
+fn exported(summary: &Summary) -> Export {
+    let headings = ["case", "method"].into_iter();
+    let headings = headings.chain(summary.headings.iter().map(|heading| heading.name));
+    let rows = summary.cases.iter().flat_map(|case| {
         case.rows.iter().map(|row| {
             [&case.id, &row.title].into_iter().chain(&row.cells).cloned().collect::<Vec<_>>()
         })
     });
-    Export::of_text(headings.map(|heading| (*heading).to_owned()).collect(), rows.collect())
+    Export::of_text(headings.map(str::to_owned).collect(), rows.collect())
 }
 
 /// Each protocol once, in the order in which the scores name them.

@@ -5,11 +5,16 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use formats::picture;
+use rayon::prelude::*;
+use scoring::score::FOUND_LIGHT;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::error::{FORMAT, ReportError};
+use super::framing::shows_whole_head;
+use super::reference::Reference;
 
 /// `run.json`: what was compared.
 #[derive(Debug, Deserialize)]
@@ -177,7 +182,9 @@ pub(super) struct SolverTiming {
 pub(super) struct Frames {
     /// The capture's folder.
     pub root: PathBuf,
+    pub reference: Reference,
     pub train: Vec<Frame>,
+    /// The withheld views; the first one shows the whole head, if any does, and of those most of its front.
     pub test: Vec<Frame>,
 }
 
@@ -189,6 +196,7 @@ pub(super) struct Frame {
     pub mask: Option<PathBuf>,
     /// Unit vector from the origin, which lies in the head, to the camera.
     pub direction: [f64; 3],
+    whole: bool,
 }
 
 impl Frames {
@@ -211,29 +219,61 @@ impl Frames {
         }
         let transforms: Transforms = read_json(&capture.join("transforms.json"))?;
         let chosen = |names: &[String]| -> Vec<Frame> {
-            let listed = transforms.frames.iter().filter(|frame| names.contains(&frame.file_path));
+            let listed = transforms.frames.par_iter();
+            let listed = listed.filter(|frame| names.contains(&frame.file_path));
             listed
-                .map(|frame| Frame {
-                    name: frame.name.clone().unwrap_or_else(|| stem(&frame.file_path)),
-                    image: capture.join(&frame.file_path),
-                    mask: frame.mask_path.as_ref().map(|mask| capture.join(mask)),
-                    direction: camera_direction(&frame.transform_matrix),
+                .map(|frame| {
+                    let mask = frame.mask_path.as_ref().map(|mask| capture.join(mask));
+                    // A mask that cannot be read is reported where it is shown.
+                    let read = mask.as_ref().and_then(|mask| picture::read_png_gray(mask).ok());
+                    Frame {
+                        name: frame.name.clone().unwrap_or_else(|| stem(&frame.file_path)),
+                        image: capture.join(&frame.file_path),
+                        direction: camera_direction(&frame.transform_matrix),
+                        whole: read.is_none_or(|mask| shows_whole_head(&mask)),
+                        mask,
+                    }
                 })
                 .collect()
         };
+        let mut test = chosen(&transforms.test_filenames);
+        // The face looks along +Z.
+        let order = |a: &usize, b: &usize| {
+            let frames: [&Frame; 2] = [&test[*a], &test[*b]];
+            let [a, b] = frames.map(|frame| (frame.whole, frame.direction[2]));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        };
+        // The earlier one of equals.
+        if let Some(first) = (0..test.len()).rev().max_by(order) {
+            test[..=first].rotate_right(1);
+        }
         Ok(Self {
             root: capture.to_path_buf(),
+            reference: Reference::of(capture),
             train: chosen(&transforms.train_filenames),
-            test: chosen(&transforms.test_filenames),
+            test,
         })
     }
 
-    /// The index of the training view whose camera is nearest in direction.
+    /// The index of the training view whose camera is nearest in direction, of those that show the whole head
+    /// if there are any.
     pub fn nearest_train(&self, direction: [f64; 3]) -> Option<usize> {
         let cosine = |index: &usize| -> f64 {
             self.train[*index].direction.iter().zip(direction).map(|(a, b)| a * b).sum()
         };
-        (0..self.train.len()).max_by(|a, b| cosine(a).total_cmp(&cosine(b)))
+        let any_whole = self.train.iter().any(|frame| frame.whole);
+        let chosen = (0..self.train.len()).filter(|index| self.train[*index].whole || !any_whole);
+        chosen.max_by(|a, b| cosine(a).total_cmp(&cosine(b)))
+    }
+
+    /// The picture that a withheld view relit in `light` is compared with; of photographs there is one in the light
+    /// that they were taken in alone.
+    pub fn relit_reference(&self, frame: &Frame, light: &str) -> Option<PathBuf> {
+        let file = format!("{}.exr", frame.name);
+        match self.reference {
+            Reference::Truth => Some(self.root.join("truth/relit").join(light).join(file)),
+            Reference::Photograph => (light == FOUND_LIGHT).then(|| frame.image.clone()),
+        }
     }
 }
 

@@ -223,6 +223,45 @@ fn save_scores(path: &Path, method: &str, light: &str, error: f32) {
     save_json(path, &scores);
 }
 
+/// Makes the cases of a run whose ids start with `prefix` photographs: without a truth, relit in the light that a
+/// method recovers, which only `unshade` does; without the oracle.
+pub(super) fn photograph(run: &Path, prefix: &str) {
+    let read = |path: &Path| -> Value { serde_json::from_slice(&fs::read(path).unwrap()).unwrap() };
+    let mut manifest = read(&run.join("run.json"));
+    for case in manifest["cases"].as_array_mut().unwrap() {
+        let id = case["id"].as_str().unwrap().to_owned();
+        if !id.starts_with(prefix) {
+            continue;
+        }
+        case["light"] = json!("found");
+        fs::remove_dir_all(run.join("captures").join(&id).join("truth")).unwrap();
+        case["solvers"].as_array_mut().unwrap().retain(|method| method["id"] != "oracle");
+        for method in ["unshade", "mean_texture"] {
+            let relit = run.join("relit").join(&id).join(method);
+            fs::create_dir_all(relit.join("none")).unwrap();
+            fs::rename(relit.join("global/uniform"), relit.join("none/even")).unwrap();
+            if method == "unshade" {
+                fs::rename(relit.join("global/flash"), relit.join("none/found")).unwrap();
+            }
+            fs::remove_dir_all(relit.join("global")).unwrap();
+            let path = run.join(format!("scores/{id}/{method}.json"));
+            let mut scores = read(&path);
+            (scores["light"], scores["scale"]) = (json!("found"), Value::Null);
+            scores["protocol"] =
+                json!({"id": "unshade-photographs-1", "statements": ["Unscaled."]});
+            scores["rows"] = match method {
+                "unshade" => json!([
+                    row("view", None, "psnr_srgb", "none", 30.0),
+                    row("relit", Some("found"), "psnr_srgb", "none", 28.0),
+                ]),
+                _ => json!([]),
+            };
+            save_json(&path, &scores);
+        }
+    }
+    save_json(&run.join("run.json"), &manifest);
+}
+
 /// Writes a run of one face in two lights; the baseline has neither normals nor views.
 pub(super) fn write(run: &Path) {
     let mut cases = Vec::new();

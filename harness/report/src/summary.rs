@@ -2,9 +2,28 @@
 
 use serde::Serialize;
 
+use super::reference::Reference;
 use super::run::Case;
 use super::table::{self, Column};
 use super::{comparison_figures, metric};
+
+/// The key figures of all cases, without those that no method of any case has.
+#[derive(Serialize)]
+pub(super) struct Summary {
+    pub headings: Vec<Heading>,
+    pub cases: Vec<SummaryCase>,
+}
+
+/// The heading of a column.
+#[derive(Clone, Serialize)]
+pub(super) struct Heading {
+    /// What was compared, on two lines.
+    lines: [&'static str; 2],
+    metric: &'static str,
+    /// All of it on one line, as in files.
+    #[serde(skip)]
+    pub name: &'static str,
+}
 
 /// The figures that decide, of one case.
 #[derive(Serialize)]
@@ -12,6 +31,8 @@ pub(super) struct SummaryCase {
     pub id: String,
     anchor: String,
     pub rows: Vec<SummaryRow>,
+    /// Why methods have no figures beside photographs, one sentence each.
+    missing: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -26,6 +47,7 @@ pub(super) struct SummaryRow {
 /// One entry of the key figures: heading, subject, metric, scale, and whether the light is
 /// absent, the capture's own or any other.
 struct KeyFigure {
+    heading: Heading,
     subject: &'static str,
     metric: &'static str,
     scale: &'static str,
@@ -39,35 +61,85 @@ enum KeyLight {
     Other,
 }
 
-/// Headings of the key figures in files.
-pub(super) const KEY_FIGURE_NAMES: [&str; 5] = [
-    "diffuse albedo, PSNR of sRGB after one factor, dB",
-    "specular normal, mean angle / plain mesh, °",
-    "withheld view, PSNR of sRGB, dB",
-    "relit, capture's light, PSNR of sRGB, dB",
-    "relit, other lights, PSNR of sRGB, dB",
-];
+const DECIBELS: &str = "PSNR, sRGB, dB ↑";
 
 const KEY_FIGURES: [KeyFigure; 5] = [
     KeyFigure {
+        heading: Heading {
+            lines: ["diffuse albedo,", "after one factor"],
+            metric: DECIBELS,
+            name: "diffuse albedo, PSNR of sRGB after one factor, dB",
+        },
         subject: "diffuse_albedo",
         metric: "psnr_srgb",
         scale: "global",
         light: KeyLight::None,
     },
     KeyFigure {
+        heading: Heading {
+            lines: ["specular normal,", "mean angle / plain mesh"],
+            metric: "degrees ↓",
+            name: "specular normal, mean angle / plain mesh, °",
+        },
         subject: "specular_normal",
         metric: "normal_mean_deg",
         scale: "none",
         light: KeyLight::None,
     },
-    KeyFigure { subject: "view", metric: "psnr_srgb", scale: "none", light: KeyLight::None },
-    KeyFigure { subject: "relit", metric: "psnr_srgb", scale: "global", light: KeyLight::Own },
-    KeyFigure { subject: "relit", metric: "psnr_srgb", scale: "global", light: KeyLight::Other },
+    KeyFigure {
+        heading: Heading {
+            lines: ["withheld view,", "by the method itself"],
+            metric: DECIBELS,
+            name: "withheld view, PSNR of sRGB, dB",
+        },
+        subject: "view",
+        metric: "psnr_srgb",
+        scale: "none",
+        light: KeyLight::None,
+    },
+    KeyFigure {
+        heading: Heading {
+            lines: ["maps relit,", "capture's light"],
+            metric: DECIBELS,
+            name: "relit, capture's light, PSNR of sRGB, dB",
+        },
+        subject: "relit",
+        metric: "psnr_srgb",
+        scale: "global",
+        light: KeyLight::Own,
+    },
+    KeyFigure {
+        heading: Heading {
+            lines: ["maps relit,", "other lights"],
+            metric: DECIBELS,
+            name: "relit, other lights, PSNR of sRGB, dB",
+        },
+        subject: "relit",
+        metric: "psnr_srgb",
+        scale: "global",
+        light: KeyLight::Other,
+    },
 ];
 
-/// The key figures of one case.
-pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
+impl Summary {
+    /// The key figures of cases with their columns and what those are compared with.
+    pub fn of(cases: &[(&Case, &[Column], Reference)]) -> Self {
+        let summaries =
+            cases.iter().map(|(case, columns, reference)| summary(case, columns, *reference));
+        let mut cases: Vec<SummaryCase> = summaries.collect();
+        let empty = |cell: &str| [table::EMPTY, table::FAILED].contains(&cell);
+        let any = |at: &usize| {
+            cases.iter().flat_map(|case| &case.rows).any(|row| !empty(&row.cells[*at]))
+        };
+        let kept: Vec<usize> = (0..KEY_FIGURES.len()).filter(any).collect();
+        for row in cases.iter_mut().flat_map(|case| &mut case.rows) {
+            row.cells = kept.iter().map(|at| row.cells[*at].clone()).collect();
+        }
+        Self { headings: kept.iter().map(|at| KEY_FIGURES[*at].heading.clone()).collect(), cases }
+    }
+}
+
+fn summary(case: &Case, columns: &[Column], reference: Reference) -> SummaryCase {
     let rows = columns.iter().map(|column| SummaryRow {
         title: column.method.title().to_owned(),
         kind: column.method.role(),
@@ -77,10 +149,30 @@ pub(super) fn summary(case: &Case, columns: &[Column]) -> SummaryCase {
             None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
         },
     });
+    let scored = columns.iter().filter(|column| column.scores.is_some());
+    let photographed = scored.filter(|_| reference == Reference::Photograph);
     SummaryCase {
         id: case.id.clone(),
         anchor: comparison_figures::file_name(&case.id),
         rows: rows.collect(),
+        missing: photographed.filter_map(missing).collect(),
+    }
+}
+
+/// Why a method lacks scores against photographs; none if it has all.
+fn missing(column: &Column) -> Option<String> {
+    let has = |subject: &str| column.rows().iter().any(|row| row.subject == subject);
+    let title = column.method.title();
+    match [has("view"), has("relit")] {
+        [true, true] => None,
+        [true, false] => Some(format!(
+            "{title} recovers no light, so its maps cannot be relit as the photographs were lit."
+        )),
+        [false, true] => Some(format!("{title} wrote no pictures of the withheld views (views/).")),
+        [false, false] => Some(format!(
+            "{title} wrote neither pictures of the withheld views (views/) nor a light (light.exr) to relight its \
+             maps in, so nothing of it can be compared with the photographs."
+        )),
     }
 }
 
@@ -101,7 +193,7 @@ fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
     let find = |subject: &str, light: Option<&str>, scale: &str| {
         column.find(subject, light, key.metric, scale)?.value
     };
-    // What is held against photographs has no factor.
+    // Scores against photographs have no factor.
     let value = |subject: &str, light| {
         find(subject, light, key.scale)
             .or_else(|| find(subject, light, "none").filter(|_| column.factor().is_none()))

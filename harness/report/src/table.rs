@@ -8,6 +8,7 @@ use scoring::score::{Row, Scores};
 use serde::Serialize;
 
 use super::metric;
+use super::reference;
 use super::run::{Kind, Method};
 
 /// Text of a cell without a value.
@@ -72,6 +73,8 @@ impl<'a> Column<'a> {
 pub(super) struct Table {
     pub columns: Vec<Heading>,
     pub groups: Vec<Group>,
+    /// Whether any row has a trivial answer or a noise floor; photographs have neither.
+    pub has_bounds: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -159,7 +162,9 @@ fn build(columns: &[Column], own_light: &str, keep: impl Fn(&Row) -> bool) -> Ta
             findings: column.findings(),
         })
         .collect();
-    Table { columns, groups }
+    let mut lines = groups.iter().flat_map(|group| &group.rows);
+    let has_bounds = lines.any(|line| line.numbers != (None, None));
+    Table { columns, groups, has_bounds }
 }
 
 fn line(key: &Row, columns: &[Column], by_id: &[HashMap<String, &Row>]) -> Line {
@@ -253,7 +258,7 @@ fn group_title(row: &Row, own_light: &str) -> String {
     let subject = metric::subject(&row.subject);
     match row.light.as_deref() {
         None => subject.to_owned(),
-        Some(light) if light == own_light => format!("{subject}, {light} (the capture's light)"),
+        Some(light) if light == own_light => format!("{subject}: {}", reference::own_light(light)),
         Some(light) => format!("{subject}, {light}"),
     }
 }

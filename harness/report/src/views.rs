@@ -12,6 +12,7 @@ use super::comparison_figures::{
 use super::difference::Measure;
 use super::error::ReportError;
 use super::metric;
+use super::reference::{Reference, own_light};
 use super::run::Frame;
 
 /// A picture as a whole, or one part of its exact split.
@@ -131,15 +132,23 @@ impl Studio<'_> {
         let made_by = match source {
             Source::View => "by the method itself".to_owned(),
             Source::Relit { light, scale } => {
-                let own = if light == self.light { ", the capture's light" } else { "" };
-                format!("maps relit: {light}{own} (albedo {})", metric::scale(scale))
+                let light = match light == self.light {
+                    true => own_light(light),
+                    false => light.clone(),
+                };
+                format!("maps relit: {light} (albedo {})", metric::scale(scale))
             }
         };
-        let title = format!("Withheld view{}, {made_by}", layer.words);
+        let withheld = match self.frames.reference {
+            Reference::Truth => "Withheld view",
+            Reference::Photograph => "Withheld photograph",
+        };
+        let title = format!("{withheld}{}, {made_by}", layer.words);
         let subject = layer.subject(source);
         let show = Show::Colour { exposure: layer.exposure };
         let subject = (subject.as_str(), source.light());
-        Ok(Some(ComparisonFigure::new(subject, title, show, Measure::Display, strips)))
+        let reference = self.frames.reference;
+        Ok(Some(ComparisonFigure::new(subject, reference, title, show, Measure::Display, strips)))
     }
 
     /// Whether the figure at the head of the case is of such pictures: another light than the capture's, if there
@@ -151,11 +160,10 @@ impl Studio<'_> {
             .is_some_and(|light| lights.get(1).or(lights.first()).is_some_and(|key| key == light)))
     }
 
-    /// The lights with a true relit picture, the capture's own first.
+    /// The lights with pictures to compare with, the capture's own first.
     fn lights(&self) -> Result<Vec<String>, ReportError> {
         let folder = self.frames.root.join("truth/relit");
-        if !folder.is_dir() {
-            // Of photographs no other light is known.
+        if self.frames.reference == Reference::Photograph || !folder.is_dir() {
             return Ok(vec![self.light.to_owned()]);
         }
         let mut lights = Vec::new();
@@ -174,15 +182,18 @@ impl Studio<'_> {
         layer: &Layer,
     ) -> Result<Option<Strip>, ReportError> {
         let file = format!("{}.exr", frame.name);
-        let folder = self.frames.root.join("truth");
-        let truth = match source {
+        let photographed = self.frames.reference == Reference::Photograph;
+        if photographed && layer.name.is_some() {
+            return Ok(None);
+        }
+        let path = match source {
             Source::View if layer.name.is_none() => frame.image.clone(),
-            Source::View => folder.join("layers").join(&file),
-            // A photograph is the truth in its own light.
-            Source::Relit { .. } if layer.name.is_none() && !folder.is_dir() => frame.image.clone(),
-            Source::Relit { light, .. } => folder.join("relit").join(light).join(&file),
+            Source::View => self.frames.root.join("truth/layers").join(&file),
+            Source::Relit { light, .. } => match self.frames.relit_reference(frame, light) {
+                Some(path) => path,
+                None => return Ok(None),
+            },
         };
-        let path = truth;
         let Some(truth) =
             comparison_figures::read_if_present(&path, layer.channels, Content::Colour)?
         else {

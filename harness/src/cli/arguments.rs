@@ -13,12 +13,7 @@ use crate::suite::NETS;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
-#[command(
-    name = "unshade",
-    version,
-    max_term_width = 100,
-    after_help = "unshade import --help: photographs, cameras and a mesh of other programs"
-)]
+#[command(name = "unshade", version, max_term_width = 100)]
 pub(super) struct Cli {
     #[command(subcommand)]
     pub verb: Verb,
@@ -29,7 +24,7 @@ pub(super) struct Cli {
 
 #[derive(Subcommand)]
 pub(super) enum Verb {
-    /// Render a capture with its truth, say what a scene stands for, or show many faces.
+    /// Render a capture with its truth from a scene; describe a scene; show many faces.
     Synth(SynthArgs),
     /// Recover reflectance maps from a capture.
     Solve(SolveArgs),
@@ -49,7 +44,7 @@ pub(super) enum Verb {
         #[arg(long, value_name = "FILE")]
         light: Option<PathBuf>,
     },
-    /// Say which map makes how much of the error of a relit view: Shapley values over the maps.
+    /// Attribute a relit view's error to each map (Shapley values).
     Budget {
         /// The capture with its truth.
         capture: PathBuf,
@@ -65,9 +60,9 @@ pub(super) enum Verb {
         #[arg(long)]
         view: Option<String>,
     },
-    /// Write maps as an asset of another program, and say what it loses.
+    /// Write maps as an asset for another program, and report what the asset loses.
     Export(ExportArgs),
-    /// Name what is likely wrong with maps, with its evidence and the mend; exit code 1 if anything.
+    /// Report likely faults of maps, with evidence and the fix; exit code 1 if there are any.
     Check {
         /// The maps' folder.
         #[arg(required_unless_present = "submission")]
@@ -82,16 +77,16 @@ pub(super) enum Verb {
         #[arg(long, value_name = "PUBLIC", requires = "submission")]
         captures: Option<PathBuf>,
     },
-    /// Score maps and relit pictures against the truth.
+    /// Score maps and relit pictures against the truth, or against withheld photographs.
     Score {
-        /// The capture with its truth.
+        /// The capture, with its truth or with withheld photographs.
         capture: PathBuf,
         /// The maps to score.
         maps: PathBuf,
         /// The folder of `unshade relight`.
         #[arg(long)]
         relit: Option<PathBuf>,
-        /// Also ask a network (LPIPS), which is the extra `lpips`.
+        /// Also score by a network, LPIPS (needs the extra `lpips`).
         #[arg(long, value_name = "NET", value_parser = NETS)]
         lpips: Option<String>,
         /// A metric of yours: module:function, file.py or file.py:function; may be given again.
@@ -101,14 +96,14 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
-    /// Write a suite to start from, with comments, and a method of one's own in fifty lines.
+    /// Write a suite to start from, with comments, and an example of your own method.
     Init {
         /// A new folder, or an empty one.
         folder: PathBuf,
     },
-    /// Everything above for every case of a suite; resumes where it stopped.
+    /// Run a whole suite: render, solve, relight, score, report; resumes where it stopped.
     Run(RunArgs),
-    /// Remove what a run can make again, and say what each kind of stage takes.
+    /// Remove what a run can make again, and print the size of each kind of stage.
     Clean {
         /// The run's folder.
         run: PathBuf,
@@ -123,7 +118,7 @@ pub(super) enum Verb {
         #[arg(long, value_name = "DAYS", value_parser = not_negative)]
         earlier_days: Option<f64>,
     },
-    /// Write a run's report: one folder that opens offline.
+    /// Write a run's report: one folder of pages that opens offline.
     Report {
         /// The run's folder.
         run: PathBuf,
@@ -131,20 +126,21 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
-    /// Draw a figure of a paper from finished runs: PNG, PDF, LaTeX, and the CSV behind it.
+    /// Draw a figure for a paper from finished runs: PNG, PDF, LaTeX, and the CSV behind it.
     Figure(FigureArgs),
-    /// Write the results of finished runs as tables in Markdown: means over the faces, then face by
-    /// face.
+    /// Write the results of finished runs as tables: Markdown, LaTeX or CSV.
     Table {
         /// The runs' folders.
         #[arg(required = true)]
         runs: Vec<PathBuf>,
-        /// The file.
+        /// The file: .md (means over the faces, then face by face), .tex or .csv (the means).
         #[arg(short, long)]
         out: PathBuf,
     },
-    /// Statistics over the faces of finished runs: means with intervals, paired tests, the faces that a
-    /// study needs, what varies, fairness by skin tone.
+    /// Compute statistics over the faces of finished runs.
+    ///
+    /// Means with intervals, paired tests, the number of faces that a study needs, components of variance, fairness
+    /// by skin tone.
     Study {
         /// The runs' folders.
         #[arg(required = true)]
@@ -153,7 +149,7 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: Option<PathBuf>,
     },
-    /// Write finished runs, of whomever, as one leaderboard that opens offline: ranks, intervals, filters.
+    /// Write finished runs, yours or others', as one leaderboard that opens offline.
     Site {
         /// The runs' folders; captures are the same where their hashes are.
         #[arg(required = true)]
@@ -162,24 +158,25 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
-    /// Render faces that nobody knows: captures for others, the truth for who scores them.
+    /// Render unpublished faces: captures for participants, the truth for the organiser.
     Seal(SealArgs),
-    /// Check the signature of scores that `unshade seal --score` wrote; exit code 2 if it does not fit.
+    /// Check the signature of sealed scores; exit code 2 if the signature does not match.
     Verify {
         /// The scores' folder.
         folder: PathBuf,
-        /// Who should have signed: the `public_key` of the round's round.json.
+        /// The expected signer: the `public_key` of the round's round.json.
         #[arg(long, value_name = "HEX")]
         key: Option<String>,
     },
-    /// Compare a run with a baseline; exit code 1 on a regression.
+    /// Compare a run with a baseline or an earlier run; exit code 1 on a regression.
     Compare(Box<CompareArgs>),
-    /// Measure how far a suite's scores move with the seeds, and write tolerances with a known rate of
-    /// false alarms.
+    /// Measure how far a suite's scores move with the seeds, and write tolerances.
+    ///
+    /// The tolerances have a known rate of false alarms.
     Calibrate(CalibrateArgs),
-    /// Time the solver's kernels and steps against what this machine reaches.
+    /// Time the solver's kernels and steps against this machine's peak.
     Bench(BenchArgs),
-    /// Say what this machine has, and what is missing with the mend.
+    /// Report what this machine has, and how to install what is missing.
     Doctor {
         /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.
         #[arg(long)]
@@ -223,11 +220,11 @@ pub(super) struct SolveArgs {
     /// Leave out the maps after every stage and the layers of every training view.
     #[arg(long)]
     pub no_records: bool,
-    /// The device that computes.
+    /// The device of the solve.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     pub backend: BackendName,
-    /// Show the solve as it goes, in the rerun viewer at this address or later from a file that ends in
-    /// .rrd. Only in a program built with `--features rerun`.
+    /// Show the solve while it runs, in the rerun viewer at this address, or write it to a file that ends in .rrd.
+    /// Needs a program built with `--features rerun`.
     #[arg(long, value_name = "PLACE", num_args = 0..=1,
           default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
     pub rerun: Option<String>,
@@ -247,26 +244,25 @@ pub(super) struct RunArgs {
     /// Run this case alone; may be given again.
     #[arg(long = "case", value_name = "NAME")]
     pub cases: Vec<String>,
-    /// Make the maps of this method anew, whatever was kept; may be given again.
+    /// Make the maps of this method again, although they are valid; may be repeated.
     #[arg(long, value_name = "NAME")]
     pub redo: Vec<String>,
-    /// Do so many stages at once, each with its share of the processors, as long as there is memory.
+    /// Run up to N stages at once, each on its share of the processors, as memory allows.
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: u16,
-    /// Do the stages on Dask's workers: the scheduler's address, or `local` for --jobs workers that are
-    /// started here (needs unshade[cluster]).
+    /// Run the stages on Dask's workers: the scheduler's address, or `local` to start --jobs workers here (needs
+    /// unshade[cluster]).
     #[arg(long, value_name = "ADDRESS", conflicts_with_all = ["redo", "dry_run"])]
     pub cluster: Option<String>,
     /// The store of all machines of the cluster: a shared folder, or a URL of fsspec. By default `store`
     /// in the run's folder.
     #[arg(long, value_name = "URL", requires = "cluster")]
     pub store: Option<String>,
-    /// Run nothing; say what is cached, and what time and disc the rest takes.
+    /// Run nothing; print what is cached, and the time and disc that the rest takes.
     #[arg(long)]
     pub dry_run: bool,
-    /// A run whose measured costs the estimate starts from, beside those of the run's own folder; may be
-    /// given again.
+    /// Estimate by the timings of this run too, beside those of the run's own folder; may be repeated.
     #[arg(long, value_name = "RUN", requires = "dry_run")]
     pub costs: Vec<PathBuf>,
 }
@@ -276,16 +272,16 @@ pub(super) struct SealArgs {
     /// The suite: its faces get the seeds of the secret. Its methods play no part.
     #[arg(required_unless_present = "score")]
     pub suite: Option<PathBuf>,
-    /// A file of 32 random bytes or more, which nobody else has.
+    /// A secret file of 32 random bytes or more.
     #[arg(long, value_name = "SECRET")]
     pub seeds_from: PathBuf,
     /// A folder for `public` and `private`; with --score, for the signed scores.
     #[arg(short, long)]
     pub out: PathBuf,
-    /// Another round has other faces.
+    /// The name of the round; each round has other faces.
     #[arg(long, default_value = "1", conflicts_with = "score")]
     pub round: String,
-    /// Render so many captures at once.
+    /// Render up to N captures at once.
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: u16,
@@ -325,7 +321,7 @@ pub(super) enum BackendName {
 pub(super) enum RendererName {
     /// Mitsuba, which renders the truth.
     Mitsuba,
-    /// Blender's Cycles, a second judge (`make cycles`).
+    /// Blender's Cycles, an independent renderer (`make cycles`).
     Cycles,
 }
 

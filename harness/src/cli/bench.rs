@@ -30,7 +30,7 @@ pub(super) struct BenchArgs {
     /// Also solve this capture as a whole, with `unshade` and `paper`; may be given again.
     #[arg(long, value_name = "CAPTURE")]
     solve: Vec<PathBuf>,
-    /// Only see that everything works, as small as it goes; the times mean nothing.
+    /// Check that everything works, on the smallest sizes; the times are meaningless.
     #[arg(long)]
     quick: bool,
 }

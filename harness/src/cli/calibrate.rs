@@ -18,10 +18,10 @@ const POWER: f64 = 0.9;
 
 #[derive(Args)]
 pub(super) struct CalibrateArgs {
-    /// The suite to run again and again: a file, or the name of one that comes with unshade.
+    /// The suite to repeat: a file, or the name of one that comes with unshade.
     #[arg(required_unless_present = "runs", conflicts_with = "runs")]
     suite: Option<PathBuf>,
-    /// How often, each time with other seeds.
+    /// The number of runs, each with other seeds.
     #[arg(long, default_value_t = 8, value_name = "N",
           value_parser = clap::value_parser!(u32).range(MIN_RUNS as i64..=1000))]
     seeds: u32,

@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 use formats::atomic;
-use scoring::compare::{Acceptances, Baseline, Places, Tolerances};
+use scoring::compare::{self, Acceptances, CompareError, Places, Tolerances};
 
 use super::alone::tools;
 use super::baseline_branch;
@@ -16,9 +16,10 @@ use crate::synth::run_stage;
 
 #[derive(Args)]
 pub(super) struct CompareArgs {
-    /// The run's folder.
+    /// The run: its folder or its `run.json`; or a file of scores, or a baseline.
     run: PathBuf,
-    /// A `baseline.json` that `unshade report` wrote, or the folder of an earlier run.
+    /// What it is compared with, likewise: an earlier run, a `baseline.json` that `unshade report` wrote, or a file
+    /// of scores.
     #[arg(required_unless_present = "baseline_branch", conflicts_with = "baseline_branch")]
     baseline: Option<PathBuf>,
     /// The baseline of the commit where this one left the branch, or of the nearest before.
@@ -27,7 +28,7 @@ pub(super) struct CompareArgs {
     /// Where the branch's baselines are: <commit>.json.
     #[arg(long, value_name = "DIR", requires = "baseline_branch")]
     baselines: Option<PathBuf>,
-    /// The file of `unshade calibrate`, or reasoned rules; without it those of scenes/tolerances.toml.
+    /// A file of `unshade calibrate`, or of rules; by default the tolerances of scenes/tolerances.toml.
     #[arg(long, value_name = "FILE")]
     tolerances: Option<PathBuf>,
     /// Also write the verdicts as JUnit XML.
@@ -42,8 +43,8 @@ pub(super) struct CompareArgs {
     /// Print GitHub's annotations before the table.
     #[arg(long)]
     github: bool,
-    /// Also write small pictures of what changed into this folder: what was (where the baseline is a run's
-    /// folder), what is, the truth, the difference.
+    /// Also write small pictures of each change into this folder: before (if the baseline is a run), after, the
+    /// reference, and the difference.
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
     /// Also add this run to a history of the suite: a line of JSON.
@@ -52,19 +53,19 @@ pub(super) struct CompareArgs {
     /// Draw the history as an SVG, with the steps in it (needs the extra `history`).
     #[arg(long, value_name = "FILE", requires = "history")]
     chart: Option<PathBuf>,
-    /// The run's suite: then JUnit and annotations name file and line of each case.
+    /// The run's suite, so that JUnit and annotations name the file and line of each case.
     #[arg(long, value_name = "SUITE")]
     suite: Option<PathBuf>,
-    /// Accept the regressions that this matches (`*` stands for any text), in the file of --acceptances.
+    /// Accept the regressions whose rows match this (`*` matches any text), in the file of --acceptances.
     #[arg(long, value_name = "ROW", requires_all = ["reason", "acceptances"])]
     accept: Option<String>,
     /// Why they are accepted.
     #[arg(long, value_name = "TEXT", requires = "accept")]
     reason: Option<String>,
-    /// The last day on which they are, YYYY-MM-DD.
+    /// The last day of the acceptance, YYYY-MM-DD.
     #[arg(long, value_name = "DATE", requires = "accept")]
     until: Option<String>,
-    /// Regressions that were accepted, a TOML file.
+    /// A TOML file of accepted regressions.
     #[arg(long, value_name = "FILE")]
     acceptances: Option<PathBuf>,
 }
@@ -79,11 +80,9 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
         Some(suite) => case_places(&Suite::open(suite)?),
         None => Places::new(),
     };
-    let current = Baseline::of_run(&arguments.run)?;
     let source = source(arguments)?;
-    let baseline =
-        if source.is_dir() { Baseline::of_run(&source)? } else { Baseline::read(&source)? };
-    let mut comparison = scoring::compare::compare(&current, &baseline, &tolerances)?;
+    let [current, baseline] = compare::sides(&arguments.run, &source)?;
+    let mut comparison = compare::compare(&current, &baseline, &tolerances)?;
     if let Some(path) = &arguments.acceptances {
         let today = now("%Y-%m-%d");
         comparison.accept(&Acceptances::read(path)?, &today);
@@ -104,8 +103,11 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
         write(path, &format!("{:#}\n", comparison.json()))?;
     }
     if let Some(folder) = &arguments.pictures {
-        let old = source.is_dir().then_some(source.as_path());
-        report::write_changes(&comparison.findings(), &arguments.run, old, folder)?;
+        let Some(new) = compare::run_folder(&arguments.run) else {
+            return Err(CompareError::NoPictures(arguments.run.clone()).into());
+        };
+        let old = compare::run_folder(&source);
+        report::write_changes(&comparison.findings(), &new, old.as_deref(), folder)?;
     }
     if let Some(path) = &arguments.history {
         comparison.append_history(

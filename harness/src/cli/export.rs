@@ -22,7 +22,7 @@ pub(super) struct ExportArgs {
     /// asset is compared.
     #[arg(long, required_unless_present = "mesh")]
     capture: Option<PathBuf>,
-    /// The mesh of maps without a capture: an OBJ with UV; compared alone then, in even light.
+    /// The mesh of maps without a capture: an OBJ with UV; the asset is then compared in even light.
     #[arg(long, conflicts_with = "capture")]
     mesh: Option<PathBuf>,
     /// Bits of the PNGs that hold normals, and of all maps of `png`.
@@ -52,9 +52,9 @@ enum FormatName {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum GreenName {
-    /// Up the picture.
+    /// Green points up.
     Plus,
-    /// Down the picture.
+    /// Green points down.
     Minus,
 }
 

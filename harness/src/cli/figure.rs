@@ -37,15 +37,15 @@ enum KindName {
     Fig9,
     /// The decomposition under each light.
     Fig10,
-    /// The gain of each part of a method, by the first one.
+    /// The gain of each method or variant over the first one.
     Ablations,
     /// Albedo and relighting over exposure, specular reflectance and roughness, by skin.
     Robustness,
-    /// From one method to the next, with what bounds them.
+    /// The gain from one method to the next, with the flat map and the oracle as bounds.
     Waterfall,
-    /// How much of the albedo's detail is recovered, by its size.
+    /// The recovered share of the albedo's detail, by spatial frequency.
     Detail,
-    /// The error against what the capture could determine, and where a method is wrong and sure.
+    /// The error against the observability of each texel, and texels that are wrong with high confidence.
     Observability,
 }
 

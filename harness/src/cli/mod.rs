@@ -23,6 +23,7 @@ mod doctor;
 mod exit;
 mod export;
 mod figure;
+mod groups;
 mod progress;
 mod run;
 mod seal;
@@ -30,7 +31,7 @@ mod start;
 
 use std::ffi::OsString;
 
-use clap::Parser;
+use clap::FromArgMatches;
 use tracing_subscriber::filter::LevelFilter;
 
 use arguments::Cli;
@@ -39,7 +40,8 @@ pub use figure::figure_request;
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+    let matches = groups::command().try_get_matches_from(arguments);
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
             let _ = error.print();

@@ -1,11 +1,14 @@
 //! The baselines: answers that need no optimisation, as methods of a suite.
 
+use std::fs;
 use std::path::Path;
 
-use capture::Capture;
 use capture::mean_texture::mean_texture;
-use formats::{MapsError, atomic};
-use solver::baselines::semantic_initialisation;
+use capture::{Capture, CaptureError};
+use formats::atomic::{self, Folder};
+use formats::{Maps, MapsError, picture};
+use scoring::score;
+use solver::baselines::{semantic_initialisation, unlit_view};
 
 use super::error::RunError;
 
@@ -31,12 +34,8 @@ macro_rules! baselines {
                 match self { $(Self::$variant => $title,)* }
             }
 
-            /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side.
-            pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
-                atomic::refuse_overlap(maps, &[capture]).map_err(MapsError::from)?;
-                let capture = Capture::open(capture)?;
-                let made = match self { $(Self::$variant => $make(&capture, size)?,)* };
-                Ok(made.write(maps)?)
+            fn maps(self, capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
+                match self { $(Self::$variant => $make(capture, size),)* }
             }
         }
     };
@@ -53,4 +52,27 @@ baselines! {
 impl BaselineMethod {
     /// Side of the textures where a suite names no other, texels.
     pub const TEXTURE_SIZE: usize = 512;
+
+    /// Writes the maps folder `maps` from `capture`, with textures of `size` texels a side. Of photographs also
+    /// `views/`, its unlit pictures of the withheld views: without a truth nothing else of a baseline can be scored.
+    pub fn make(self, capture: &Path, maps: &Path, size: usize) -> Result<(), RunError> {
+        atomic::refuse_overlap(maps, &[capture]).map_err(MapsError::from)?;
+        let photographed = score::is_photographed(capture);
+        let capture = Capture::open(capture)?;
+        let made = self.maps(&capture, size)?;
+        let folder = Folder::begin(maps)?;
+        made.write_into(folder.path())?;
+        if let (true, Some(texture)) =
+            (photographed && !capture.withheld.is_empty(), &made.diffuse_albedo)
+        {
+            let views = folder.path().join("views");
+            fs::create_dir_all(&views)?;
+            for camera in &capture.withheld {
+                let file = views.join(format!("{}.exr", camera.name));
+                picture::write_exr_rgb(&file, &unlit_view(&capture, texture, camera))
+                    .map_err(MapsError::from)?;
+            }
+        }
+        Ok(folder.commit()?)
+    }
 }

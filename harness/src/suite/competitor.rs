@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use formats::atomic;
+use serde_json::Value;
 
 use super::error::RunError;
 use super::program::copy_blind;
@@ -62,6 +63,21 @@ impl Competitor {
     /// Whether its settings have a seed.
     pub(super) fn has_seed(self) -> bool {
         self.name == "path-traced"
+    }
+
+    /// Seconds on two cores, without the start of its process, for training views of `millions` of pixels, `frame` of
+    /// them in a picture.
+    pub(super) fn seconds_on_two_cores(self, settings: &str, millions: f64, frame: f64) -> f64 {
+        let settings: Value = serde_json::from_str(settings).unwrap_or_default();
+        let setting = |key: &str, default: f64| settings[key].as_f64().unwrap_or(default);
+        match self.name {
+            "path-traced" => {
+                let steps = setting("basis_steps", 200.0) + setting("free_steps", 400.0);
+                0.6 * steps * frame * setting("samples", 16.0)
+            }
+            "sh-lambert" => 2.0 + 2.0 * millions,
+            _ => 15.0 * millions,
+        }
     }
 
     /// Writes the maps folder `maps` from `capture`; `settings` are JSON. A passive method never sees more

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::claimable;
 
-use super::cost::Costs;
+use super::cost::{Costs, drawn};
 use super::error::RunError;
 use super::file::Suite;
 use super::plan::{Kind, plan};
@@ -16,8 +16,8 @@ use super::size::in_words;
 use super::tools::Tools;
 use super::workshop::{Contents, Workshop};
 
-/// Seconds around the stages of runs that nobody has measured, on two cores.
-const AROUND: Around = Around { start: 0.7, scene: 1.0, report: 0.5 };
+/// Seconds around the stages, on two cores.
+const AROUND: Around = Around { start: 0.7, scene: 1.0, drawing: 0.2 };
 
 /// Forecast for the stages of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ pub struct StageForecast {
     pub cached: usize,
     /// Stages to be done.
     pub pending: usize,
-    /// Number of pending stages that are estimated from what runs have measured.
+    /// Number of pending stages that are estimated from timings of runs.
     pub measured: usize,
     /// Seconds of those to be done, one after the other.
     pub seconds: f64,
@@ -48,8 +48,8 @@ pub struct Forecast {
     free: Option<u64>,
 }
 
-/// Estimates a run of `suite` in the folder `out` with `jobs` workers, from what `out` and the runs `costs`
-/// measured. Nothing is written.
+/// Estimates a run of `suite` in the folder `out` with `jobs` workers, from the timings of `out` and of the runs
+/// `costs`. Nothing is written.
 pub fn forecast(
     suite: &Suite,
     out: &Path,
@@ -106,8 +106,8 @@ pub fn forecast(
     forecast.longest = ends.into_iter().fold(0.0, f64::max);
     forecast.order = Kind::ALL.into_iter().map(Kind::word).collect();
     let scenes = forecast.kinds.get(Kind::Capture.word()).map_or(0, |stages| stages.pending);
-    forecast.around =
-        around.start + around.scene * scenes as f64 + around.report * suite.cases.len() as f64;
+    let drawing = if around.drawing > 0.0 { around.drawing } else { AROUND.drawing };
+    forecast.around = around.start + around.scene * scenes as f64 + drawing * drawn(suite);
     Ok(forecast)
 }
 
@@ -155,8 +155,8 @@ impl fmt::Display for Forecast {
         if guessed > 0 {
             write!(
                 f,
-                "\n{guessed} of the stages were never measured here; their times are those of two cores, and \
-                 --costs RUN takes those of a run"
+                "\nno timings yet for {guessed} of the stages, using defaults for two cores; --costs RUN uses \
+                 those of another run"
             )?;
         }
         Ok(())

@@ -3,6 +3,7 @@
 mod baseline;
 mod calibration_runs;
 mod case_place;
+mod case_size;
 mod cases;
 mod clean;
 mod cluster;

@@ -41,8 +41,9 @@ pub(super) struct Around {
     pub start: f64,
     /// Reading the scenes of cases that are to be rendered, for each.
     pub scene: f64,
-    /// The report, for each case.
-    pub report: f64,
+    /// The report, for each million pixels that it draws.
+    #[serde(default)]
+    pub drawing: f64,
 }
 
 /// Now, as results say it.

@@ -13,6 +13,7 @@ use std::time::Instant;
 use formats::atomic;
 
 use super::cluster::{self, Cluster, Elsewhere};
+use super::cost::drawn;
 use super::error::RunError;
 use super::file::Suite;
 use super::identity;
@@ -75,7 +76,7 @@ pub fn run(
     observer.stage_begins(REPORT, stages, stages + 1);
     report(out, &folder, tools, &mut |done, total, what| observer.step(REPORT, done, total, what))?;
     observer.stage_ends(REPORT, Some(start.elapsed().as_secs_f64()));
-    times.around.report = start.elapsed().as_secs_f64() / suite.cases.len().max(1) as f64;
+    times.around.drawing = start.elapsed().as_secs_f64() / drawn(suite).max(1e-6);
     times.write()?;
     Ok(RunSummary { report: folder.join("index.html"), ran, skipped, failed })
 }

@@ -27,8 +27,15 @@ fn a_constant_colour_stays_constant() {
     for maps in
         [mean_texture(&capture, 48).unwrap(), semantic_initialisation(&capture, 48).unwrap()]
     {
-        for texel in maps.diffuse_albedo.unwrap().data.chunks(3) {
+        let albedo = maps.diffuse_albedo.unwrap();
+        for texel in albedo.data.chunks(3) {
             assert!((Vec3::from_slice(texel) - colour).length() < 1e-6);
+        }
+        let view = &capture.train[0];
+        let picture = unlit_view(&capture, &albedo, &view.camera);
+        for (pixel, mask) in picture.data.chunks(3).zip(&view.mask.data) {
+            let expected = if *mask == 255 { colour } else { Vec3::ZERO };
+            assert!((Vec3::from_slice(pixel) - expected).length() < 1e-6);
         }
         assert!(maps.specular_albedo.is_none());
         assert_eq!(maps.diffuse_normal, maps.specular_normal);

@@ -169,12 +169,27 @@ pub(crate) fn texture_size(size: TextureSize, capture: &Capture) -> usize {
     match size {
         TextureSize::Side(texels) => texels,
         TextureSize::Rule(TextureRule::Auto) => {
-            // Two: the pixel grids of views that see a place about as finely lie between one another.
-            let texels = 2.0 * finest_sampling(&capture.mesh, &capture.train);
-            let exponent = texels.max(1.0).sqrt().log2().round() as u32;
-            2usize.pow(exponent.clamp(7, 11))
+            automatic_side(finest_sampling(&capture.mesh, &capture.train))
         }
     }
+}
+
+/// The side that [`texture_size`] gives about, where only the number of views and of their covered pixels is known:
+/// the finest view has some five times as many pixels per unit of the chart as a view covers on average.
+pub fn expected_texture_size(config: &super::Config, views: usize, pixels: usize) -> usize {
+    match config.fine_tuning.texture_size {
+        TextureSize::Side(texels) => texels,
+        TextureSize::Rule(TextureRule::Auto) => {
+            automatic_side(5.0 * pixels as f64 / views.max(1) as f64)
+        }
+    }
+}
+
+/// The power of two nearest to two texels per pixel of the finest view, which has `sampling` pixels per unit of the
+/// chart. Two: the pixel grids of views that see a place about as finely lie between one another.
+fn automatic_side(sampling: f64) -> usize {
+    let exponent = (2.0 * sampling).max(1.0).sqrt().log2().round() as u32;
+    2usize.pow(exponent.clamp(7, 11))
 }
 
 /// The side of the maps. From few pixels they are larger than what was solved, for the sake of the mesh

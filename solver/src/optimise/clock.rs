@@ -11,6 +11,17 @@ const PRIOR: f64 = 0.2;
 /// Steps after which a stage goes by its own pace.
 const SETTLED: usize = 5;
 
+/// How much there is to solve, as far as the cost of a step depends on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Training views.
+    pub views: usize,
+    /// Their pixels that show the mesh.
+    pub pixels: usize,
+    /// Side of the fine-tuned textures, texels.
+    pub texture_size: usize,
+}
+
 /// The cost of a part of the solve on the machine where it was measured.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
@@ -22,7 +33,8 @@ pub(super) struct Work {
 }
 
 impl Work {
-    fn seconds(&self) -> f64 {
+    /// All of it.
+    pub fn seconds(&self) -> f64 {
         self.preparation + self.step * self.steps as f64
     }
 }

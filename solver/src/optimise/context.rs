@@ -9,6 +9,7 @@ use capture::{Capture, View};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::clock::Extent;
 use super::stage::State;
 use crate::backend::Backend;
 use crate::config::{Config, TransportConfig, ViewWeightConfig, texture_size};
@@ -56,6 +57,11 @@ pub(super) struct Fine {
 }
 
 impl<'a> SolveContext<'a> {
+    /// How much there is to solve.
+    pub fn extent(&self) -> Extent {
+        Extent { views: self.capture.train.len(), pixels: self.pixels, texture_size: self.size }
+    }
+
     pub fn new(backend: &'a dyn Backend, capture: &'a Capture, config: &'a Config) -> Self {
         let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
         let pixels = gbuffers.iter().map(GBuffer::len).sum();

@@ -7,7 +7,7 @@ use formats::maps::Maps;
 use formats::picture::{GrayImage, Picture};
 use formats::{cancel, fill};
 
-use super::clock::Work;
+use super::clock::{Extent, Work};
 use super::context::SolveContext;
 use super::error::SolveError;
 use super::found::Solve;
@@ -19,7 +19,7 @@ use super::refinement::refinement;
 use super::snapshot::stage_maps;
 use super::stage::{State, layers};
 use super::stage_runner::StageRunner;
-use crate::config::{SkinConfig, map_size};
+use crate::config::{Config, SkinConfig, map_size};
 use crate::model::deviation::Deviation;
 use crate::model::deviation_textures::DeviationTextures;
 use crate::model::planes::Planes;
@@ -27,9 +27,9 @@ use crate::model::texture::resample;
 use crate::solution::{Record, Solution, ViewLayers};
 
 /// The work that this takes.
-pub(super) fn finishing(context: &SolveContext) -> Work {
-    let side = map_size(context.config.fine_tuning.texture_size, context.size);
-    Work { preparation: 1e-6 * (side * side + context.pixels) as f64, ..Work::default() }
+pub(super) fn finishing(config: &Config, extent: &Extent) -> Work {
+    let side = map_size(config.fine_tuning.texture_size, extent.texture_size);
+    Work { preparation: 1e-6 * (side * side + extent.pixels) as f64, ..Work::default() }
 }
 
 /// Makes a solution of what there is; after an interrupt that may be little, but it is valid.

@@ -1,6 +1,6 @@
 //! The steps of a solve: which there are, what they cost, and what each does.
 
-use super::clock::Work;
+use super::clock::{Extent, Work};
 use super::context::SolveContext;
 use super::diffuse::Diffuse;
 use super::distance::{distance, distance_steps};
@@ -74,8 +74,7 @@ impl Step {
     }
 
     /// How often it reports progress.
-    fn iterations(&self, context: &SolveContext) -> usize {
-        let config = context.config;
+    fn iterations(&self, config: &Config, extent: &Extent) -> usize {
         match self {
             Self::Start(_) => config.initialisation.start_iterations,
             // The best start's steps are done.
@@ -89,24 +88,21 @@ impl Step {
             Self::Transport => config.transport.iterations,
             Self::Distance(round) => distance_steps(config, *round),
             Self::Highlights => config.transport.highlights,
-            Self::Heights => {
-                heights::steps(&config.height, context.size, context.capture.train.len())
-            }
+            Self::Heights => heights::steps(&config.height, extent.texture_size, extent.views),
             Self::NormalsAndSpecular(_) | Self::Diffuse(_) => config.fine_tuning.iterations,
             Self::Albedo => config.transport.refinement,
         }
     }
 
     /// Its cost, measured on two cores with AVX-512; see [`super::clock`].
-    pub fn work(&self, context: &SolveContext) -> Work {
-        let config = context.config;
+    pub fn work(&self, config: &Config, extent: &Extent) -> Work {
         let square = |side: usize| (side * side) as f64;
-        let pixels = context.pixels as f64;
+        let pixels = extent.pixels as f64;
         let few = if config.warm_up.half_resolution { 0.25 * pixels } else { pixels };
         let work = |sample: f64, samples: f64, texel: f64, texels: f64| Work {
             preparation: 0.0,
             step: 1e-9 * (sample * samples + texel * texels),
-            steps: self.iterations(context),
+            steps: self.iterations(config, extent),
         };
         let t = &config.transport;
         match self {
@@ -126,14 +122,14 @@ impl Step {
             }
             Self::Heights => {
                 let share = f64::from(config.height.texture_scale);
-                work(25.0, pixels, 15.0, share * share * square(context.size))
+                work(25.0, pixels, 15.0, share * share * square(extent.texture_size))
             }
             // Without a network where the normals stay.
             Self::NormalsAndSpecular(_) if config.fine_tuning.deviation_rate == 0.0 => {
-                work(4.0, pixels, 3.0, square(context.size))
+                work(4.0, pixels, 3.0, square(extent.texture_size))
             }
-            Self::NormalsAndSpecular(_) => work(60.0, pixels, 25.0, square(context.size)),
-            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(context.size)),
+            Self::NormalsAndSpecular(_) => work(60.0, pixels, 25.0, square(extent.texture_size)),
+            Self::Diffuse(_) | Self::Albedo => work(6.0, pixels, 6.0, square(extent.texture_size)),
         }
     }
 
@@ -160,7 +156,7 @@ impl Step {
             Self::Start(number) => start(*number, context, runner, solve)?,
             Self::WarmUp => {
                 let mut config = config.clone();
-                config.warm_up.iterations = self.iterations(context);
+                config.warm_up.iterations = self.iterations(&config, &context.extent());
                 let best = solve.best.take();
                 if let Some(best) = &best {
                     solve.state = best.state.clone();
@@ -204,7 +200,8 @@ impl Step {
                 }
             }
             Self::Heights => {
-                let (steps, lighting) = (self.iterations(context), solve.lighting.as_ref());
+                let (steps, lighting) =
+                    (self.iterations(config, &context.extent()), solve.lighting.as_ref());
                 let found = runner.heights(steps, |step| {
                     heights::heights(context, &solve.state, lighting, step)
                 })?;

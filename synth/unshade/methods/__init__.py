@@ -14,7 +14,7 @@ from typing import Any
 from ..errors import SolveError
 
 PASSIVE = {"sh-lambert": "sh_lambert", "path-traced": "path_traced"}
-"""Name to module, whose ``recover(capture, **settings)`` returns `Maps`."""
+"""Name to module, whose ``recover(capture, **settings)`` returns `Maps` and the light, as `Maps.write` takes both."""
 
 CONTROLLED = {"binary-patterns": "binary_patterns", "flash-only": "flash_only", "light-stage": "light_stage"}
 """Name to module, whose ``recover(capture, laboratory, **settings)`` returns `Maps`."""

@@ -35,15 +35,16 @@ _DARKEST, _BRIGHTEST = 0.01, 0.95
 def recover(
     capture: Capture, *, texture_size: int = 256, rows: int = 16, samples: int = 16,
     basis_steps: int = 200, free_steps: int = 400, seed: int = 0,
-) -> Maps:  # fmt: skip
-    """Diffuse albedo, and the mesh's normals; a constant specular albedo.
+) -> tuple[Maps, np.ndarray]:  # fmt: skip
+    """Diffuse albedo, the mesh's normals and a constant specular albedo; and the light (rows, 2 rows, 3).
 
     Each step takes one view, ``samples`` paths a pixel, and Adam; the loss is the squared error of linear radiance,
     whose gradients path replay gives without bias. ``rows`` of the environment, at infinity. One step of
     256 x 256 pixels takes some 1.2 s of processor time; 0.35 GB.
     """
     sizes = {"texture_size": texture_size, "rows": rows, "samples": samples}
-    return fit(capture, **sizes, basis_steps=basis_steps, free_steps=free_steps, seed=seed).maps
+    found = fit(capture, **sizes, basis_steps=basis_steps, free_steps=free_steps, seed=seed)
+    return found.maps, found.light
 
 
 def fit(
@@ -68,7 +69,7 @@ def fit(
 
     colours = found.run(colours, painted, basis_steps, 0.02)
     albedo = found.run(dr.detach(painted(colours)), lambda albedo: albedo, free_steps, 0.01)
-    found.maps = _maps(texels, np.array(albedo), np.array(found.params[found.sky]))
+    found.maps, found.light = _scaled(texels, np.array(albedo), np.array(found.params[found.sky]))
     return found
 
 
@@ -76,6 +77,7 @@ class Fit:
     """The scene's albedo and light, moved towards the pictures."""
 
     maps: Maps
+    light: np.ndarray
 
     def __init__(self, scene, views: list[tuple], samples: int, seed: int) -> None:
         self.scene, self.views, self.samples, self.seed = scene, views, samples, seed
@@ -129,8 +131,8 @@ def _views(capture: Capture, samples: int) -> list[tuple]:
     return views
 
 
-def _maps(texels: TexelSamples, albedo: np.ndarray, sky: np.ndarray) -> Maps:
-    """Scaled so that light is grey on average, and gives the front a largest irradiance of pi, as all lights here."""
+def _scaled(texels: TexelSamples, albedo: np.ndarray, sky: np.ndarray) -> tuple[Maps, np.ndarray]:
+    """Maps and light, scaled so that light is grey on average, and gives the front a largest irradiance of pi, as all lights here."""
     sky = sky[:, : 2 * sky.shape[0]]
     towards, _ = directions(*sky.shape[:2], 1)
     front = texels.normals[texels.normals[:, 2] > 0][::7]
@@ -140,7 +142,12 @@ def _maps(texels: TexelSamples, albedo: np.ndarray, sky: np.ndarray) -> Maps:
     factor = tint * np.percentile(irradiance / tint @ LUMINANCE, 99.9)
     normal = texels.normals_filled()
     size = len(albedo)
-    return Maps(
+    maps = Maps(
         diffuse_albedo=(albedo * factor).clip(0, 1), specular_albedo=np.full((size, size), _SPECULAR),
         diffuse_normal=normal, specular_normal=normal, coverage=texels.coverage,
     )  # fmt: skip
+    # Cells of equal angle, from the renderer's rows, whose first and last lie on the poles.
+    place = (np.arange(len(sky)) + 0.5) / len(sky) * (len(sky) - 1)
+    above = place.astype(int)
+    below = (place - above)[:, None, None]
+    return maps, (sky[above] * (1 - below) + sky[above + 1] * below) / factor

@@ -28,8 +28,10 @@ _DARKEST = 0.1
 """Least shading, over the largest, that a colour is divided by."""
 
 
-def recover(capture: Capture, *, order: int = 2, shadows: bool = True, texture_size: int = 512) -> Maps:
-    """Diffuse albedo, and the mesh's normals. ``order`` 2 to 4 of the harmonics; ``shadows`` by ray casts, one
+def recover(
+    capture: Capture, *, order: int = 2, shadows: bool = True, texture_size: int = 512
+) -> tuple[Maps, np.ndarray]:
+    """Diffuse albedo and the mesh's normals, and the light (16, 32, 3). ``order`` 2 to 4 of the harmonics; ``shadows`` by ray casts, one
     bounce of light included. Ten views of 256 x 256 take 7 s of
     processor time and 0.4 GB.
 
@@ -53,9 +55,11 @@ def recover(capture: Capture, *, order: int = 2, shadows: bool = True, texture_s
     shading = np.maximum(basis @ light, _DARKEST * largest) / largest
     albedo = np.clip(colour / shading, 0, 1)
     normal = samples.normals_filled()
-    return Maps(
+    maps = Maps(
         diffuse_albedo=samples.filled(albedo), diffuse_normal=normal, specular_normal=normal, coverage=samples.coverage
     )
+    # Harmonics of a low order are negative opposite a strong light; radiance is not.
+    return maps, (_sky(order) @ light / largest).clip(0)
 
 
 def _light(basis: np.ndarray, colour: np.ndarray, region: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -80,12 +84,17 @@ def _light(basis: np.ndarray, colour: np.ndarray, region: np.ndarray, weight: np
     return light
 
 
-def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray:
-    """(M, K): the diffuse shading of each harmonic with the shadows and one bounce of the mesh."""
+def _sky(order: int) -> np.ndarray:
+    """(16, 32, K): the radiance of each harmonic in the directions of a lat-long environment."""
     theta = np.pi * (np.arange(_ROWS) + 0.5) / _ROWS
     phi = np.pi * (np.arange(2 * _ROWS) + 0.5) / _ROWS
     t, p = np.meshgrid(theta, phi, indexing="ij")
-    sky = harmonics(np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1), order)
+    return harmonics(np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1), order)
+
+
+def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray:
+    """(M, K): the diffuse shading of each harmonic with the shadows and one bounce of the mesh."""
+    sky = _sky(order)
     count = sky.shape[-1]
     sky = np.concatenate([sky, np.zeros((*sky.shape[:2], -count % 3))], -1)
     pictures = [

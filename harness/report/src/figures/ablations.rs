@@ -39,7 +39,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     let cases: Vec<CaseSource> = sources.cases().collect();
     let settings = settings(sources, &cases);
     let Some(reference) = settings.first().filter(|_| settings.len() > 1) else {
-        return Err(sources.nothing("second method or variant of a solver"));
+        return Err(sources.nothing("a second method or variant of a solver"));
     };
     let names = names(&settings);
     let mut shown: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();

@@ -9,6 +9,7 @@ use super::drawing::{Block, Drawing, Panel, PanelRow, Panels};
 use super::source::{CaseSource, Sources};
 use crate::error::ReportError;
 use crate::maps::MAPS;
+use crate::reference::Reference;
 use crate::run::Frame;
 use crate::table::Column;
 use crate::views::Layer;
@@ -32,14 +33,20 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         if shown.is_empty() {
             continue;
         }
-        let mut cells = vec![drawing.input(&source, &frames)?];
-        cells.extend(parts(drawing, &source, None, frame)?);
-        panels.rows.push(PanelRow { title: format!("{}: truth", source.case.light), cells });
+        let title = |by: &str| match frames.reference {
+            Reference::Truth => format!("{}: {by}", source.case.light),
+            Reference::Photograph => format!("{}: {by}", source.case.id),
+        };
+        let mut input = drawing.input(&source, &frames)?;
+        if frames.reference == Reference::Truth {
+            let mut cells = vec![input.take()];
+            cells.extend(parts(drawing, &source, None, frame)?);
+            panels.rows.push(PanelRow { title: title(Reference::Truth.word()), cells });
+        }
         for column in shown {
-            let mut cells = vec![None];
+            let mut cells = vec![input.take()];
             cells.extend(parts(drawing, &source, Some(column), frame)?);
-            let title = format!("{}: {}", source.case.light, column.method.title());
-            panels.rows.push(PanelRow { title, cells });
+            panels.rows.push(PanelRow { title: title(column.method.title()), cells });
             let scored = |row: &&scoring::score::Row| {
                 row.light.is_none()
                     && crate::metric::is_chosen(row)
@@ -62,10 +69,13 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         return Err(sources.nothing("maps of a solver"));
     }
     drawing.blocks.push(Block::Panels(panels));
+    let truth = match sources.cases().any(|source| source.reference() == Reference::Truth) {
+        true => "by the path tracer from the truth and ",
+        false => "",
+    };
     drawing.caption = format!(
         "Decomposition under each light: an input view, the maps (specular albedo: white is 0.05; normals in object \
-         space), and the diffuse and specular layer of that view (the latter × {}), by the path tracer from the truth \
-         and by each method.",
+         space), and the diffuse and specular layer of that view (the latter × {}), {truth}by each method.",
         Layer::SPECULAR.exposure
     );
     Ok(())

@@ -95,7 +95,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         }
     }
     if found.is_empty() {
-        return Err(sources.nothing("albedo map of a rendered face"));
+        return Err(sources.nothing("the albedo map of a rendered face"));
     }
     type Quantity = fn(&Transfer) -> f64;
     let plots: [(&str, Quantity); 2] = [

@@ -46,7 +46,9 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         drawing.blocks.push(Block::Panels(Panels { title: face, columns, rows, error }));
     }
     if drawing.rows.is_empty() {
-        return Err(sources.nothing("a face that a solver recovered from captures in two lights"));
+        return Err(
+            sources.nothing("captures of one face in two lights, and a method that is shown")
+        );
     }
     drawing.caption = format!(
         "The Digital Emily matrix: each row begins with the capture that was given. Observation, result and error \
@@ -76,8 +78,8 @@ fn matrix_rows(
             [("view", None), ("relit-same", Some(own)), ("relit-opposite", Some(opposite))]
         {
             let truth = match light {
-                None => frame.image.clone(),
-                Some(light) => source.true_relit(light, &frame.name),
+                None => Some(frame.image.clone()),
+                Some(light) => frames.relit_reference(frame, light),
             };
             let made = match light {
                 None => source.map(column, &format!("views/{}.exr", frame.name)),
@@ -88,12 +90,17 @@ fn matrix_rows(
             let all = &Layer::ALL;
             cells.push(drawing.picture(
                 &format!("{id}-{part}-truth"),
-                Some(&truth),
+                truth.as_deref(),
                 all,
                 String::new(),
             )?);
             cells.push(drawing.picture(&name, made.as_deref(), all, scores.in_words())?);
-            cells.push(drawing.error(&format!("{name}-error"), made.as_deref(), &truth, frame)?);
+            cells.push(drawing.error(
+                &format!("{name}-error"),
+                made.as_deref(),
+                truth.as_deref(),
+                frame,
+            )?);
             let [psnr, ssim, flip] = scores.values();
             drawing.rows.push(vec![
                 json!(source.face()),

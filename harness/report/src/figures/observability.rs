@@ -92,7 +92,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         }
     }
     if points.is_empty() {
-        return Err(sources.nothing("albedo map of a rendered face"));
+        return Err(sources.nothing("the albedo map of a rendered face"));
     }
     drawing.blocks.extend(panels.into_iter().flatten().map(Block::Panels));
     for (factor, label, logarithmic) in labels {

@@ -64,12 +64,12 @@ impl Drawing {
         &self,
         name: &str,
         made: Option<&Path>,
-        truth: &Path,
+        truth: Option<&Path>,
         frame: &Frame,
     ) -> Result<Option<Panel>, ReportError> {
         let read = |path| read_if_present(path, Layer::ALL.channels, Content::Colour);
         let Some(made) = made.map(read).transpose()?.flatten() else { return Ok(None) };
-        let Some(truth) = read(truth)? else { return Ok(None) };
+        let Some(truth) = truth.map(read).transpose()?.flatten() else { return Ok(None) };
         let mask =
             frame.mask.as_ref().map(|mask| read_mask_if_present(mask)).transpose()?.flatten();
         let field = difference::field(&made, &truth, mask.as_ref(), ERROR, 1.0);

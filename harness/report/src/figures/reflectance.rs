@@ -8,6 +8,7 @@ use super::panels::PictureScores;
 use super::source::Sources;
 use crate::error::ReportError;
 use crate::maps::MAPS;
+use crate::reference::Reference;
 use crate::views::Layer;
 
 /// The maps of the figure, in the paper's order.
@@ -39,14 +40,14 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             let path = source.truth(&format!("{}.exr", map.subject));
             cells.push(drawing.map(&format!("{id}-truth-{}", map.subject), Some(&path), map)?);
         }
-        let truth = source.true_relit(light, &frame.name);
+        let truth = frames.relit_reference(frame, light);
         cells.push(drawing.picture(
             &format!("{id}-truth-relit"),
-            Some(&truth),
+            truth.as_deref(),
             &Layer::ALL,
             nothing(),
         )?);
-        let mut rows = vec![PanelRow { title: "truth".to_owned(), cells }];
+        let mut rows = vec![PanelRow { title: frames.reference.word().to_owned(), cells }];
         let shown: Vec<_> = source.columns.iter().filter(|column| sources.shows(column)).collect();
         for column in shown {
             let method = &column.method.id;
@@ -93,18 +94,29 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             }
         }
         if rows.len() > 1 {
-            let title = format!("{}, captured in {}", source.face(), source.case.light);
+            let title = match frames.reference {
+                Reference::Truth => format!("{}, captured in {}", source.face(), source.case.light),
+                Reference::Photograph => format!("{}, photographed", source.face()),
+            };
             drawing.blocks.push(Block::Panels(Panels { title, columns, rows, error: None }));
         }
     }
     if drawing.blocks.is_empty() {
         return Err(sources.nothing("maps of a solver"));
     }
-    drawing.caption = "Reflectance side by side: input view, the withheld view by each method itself, recovered diffuse \
-                       albedo, specular albedo (white is 0.05) and specular normal (object space), and the maps relit \
-                       (albedo after its one factor). PSNR of sRGB values / SSIM / FLIP over the face; albedo: PSNR \
-                       after one factor; specular albedo: RMSE; normal: mean angle."
-        .to_owned();
+    let rendered = sources.cases().any(|source| source.reference() == Reference::Truth);
+    let [factor, maps] = match rendered {
+        true => [
+            " (albedo after its one factor)",
+            "; albedo: PSNR after one factor; specular albedo: RMSE; normal: mean angle",
+        ],
+        false => [" in the recovered light", ""],
+    };
+    drawing.caption = format!(
+        "Reflectance side by side: input view, the withheld view by each method itself, recovered diffuse albedo, \
+         specular albedo (white is 0.05) and specular normal (object space), and the maps relit{factor}. PSNR of \
+         sRGB values / SSIM / FLIP over the face{maps}."
+    );
     Ok(())
 }
 

@@ -7,6 +7,7 @@ use super::drawing::{Block, Drawing, PanelRow, Panels};
 use super::panels::PictureScores;
 use super::source::{CaseSource, Sources};
 use crate::error::ReportError;
+use crate::reference::Reference;
 use crate::table::Column;
 use crate::views::Layer;
 
@@ -43,9 +44,10 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             names.push(name);
         }
     }
+    let reference = Reference::common_word(cases.iter().map(CaseSource::reference));
     let mut panels = Panels { columns: vec!["input".to_owned()], ..Panels::default() };
     for light in &lights {
-        panels.columns.push(format!("truth, {light}"));
+        panels.columns.push(format!("{reference}, {light}"));
         panels.columns.extend(names.iter().map(|(_, title)| format!("{title}, {light}")));
     }
     for source in &cases {
@@ -53,13 +55,13 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         let Some(frame) = frames.test.first() else { continue };
         let mut cells = vec![drawing.input(source, &frames)?];
         for light in &lights {
-            let truth = source.true_relit(light, &frame.name);
+            let truth = frames.relit_reference(frame, light);
             let id = &source.case.id;
             let name = format!("{id}-{light}");
             let nothing = String::new();
             cells.push(drawing.picture(
                 &format!("{name}-truth"),
-                Some(&truth),
+                truth.as_deref(),
                 &Layer::ALL,
                 nothing,
             )?);
@@ -88,10 +90,22 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         return Err(sources.nothing("relit pictures of a solver"));
     }
     drawing.blocks.push(Block::Panels(panels));
-    drawing.caption = "Relighting: an input view, then a withheld view under each light, path-traced with the true \
-                       maps and with the recovered ones (albedo after its one factor). PSNR of sRGB values / SSIM / \
-                       FLIP, over the face."
-        .to_owned();
+    let compared = match reference {
+        "photograph" => {
+            "a withheld photograph, and that view path-traced with the recovered maps in the recovered light (found)"
+        }
+        "truth" => {
+            "a withheld view under each light, path-traced with the true maps and with the recovered ones (albedo after its one factor)"
+        }
+        _ => {
+            "a withheld view: of rendered faces under each light, path-traced with the true maps and with the \
+              recovered ones (albedo after its one factor); of photographed ones the photograph, and the view \
+              path-traced with the recovered maps in the recovered light (found)"
+        }
+    };
+    drawing.caption = format!(
+        "Relighting: an input view, then {compared}. PSNR of sRGB values / SSIM / FLIP, over the face."
+    );
     Ok(())
 }
 

@@ -1,17 +1,21 @@
 //! The runs that a figure is made of.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use scoring::score::Scores;
+use scoring::score::{FOUND_LIGHT, Scores};
 
 use super::request::FigureRequest;
 use crate::error::ReportError;
 use crate::page::{columns, read_scores};
+use crate::reference::Reference;
 use crate::run::{Case, Class, Frames, Kind, RunFile};
 use crate::table::Column;
 
 /// Cases of all runs, and which methods the figure is of.
 pub(super) struct Sources {
+    /// The runs' folders, in words.
+    runs: String,
     cases: Vec<LoadedCase>,
     methods: Vec<String>,
 }
@@ -31,32 +35,33 @@ pub(super) struct CaseSource<'a> {
 
 impl Sources {
     pub fn read(request: &FigureRequest) -> Result<Self, ReportError> {
-        let mut cases = Vec::new();
+        let (mut cases, mut all) = (Vec::new(), Vec::new());
         for run in &request.runs {
             for case in RunFile::open(run)?.cases {
+                all.push(case.id.clone());
                 if request.cases.is_empty() || request.cases.contains(&case.id) {
                     let scores = read_scores(run, &case)?;
                     cases.push(LoadedCase { run: run.clone(), case, scores });
                 }
             }
         }
-        let runs = || {
-            request.runs.iter().map(|run| run.display().to_string()).collect::<Vec<_>>().join(", ")
+        let runs: Vec<String> = request.runs.iter().map(|run| run.display().to_string()).collect();
+        let runs = runs.join(", ");
+        let unknown = |given: &[String], known: Vec<String>, what: &'static str| match given
+            .iter()
+            .find(|name| !known.contains(name))
+        {
+            Some(name) => {
+                let (name, runs, known) = (name.clone(), runs.clone(), known.join(", "));
+                Err(ReportError::Unknown { what, name, runs, known })
+            }
+            None => Ok(()),
         };
-        let unknown =
-            |given: &Vec<String>, known: &dyn Fn(&str) -> bool, what: &'static str| match given
-                .iter()
-                .find(|name| !known(name))
-            {
-                Some(name) => Err(ReportError::Unknown { what, name: name.clone(), runs: runs() }),
-                None => Ok(()),
-            };
-        unknown(&request.cases, &|id| cases.iter().any(|loaded| loaded.case.id == id), "case")?;
-        let method = |id: &str| {
-            cases.iter().any(|loaded| loaded.case.methods.iter().any(|method| method.id == id))
-        };
-        unknown(&request.methods, &method, "method")?;
-        Ok(Self { cases, methods: request.methods.clone() })
+        unknown(&request.cases, all, "case")?;
+        let methods = cases.iter().flat_map(|loaded| &loaded.case.methods);
+        let methods = methods.map(|method| method.id.clone());
+        unknown(&request.methods, distinct(methods), "method")?;
+        Ok(Self { runs, cases, methods: request.methods.clone() })
     }
 
     pub fn cases(&self) -> impl Iterator<Item = CaseSource<'_>> {
@@ -87,10 +92,34 @@ impl Sources {
     }
 
     /// The runs hold nothing that the figure could show.
-    pub fn nothing(&self, wanted: &'static str) -> ReportError {
-        let run = self.cases.first().map_or(PathBuf::new(), |loaded| loaded.run.clone());
-        ReportError::NoFigure { run, wanted }
+    pub fn nothing(&self, wanted: &str) -> ReportError {
+        let cases = self.cases.iter().map(|loaded| {
+            let Case { id, face, light, variant, .. } = &loaded.case;
+            let variant = variant.as_ref().map_or(String::new(), |name| format!(", {name}"));
+            match light.as_str() {
+                FOUND_LIGHT => format!("{id} (photographs, light unknown)"),
+                light => format!("{id} (face {face}, light {light}{variant})"),
+            }
+        });
+        let methods = self.cases.iter().flat_map(|loaded| &loaded.case.methods);
+        let methods = methods.map(|method| format!("{} ({})", method.id, method.role()));
+        let chosen = match self.methods.is_empty() {
+            true => "of which it shows the solvers (others with --method)".to_owned(),
+            false => format!("of which it shows {}", self.methods.join(", ")),
+        };
+        let [cases, methods] = [distinct(cases), distinct(methods)].map(|names| names.join(", "));
+        ReportError::NoFigure {
+            runs: self.runs.clone(),
+            wanted: wanted.to_owned(),
+            has: format!("the cases {cases}; and the methods {methods}, {chosen}"),
+        }
     }
+}
+
+/// Each name once, in their order.
+fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    names.filter(|name| seen.insert(name.clone())).collect()
 }
 
 /// In the order of the suite, not of the report.
@@ -131,9 +160,9 @@ impl CaseSource<'_> {
         self.run.join(&self.case.capture).join("truth").join(file)
     }
 
-    /// The truth in a light.
-    pub fn true_relit(&self, light: &str, frame: &str) -> PathBuf {
-        self.truth(&format!("relit/{light}/{frame}.exr"))
+    /// What its pictures are compared with.
+    pub fn reference(&self) -> Reference {
+        Reference::of(&self.run.join(&self.case.capture))
     }
 
     /// The lights that any method was relit in and scored, the capture's own first.

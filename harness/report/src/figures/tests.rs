@@ -88,13 +88,31 @@ fn what_a_run_does_not_hold_is_said_in_one_line_and_leaves_the_earlier_figure() 
         cases: cases.iter().map(|name| (*name).to_owned()).collect(),
         ..request(&run, FigureKind::Emily)
     };
-    refused(named(&["nobody"], &[]), "method \"nobody\"");
-    refused(named(&[], &["nowhere"]), "case \"nowhere\"");
-    refused(named(&[], &["demo-flash"]), "captures in two lights");
+    refused(named(&["nobody"], &[]), "method \"nobody\": not in");
+    refused(named(&[], &["nowhere"]), "name one of demo-flash, demo-uniform");
+    refused(
+        named(&[], &["demo-flash"]),
+        "captures of one face in two lights, and a method that is shown; there are the cases demo-flash (face demo, light flash)",
+    );
     let failing = |_: &Path| Err(ReportError::Interrupted);
     let result = write_figure(&request(&run, FigureKind::Emily), &out, failing);
     assert!(result.is_err() && !folder.path().join("figure.partial").exists());
     assert!(fs::read_to_string(out.join("figure.tex")).unwrap().contains("Relighting"));
+}
+
+#[test]
+fn figures_of_photographs_show_photographs_and_name_no_truth() {
+    let (folder, run) = sample();
+    sample_run::photograph(&run, "demo");
+    let out = folder.path().join("figure");
+    for kind in [FigureKind::Relighting, FigureKind::Reflectance, FigureKind::Decomposition] {
+        write(&request(&run, kind), &out).unwrap();
+        let latex = fs::read_to_string(out.join("figure.tex")).unwrap();
+        let shown = latex.replace("-truth", "");
+        assert!(!shown.contains("truth") && !shown.contains("true "), "{kind:?}: {shown}");
+        let photographs = kind != FigureKind::Decomposition;
+        assert_eq!(shown.contains("photograph"), photographs, "{kind:?}: {shown}");
+    }
 }
 
 #[test]

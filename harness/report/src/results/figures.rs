@@ -204,7 +204,12 @@ impl Figure {
 
     /// Looks the figure up; none if the method has no such score.
     pub fn find(&self, column: &Column, own: &str) -> Option<Found> {
-        let of = |subject: &str, light| column.find(subject, light, self.metric, self.scale);
+        // Scores against photographs have no factor.
+        let scale = match column.factor() {
+            None if self.subject == "relit" => "none",
+            _ => self.scale,
+        };
+        let of = |subject: &str, light| column.find(subject, light, self.metric, scale);
         match self.relit_in {
             RelitIn::No | RelitIn::Own => {
                 let light = (self.relit_in == RelitIn::Own).then_some(own);

@@ -6,6 +6,7 @@ use scoring::score::Scores;
 
 use crate::error::ReportError;
 use crate::page;
+use crate::reference::Reference;
 use crate::run::RunFile;
 
 /// A run and what it scored.
@@ -27,6 +28,11 @@ impl Finished {
         let folder =
             std::path::absolute(folder).map_err(|error| ReportError::read(folder, error))?;
         Ok(Self { folder, manifest, scores })
+    }
+
+    /// What the cases are compared with.
+    pub fn references(&self) -> impl Iterator<Item = Reference> {
+        self.manifest.cases.iter().map(|case| Reference::of(&self.folder.join(&case.capture)))
     }
 
     pub fn title(&self) -> &str {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use scoring::metrics::Metric;
+use scoring::score::FOUND_LIGHT;
 use scoring::study::interval;
 
 use super::figures::{Figure, Found, RelitIn, TABLES, mean, others};
@@ -15,6 +16,7 @@ use crate::run::Kind;
 use crate::table::{self, Column};
 
 /// The cases of one light and variant.
+#[derive(Clone)]
 pub(super) struct Group {
     pub light: String,
     pub variant: Option<String>,
@@ -23,10 +25,14 @@ pub(super) struct Group {
 }
 
 impl Group {
-    fn title(&self) -> String {
+    pub fn title(&self) -> String {
+        let light = match self.light.as_str() {
+            FOUND_LIGHT => "Photographs".to_owned(),
+            light => format!("{light} light"),
+        };
         match &self.variant {
-            Some(variant) => format!("{} light, {variant}", self.light),
-            None => format!("{} light", self.light),
+            Some(variant) => format!("{light}, {variant}"),
+            None => light,
         }
     }
 }
@@ -72,7 +78,7 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
                     line.faces.push(&case.face);
                 }
                 None => {
-                    let title = escape(&method.title_and_role());
+                    let title = method.title_and_role();
                     let (kind, ranked) = (method.kind, method.is_ranked());
                     let faces = vec![case.face.as_str()];
                     let line = Line { title, kind, ranked, columns: vec![column], faces };
@@ -84,38 +90,77 @@ fn lines<'a>(run: &'a Finished, group: &Group) -> Vec<Line<'a>> {
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-/// The means over the faces in one light.
-pub(super) fn means(run: &Finished, group: &Group) -> String {
+/// The means over the faces of one light: a title, and a row for each method.
+pub(super) struct MeansTable {
+    pub title: &'static str,
+    pub figures: Vec<&'static Figure>,
+    pub headings: Vec<String>,
+    pub rows: Vec<MeansRow>,
+}
+
+pub(super) struct MeansRow {
+    pub title: String,
+    pub cells: Vec<Cell>,
+}
+
+/// A figure of one method over the faces.
+#[derive(Default)]
+pub(super) struct Cell {
+    /// Mean, half of its 95 % interval, and range over the faces; beside a trivial answer also that, and the ratio
+    /// of the two.
+    pub text: String,
+    /// Whether the mean, the text's first word, is the best.
+    pub best: bool,
+    /// Of each face that has it.
+    pub values: Vec<f64>,
+}
+
+/// The tables of a light, without those that no method has a figure for.
+pub(super) fn means(run: &Finished, group: &Group) -> Vec<MeansTable> {
     let lines = lines(run, group);
     let faces = group.cases.iter().map(|index| &run.manifest.cases[*index].face);
     let faces = faces.collect::<BTreeSet<_>>().len();
-    let mut text = format!("\n### {}\n", escape(&group.title()));
-    for (title, figures) in TABLES {
+    let table = |(title, figures): &(&'static str, &'static [Figure])| {
         // A figure that no method has (confidence of a baseline's run) is no column.
         let found = |figure: &Figure, line: &Line| by_face(figure, line, &group.light);
-        let shown: Vec<&Figure> = figures
+        let figures: Vec<&Figure> = figures
             .iter()
             .filter(|f| lines.iter().any(|line| !found(f, line).is_empty()))
             .collect();
-        if shown.is_empty() {
-            continue;
-        }
         let of_line = |line: &Line| -> Vec<Vec<Found>> {
-            shown.iter().map(|figure| found(figure, line)).collect()
+            figures.iter().map(|figure| found(figure, line)).collect()
         };
         let values: Vec<Vec<Vec<Found>>> = lines.iter().map(of_line).collect();
         let best: Vec<Option<String>> =
-            (0..shown.len()).map(|i| best(&lines, shown[i], |line| &values[line][i])).collect();
-        let names = shown.iter().map(|figure| heading(figure, &lines, group));
-        text.push_str(&format!("\n{title}\n\n{}", head(&["method"], names)));
-        for (line, values) in lines.iter().zip(&values) {
-            let cells = shown.iter().zip(values).zip(&best).map(|((figure, values), best)| {
-                let best = best.as_deref().filter(|_| line.ranked);
-                cell(figure, values, faces, best)
+            (0..figures.len()).map(|i| best(&lines, figures[i], |line| &values[line][i])).collect();
+        let headings = figures.iter().map(|figure| heading(figure, &lines, group)).collect();
+        let rows = lines.iter().zip(&values).map(|(line, values)| {
+            let cells = figures.iter().zip(values).zip(&best).map(|((figure, values), best)| {
+                cell(figure, values, faces, best.as_deref().filter(|_| line.ranked))
             });
-            text.push_str(&row(std::iter::once(line.title.clone()).chain(cells)));
+            MeansRow { title: line.title.clone(), cells: cells.collect() }
+        });
+        let rows = rows.chain(floor(&figures, &lines, &values, faces)).collect();
+        (!figures.is_empty()).then_some(MeansTable { title: *title, figures, headings, rows })
+    };
+    TABLES.iter().filter_map(table).collect()
+}
+
+/// The tables of a light as Markdown.
+pub(super) fn markdown(group: &Group, tables: &[MeansTable]) -> String {
+    let mut text = format!("\n### {}\n", escape(&group.title()));
+    for table in tables {
+        let headings = table.headings.iter().map(|heading| escape(heading));
+        text.push_str(&format!("\n{}\n\n{}", table.title, head(&["method"], headings)));
+        for line in &table.rows {
+            let shown = |cell: &Cell| match cell.text.split_once(' ') {
+                _ if !cell.best => cell.text.clone(),
+                Some((mean, rest)) => format!("**{mean}** {rest}"),
+                None => format!("**{}**", cell.text),
+            };
+            let cells = line.cells.iter().map(shown);
+            text.push_str(&row(std::iter::once(escape(&line.title)).chain(cells)));
         }
-        text.push_str(&floor(&shown, &lines, &values, faces));
     }
     text
 }
@@ -147,7 +192,7 @@ fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
         .collect();
     lights.sort_unstable();
     lights.dedup();
-    format!("{} ({})", figure.name, escape(&lights.join(", ")))
+    format!("{} ({})", figure.name, lights.join(", "))
 }
 
 /// The best mean as it is shown, what is made from the truth aside; none without a competition.
@@ -164,18 +209,14 @@ fn best<'a>(
     (means.len() > 1).then(|| table::shown(Some(best), figure.decimals))
 }
 
-/// Mean, half of its 95 % interval, and range over the faces; beside a trivial answer also that, and
-/// the ratio of the two.
-fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> String {
+fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> Cell {
     let Some(value) = mean(values.iter().map(|found| found.value)) else {
-        return table::EMPTY.to_owned();
+        return Cell { text: table::EMPTY.to_owned(), ..Cell::default() };
     };
     let decimals = figure.decimals;
     let mut text = table::shown(Some(value), decimals);
     // Equal as they are shown is equally good.
-    if best == Some(text.as_str()) {
-        text = format!("**{text}**");
-    }
+    let best = best == Some(text.as_str());
     let missing = faces - values.len();
     let pairs: Option<Vec<(f64, f64)>> =
         values.iter().map(|found| Some((found.value, found.against?))).collect();
@@ -202,34 +243,33 @@ fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> 
     if missing > 0 {
         text.push_str(&format!(" {} of {faces}", values.len()));
     }
-    text
+    Cell { text, best, values: values.iter().map(|found| found.value).collect() }
 }
 
-/// The row of what rendering noise leaves; nothing where no figure has a floor.
-fn floor(shown: &[&Figure], lines: &[Line], values: &[Vec<Vec<Found>>], faces: usize) -> String {
+/// The row of what rendering noise leaves; none where no figure has a floor.
+fn floor(
+    shown: &[&Figure],
+    lines: &[Line],
+    values: &[Vec<Vec<Found>>],
+    faces: usize,
+) -> Option<MeansRow> {
     // The true maps' pictures where there are some: that floor depends on no method.
     let mut order: Vec<usize> = (0..lines.len()).collect();
     order.sort_by_key(|i| lines[*i].kind != Kind::Oracle);
-    let cells: Vec<Option<String>> = shown
-        .iter()
-        .enumerate()
-        .map(|(column, figure)| {
-            let floors = order.iter().map(|line| -> Vec<Found> {
-                let found = values[*line][column].iter();
-                found
-                    .filter_map(|f| Some(Found { value: f.floor?, against: None, floor: None }))
-                    .collect()
-            });
-            let floors = floors.into_iter().find(|floors| !floors.is_empty())?;
-            let plain = Figure { against: None, ..**figure };
-            Some(cell(&plain, &floors, faces.max(floors.len()), None))
-        })
-        .collect();
-    if cells.iter().all(Option::is_none) {
-        return String::new();
-    }
-    let cells = cells.into_iter().map(|cell| cell.unwrap_or_else(|| table::EMPTY.to_owned()));
-    row(std::iter::once("noise floor".to_owned()).chain(cells))
+    let cell_of = |(column, figure): (usize, &&Figure)| {
+        let floors = order.iter().map(|line| -> Vec<Found> {
+            let found = values[*line][column].iter();
+            found
+                .filter_map(|f| Some(Found { value: f.floor?, against: None, floor: None }))
+                .collect()
+        });
+        let floors = floors.into_iter().find(|floors| !floors.is_empty()).unwrap_or_default();
+        let plain = Figure { against: None, ..**figure };
+        cell(&plain, &floors, faces.max(floors.len()), None)
+    };
+    let cells: Vec<Cell> = shown.iter().enumerate().map(cell_of).collect();
+    let any = cells.iter().any(|cell| !cell.values.is_empty());
+    any.then(|| MeansRow { title: "noise floor".to_owned(), cells })
 }
 
 /// One table for every face: a row for each light and method.

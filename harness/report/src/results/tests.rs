@@ -39,8 +39,12 @@ fn save(path: &Path, value: &Value) {
 }
 
 fn results(root: &Path, runs: &[&str]) -> Result<String, String> {
+    written(root, runs, "docs/results.md")
+}
+
+fn written(root: &Path, runs: &[&str], file: &str) -> Result<String, String> {
     let runs: Vec<PathBuf> = runs.iter().map(|run| root.join(run)).collect();
-    let out = root.join("docs/results.md");
+    let out = root.join(file);
     let written = write_results(&runs, &out, "unshade table RUN -o docs/results.md");
     written.map_err(|error| error.to_string())?;
     Ok(fs::read_to_string(out).unwrap())
@@ -91,6 +95,38 @@ fn means_and_ranges_are_over_the_faces() {
     assert_eq!(floor[2], "70.2 ± 0.0 (70.2 … 70.2)");
     assert_eq!(text.matches("\n### demo\n").count() + text.matches("\n### eve\n").count(), 2);
     assert!(text.contains("Maps are compared in texture space."), "the protocol");
+}
+
+#[test]
+fn the_ending_of_the_file_says_markdown_latex_or_csv() {
+    let root = tempfile::tempdir().unwrap();
+    two_faces(&root.path().join("run"), 1.0);
+    let latex = written(root.path(), &["run"], "t.tex").unwrap();
+    assert!(latex.contains("% Two <balls>: flash light: Diffuse albedo\n\\begin{tabular}{lrr}"));
+    let row = "\\textless{}unshade\\textgreater{} \\& co & \\textbf{32.5} ± 6.4";
+    assert!(latex.contains(row), "{latex}");
+    let csv = written(root.path(), &["run"], "t.csv").unwrap();
+    let line = csv
+        .lines()
+        .find(|line| line.contains("flash,,<unshade> & co,Diffuse albedo,\"after"))
+        .unwrap();
+    let cells: Vec<&str> = line.split(',').rev().take(6).collect();
+    let mean: f64 = cells[5].parse().unwrap();
+    assert!(cells[0] == "2" && (mean - 32.541).abs() < 1e-2, "{line}");
+    let message = written(root.path(), &["run"], "t.docx").unwrap_err();
+    assert!(message.contains("t.docx: cannot tell the format") && message.contains(".tex or .csv"));
+}
+
+#[test]
+fn photographs_have_their_figures_and_no_word_of_a_truth() {
+    let root = tempfile::tempdir().unwrap();
+    sample_run::write(&root.path().join("run"));
+    sample_run::photograph(&root.path().join("run"), "demo");
+    let text = results(root.path(), &["run"]).unwrap();
+    let pictures = cells(&text, "Photographs", "Withheld views, PSNR in dB", UNSHADE);
+    assert_eq!(pictures[1..], ["30.0", "28.0"]);
+    let text = text.split("\n## Figures").next().unwrap();
+    assert!(!text.contains("truth") && !text.contains("oracle"), "{text}");
 }
 
 #[test]

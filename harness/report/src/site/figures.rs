@@ -1,5 +1,6 @@
 //! The figures of the leaderboard, and the rows of scores that they are made of.
 
+use scoring::score::FOUND_LIGHT;
 use serde::Deserialize;
 
 /// Which light a figure is of.
@@ -79,10 +80,15 @@ pub(super) struct Row {
 impl Figure {
     /// The figure of a capture in `light`; none where the scores do not have it.
     pub fn value(&self, rows: &[Row], light: &str) -> Option<f64> {
+        // Scores against photographs have no factor.
+        let scale = match light {
+            FOUND_LIGHT if self.relit == In::Own => "none",
+            _ => self.scale,
+        };
         let wanted = |row: &&Row| {
             row.subject == self.subject
                 && row.metric == self.metric
-                && row.scale == self.scale
+                && row.scale == scale
                 && row.label.is_none()
                 // The whole of a map or mask.
                 && matches!(row.region.as_str(), "coverage-e5" | "mask-e5")

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use scoring::score::FOUND_LIGHT;
 use serde::Deserialize;
 
 use super::figures::{FIGURES, Row};
@@ -242,7 +243,10 @@ fn capture(folder: &Path, run: usize, scored: &Scored) -> Capture {
         hash: scored.inputs.capture.clone(),
         case: case.id.clone(),
         face: case.face.clone(),
-        light: case.light.clone(),
+        light: match case.light.as_str() {
+            FOUND_LIGHT => "unknown (photographs)".to_owned(),
+            light => light.to_owned(),
+        },
         variant: case.variant.clone().unwrap_or_default(),
         picture: chosen.map(|name| (run, pictures.join(name))),
     }

@@ -2,7 +2,8 @@
 const board = JSON.parse(document.getElementById("data").textContent);
 const captures = board.captures;
 const total = captures.case.length;
-const state = { figure: 0, down: true, light: "", face: "", variant: "", run: "", page: 0, by: -1, casesDown: true };
+const withValues = board.figures.findIndex((_, at) => board.entries.some((entry) => entry.values[at].some((value) => value !== null)));
+const state = { figure: Math.max(0, withValues), down: true, light: "", face: "", variant: "", run: "", page: 0, by: -1, casesDown: true };
 const PAGE = 50;
 const byId = (id) => document.getElementById(id);
 const element = (name, text, set) => Object.assign(document.createElement(name), { textContent: text ?? "" }, set);

@@ -1,6 +1,6 @@
 "use strict";
 // Without this script every picture is still on the page; it only moves the edge between
-// truth and recovered, and puts the chosen picture on the stage.
+// reference and recovered, and puts the chosen picture on the stage.
 for (const plate of document.querySelectorAll(".plate")) {
   const stage = plate.querySelector(".stage");
   if (!stage) continue;

@@ -26,8 +26,38 @@ pub enum CompareError {
         reason: String,
     },
     /// A baseline or a run without scores would pass whatever happens.
-    #[error("{0}: has no scores to compare; run the suite to its end")]
+    #[error(
+        "{0}: has no scores to compare; finish the run, or add a method whose results can be scored"
+    )]
     Empty(PathBuf),
+    /// A path does not name scores.
+    #[error(
+        "{0}: has no scores; name the folder of a finished run or its run.json, a baseline.json, or a file of \
+         scores (unshade score writes one)"
+    )]
+    NotComparable(PathBuf),
+    /// Pictures of what changed are made from a run's folder.
+    #[error(
+        "--pictures: {0} is not the folder of a run, which has the pictures; name the run's folder"
+    )]
+    NoPictures(PathBuf),
+    /// A file of scores and the other side share nothing.
+    #[error(
+        "{scores}: scores{} the capture {capture}, but {other} {has}; compare the same method on the same \
+         capture", .method.as_ref().map_or(" of".to_owned(), |method| format!(" of the method {method} on"))
+    )]
+    NothingInCommon {
+        /// The file of scores.
+        scores: PathBuf,
+        /// Its capture.
+        capture: String,
+        /// Its method, where that matters.
+        method: Option<String>,
+        /// The other side.
+        other: PathBuf,
+        /// What that has, in words.
+        has: String,
+    },
     /// Nothing of the two is the same.
     #[error(
         "the run is of the suite {run:?}, the baseline of {baseline:?}; compare with a baseline of the \

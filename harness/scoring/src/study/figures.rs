@@ -45,6 +45,10 @@ const KEY: [(&str, Option<&str>, &str, &str); 14] = [
     ("light", None, "log_rmse", "global"),
 ];
 
+/// Those of photographs, which have no others.
+const OF_PHOTOGRAPHS: [(&str, Option<&str>, &str, &str); 2] =
+    [("view", None, "psnr_srgb", "none"), ("relit", Some("own"), "psnr_srgb", "none")];
+
 impl Figure {
     /// That of a score.
     pub(super) fn of(observation: &Observation) -> Self {
@@ -68,7 +72,16 @@ impl Figure {
         if self.label.as_deref() != label || self.region.contains("views2") {
             return None;
         }
-        KEY.iter().position(|(subject, relit_in, metric, scale)| {
+        self.place_in(&KEY)
+    }
+
+    /// Its place among the figures that decide where there are photographs alone.
+    pub(super) fn key_of_photographs(&self) -> Option<usize> {
+        self.place_in(&OF_PHOTOGRAPHS).filter(|_| self.label.is_none())
+    }
+
+    fn place_in(&self, keys: &[(&str, Option<&str>, &str, &str)]) -> Option<usize> {
+        keys.iter().position(|(subject, relit_in, metric, scale)| {
             (*subject, *relit_in, *metric, *scale)
                 == (&*self.subject, self.relit_in, &*self.metric, &*self.scale)
         })
