@@ -3,6 +3,7 @@
 //! light, and relit in the others, each with its error picture and numbers.
 
 use scoring::metrics::METRICS;
+use scoring::score::FOUND_LIGHT;
 use serde::Serialize;
 
 use super::comparison_figures::{ComparisonFigure, Tile};
@@ -75,7 +76,8 @@ pub(super) struct Number {
 /// A matrix for every face that was captured in more than one light, variant by variant.
 pub(super) fn matrices(cases: &[Source]) -> Vec<Matrix> {
     let mut groups: Vec<Vec<&Source>> = Vec::new();
-    for case in cases {
+    // Photographs have no light that another capture could be relit in.
+    for case in cases.iter().filter(|case| case.light != FOUND_LIGHT) {
         let same = |group: &&mut Vec<&Source>| {
             (group[0].face, group[0].variant) == (case.face, case.variant)
         };

@@ -256,6 +256,9 @@ pub(super) fn photograph(run: &Path, prefix: &str) {
                 ]),
                 _ => json!([]),
             };
+            for row in scores["rows"].as_array_mut().unwrap() {
+                row["floor"] = Value::Null;
+            }
             save_json(&path, &scores);
         }
     }
