@@ -21,7 +21,7 @@ pub mod transport;
 mod view_weights;
 
 pub use backend::{Backend, BackendError, Choice};
-pub use config::{Config, ConfigError};
+pub use config::{Config, ConfigError, expected_texture_size};
 pub use optimise::checkpoint::Checkpoint;
 pub use optimise::error::SolveError;
 pub use optimise::progress::{LayerSink, Options, Progress};
