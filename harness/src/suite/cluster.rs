@@ -15,10 +15,9 @@ use super::file::Suite;
 use super::part::{content, versions};
 use super::plan::{Kind, Task};
 use super::record::{Record, Records};
-use super::stages::words;
 use super::tools::{Observer, Tools};
 use super::workshop::{Contents, Workshop};
-use crate::synth::{Fingerprints, run_stage};
+use crate::synth::{Fingerprints, cli_args, run_stage};
 
 /// Where stages are done.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,7 +63,7 @@ pub(super) fn run(
         Some(store) => store.clone(),
         None => std::path::absolute(workshop.out)?.join("store").to_string_lossy().into_owned(),
     };
-    let arguments = words(&[
+    let arguments = cli_args(&[
         ("--order", file.path().as_os_str()),
         ("--address", OsStr::new(&cluster.address)),
         ("--store", OsStr::new(&store)),

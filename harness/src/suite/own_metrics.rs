@@ -10,9 +10,8 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::error::RunError;
-use super::stages::words;
 use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::{cli_args, run_stage};
 
 /// Functions as a suite names them: `module:function`, `file.py` or `file.py:function`.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +95,7 @@ impl OwnMetrics {
         let request = json!({ "names": self.names, "folder": folder, "pairs": shown });
         let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".json").tempfile()?;
         file.write_all(request.to_string().as_bytes())?;
-        let arguments = words(&[("--request", file.path().as_os_str())]);
+        let arguments = cli_args(&[("--request", file.path().as_os_str())]);
         let silent = &mut |_, _, _: &str| {};
         let said = run_stage(&tools.interpreter, "metrics", &arguments, &tools.interrupt, silent)?;
         Ok(serde_json::from_value(said).map_err(io::Error::other)?)

@@ -7,9 +7,8 @@ use std::path::Path;
 use scoring::score::{self, Row, Shown};
 
 use super::error::RunError;
-use super::stages::words;
 use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::{cli_args, run_stage};
 
 /// Rows of the withheld views and relit pictures that [`score::score`] compares, by the network `net`.
 pub fn lpips(
@@ -32,7 +31,8 @@ pub(super) fn require(net: &str, tools: &Tools) -> Result<(), RunError> {
 fn judge(net: &str, shown: &[Shown], tools: &Tools) -> Result<Vec<f64>, RunError> {
     let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".json").tempfile()?;
     file.write_all(&serde_json::to_vec(shown).map_err(io::Error::other)?)?;
-    let arguments = words(&[("--net", OsStr::new(net)), ("--pictures", file.path().as_os_str())]);
+    let arguments =
+        cli_args(&[("--net", OsStr::new(net)), ("--pictures", file.path().as_os_str())]);
     let silent = &mut |_, _, _: &str| {};
     let said = run_stage(&tools.interpreter, "lpips", &arguments, &tools.interrupt, silent)?;
     let values: Vec<f64> =

@@ -12,9 +12,8 @@ use super::perceptual;
 use super::place;
 use super::program::ProgramFiles;
 use super::scene::SceneError;
-use super::stages::words;
 use super::tools::Tools;
-use crate::synth::{StageError, run_stage};
+use crate::synth::{StageError, cli_args, run_stage};
 
 /// Cameras of a rig that does not say how many it has.
 const CAMERAS: i64 = 16;
@@ -104,7 +103,7 @@ pub(super) fn scenes(
 ) -> Result<(), RunError> {
     for case in cases {
         let file = captures.join(format!("{}.toml", case.id));
-        let arguments = words(&[("--scene", file.as_os_str())]);
+        let arguments = cli_args(&[("--scene", file.as_os_str())]);
         let silent = &mut |_, _, _: &str| {};
         run_stage(&tools.interpreter, "check", &arguments, &tools.interrupt, silent)
             .map_err(|error| place::blamed(error, &file, &suite.path))?;

@@ -9,9 +9,9 @@ use scoring::score;
 use super::error::RunError;
 use super::method::{Method, MethodKind};
 use super::program::Gives;
-use super::stages::{Relight, relight, words};
+use super::stages::{Relight, relight};
 use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::{cli_args, run_stage};
 
 impl Method {
     /// Whether it is handed the lights and gives pictures.
@@ -53,7 +53,7 @@ pub(super) fn lights(
     tools: &Tools,
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
-    let arguments = words(&[("--capture", capture.as_os_str()), ("--out", out.as_os_str())]);
+    let arguments = cli_args(&[("--capture", capture.as_os_str()), ("--out", out.as_os_str())]);
     run_stage(&tools.interpreter, "lights", &arguments, &tools.interrupt, step)?;
     Ok(())
 }

@@ -14,7 +14,7 @@ use super::packaged::Kind;
 use super::place;
 use super::scene::{self, Scene};
 use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::{cli_args, run_stage};
 
 /// Renders the scene file `scene`, or a scene that comes with unshade, into the capture folder `out`.
 pub fn synth(
@@ -28,7 +28,7 @@ pub fn synth(
     let inputs = Scene::open(scene)?.files();
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).chain([scene.as_path()]).collect();
     atomic::refuse_overlap(out, &inputs)?;
-    let arguments = words(&[("--scene", file.path().as_os_str()), ("--out", out.as_os_str())]);
+    let arguments = cli_args(&[("--scene", file.path().as_os_str()), ("--out", out.as_os_str())]);
     run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)
         .map_err(|error| place::blamed(error, file.path(), scene))?;
     Ok(())
@@ -38,7 +38,7 @@ pub fn synth(
 pub fn describe(scene: &Path, tools: &Tools) -> Result<String, RunError> {
     let scene = &scene::typed(scene, Kind::Scene)?;
     let file = resolved(scene)?;
-    let arguments = words(&[("--scene", file.path().as_os_str())]);
+    let arguments = cli_args(&[("--scene", file.path().as_os_str())]);
     let silent = &mut |_, _, _: &str| {};
     let said = run_stage(&tools.interpreter, "describe", &arguments, &tools.interrupt, silent)
         .map_err(|error| place::blamed(error, file.path(), scene))?;
@@ -54,7 +54,7 @@ pub fn contact_sheet(
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
     let (count, seed) = (OsString::from(count.to_string()), OsString::from(seed.to_string()));
-    let arguments = words(&[("--count", &count), ("--seed", &seed), ("--out", out.as_os_str())]);
+    let arguments = cli_args(&[("--count", &count), ("--seed", &seed), ("--out", out.as_os_str())]);
     run_stage(&tools.interpreter, "contact-sheet", &arguments, &tools.interrupt, step)?;
     Ok(())
 }
@@ -96,7 +96,7 @@ pub fn relight(
     let photographed = score::is_photographed(capture);
     let scales: &[&str] = if photographed { &["none"] } else { scales };
     let global = if photographed { 1.0 } else { score::fit_scale(capture, maps)?.global };
-    let mut arguments = words(&[
+    let mut arguments = cli_args(&[
         ("--capture", capture.as_os_str()),
         ("--maps", maps.as_os_str()),
         ("--out", out.as_os_str()),
@@ -106,9 +106,10 @@ pub fn relight(
         arguments.extend([OsString::from("--scale"), OsString::from(format!("{name}={factor}"))]);
     }
     if renderer != RENDERERS[0] {
-        arguments.extend(words(&[("--renderer", OsStr::new(renderer))]));
+        arguments.extend(cli_args(&[("--renderer", OsStr::new(renderer))]));
     }
-    arguments.extend(light.into_iter().flat_map(|light| words(&[("--light", light.as_os_str())])));
+    arguments
+        .extend(light.into_iter().flat_map(|light| cli_args(&[("--light", light.as_os_str())])));
     run_stage(&tools.interpreter, "relight", &arguments, &tools.interrupt, step)?;
     Ok(())
 }
@@ -137,14 +138,14 @@ pub fn budget(
     let Budget { capture, maps, out, light, view } = *budget;
     atomic::refuse_overlap(out, &[capture, maps])?;
     let factor = OsString::from(score::fit_scale(capture, maps)?.global.to_string());
-    let mut arguments = words(&[
+    let mut arguments = cli_args(&[
         ("--capture", capture.as_os_str()),
         ("--maps", maps.as_os_str()),
         ("--out", out.as_os_str()),
         ("--factor", &factor),
     ]);
     for (flag, name) in [("--light", light), ("--view", view)] {
-        arguments.extend(name.into_iter().flat_map(|name| words(&[(flag, OsStr::new(name))])));
+        arguments.extend(name.into_iter().flat_map(|name| cli_args(&[(flag, OsStr::new(name))])));
     }
     Ok(run_stage(&tools.interpreter, "budget", &arguments, &tools.interrupt, step)?)
 }
@@ -173,9 +174,9 @@ pub fn export(
         [Some(export.maps), export.capture, export.mesh].into_iter().flatten().collect();
     atomic::refuse_overlap(export.out, &inputs)?;
     let mut arguments =
-        words(&[("--maps", export.maps.as_os_str()), ("--out", export.out.as_os_str())]);
+        cli_args(&[("--maps", export.maps.as_os_str()), ("--out", export.out.as_os_str())]);
     for (flag, path) in [("--capture", export.capture), ("--mesh", export.mesh)] {
-        arguments.extend(path.into_iter().flat_map(|path| words(&[(flag, path.as_os_str())])));
+        arguments.extend(path.into_iter().flat_map(|path| cli_args(&[(flag, path.as_os_str())])));
     }
     arguments.extend(export.options.iter().cloned());
     Ok(run_stage(&tools.interpreter, "export", &arguments, &tools.interrupt, step)?)
@@ -189,12 +190,8 @@ pub fn figure(
     step: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<(), RunError> {
     report::write_figure(request, out, |folder| {
-        let arguments = words(&[("--folder", folder.as_os_str())]);
+        let arguments = cli_args(&[("--folder", folder.as_os_str())]);
         run_stage(&tools.interpreter, "figure", &arguments, &tools.interrupt, step)?;
         Ok(())
     })
-}
-
-pub(super) fn words(pairs: &[(&str, &OsStr)]) -> Vec<OsString> {
-    pairs.iter().flat_map(|(flag, value)| [OsString::from(flag), value.to_os_string()]).collect()
 }

@@ -22,10 +22,9 @@ use super::record::{Made, Record, Records, now};
 use super::relit::{lights, relit};
 use super::size::size_of;
 use super::sources::Sources;
-use super::stages::words;
 use super::tools::Tools;
 use super::tree_hashes::TreeHashes;
-use crate::synth::{Fingerprints, run_stage};
+use crate::synth::{Fingerprints, cli_args, run_stage};
 
 /// Everything that the stages of a run share.
 pub(super) struct Workshop<'a> {
@@ -182,7 +181,7 @@ impl<'a> Workshop<'a> {
             } else {
                 let scene = self.out.join(Kind::Capture.folder()).join(format!("{}.toml", case.id));
                 let arguments =
-                    words(&[("--scene", scene.as_os_str()), ("--out", path.as_os_str())]);
+                    cli_args(&[("--scene", scene.as_os_str()), ("--out", path.as_os_str())]);
                 run_stage(&tools.interpreter, "synth", &arguments, &tools.interrupt, step)?;
             }
             return Ok(Made::default());

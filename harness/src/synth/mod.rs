@@ -7,4 +7,4 @@ mod interpreter;
 mod process;
 
 pub use interpreter::{Fingerprints, Interpreter, InterpreterError};
-pub use process::{Interrupt, StageError, run_stage};
+pub use process::{Interrupt, StageError, cli_args, run_stage};

@@ -1,6 +1,6 @@
 //! One rendering stage as a child process.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, Stdio};
 use std::sync::Arc;
@@ -16,6 +16,11 @@ use super::{Interpreter, InterpreterError};
 
 /// Raised by Ctrl-C; every stage looks at it and stops cleanly.
 pub type Interrupt = Arc<AtomicBool>;
+
+/// The arguments of a stage: each flag before its value.
+pub fn cli_args(pairs: &[(&str, &OsStr)]) -> Vec<OsString> {
+    pairs.iter().flat_map(|(flag, value)| [OsString::from(flag), value.to_os_string()]).collect()
+}
 
 /// How a rendering stage can end badly.
 #[derive(Debug, thiserror::Error)]

@@ -1,10 +1,11 @@
 //! Metrics that users write: scores state them, and everything that looks a metric up finds them from then on.
 
-use std::sync::{PoisonError, RwLock};
+use std::sync::PoisonError;
 
 use serde::{Deserialize, Serialize};
 
 use super::quantity::Quantity;
+use super::registry::REGISTERED;
 use super::statistic::Statistic;
 use super::{Direction, METRICS, Metric, MetricError};
 
@@ -27,9 +28,6 @@ pub struct OwnMetric {
     pub of: Vec<String>,
 }
 
-/// Never freed: a metric is looked up for as long as the program runs.
-static KNOWN: RwLock<Vec<&'static Metric>> = RwLock::new(Vec::new());
-
 impl OwnMetric {
     /// Makes the metric known to [`Metric::find`]. An error if its id is that of another one.
     pub fn register(&self) -> Result<&'static Metric, MetricError> {
@@ -49,7 +47,7 @@ impl OwnMetric {
         if METRICS.iter().any(|metric| metric.id == self.id) {
             return Err(refused("unshade has a metric of this id; choose another".to_owned()));
         }
-        let mut known = KNOWN.write().unwrap_or_else(PoisonError::into_inner);
+        let mut known = REGISTERED.write().unwrap_or_else(PoisonError::into_inner);
         if let Some(other) = known.iter().find(|metric| metric.id == self.id) {
             if other.direction != direction || other.unit != self.unit {
                 let reason = "another metric of this id has another unit or direction; rename one";
@@ -71,12 +69,6 @@ impl OwnMetric {
         known.push(metric);
         Ok(metric)
     }
-}
-
-/// The metric that scores have stated under this id.
-pub(super) fn find(id: &str) -> Option<&'static Metric> {
-    let known = KNOWN.read().unwrap_or_else(PoisonError::into_inner);
-    known.iter().find(|metric| metric.id == id).copied()
 }
 
 #[cfg(test)]

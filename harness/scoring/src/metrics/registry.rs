@@ -1,11 +1,13 @@
 //! Every metric, stated once: the scores, the report, the comparison and Python read this list.
 
+use std::sync::{PoisonError, RwLock};
+
 use formats::cancel;
 
 use super::compatible::Protocol as P;
 use super::quantity::Quantity as Q;
 use super::statistic::Statistic as S;
-use super::{MetricError, Pair, own};
+use super::{MetricError, Pair};
 
 /// Which values are better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,10 +61,18 @@ pub struct Metric {
     pub statistic: S,
 }
 
+/// Metrics that users write, once scores have stated them. Never freed: a metric is looked up for as long as the
+/// program runs.
+pub(super) static REGISTERED: RwLock<Vec<&'static Metric>> = RwLock::new(Vec::new());
+
 impl Metric {
     /// The metric with an id.
     pub fn find(id: &str) -> Result<&'static Self, MetricError> {
-        METRICS.iter().find(|metric| metric.id == id).or_else(|| own::find(id)).ok_or_else(|| {
+        let registered = || {
+            let known = REGISTERED.read().unwrap_or_else(PoisonError::into_inner);
+            known.iter().find(|metric| metric.id == id).copied()
+        };
+        METRICS.iter().find(|metric| metric.id == id).or_else(registered).ok_or_else(|| {
             let known: Vec<_> = METRICS.iter().map(|metric| metric.id).collect();
             MetricError::Unknown { id: id.to_owned(), known: known.join(", ") }
         })
