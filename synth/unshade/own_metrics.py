@@ -215,8 +215,10 @@ def _arrays(pair: Mapping[str, Any]) -> tuple[Values, Values, NDArray[np.bool_]]
     mask: NDArray[np.bool_] = ndimage.binary_erosion(_native.read_gray(pair["mask"]) > 127, np.ones((5, 5)))
     if prediction.shape != truth.shape:
         # A map of another size, linearly at the true map's texel centres, as unshade's own metrics take it.
-        rows, columns = ((np.arange(n) + 0.5) * m / n - 0.5 for n, m in zip(truth.shape[:2], prediction.shape[:2]))
-        places = np.meshgrid(rows, columns, indexing="ij")
+        centres: list[NDArray[np.float64]] = [
+            (np.arange(new) + 0.5) * old / new - 0.5 for new, old in zip(truth.shape[:2], prediction.shape[:2])
+        ]
+        places = np.meshgrid(*centres, indexing="ij")
         planes = [ndimage.map_coordinates(prediction[..., c], places, order=1, mode="nearest")
                   for c in range(prediction.shape[2])]  # fmt: skip
         prediction = np.stack(planes, -1)

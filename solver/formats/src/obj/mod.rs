@@ -163,7 +163,9 @@ impl File {
     }
 
     fn into_objects(self) -> Result<Vec<Object>, ObjError> {
-        let mut parts: Vec<(Object, HashMap<Corner, u32>, HashMap<usize, u32>)> = Vec::new();
+        /// An object with its vertices by corner and its materials by their numbers in the file.
+        type Part = (Object, HashMap<Corner, u32>, HashMap<usize, u32>);
+        let mut parts: Vec<Part> = Vec::new();
         let mut number_of = vec![None; self.objects.names.len()];
         let mut cutter = polygon::Cutter::default();
         for face in &self.faces {
