@@ -141,7 +141,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> Vec<MeansTable> {
             MeansRow { title: line.title.clone(), cells: cells.collect() }
         });
         let rows = rows.chain(floor(&figures, &lines, &values, faces)).collect();
-        (!figures.is_empty()).then_some(MeansTable { title: *title, figures, headings, rows })
+        (!figures.is_empty()).then_some(MeansTable { title, figures, headings, rows })
     };
     TABLES.iter().filter_map(table).collect()
 }
