@@ -325,6 +325,11 @@ pub(super) enum RendererName {
     Cycles,
 }
 
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
+    number.ok_or_else(|| "must be a number from 0".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -334,9 +339,4 @@ mod tests {
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
     }
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number| (0.0..f64::INFINITY).contains(number));
-    number.ok_or_else(|| "must be a number from 0".to_owned())
 }

@@ -42,21 +42,12 @@ pub enum CompareError {
     )]
     NoPictures(PathBuf),
     /// A file of scores and the other side share nothing.
-    #[error(
-        "{scores}: scores{} the capture {capture}, but {other} {has}; compare the same method on the same \
-         capture", .method.as_ref().map_or(" of".to_owned(), |method| format!(" of the method {method} on"))
-    )]
+    #[error("{scores}: {clash}; compare the same method on the same capture")]
     NothingInCommon {
         /// The file of scores.
         scores: PathBuf,
-        /// Its capture.
-        capture: String,
-        /// Its method, where that matters.
-        method: Option<String>,
-        /// The other side.
-        other: PathBuf,
-        /// What that has, in words.
-        has: String,
+        /// What it has and what the other side has, in words.
+        clash: String,
     },
     /// Nothing of the two is the same.
     #[error(

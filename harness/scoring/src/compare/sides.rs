@@ -44,13 +44,8 @@ pub fn sides(current: &Path, baseline: &Path) -> Result<[Baseline; 2], CompareEr
                 let [scores, other] = paths.map(Path::to_path_buf);
                 let has = format!("are of the capture {} with other content", baseline.capture);
                 let capture = current.capture.clone();
-                return Err(CompareError::NothingInCommon {
-                    scores,
-                    capture,
-                    method: None,
-                    other,
-                    has,
-                });
+                let clash = format!("scores the capture {capture}, but {} {has}", other.display());
+                return Err(CompareError::NothingInCommon { scores, clash });
             }
             let mut whole = Baseline::new("");
             whole.cases.insert(current.capture.clone(), captured(&current));
@@ -123,13 +118,13 @@ fn part(
             true => format!("has that capture with other content, and {}", has.join(", ")),
             false => format!("has {}", has.join(", ")),
         };
-        return Err(CompareError::NothingInCommon {
-            scores: file.to_path_buf(),
-            capture: scores.capture.clone(),
-            method: Some(scores.solver.clone()),
-            other: other.to_path_buf(),
-            has,
-        });
+        let clash = format!(
+            "scores of the method {} on the capture {}, but {} {has}",
+            scores.solver,
+            scores.capture,
+            other.display()
+        );
+        return Err(CompareError::NothingInCommon { scores: file.to_path_buf(), clash });
     }
     Ok(kept)
 }
