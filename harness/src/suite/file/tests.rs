@@ -140,7 +140,7 @@ fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
     assert_eq!(ours[1].id, "fast-texture_size512");
     assert_eq!(config["fine_tuning"]["texture_size"].as_integer(), Some(512));
     for (lines, words) in [
-        ("sweep = { lr = 0.1 }", "suite.toml:8: sweep: lr must be a list of values"),
+        ("sweep = { lr = 0.1 }", "suite.toml:9: sweep: lr must be a list of values"),
         ("sweep = { layers = [1, 2] }", "sweep: set has layers too; remove one"),
         ("set.seed = 1\nseeds = [1]", "seeds: set has a seed too"),
         ("set.debug = 1", "debug is the name of a path"),

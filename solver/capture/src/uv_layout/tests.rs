@@ -49,7 +49,8 @@ fn layouts_are_sound_or_named() {
         (examined(1, mirrored), "overlaps in UV (mirrored halves): two triangles claim 99."),
         (
             examined(1, |i, _, p| DVec2::new(p.x - if i == 0 { 0.0 } else { 0.05 }, p.y)),
-            "two triangles claim 5.3 % of the texels in use",
+            // 1/19 of the chart, as the check's grid of texels has it.
+            "two triangles claim 5.2 % of the texels in use",
         ),
         (
             examined(2, |i, j, p| pages(i, j, p) + DVec2::new((i / 8) as f64, 0.0)),
