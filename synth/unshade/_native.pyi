@@ -287,7 +287,8 @@ def examine_layout(
     part_of: NDArray[np.int64],
     parts: Sequence[str],
 ) -> tuple[str | None, str | None, bool]:
-    """What is wrong with a UV layout, a warning, and whether parts (of each triangle) lie over each other."""
+    """Return the fault of a UV layout and a warning, each a text or None, and whether the fault is that several of
+    ``parts``, numbered by ``part_of`` (F,), lie over each other on one page."""
 
 def outward_turns(
     vertices: NDArray[np.float64], triangles: NDArray[np.int64], normals: NDArray[np.float64] | None = None

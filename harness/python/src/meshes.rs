@@ -42,8 +42,8 @@ pub(super) fn read_obj<'py>(py: Python<'py>, data: &[u8]) -> PyResult<Bound<'py,
     Ok(list)
 }
 
-/// What is wrong with a UV layout, and a warning; each a text or None. The third value is whether the
-/// fault is that of several `parts`, which `part_of` (F,) counts, on one page.
+/// Return the fault of a UV layout and a warning, each a text or None, and whether the fault is that several of
+/// ``parts``, numbered by ``part_of`` (F,), lie over each other on one page.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(super) fn examine_layout(
