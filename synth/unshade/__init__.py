@@ -57,7 +57,7 @@ _HOMES = {
     "write_exr": "exr",
     "check": "stages",
     "compare": "stages",
-    "consistency": "importing",
+    "consistency": "importing.consistency",
     "export": "stages",
     "metric": "own_metrics",
     "import_capture": "importing",

@@ -12,9 +12,9 @@ from unshade.bookkeeping import verify as verify
 from unshade.exr import exr_channels as exr_channels
 from unshade.exr import read_exr as read_exr
 from unshade.exr import write_exr as write_exr
-from unshade.importing import Consistency as Consistency
-from unshade.importing import consistency as consistency
 from unshade.importing import import_capture as import_capture
+from unshade.importing.consistency import Consistency as Consistency
+from unshade.importing.consistency import consistency as consistency
 from unshade.importing.maps import import_maps as import_maps
 from unshade.maps import Maps as Maps
 from unshade.own_metrics import metric as metric

@@ -128,10 +128,10 @@ class _Code:
         if path.name != "__init__.py":
             package.pop()
         text = path.read_bytes()
-        key = hashlib.blake2b(".".join(package).encode() + b"\0" + text, digest_size=16).hexdigest()
+        key = hashlib.blake2b(".".join(package).encode() + b"\1" + text, digest_size=16).hexdigest()
         if key not in self._known:
             self._new = True
-            tree = ast.parse(text, path)
+            tree = _Running().visit(ast.parse(text, path))
             imports = list(_imports(tree, package))
             for node in ast.walk(tree):
                 if isinstance(body := getattr(node, "body", None), list):
@@ -148,6 +148,14 @@ class _Code:
                 partial.write_text(json.dumps(self._known))
                 partial.replace(self._path)
             self._new = False
+
+
+class _Running(ast.NodeTransformer):
+    """Leaves out what only type checkers read."""
+
+    def visit_If(self, node: ast.If) -> ast.AST | list[ast.stmt]:
+        self.generic_visit(node)
+        return node.orelse if isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING" else node
 
 
 def _is_text(line: ast.stmt) -> bool:

@@ -5,7 +5,6 @@ files say. `photographs` sorts out each view's picture, mask and labels; the `de
 the mesh; `placement` stands the head upright in metres; `capture_folder` writes what solvers read.
 """
 
-from .consistency import Consistency, consistency
 from .importer import CaptureWarning, import_capture
 
-__all__ = ["CaptureWarning", "Consistency", "consistency", "import_capture"]
+__all__ = ["CaptureWarning", "import_capture"]
