@@ -22,15 +22,24 @@ from importlib import import_module
 os.environ.setdefault("NODEVICE_SELECT", "1")
 
 
-def _after_fork() -> None:
-    """OpenCV's threads are not in the child, which would wait for them; the core's pools are made anew."""
-    cv2 = sys.modules.get("cv2")
-    if cv2 is not None:
+_opencv_threads: list[int] = []
+
+
+def _before_fork() -> None:
+    """Ends OpenCV's threads: a child would wait for ever for the ones it lacks, even to end them."""
+    if (cv2 := sys.modules.get("cv2")) is not None:
+        _opencv_threads.append(cv2.getNumThreads())
         cv2.setNumThreads(1)
 
 
+def _after_fork() -> None:
+    """Lets OpenCV, in the parent and in the child, start threads anew at its next call."""
+    if _opencv_threads:
+        sys.modules["cv2"].setNumThreads(_opencv_threads.pop())
+
+
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_after_fork)
+    os.register_at_fork(before=_before_fork, after_in_parent=_after_fork, after_in_child=_after_fork)
 
 _HOMES = {
     "Budget": "stages",
