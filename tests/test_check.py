@@ -216,7 +216,7 @@ def test_stray_files_are_named_with_what_they_should_be_called(tiny_run: Path, t
     (maps / ALBEDO).rename(maps / "Diffuse_Albedo.exr")
     (maps / NORMAL).rename(maps / "normals.png")
     shutil.copy(maps / SPECULAR, maps / "specular.exr")  # beside its map it harms nobody
-    found = {(found["map"], found["id"]): found["mend"] for found in unshade.check(maps)}
+    found = {(found["map"], found["id"]): found["fix"] for found in unshade.check(maps)}
     assert found == {
         ("Diffuse_Albedo.exr", "stray-file"): "rename it to diffuse_albedo.exr",
         ("normals.png", "stray-file"): "write it as linear float EXR named specular_normal.exr",

@@ -1,4 +1,4 @@
-"""Each mistake that is often made, planted: the detective finds it, names it, and mends it."""
+"""Each mistake that is often made, planted: the detective finds it, names it, and fixes it."""
 
 from __future__ import annotations
 
@@ -122,13 +122,13 @@ def _projections(capture: Path) -> dict[str, np.ndarray]:
 
 
 @pytest.mark.parametrize("mistake", PLANTED)
-def test_a_planted_mistake_is_named_and_mended(mistake: str, source: Path, tmp_path: Path) -> None:
+def test_a_planted_mistake_is_named_and_fixed(mistake: str, source: Path, tmp_path: Path) -> None:
     folder = _planted(source, tmp_path / "planted", PLANTED[mistake])
-    mended = unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True)
-    said = json.loads((mended / "import.json").read_text())
+    fixed = unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True)
+    said = json.loads((fixed / "import.json").read_text())
     assert said["fit"]["change"] == mistake
     assert any(f"[{mistake}]" in line for line in said["assumed"])
-    after = _projections(mended)
+    after = _projections(fixed)
     for name, pixels in _projections(source).items():
         off, _ = cKDTree(after[name]).query(pixels)
         assert off.max() < 1e-3
@@ -152,9 +152,9 @@ def test_pictures_that_lie_another_way_are_turned(mistake: str, orientation: Any
         with Image.open(mask) as image:
             plane = np.asarray(image)
         Image.fromarray(np.ascontiguousarray(orientation(plane))).save(mask)
-    mended = unshade.Capture(unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True))
+    fixed = unshade.Capture(unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True))
     for name, picture in original.items():
-        np.testing.assert_array_equal(mended.image(name[:-4]), picture)
+        np.testing.assert_array_equal(fixed.image(name[:-4]), picture)
 
 
 def test_without_apply_the_change_is_the_error(source: Path, tmp_path: Path) -> None:
@@ -169,9 +169,9 @@ def test_inverted_masks_are_named(source: Path, tmp_path: Path) -> None:
         with Image.open(mask) as image:
             plane = np.asarray(image)
         Image.fromarray(255 - plane).save(mask)
-    mended = unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True)
+    fixed = unshade.import_capture("transforms", folder, tmp_path / "capture", apply=True)
     name = min((source / "masks").iterdir()).name
-    with Image.open(mended / "masks" / name) as after, Image.open(source / "masks" / name) as before:
+    with Image.open(fixed / "masks" / name) as after, Image.open(source / "masks" / name) as before:
         np.testing.assert_array_equal(np.asarray(after), np.asarray(before))
 
 

@@ -105,8 +105,8 @@ def test_rows_of_the_network_stand_beside_those_of_whole_pictures(tiny_run: Path
 
 @pytest.mark.skipif(INSTALLED, reason="lpips is installed, so nothing is missing")
 def test_without_the_extra_it_is_unavailable_and_said_so_before_anything_is_rendered(tmp_path: Path) -> None:
-    mend = r"LPIPS is unavailable .*; pip install 'unshade\[lpips\]'"
-    with pytest.raises(MetricError, match=mend):
+    fix = r"LPIPS is unavailable .*; pip install 'unshade\[lpips\]'"
+    with pytest.raises(MetricError, match=fix):
         unshade.metrics.lpips_alex_0_1(*pictures())
     assert "unavailable (optional)" in perceptual.found()
     done = command("run", suite_with(tmp_path, "alex"), "-o", tmp_path / "run", check=False)

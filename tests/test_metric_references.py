@@ -21,5 +21,5 @@ def test_stored_references_are_current():
         for name, value in current[group].items():
             # FLIP is single precision and sums in another order on another machine.
             tolerance = 1e-5 if name.startswith("flip") else 1e-10
-            mend = "run python harness/scoring/tests/reference/metrics.py"
-            assert value == pytest.approx(stored[group][name], rel=tolerance), f"{name}: {mend}"
+            fix = "run python harness/scoring/tests/reference/metrics.py"
+            assert value == pytest.approx(stored[group][name], rel=tolerance), f"{name}: {fix}"

@@ -1,4 +1,4 @@
-"""Captures with everything that goes wrong with captures: each gives valid maps, or one line that says what to mend."""
+"""Captures with everything that goes wrong with captures: each gives valid maps, or one line that says what to fix."""
 
 from __future__ import annotations
 

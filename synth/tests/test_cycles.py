@@ -82,7 +82,7 @@ def test_an_exported_blend_renders_as_the_maps(capture, tmp_path):
     assert (tmp_path / "asset/face.blend").stat().st_size > 10_000
 
 
-def test_without_blender_the_mend_is_named(monkeypatch, tmp_path):
+def test_without_blender_the_fix_is_named(monkeypatch, tmp_path):
     monkeypatch.setenv("UNSHADE_BLENDER", str(tmp_path / "nowhere"))
     with pytest.raises(RendererError, match="UNSHADE_BLENDER=.*nowhere: is no program"):
         interpreter.command()

@@ -87,7 +87,7 @@ def test_an_open_jaw_takes_the_lower_teeth_along(neutral):
         ([0.5], "expression in .face. is no table"),
     ],
 )
-def test_faults_name_the_unit_and_the_mend(expression, said):
+def test_faults_name_the_unit_and_the_fix(expression, said):
     with pytest.raises(FaceError, match=said):
         FaceSpec.from_table(TABLE | {"expression": expression})
 

@@ -43,7 +43,7 @@ def test_a_written_table_reads_back(seed):
         ({"ethnicity": {"martian": 1.0}}, "unknown key 'martian' in ethnicity"),
     ],
 )
-def test_faults_name_the_key_and_the_mend(change, said):
+def test_faults_name_the_key_and_the_fix(change, said):
     with pytest.raises(FaceError, match=said) as fault:
         FaceSpec.from_table(TABLE | change)
     assert "\n" not in str(fault.value)

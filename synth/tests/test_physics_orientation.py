@@ -35,4 +35,4 @@ def test_a_mistake_is_found_and_named(name):
     probe = next((probe for probe in PROBES if probe.split()[0] in name.split()), PROBES[0])
     verdict = check_orientation(pipeline, [probe])
     assert not verdict.ok and words in verdict.found, verdict.found
-    assert "mend" in verdict.entry()
+    assert "fix" in verdict.entry()

@@ -187,7 +187,7 @@ def test_a_child_that_dies_fails_its_check():
 
 
 def test_examine_reports_every_check(monkeypatch):
-    """Names, order and mends; the checks themselves take minutes."""
+    """Names, order and fixes; the checks themselves take minutes."""
     from unshade.render.physics import verdict as verdicts
 
     names = (
@@ -210,15 +210,15 @@ def test_examine_reports_every_check(monkeypatch):
     entries = physics.examine(lambda done, total, what: steps.append((done, total)))
     assert tuple(entry["name"] for entry in entries) == names
     assert [entry["name"] for entry in entries if not entry["ok"]] == ["noise"]
-    assert all(("mend" in entry) != entry["ok"] for entry in entries)
+    assert all(("fix" in entry) != entry["ok"] for entry in entries)
     assert steps == [(k, len(names)) for k in range(len(names) + 1)]
 
 
-def test_examine_without_a_compiler_says_what_to_mend():
+def test_examine_without_a_compiler_says_what_to_fix():
     code = (
         "from unshade.render import llvm; llvm.activate(llvm.choose('scalar_rgb'))\n"
         "from unshade.render.physics import examine\n"
-        "(entry,) = examine(print); assert not entry['ok'] and llvm.MEND == entry['mend'], entry\n"
+        "(entry,) = examine(print); assert not entry['ok'] and llvm.FIX == entry['fix'], entry\n"
     )
     child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert child.returncode == 0, child.stderr

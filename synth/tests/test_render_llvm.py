@@ -54,11 +54,11 @@ def test_a_library_that_fails_is_passed_over_aloud(monkeypatch):
     assert "/bad.so" in choice.warning and "fminimum" in choice.warning
 
 
-def test_without_a_library_the_fallback_is_announced_with_the_mend(monkeypatch):
+def test_without_a_library_the_fallback_is_announced_with_the_fix(monkeypatch):
     pretend(monkeypatch, BAD)
     choice = llvm.choose()
     assert choice.variant == "scalar_rgb" and choice.llvm is None
-    assert "fminimum" in choice.warning and llvm.MEND in choice.warning
+    assert "fminimum" in choice.warning and llvm.FIX in choice.warning
 
 
 def test_a_variant_that_is_demanded_is_not_replaced(monkeypatch):

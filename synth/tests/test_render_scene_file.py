@@ -1,4 +1,4 @@
-"""Scene files: what is wrong is named, with its place and the mend; what is right returns."""
+"""Scene files: what is wrong is named, with its place and the fix; what is right returns."""
 
 import sys
 from pathlib import Path

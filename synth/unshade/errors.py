@@ -1,6 +1,6 @@
 """Exceptions, named for what went wrong; Rust and Python raise the same classes.
 
-Each message is one line: what is wrong, where, and the mend. ``exit_code`` is what
+Each message is one line: what is wrong, where, and the fix. ``exit_code`` is what
 the child process returns for it (see :mod:`unshade.stage`).
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 
 class UnshadeError(Exception):
-    """Base of all exceptions of the package: a fault that a user can meet and mend."""
+    """Base of all exceptions of the package: a fault that a user can meet and fix."""
 
     exit_code = 2
 

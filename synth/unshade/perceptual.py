@@ -77,5 +77,5 @@ def _network(net: str):
             return lpips.LPIPS(net=net, version="0.1", verbose=False).eval()
     except (OSError, RuntimeError) as error:
         home = os.environ.get("TORCH_HOME", "~/.cache/torch")
-        mend = f"they are fetched once into TORCH_HOME, which is {home}"
-        raise MetricError(f"LPIPS is unavailable: no weights of {net} ({error}); {mend}") from None
+        fix = f"they are fetched once into TORCH_HOME, which is {home}"
+        raise MetricError(f"LPIPS is unavailable: no weights of {net} ({error}); {fix}") from None

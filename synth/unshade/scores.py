@@ -155,10 +155,10 @@ class Scores:
         asked = ", ".join(f"{name}={given!r}" for name, given in wanted if given is not _ANY)
         if len(found):
             differ = [name for name in _FILTERS if len(found._values(name)) > 1]
-            mend = "; ".join(f"{name}: {_listed(found._values(name))}" for name in differ)
-            raise ScoreError(f"{len(found)} rows have {asked or 'any property'}; choose one by {mend}")
-        mend = "; ".join(f"{name}: {_listed(self._values(name))}" for name in _FILTERS[:2])
-        raise ScoreError(f"no row has {asked}; there are {mend}")
+            fix = "; ".join(f"{name}: {_listed(found._values(name))}" for name in differ)
+            raise ScoreError(f"{len(found)} rows have {asked or 'any property'}; choose one by {fix}")
+        fix = "; ".join(f"{name}: {_listed(self._values(name))}" for name in _FILTERS[:2])
+        raise ScoreError(f"no row has {asked}; there are {fix}")
 
     def to_dicts(self) -> list[dict[str, Any]]:
         """One dictionary a row, with its id in front, for a table of your own."""

@@ -238,14 +238,14 @@ def run(
 
 
 class Finding(TypedDict):
-    """A likely fault of one file of a maps folder, with the numbers that speak for it and the mend."""
+    """A likely fault of one file of a maps folder, with the numbers that speak for it and the fix."""
 
     id: str
     level: str
     """``error`` if the maps cannot be scored, else ``warning``."""
     map: str
     message: str
-    mend: str
+    fix: str
     evidence: dict[str, float]
 
 

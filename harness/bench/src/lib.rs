@@ -39,7 +39,7 @@ pub use markdown::markdown;
 pub use report::{PaperSize, Report, Torch, TorchRow};
 pub use solves::Solved;
 pub use steps::{Kind, Reach, Step};
-pub use torch::{MEND, TorchDevice, TorchError, TorchStep};
+pub use torch::{FIX, TorchDevice, TorchError, TorchStep};
 
 use paper::{COARSE, PAPER_DIVISORS, PAPER_STEPS, Paper};
 use synthetic::Problem;
@@ -101,7 +101,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, 
     let adapter = if options.gpu { adapter()? } else { None };
     let gpu = adapter.map(|adapter| bench.gpu(&adapter, device, options, progress)).transpose()?;
     let torch = match &options.torch {
-        None => Torch::Absent { mend: MEND.to_owned() },
+        None => Torch::Absent { fix: FIX.to_owned() },
         Some(python) => {
             let mut rows = vec![];
             // Large fine-tuning steps take PyTorch many seconds each and say nothing new.
@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn a_python_without_torch_is_named_with_the_mend() {
+    fn a_python_without_torch_is_named_with_the_fix() {
         let problem = Problem::new(100, 8);
         let python = std::path::Path::new("/nowhere/python");
         let error = torch::measure(python, TorchDevice::Cpu, Kind::WarmUp, &problem, 1)

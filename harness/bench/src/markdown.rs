@@ -63,7 +63,7 @@ fn write_page(page: &mut String, report: &Report, command: &str) -> std::fmt::Re
 
     writeln!(page, "\n## PyTorch\n")?;
     match &report.torch {
-        Torch::Absent { mend } => writeln!(page, "Not in this run. To have it: {mend}.")?,
+        Torch::Absent { fix } => writeln!(page, "Not in this run. To have it: {fix}.")?,
         Torch::Measured(rows) => {
             writeln!(
                 page,

@@ -51,7 +51,7 @@ pub enum Torch {
     /// None, and how to get them.
     Absent {
         /// The command to type.
-        mend: String,
+        fix: String,
     },
     /// Rows of each kind and size.
     Measured(Vec<TorchRow>),

@@ -18,7 +18,7 @@ pub(super) const TORCH_STEPS: usize = 8;
 const SCRIPT: &str = include_str!("torch_steps.py");
 
 /// How to get the row, where there is no PyTorch.
-pub const MEND: &str = "python3 -m venv torch && torch/bin/pip install torch numpy, then `unshade \
+pub const FIX: &str = "python3 -m venv torch && torch/bin/pip install torch numpy, then `unshade \
                         bench --torch torch/bin/python`";
 
 /// Steps of one kind in PyTorch.
@@ -34,14 +34,14 @@ pub struct TorchStep {
     pub version: String,
 }
 
-/// A Python that cannot do it, with the mend.
+/// A Python that cannot do it, with the fix.
 #[derive(Debug, thiserror::Error)]
 pub enum TorchError {
     /// The problem cannot be handed over.
     #[error("{0}")]
     Io(#[from] io::Error),
     /// Python said no.
-    #[error("{python} cannot run the steps: {reason}; get PyTorch by: {MEND}")]
+    #[error("{python} cannot run the steps: {reason}; get PyTorch by: {FIX}")]
     Python {
         /// The interpreter.
         python: String,

@@ -147,23 +147,23 @@ impl Argument<'_> {
         Ok(coverage)
     }
 
-    fn check_bytes(self, values: &[f64], mend: &str) -> PyResult<()> {
+    fn check_bytes(self, values: &[f64], fix: &str) -> PyResult<()> {
         let odd = |value: &&f64| !(0.0..=255.0).contains(*value) || value.fract() != 0.0;
         match values.iter().find(odd) {
             None => Ok(()),
-            Some(value) => Err(self.refused(&format!("holds {value}; {mend}"))),
+            Some(value) => Err(self.refused(&format!("holds {value}; {fix}"))),
         }
     }
 
     /// Numbers or booleans of two axes.
-    fn plane(self, value: &Bound<PyAny>, mend: &str) -> PyResult<Plane> {
+    fn plane(self, value: &Bound<PyAny>, fix: &str) -> PyResult<Plane> {
         let array = self.array(value, "an array (height, width)")?;
         let [height, width] = *shape(&array)? else {
             let reason = format!("expected (height, width), got shape {:?}", shape(&array)?);
             return Err(self.refused(&reason));
         };
         if !matches!(kind(&array)?, 'b' | 'u' | 'i' | 'f') {
-            return Err(self.refused(&format!("has dtype {}; {mend}", dtype(&array)?)));
+            return Err(self.refused(&format!("has dtype {}; {fix}", dtype(&array)?)));
         }
         Ok(Plane { width, height, data: doubles(&array)? })
     }

@@ -218,9 +218,9 @@ fn check_size(name: &str, (width, height): (usize, usize), truth: &Picture) -> P
         return Ok(());
     }
     let transposed = (height, width) == (truth.width, truth.height);
-    let mend = if transposed { "; transpose it" } else { "" };
+    let fix = if transposed { "; transpose it" } else { "" };
     let reason = format!(
-        "has shape ({height}, {width}), expected ({}, {}), as the truth{mend}",
+        "has shape ({height}, {width}), expected ({}, {}), as the truth{fix}",
         truth.height, truth.width
     );
     Err(argument(name).refused(&reason))

@@ -251,7 +251,7 @@ fn likely_faults_of_maps_stand_beside_the_method_s_name() {
     let mut scores: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
     scores["findings"] = json!([{
         "id": "flipped-v", "level": "warning", "map": "diffuse_albedo.exr",
-        "message": "is <flipped> in v", "mend": "turn it", "evidence": {"correlation": 0.5},
+        "message": "is <flipped> in v", "fix": "turn it", "evidence": {"correlation": 0.5},
     }]);
     fs::write(&path, scores.to_string()).unwrap();
     let html = again(made.folder.path());

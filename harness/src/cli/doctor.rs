@@ -1,4 +1,4 @@
-//! `unshade doctor`: what was found, and what is missing with the mend.
+//! `unshade doctor`: what was found, and what is missing with the fix.
 
 use serde_json::Value;
 use solver::Choice;
@@ -60,7 +60,7 @@ fn checks(
             say!("{:<12} {}", text("name"), text("found"));
         } else {
             complete = false;
-            say!("{:<12} FAILED: {}; {}", text("name"), text("found"), text("mend"));
+            say!("{:<12} FAILED: {}; {}", text("name"), text("found"), text("fix"));
         }
     }
     Ok(complete)

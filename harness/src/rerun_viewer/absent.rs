@@ -11,9 +11,9 @@ pub enum RerunViewer {}
 impl RerunViewer {
     /// Says how to get it.
     pub fn open(_: &str, _: &Capture) -> Result<Self, ViewerError> {
-        let mend = "this program was built without the viewer; build it with \
+        let fix = "this program was built without the viewer; build it with \
                     `cargo build --release --features rerun`";
-        Err(ViewerError(mend.to_owned()))
+        Err(ViewerError(fix.to_owned()))
     }
 
     /// Not reached.

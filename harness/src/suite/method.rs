@@ -348,12 +348,12 @@ impl MethodTable {
             ("network", network.is_some(), foreign),
         ] {
             if given && !means {
-                let mend = match key {
+                let fix = match key {
                     "texture_size" if competitor => "; write set = { texture_size = ... }",
                     "texture_size" if fields => "; write [method.set.fine_tuning] texture_size",
                     _ => "; leave it out",
                 };
-                return refused(format!("has no use for {key}{mend}"));
+                return refused(format!("has no use for {key}{fix}"));
             }
         }
         Ok(())

@@ -39,7 +39,7 @@ pub enum SceneError {
         line: Option<usize>,
         /// The key in question.
         key: String,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
 }

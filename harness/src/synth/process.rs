@@ -33,7 +33,7 @@ pub enum StageError {
     Input {
         /// The Python exception's name.
         kind: String,
-        /// The fault, its place, and its mend.
+        /// The fault, its place, and its fix.
         message: String,
     },
     /// The child died without saying why.

@@ -200,7 +200,7 @@ pub fn scores() -> Vec<Vec<u8>> {
         )
     };
     let findings = "\"findings\": [{\"id\": \"flipped-v\", \"level\": \"warning\", \"map\": \"a.exr\", \
-        \"message\": \"m\", \"mend\": \"n\", \"evidence\": {\"overlap\": 0.5}}],";
+        \"message\": \"m\", \"fix\": \"n\", \"evidence\": {\"overlap\": 0.5}}],";
     vec![text("").into_bytes(), text(findings).into_bytes()]
 }
 

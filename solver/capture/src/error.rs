@@ -1,4 +1,4 @@
-//! Errors of a capture, each one line for the user: what is wrong, where, and the mend.
+//! Errors of a capture, each one line for the user: what is wrong, where, and the fix.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub enum CaptureError {
     Transforms {
         /// The file.
         path: PathBuf,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
     /// The mesh cannot carry textures.
@@ -28,7 +28,7 @@ pub enum CaptureError {
     Mesh {
         /// The file.
         path: PathBuf,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
     /// A mask or picture does not belong to its camera.
@@ -36,7 +36,7 @@ pub enum CaptureError {
     Frame {
         /// The file.
         path: PathBuf,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
     /// The mesh and the masks of the training views have no pixel in common.
@@ -54,7 +54,7 @@ pub enum CaptureError {
     /// The mesh is not where the cameras look.
     #[error(
         "{path}: the mesh covers {overlap:.2} of the masks (median of {views} views; .90 is \
-         sound), so the cameras do not fit it; {mend}"
+         sound), so the cameras do not fit it; {fix}"
     )]
     Misplaced {
         /// `transforms.json`.
@@ -64,7 +64,7 @@ pub enum CaptureError {
         /// Views that were looked at.
         views: usize,
         /// The single change that fits, or the places to look at.
-        mend: String,
+        fix: String,
     },
     /// A picture file is faulty.
     #[error(transparent)]

@@ -119,14 +119,14 @@ impl FileFrame {
             && let Some(kind) = developed(&image_path)
         {
             let exr = image_path.with_extension("exr");
-            let mend = match exr.is_file().then(|| exr.file_name()).flatten() {
+            let fix = match exr.is_file().then(|| exr.file_name()).flatten() {
                 Some(name) => format!("name {} beside it", name.display()),
                 None => "bring the folder in with `unshade import transforms`, or develop the raw \
                          files to linear Rec.709 without a tone curve, write them as EXR and name \
                          those"
                     .to_owned(),
             };
-            return Err(format!("is a {kind}, but pictures are linear float EXR files; {mend}"));
+            return Err(format!("is a {kind}, but pictures are linear float EXR files; {fix}"));
         }
         let label_path = self.label_path.as_ref().map(|path| inside(root, &plain(path)));
         Ok(Frame { camera, distortion, image_path, mask_path, label_path: label_path.transpose()? })
@@ -150,7 +150,7 @@ impl FileFrame {
         };
         let (w, h) = (side("w", of(|s| s.w))?, side("h", of(|s| s.h))?);
         if w == 0.0 || h == 0.0 {
-            return Err(format!("size {w}x{h} is empty; mend w, h"));
+            return Err(format!("size {w}x{h} is empty; fix w, h"));
         }
         let by_angle =
             |side: f64, angle: Option<f64>| angle.map(|angle| side / 2.0 / (angle / 2.0).tan());
@@ -166,7 +166,7 @@ impl FileFrame {
         let (cx, cy) = (of(|s| s.cx).unwrap_or(w / 2.0), of(|s| s.cy).unwrap_or(h / 2.0));
         let lens = [fl_x, fl_y, cx, cy].map(|value| value as f32);
         if !lens.iter().all(|value| value.is_finite()) || lens[0] <= 0.0 || lens[1] <= 0.0 {
-            return Err("fl_x and fl_y must be positive, cx and cy finite; mend them".to_owned());
+            return Err("fl_x and fl_y must be positive, cx and cy finite; fix them".to_owned());
         }
         let matrix = matrix(&self.transform_matrix)
             .map_err(|reason| format!("transform_matrix {reason}"))?;

@@ -195,7 +195,7 @@ fn transforms_focal(frame: &Value) -> Value {
 }
 
 #[test]
-fn what_is_missing_is_named_with_its_frame_and_the_mend() {
+fn what_is_missing_is_named_with_its_frame_and_the_fix() {
     let without = |place: &str, key: &str| {
         broken(|_, transforms| {
             transforms.pointer_mut(place).unwrap().as_object_mut().unwrap().remove(key);

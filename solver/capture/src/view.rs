@@ -32,7 +32,7 @@ impl View {
             }
             let (w, h) = (camera.width, camera.height);
             let reason =
-                format!("is {width}x{height}, but its camera says {w}x{h}; resize it or mend w, h");
+                format!("is {width}x{height}, but its camera says {w}x{h}; resize it or fix w, h");
             Err(CaptureError::Frame { path: path.to_path_buf(), reason })
         };
         let gray = |path: &Path| {

@@ -28,7 +28,7 @@ pub enum MapsError {
     Size {
         /// The file.
         path: PathBuf,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
 }

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import ClusterError
 
-_MEND = 'install it: pip install "unshade[cluster]"'
+_FIX = 'install it: pip install "unshade[cluster]"'
 
 
 def on_cluster(
@@ -21,7 +21,7 @@ def on_cluster(
         import dask
         import distributed
     except ImportError as error:
-        raise ClusterError(f"--cluster needs Dask ({error.name} is missing); {_MEND}") from error
+        raise ClusterError(f"--cluster needs Dask ({error.name} is missing); {_FIX}") from error
     from .client import collect
     from .order import read_order
     from .store import Store

@@ -92,7 +92,7 @@ class FaceSpec:
     def from_table(cls, table: Mapping[str, Any], *, place: str = "[face]") -> FaceSpec:
         """Read a `[face]` table; absent fields are drawn from the seed.
 
-        Raises `FaceError` naming the key and the mend.
+        Raises `FaceError` naming the key and the fix.
         """
         known = [field.name for field in dataclasses.fields(cls)]
         for key in table:

@@ -44,7 +44,7 @@ def merged(paths: list[Path], curve: str) -> tuple[Floats, Photograph]:
                 f"{path}: has no exposure time in its EXIF; keep it, or merge brackets to EXR beforehand"
             )
         if photograph.codes.shape != taken[0].radiance.shape or photograph.orientation != taken[0].orientation:
-            raise PictureError(f"{path}: has another size than {paths[0].name} of its bracket; mend the order of files")
+            raise PictureError(f"{path}: has another size than {paths[0].name} of its bracket; fix the order of files")
         codes.append(photograph.codes)
     exposures = np.array([photograph.exposure for photograph in taken], np.float32)
     if not exposures.max() > 1.05 * exposures.min():

@@ -84,7 +84,7 @@ class Verdict:
     views: int
     union: float
     change: Change | None = None
-    mended: float | None = None
+    fixed: float | None = None
     nearest: tuple[Change, float] | None = None
 
     @property

@@ -243,7 +243,7 @@ class _Import:
         return Reading(choices.curve, choices.brackets, reference, alpha, choices.masks == "silhouette", names)
 
     def _look(self, reading: Reading) -> Verdict | None:
-        """Verdict of the detective on some views; a change that mends them is an error unless it is to be made."""
+        """Verdict of the detective on some views; a change that fixes them is an error unless it is to be made."""
         evidence = []
         for view in self._looked_at():
             self.progress(0, len(self.source.views), f"looking at {view.name}")
@@ -257,7 +257,7 @@ class _Import:
         if verdict.change is not None and not self.choices.apply:
             raise CaptureError(
                 f"{self.source.origin}: the mesh covers {verdict.union:.3f} of the masks (union, median of {verdict.views} views), "
-                f"but {verdict.mended:.3f} if {verdict.change.words} [{verdict.change.id}]; fix the files, or import with apply"
+                f"but {verdict.fixed:.3f} if {verdict.change.words} [{verdict.change.id}]; fix the files, or import with apply"
             )
         if verdict.change is not None:
             self.notes.add(f"applied: {verdict.change.words} [{verdict.change.id}]")
@@ -362,7 +362,7 @@ class _Import:
                 "views": verdict.views,
                 "union": round(verdict.union, 4),
                 "change": verdict.change.id if verdict.change else None,
-                "union_with_change": round(verdict.mended, 4) if verdict.mended is not None else None,
+                "union_with_change": round(verdict.fixed, 4) if verdict.fixed is not None else None,
             },
             "front": placement.front,
             "light": None if self.light is None else self.light.record(),

@@ -131,7 +131,7 @@ def _check(origin: Path, view: SourceView) -> None:
         raise CaptureError(f"{where}: its focal length is {min(focal):g}; it must be positive")
     for side in (view.width, view.height):
         if side is not None and not 0 < side <= 65535:
-            raise CaptureError(f"{where}: its picture is {view.width} x {view.height}; mend the size")
+            raise CaptureError(f"{where}: its picture is {view.width} x {view.height}; fix the size")
     rotation = view.camera_to_world[:3, :3]
     off = np.abs(rotation.T @ rotation - np.eye(3)).max()
     if off > _RIGID or np.linalg.det(rotation) < 0:

@@ -246,7 +246,7 @@ def _label_names(path: Path, table: Any) -> dict[int, str]:
         return {int(number): str(name).lower() for number, name in (table or {}).items()}
     except (AttributeError, ValueError) as error:
         raise CaptureError(
-            f'{path}: label_names is no table of names by id, as {{"1": "skin"}}; mend or drop it'
+            f'{path}: label_names is no table of names by id, as {{"1": "skin"}}; fix or drop it'
         ) from error
 
 

@@ -204,10 +204,8 @@ class _Painter:
         values = self._texel_values("specular_albedo", self._head.specular_albedo_space)[:, 1]
         if isinstance(self._head.specular_albedo, str):
             values = values * np.float32(self._head.specular_albedo_scale)
-        mend = (
-            f"state specular_albedo_scale (now {self._head.specular_albedo_scale:g}) so that reflectance stays within"
-        )
-        self._within("specular_albedo", values, 0, _LARGEST_SPECULAR * 1.001, mend)
+        fix = f"state specular_albedo_scale (now {self._head.specular_albedo_scale:g}) so that reflectance stays within"
+        self._within("specular_albedo", values, 0, _LARGEST_SPECULAR * 1.001, fix)
         return values.clip(0, _LARGEST_SPECULAR)
 
     def _roughness(self) -> np.ndarray:
@@ -249,8 +247,8 @@ class _Painter:
             raise FaceError(f"{self._head.labels}: holds label {labels.max()}; use {min(Label)} to {max(Label)}")
         return labels
 
-    def _within(self, key: str, values: np.ndarray, low: float, high: float, mend: str) -> None:
+    def _within(self, key: str, values: np.ndarray, low: float, high: float, fix: str) -> None:
         smallest, largest = float(values.min()), float(values.max())
         if not (low <= smallest and largest <= high):
             reach = f"{key} reaches from {smallest:.4g} to {largest:.4g} on the chart"
-            raise FaceError(f"{getattr(self._head, key)}: {reach}; {mend} {low:.3g} to {high:.3g}")
+            raise FaceError(f"{getattr(self._head, key)}: {reach}; {fix} {low:.3g} to {high:.3g}")

@@ -35,7 +35,7 @@ _NO_GEOMETRY = (
 """Beginnings of extensions that a reader of shapes may leave out; `KHR_mesh_quantization` and
 `KHR_texture_transform` are read."""
 
-_MENDS = {
+_FIXES = {
     "KHR_draco_mesh_compression": "export it without compression",
     "EXT_meshopt_compression": "export it without compression (gltfpack without -c)",
 }
@@ -106,10 +106,10 @@ def _check_extensions(path: Path, document: dict[str, Any]) -> None:
     for name in required:
         if not str(name).startswith(_NO_GEOMETRY):
             raise FaceError(
-                f"{path}: requires the extension {name}, which is not read; {_MENDS.get(name, 'export it without')}"
+                f"{path}: requires the extension {name}, which is not read; {_FIXES.get(name, 'export it without')}"
             )
     for name in unknown:
-        if name not in _MENDS:  # whose fallback, if there is none, is found empty
+        if name not in _FIXES:  # whose fallback, if there is none, is found empty
             text = f"{path}: uses the extension {name[:80]}, which is not read; the mesh is taken without it"
             warnings.warn(text, MeshWarning, stacklevel=3)
 
@@ -193,9 +193,9 @@ def _shape(
     """A primitive in its own space, in the shape of its morph weights."""
     attributes = primitive["attributes"]
     if accessors.is_empty(attributes["POSITION"]):
-        known = [extension for extension in primitive.get("extensions", {}) if extension in _MENDS]
-        mend = _MENDS[known[0]] if known else "export it again"
-        raise FaceError(f"{path}: object {name!r} holds no positions{f' but {known[0]}' if known else ''}; {mend}")
+        known = [extension for extension in primitive.get("extensions", {}) if extension in _FIXES]
+        fix = _FIXES[known[0]] if known else "export it again"
+        raise FaceError(f"{path}: object {name!r} holds no positions{f' but {known[0]}' if known else ''}; {fix}")
     targets = [(target, weight) for target, weight in zip(primitive.get("targets", []), weights) if weight]
 
     def morphed(key: str, width: int) -> np.ndarray | None:

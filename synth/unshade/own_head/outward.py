@@ -39,6 +39,6 @@ def oriented_outwards(
             stacklevel=2,
         )
     if one_sided:
-        text = f"{one_sided} of {len(triangles)} triangles lie on surfaces that have one side only; mend the mesh where it is twisted"
+        text = f"{one_sided} of {len(triangles)} triangles lie on surfaces that have one side only; fix the mesh where it is twisted"
         warnings.warn(f"{head.mesh}: {text}", MeshWarning, stacklevel=2)
     return triangles, normals

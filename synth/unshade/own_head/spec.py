@@ -91,7 +91,7 @@ class HeadFiles:
     def from_table(cls, table: Mapping[str, Any], *, place: str = "[face]", folder: Path = Path()) -> HeadFiles:
         """Reads a `[face]` table; file names start from ``folder``.
 
-        Raises `FaceError` naming the key and the mend, also for files that are not there.
+        Raises `FaceError` naming the key and the fix, also for files that are not there.
         """
         return _Reader(table, place, folder).head()
 

@@ -35,7 +35,7 @@ def denoised(layers: Layers, head: HeadScene, sensor, lens: Lens | None = None) 
         )
     if not dr.is_jit_v(mi.Float):
         raise SceneError(
-            f'denoise = "oidn" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set denoise = "none"'
+            f'denoise = "oidn" in [render] needs the variant llvm_ad_rgb; {llvm.FIX}, or set denoise = "none"'
         )
     import mitsuba_oidn
 

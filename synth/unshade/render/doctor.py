@@ -1,4 +1,4 @@
-"""Checks of this machine for rendering; each that fails names its mend."""
+"""Checks of this machine for rendering; each that fails names its fix."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _PACKAGES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "pillow")
 
 
 def examine() -> list[dict[str, Any]]:
-    """One entry per finding: ``name``, ``ok``, ``found``, and ``mend`` where it is not ok."""
+    """One entry per finding: ``name``, ``ok``, ``found``, and ``fix`` where it is not ok."""
     checks = [_entry("python", True, platform.python_version())]
     checks += [_package(name) for name in _PACKAGES]
     if all(check["ok"] for check in checks):
@@ -25,8 +25,8 @@ def examine() -> list[dict[str, Any]]:
     return [*checks, _head_data(), _cache(), _entry("lpips", True, perceptual.found())]
 
 
-def _entry(name: str, ok: bool, found: str, mend: str = "") -> dict[str, Any]:
-    return {"name": name, "ok": ok, "found": found} | ({} if ok else {"mend": mend})
+def _entry(name: str, ok: bool, found: str, fix: str = "") -> dict[str, Any]:
+    return {"name": name, "ok": ok, "found": found} | ({} if ok else {"fix": fix})
 
 
 def _package(name: str) -> dict[str, Any]:
@@ -41,7 +41,7 @@ def _variant() -> list[dict[str, Any]]:
     library = choice.llvm
     found = f"{library.version}, {library.path} ({library.origin})" if library else str(choice.warning)
     return [
-        _entry("llvm", library is not None, found, llvm.MEND),
+        _entry("llvm", library is not None, found, llvm.FIX),
         _entry("variant", True, choice.variant),
     ]
 
@@ -50,8 +50,8 @@ def _head_data() -> dict[str, Any]:
     try:
         return _entry("head data", True, f"{data_version()} in {data_folder()}")
     except FaceError as error:
-        found, _, mend = str(error).partition("; ")
-        return _entry("head data", False, found, mend)
+        found, _, fix = str(error).partition("; ")
+        return _entry("head data", False, found, fix)
 
 
 def _cache() -> dict[str, Any]:

@@ -30,7 +30,7 @@ MINIMUM_VERSION = 19
 PACKAGE = "karellen-llvm-core"
 """The Python package that carries an LLVM, so that none need be installed by root."""
 
-MEND = f"install {PACKAGE} with pip, or let DRJIT_LIBLLVM_PATH name a libLLVM of version {MINIMUM_VERSION} or newer"
+FIX = f"install {PACKAGE} with pip, or let DRJIT_LIBLLVM_PATH name a libLLVM of version {MINIMUM_VERSION} or newer"
 
 _PROBE = """
 import drjit, mitsuba as mi
@@ -173,9 +173,9 @@ def choose(requested: str = "auto") -> Choice:
         failures.append(f"{result.path} ({result.origin}): {result.reason}")
     why = "; ".join(failures) or "none was found"
     if requested == LLVM_VARIANT:
-        raise VariantError(f"{LLVM_VARIANT} needs an LLVM that works: {why}; {MEND}")
+        raise VariantError(f"{LLVM_VARIANT} needs an LLVM that works: {why}; {FIX}")
     slow = "rendering falls back to scalar_rgb, about 0.3 ms a sample (40 minutes for 256 x 256 with 128)"
-    return Choice(SCALAR_VARIANT, None, f"no LLVM that works: {why}; {slow}; {MEND}")
+    return Choice(SCALAR_VARIANT, None, f"no LLVM that works: {why}; {slow}; {FIX}")
 
 
 def activate(choice: Choice) -> None:

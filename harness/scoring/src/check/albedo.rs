@@ -44,9 +44,9 @@ pub(super) fn check(
     let extreme = |q: f64| quantile(texels().flatten().copied(), q).unwrap_or(middle);
     let (low, high) = (extreme(0.0), extreme(1.0));
     if low == 0.0 && high == 0.0 {
-        let mend = "write linear reflectance, 0 to 1";
+        let fix = "write linear reflectance, 0 to 1";
         let message = "is black in every covered texel".to_owned();
-        findings.push(Finding::error("black", file, message, mend));
+        findings.push(Finding::error("black", file, message, fix));
         return;
     }
     let negative = texels().filter(|rgb| rgb.iter().any(|v| *v < NEGATIVE)).count();
@@ -55,16 +55,16 @@ pub(super) fn check(
         let percent = 100.0 * fraction;
         let message =
             format!("is negative in {percent:.1} % of its covered texels (down to {low:.3})");
-        let mend = "write reflectance, 0 to 1; a value range of -1 to 1 is (x + 1) / 2";
+        let fix = "write reflectance, 0 to 1; a value range of -1 to 1 is (x + 1) / 2";
         let evidence = [("share", fraction), ("minimum", low)];
-        findings.push(Finding::warning("negative", file, message, mend).with(evidence));
+        findings.push(Finding::warning("negative", file, message, fix).with(evidence));
     }
     if middle > BYTES {
         let message =
             format!("is coded from 0 to 255: its median is {middle:.0}, its maximum {high:.0}");
-        let mend = "divide by 255, and undo the sRGB curve if it came from an 8-bit picture";
+        let fix = "divide by 255, and undo the sRGB curve if it came from an 8-bit picture";
         let evidence = [("median", middle), ("maximum", high)];
-        findings.push(Finding::warning("coded-0-255", file, message, mend).with(evidence));
+        findings.push(Finding::warning("coded-0-255", file, message, fix).with(evidence));
         return;
     }
     let colours = Colours::of(map, texels(), witness);
@@ -78,9 +78,9 @@ pub(super) fn check(
         // One colour of the right kind is what a baseline makes of a face without labels.
         if !colours.is_plausible() {
             let message = format!("has one colour all over (median {middle:.3})");
-            let mend = "check that the solver's albedo is written, not its initial value";
+            let fix = "check that the solver's albedo is written, not its initial value";
             let evidence = [("median", middle)];
-            findings.push(Finding::warning("constant", file, message, mend).with(evidence));
+            findings.push(Finding::warning("constant", file, message, fix).with(evidence));
         }
         return;
     }
@@ -102,7 +102,7 @@ pub(super) fn check(
         "is above 1 in {percent:.1} % of its covered texels (up to {high:.2}): brighter than \
          white, the exposure is unknown"
     );
-    let mend = if own {
+    let fix = if own {
         "scale it by a reflectance that is known, or solve with reflectance.exposure_deviation = 1"
     } else {
         "divide by the exposure; if it is radiance or encoded, write linear reflectance, 0 to 1"
@@ -114,7 +114,7 @@ pub(super) fn check(
         ("median_luminance", colours.luminance),
         ("factor", colours.factor().unwrap_or(f64::NAN)),
     ];
-    findings.push(Finding::warning(id, file, message, mend).with(evidence));
+    findings.push(Finding::warning(id, file, message, fix).with(evidence));
 }
 
 /// Statistics of colour and brightness, beside the projected photographs where there are some.
@@ -174,8 +174,8 @@ impl Colours {
                 "has red and blue swapped: red / blue is {map:.2}, in the projected photographs \
                  {photographs:.2}, and skin is never bluer than red"
             );
-            let mend = "write its channels as R, G, B (they are B, G, R)";
-            Finding::warning("bgr", file, message, mend).with([
+            let fix = "write its channels as R, G, B (they are B, G, R)";
+            Finding::warning("bgr", file, message, fix).with([
                 ("red_over_blue", map),
                 ("red_over_blue_of_photographs", photographs),
                 ("chroma_correlation", correlation),
@@ -201,9 +201,9 @@ impl Colours {
                  paler (ln(red / blue) is {power:.2} of theirs; linear ones have 0.8 to 1.7), as \
                  sRGB-encoded values are"
             );
-            let mend = "if they are, undo the sRGB curve; if they are linear, the photographs' \
+            let fix = "if they are, undo the sRGB curve; if they are linear, the photographs' \
                         exposure is unknown: divide by it";
-            Finding::warning("srgb-encoded", file, message, mend).with([
+            Finding::warning("srgb-encoded", file, message, fix).with([
                 ("factor", factor),
                 ("power", power),
                 ("median_luminance", self.luminance),
@@ -235,10 +235,10 @@ impl Colours {
             let message = format!(
                 "holds an exposure: its median luminance is {luminance:.4}{beside}, {than} than skin"
             );
-            let mend = "divide by the exposure; an albedo is reflectance, 0.03 to 0.6 for skin";
+            let fix = "divide by the exposure; an albedo is reflectance, 0.03 to 0.6 for skin";
             let evidence =
                 [("median_luminance", luminance), ("factor", factor.unwrap_or(f64::NAN))];
-            Finding::warning("exposure", file, message, mend).with(evidence)
+            Finding::warning("exposure", file, message, fix).with(evidence)
         })
     }
 }

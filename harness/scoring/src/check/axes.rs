@@ -9,8 +9,8 @@ pub(super) struct Frame {
     pub id: &'static str,
     /// The fault, in words.
     pub wrong: String,
-    /// The mend.
-    pub mend: String,
+    /// The fix.
+    pub fix: String,
     /// Mean cosine between the mesh's normals and those taken back.
     pub cosine: f64,
 }
@@ -37,7 +37,7 @@ pub(super) fn best_frame(moment: Mat3, cameras: &[(String, Mat3)]) -> Option<Fra
                 best = Frame {
                     id: "camera-space",
                     wrong: format!("is in the space of camera {name} ({convention} axes)"),
-                    mend: format!(
+                    fix: format!(
                         "turn it to object space by the camera_to_world of {name} before writing"
                     ),
                     cosine,
@@ -55,7 +55,7 @@ pub(super) fn best_frame(moment: Mat3, cameras: &[(String, Mat3)]) -> Option<Fra
                 wrong: format!(
                     "is turned against the mesh by {degrees:.0} degrees about ({x:.2}, {y:.2}, {z:.2})"
                 ),
-                mend: "write it in the space of the capture's mesh.obj".to_owned(),
+                fix: "write it in the space of the capture's mesh.obj".to_owned(),
                 cosine,
             };
         }
@@ -110,8 +110,8 @@ fn permutation_frame(cosine: f64, axes: Axes) -> Frame {
         (true, axes) => ("axes", format!("has its axes {} flipped", axes.join(" and "))),
         (false, _) => ("axes", format!("has its axes swapped: x, y, z are its {}", named(axes))),
     };
-    let mend = format!("write ({}) of what it holds now as R, G, B", named(axes));
-    Frame { id, wrong, mend, cosine }
+    let fix = format!("write ({}) of what it holds now as R, G, B", named(axes));
+    Frame { id, wrong, fix, cosine }
 }
 
 /// The rotation nearest to a matrix (its polar factor by Newton's iteration); none of a matrix

@@ -22,27 +22,27 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
     let largest = map.data.iter().copied().max().unwrap_or(0);
     if largest < COVERED {
         let evidence = [("maximum", f64::from(largest))];
-        let (message, mend) = if largest == 0 {
+        let (message, fix) = if largest == 0 {
             ("covers nothing: all of it is 0".to_owned(), "write 255 where the maps have data")
         } else {
             let message = format!("has {largest} as its largest value, and 255 means covered");
             (message, "multiply by 255")
         };
         let id = if largest == 0 { "coverage-empty" } else { "coverage-values" };
-        findings.push(Finding::error(id, COVERAGE, message, mend).with(evidence));
+        findings.push(Finding::error(id, COVERAGE, message, fix).with(evidence));
         return;
     }
     let soft = count(|value| value != 0 && value != 255);
     if soft as f64 / total > SOFT_FRACTION {
         let percent = 100.0 * soft as f64 / total;
         let message = format!("has values between 0 and 255 in {percent:.1} % of its texels");
-        let mend =
+        let fix =
             "write 255 where the maps have data, else 0; a trust from 0 to 1 is confidence.exr";
         let evidence = [("share", soft as f64 / total)];
-        findings.push(Finding::warning("coverage-values", COVERAGE, message, mend).with(evidence));
+        findings.push(Finding::warning("coverage-values", COVERAGE, message, fix).with(evidence));
     }
     let covered = reduced(map);
-    let mend = "write 255 where the maps have data and 0 elsewhere, not the other way around";
+    let fix = "write 255 where the maps have data and 0 elsewhere, not the other way around";
     let Some(witness) = witness else {
         // A chart lies inside the square: its corners are empty and its middle is not.
         let at = |x: usize, y: usize| covered[y * SIDE + x];
@@ -50,7 +50,7 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
         let corners = at(0, 0) && at(far, 0) && at(0, far) && at(far, far);
         if corners && !at(SIDE / 2, SIDE / 2) {
             let message = "covers its four corners and not its middle".to_owned();
-            findings.push(Finding::warning("coverage-inverted", COVERAGE, message, mend));
+            findings.push(Finding::warning("coverage-inverted", COVERAGE, message, fix));
         }
         return;
     };
@@ -62,8 +62,7 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
              {inverted:.2}"
         );
         let evidence = [("overlap_as_it_is", as_it_is), ("overlap_inverted", inverted)];
-        findings
-            .push(Finding::warning("coverage-inverted", COVERAGE, message, mend).with(evidence));
+        findings.push(Finding::warning("coverage-inverted", COVERAGE, message, fix).with(evidence));
     } else if let Some(finding) = of_coverage(&covered, witness) {
         findings.push(finding);
     } else {
@@ -74,9 +73,9 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
             let percent = 100.0 * fraction;
             let message =
                 format!("covers {percent:.0} % of what the training views see of the chart");
-            let mend = "write 255 wherever a training view sees the face, or solve the rest";
+            let fix = "write 255 wherever a training view sees the face, or solve the rest";
             let evidence = [("share", fraction)];
-            let finding = Finding::warning("coverage-small", COVERAGE, message, mend);
+            let finding = Finding::warning("coverage-small", COVERAGE, message, fix);
             findings.push(finding.with(evidence));
         }
     }

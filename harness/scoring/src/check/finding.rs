@@ -36,8 +36,9 @@ pub struct Finding {
     pub map: String,
     /// The fault, with its numbers.
     pub message: String,
-    /// The likely mend.
-    pub mend: String,
+    /// The likely fix; scores that an earlier version wrote name it `mend`.
+    #[serde(alias = "mend")]
+    pub fix: String,
     /// The numbers by name, finite, four decimals.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub evidence: BTreeMap<String, f64>,
@@ -45,14 +46,14 @@ pub struct Finding {
 
 impl Finding {
     /// A fault with which nothing can be scored.
-    pub(super) fn error(id: &str, map: &str, message: String, mend: &str) -> Self {
-        let (id, map, mend) = (id.to_owned(), map.to_owned(), mend.to_owned());
-        Self { id, level: Level::Error, map, message, mend, evidence: BTreeMap::new() }
+    pub(super) fn error(id: &str, map: &str, message: String, fix: &str) -> Self {
+        let (id, map, fix) = (id.to_owned(), map.to_owned(), fix.to_owned());
+        Self { id, level: Level::Error, map, message, fix, evidence: BTreeMap::new() }
     }
 
     /// A likely fault.
-    pub(super) fn warning(id: &str, map: &str, message: String, mend: &str) -> Self {
-        Self { level: Level::Warning, ..Self::error(id, map, message, mend) }
+    pub(super) fn warning(id: &str, map: &str, message: String, fix: &str) -> Self {
+        Self { level: Level::Warning, ..Self::error(id, map, message, fix) }
     }
 
     /// With numbers; those that are not finite say nothing and are left out.
@@ -67,7 +68,7 @@ impl Finding {
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { id, level, map, message, mend, .. } = self;
-        write!(f, "{}: {map}: {message}; {mend} [{id}]", level.name())
+        let Self { id, level, map, message, fix, .. } = self;
+        write!(f, "{}: {map}: {message}; {fix} [{id}]", level.name())
     }
 }

@@ -100,12 +100,12 @@ fn unreadable(file: &str, channels: &[&str], error: &PictureError) -> Finding {
     match error {
         PictureError::MissingChannel { present, .. } => {
             let message = format!("has the channels {present}, expected {expected}");
-            let mend = format!("write an EXR with the channels {expected}");
-            Finding::error("channels", file, message, &mend)
+            let fix = format!("write an EXR with the channels {expected}");
+            Finding::error("channels", file, message, &fix)
         }
         PictureError::Read { reason, .. } => {
-            let mend = "write it again, as 32-bit float EXR (coverage as 8-bit grey PNG)";
-            Finding::error("unreadable", file, format!("cannot be read: {reason}"), mend)
+            let fix = "write it again, as 32-bit float EXR (coverage as 8-bit grey PNG)";
+            Finding::error("unreadable", file, format!("cannot be read: {reason}"), fix)
         }
         other => Finding::error("unreadable", file, other.to_string(), "write it again"),
     }

@@ -1,5 +1,5 @@
 //! The check before the flight: what maps are most often wrong in, each fault named with its
-//! numbers and its likely mend, before anything is scored.
+//! numbers and its likely fix, before anything is scored.
 //!
 //! A folder is read tolerantly: what cannot be read is a finding. With a capture, maps are compared
 //! with its photographs, cameras and mesh; its `truth/` is never opened.
@@ -62,8 +62,8 @@ pub fn check_with(maps: &Path, capture: Option<&Capture>) -> Result<Vec<Finding>
     if found.pictures().next().is_none() && findings.is_empty() && !pictures {
         let shown = maps.file_name().unwrap_or_default().to_string_lossy();
         let message = "holds no map".to_owned();
-        let mend = "a solver leaves at least diffuse_albedo.exr";
-        findings.push(Finding::error("no-maps", &shown, message, mend));
+        let fix = "a solver leaves at least diffuse_albedo.exr";
+        findings.push(Finding::error("no-maps", &shown, message, fix));
     }
     size::sizes(&found, witness, &mut findings);
     if let Some(coverage) = &found.coverage {

@@ -78,10 +78,10 @@ pub(super) fn check(
     if zero > 0 {
         let percent = 100.0 * fraction(zero);
         let message = format!("has {zero} covered texels ({percent:.1} %) of zero length");
-        let mend = "write unit vectors there, or 0 into coverage.png";
+        let fix = "write unit vectors there, or 0 into coverage.png";
         let finding = if zero == total { Finding::error } else { Finding::warning };
         let evidence = [("texels", zero as f64), ("share", fraction(zero))];
-        findings.push(finding("zero-length", file, message, mend).with(evidence));
+        findings.push(finding("zero-length", file, message, fix).with(evidence));
     }
     if zero == total {
         return;
@@ -96,9 +96,9 @@ pub(super) fn check(
             let message = format!(
                 "has {percent:.1} % of its vectors off unit length (median length {middle:.3})"
             );
-            let mend = "normalise them before writing";
+            let fix = "normalise them before writing";
             let evidence = [("share", fraction(off)), ("median_length", middle)];
-            findings.push(Finding::warning("not-unit", file, message, mend).with(evidence));
+            findings.push(Finding::warning("not-unit", file, message, fix).with(evidence));
         }
     } else {
         let median_of = |coding: Coding| {
@@ -106,7 +106,7 @@ pub(super) fn check(
         };
         let (plain, decoded) = (median_of(Coding::Plain), median_of(coding));
         let (plain, decoded) = (plain.unwrap_or(0.0), decoded.unwrap_or(0.0));
-        let (id, formula, mend) = if coding == Coding::Unit {
+        let (id, formula, fix) = if coding == Coding::Unit {
             ("coded-0-1", "n / 2 + 1/2", "write n itself: 2 x - 1 of what it holds")
         } else {
             ("coded-0-255", "127.5 (n + 1)", "write n itself: x / 127.5 - 1 of what it holds")
@@ -114,7 +114,7 @@ pub(super) fn check(
         let message =
             format!("is coded as {formula}: its median length is {plain:.2}, decoded {decoded:.2}");
         let evidence = [("median_length", plain), ("median_length_decoded", decoded)];
-        findings.push(Finding::warning(id, file, message, mend).with(evidence));
+        findings.push(Finding::warning(id, file, message, fix).with(evidence));
     }
     let reduced = Reduced::of(&Picture {
         data: map.data.iter().map(|value| coding.decode(*value)).collect(),
@@ -178,8 +178,8 @@ impl Normals {
         inwards.then(|| {
             let z = mean.z;
             let message = format!("points inwards: its mean z is {z:.2}, and faces look along +z");
-            let mend = "negate it, or check its axes with --capture";
-            Finding::warning("negated", file, message, mend).with([("mean_z", f64::from(z))])
+            let fix = "negate it, or check its axes with --capture";
+            Finding::warning("negated", file, message, fix).with([("mean_z", f64::from(z))])
         })
     }
 
@@ -199,11 +199,11 @@ impl Normals {
         let lies =
             moments.map(|(symmetry, moment)| (symmetry, mean_cosine(moment, Mat3::IDENTITY)));
         let &(symmetry, lying) = lies.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let (id, wrong, mend, cosine) = if lying > frame.cosine {
-            let (id, wrong, mend) = symmetry.words();
-            (id, wrong.to_owned(), mend.to_owned(), lying)
+        let (id, wrong, fix, cosine) = if lying > frame.cosine {
+            let (id, wrong, fix) = symmetry.words();
+            (id, wrong.to_owned(), fix.to_owned(), lying)
         } else {
-            (frame.id, frame.wrong, frame.mend, frame.cosine)
+            (frame.id, frame.wrong, frame.fix, frame.cosine)
         };
         if cosine < as_it_is + GAIN && as_it_is > UNLIKE {
             return None;
@@ -214,14 +214,14 @@ impl Normals {
                 "{wrong}: its mean cosine to the mesh's normals is {as_it_is:.2} as it is, \
                  {cosine:.2} when that is undone"
             );
-            Finding::warning(id, file, message, &mend)
+            Finding::warning(id, file, message, &fix)
         } else if as_it_is < EXPLAINS - GAIN {
             let message = format!(
                 "does not fit the mesh: the mean cosine to its normals is {as_it_is:.2}, and no \
                  exchange of axes or rows brings it above {cosine:.2}"
             );
-            let mend = "write unit vectors in the space of the capture's mesh.obj";
-            Finding::warning("not-the-mesh", file, message, mend)
+            let fix = "write unit vectors in the space of the capture's mesh.obj";
+            Finding::warning("not-the-mesh", file, message, fix)
         } else {
             return None;
         };
@@ -239,8 +239,8 @@ fn tangent_space(file: &str, mean: Vec3, mesh_mean: Option<Vec3>) -> Finding {
     let message = format!(
         "is in tangent space: the mean of its vectors has length {length:.2} and z {z:.2}, {beside}"
     );
-    let mend = "turn it to object space by the mesh's tangent frames before writing";
-    Finding::warning("tangent-space", file, message, mend).with([
+    let fix = "turn it to object space by the mesh's tangent frames before writing";
+    Finding::warning("tangent-space", file, message, fix).with([
         ("mean_length", length),
         ("mean_z", z),
         ("mesh_mean_length", mesh),

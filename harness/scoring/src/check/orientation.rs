@@ -62,7 +62,7 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
     if found == Symmetry::Identity || !clear {
         return None;
     }
-    let (id, wrong, mend) = found.words();
+    let (id, wrong, fix) = found.words();
     let fit = of(found)?.1;
     let message = if found == Symmetry::MirroredU && upright_fit > MIN_CORRELATION {
         format!(
@@ -75,7 +75,7 @@ pub(super) fn of_albedo(file: &str, map: &Reduced, witness: &Witness) -> Option<
              is, {fit:.2} that way"
         )
     };
-    Some(Finding::warning(id, file, message, mend).with([
+    Some(Finding::warning(id, file, message, fix).with([
         ("correlation_as_it_is", as_it_is),
         ("correlation_undone", fit),
         ("asymmetry_as_it_is", of(Symmetry::Identity)?.2),
@@ -109,12 +109,12 @@ fn of_shape(file: &str, shape: &[bool], reference: &[bool], named: &str) -> Opti
     if as_it_is > GOOD_OVERLAP || fit < as_it_is + OVERLAP_GAIN {
         return None;
     }
-    let (id, wrong, mend) = best.words();
+    let (id, wrong, fix) = best.words();
     let message = format!(
         "{wrong}: its filled texels overlap {named} by {as_it_is:.2} as they are, {fit:.2} that way"
     );
     let evidence = [("overlap_as_it_is", as_it_is), ("overlap_undone", fit)];
-    Some(Finding::warning(id, file, message, mend).with(evidence))
+    Some(Finding::warning(id, file, message, fix).with(evidence))
 }
 
 /// Intersection over union, 0 to 1.

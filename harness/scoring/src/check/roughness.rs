@@ -32,13 +32,13 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
             continue;
         }
         let message = format!("has {name} from {low:.3} to {high:.3}, outside of 0 to 1");
-        let mend = if high > 5.0 {
+        let fix = if high > 5.0 {
             "divide by 255, then square: alphas are squares of perceptual roughness"
         } else {
             "write GGX alphas above 0 and at most 1, and the first lobe's share"
         };
         let range = [("minimum", low), ("maximum", high)];
-        findings.push(Finding::warning("range", file, message, mend).with(range));
+        findings.push(Finding::warning("range", file, message, fix).with(range));
         return;
     }
     let medians = format!("the medians of alpha1 and alpha2 are {sharp:.2} and {wide:.2}");
@@ -46,12 +46,12 @@ pub(super) fn check(file: &str, map: &Picture, covered: &[bool], findings: &mut 
     if sharp > SMOOTH || (inverted && sharp > GLOSS) {
         let message =
             format!("holds gloss (1 - roughness), not alpha: {medians}, skin's .2 and .4");
-        let mend = "write alpha = (1 - gloss)^2, or 1 - gloss if that was 1 - alpha";
-        findings.push(Finding::warning("gloss", file, message, mend).with(evidence));
+        let fix = "write alpha = (1 - gloss)^2, or 1 - gloss if that was 1 - alpha";
+        findings.push(Finding::warning("gloss", file, message, fix).with(evidence));
     } else if SHARP_ROOT.contains(&sharp) && wide > WIDE_ROOT {
         let message =
             format!("holds perceptual roughness, not GGX alpha: {medians}, skin's .2 and .4");
-        let mend = "write its square: alpha = roughness^2";
-        findings.push(Finding::warning("perceptual-roughness", file, message, mend).with(evidence));
+        let fix = "write its square: alpha = roughness^2";
+        findings.push(Finding::warning("perceptual-roughness", file, message, fix).with(evidence));
     }
 }

@@ -17,9 +17,9 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
     for (file, width, height) in pictures.chain(coverage) {
         if width != height {
             let message = format!("is {width}x{height}, not square");
-            let mend = "write maps over the unit square of the UV chart";
+            let fix = "write maps over the unit square of the UV chart";
             let evidence = [("width", width as f64), ("height", height as f64)];
-            findings.push(Finding::error("not-square", file, message, mend).with(evidence));
+            findings.push(Finding::error("not-square", file, message, fix).with(evidence));
         } else {
             square.push((file, width));
         }
@@ -30,9 +30,9 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
     let Some(&(named, side)) = majority else { return };
     for (file, other) in square.iter().filter(|(_, other)| *other != side) {
         let message = format!("is {other}x{other}, but {named} is {side}x{side}");
-        let mend = "write all maps in one size";
+        let fix = "write all maps in one size";
         let evidence = [("side", *other as f64), ("side_of_most", side as f64)];
-        findings.push(Finding::error("sizes-differ", file, message, mend).with(evidence));
+        findings.push(Finding::error("sizes-differ", file, message, fix).with(evidence));
     }
     let Some(witness) = witness else { return };
     let texels = witness.chart_fraction() * (side * side) as f64;
@@ -44,9 +44,9 @@ pub(super) fn sizes(maps: &MapFolder, witness: Option<&Witness>, findings: &mut 
             "is {side}x{side}: the chart has {texels:.0} texels, but a training view shows it in \
              {pixels:.0} pixels"
         );
-        let mend = format!("write maps of {enough}x{enough}");
+        let fix = format!("write maps of {enough}x{enough}");
         let evidence = [("texels", texels), ("pixels", pixels)];
-        findings.push(Finding::warning("small", named, message, &mend).with(evidence));
+        findings.push(Finding::warning("small", named, message, &fix).with(evidence));
     }
 }
 
@@ -60,7 +60,7 @@ pub(super) fn finite(file: &str, map: &Picture, covered: &[bool], findings: &mut
     let (x, y) = (first % map.width, first / map.width);
     let message =
         format!("is NaN or infinite in {count} covered texels, the first at column {x}, row {y}");
-    let mend = "write numbers there, or 0 into coverage.png where the map has no data";
+    let fix = "write numbers there, or 0 into coverage.png where the map has no data";
     findings
-        .push(Finding::error("not-finite", file, message, mend).with([("texels", count as f64)]));
+        .push(Finding::error("not-finite", file, message, fix).with([("texels", count as f64)]));
 }

@@ -36,21 +36,21 @@ pub(super) fn check(
     let evidence = [("median", middle), ("q02", low), ("q98", high), ("maximum", maximum)];
     if minimum == 0.0 && maximum == 0.0 {
         let message = "is 0 in every covered texel: the face has no highlights".to_owned();
-        let mend =
+        let fix =
             "write reflectance at normal incidence, about 0.028 for skin, or leave the map out";
-        findings.push(Finding::warning("black", file, message, mend));
+        findings.push(Finding::warning("black", file, message, fix));
         return;
     }
     if low < NEGATIVE {
         let message = format!("is negative: 2 % of its values are below {low:.3}");
-        let mend = "write reflectance at normal incidence, 0 to 0.05";
-        findings.push(Finding::warning("negative", file, message, mend).with(evidence));
+        let fix = "write reflectance at normal incidence, 0 to 0.05";
+        findings.push(Finding::warning("negative", file, message, fix).with(evidence));
     }
     if high <= LARGEST {
         return;
     }
     let beyond = format!("its median is {middle:.3} and 2 % are above {high:.3}, beyond 0.05");
-    let (id, what, mend) = if middle > 5.0 {
+    let (id, what, fix) = if middle > 5.0 {
         (
             "coded-0-255",
             "holds values of 0 to 255",
@@ -93,5 +93,5 @@ pub(super) fn check(
         )
     };
     let message = format!("{what}: {beyond}");
-    findings.push(Finding::warning(id, file, message, mend).with(evidence));
+    findings.push(Finding::warning(id, file, message, fix).with(evidence));
 }

@@ -80,12 +80,12 @@ pub(super) fn stray_files(folder: &Path, findings: &mut Vec<Finding>) {
         }
         let message = format!("looks like {map}, under a name that is not read");
         let ending = |name: &str| name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
-        let mend = match (ending(file), ending(map)) {
+        let fix = match (ending(file), ending(map)) {
             (Some(from), Some(to)) if from == to => format!("rename it to {map}"),
             (_, Some(to)) if to == "png" => format!("write it as 8-bit grey PNG named {map}"),
             _ => format!("write it as linear float EXR named {map}"),
         };
-        findings.push(Finding::warning("stray-file", file, message, &mend));
+        findings.push(Finding::warning("stray-file", file, message, &fix));
     }
 }
 

@@ -63,7 +63,7 @@ impl Symmetry {
         }
     }
 
-    /// Id of the fault, what is wrong in words, and the mend.
+    /// Id of the fault, what is wrong in words, and the fix.
     pub fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::Identity => ("upright", "lies as it should", "leave it"),

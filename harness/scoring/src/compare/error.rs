@@ -84,7 +84,7 @@ pub enum CompareError {
     Branch {
         /// As it was named.
         branch: String,
-        /// Why, and the mend.
+        /// Why, and the fix.
         reason: String,
     },
     /// A date that is none.

@@ -37,7 +37,7 @@ pub enum MetricError {
     },
     /// A value inside the region is NaN or infinite.
     #[error(
-        "the {what} is {value} at column {x}, row {y}, channel {channel}; mend or mask the pixel"
+        "the {what} is {value} at column {x}, row {y}, channel {channel}; fix or mask the pixel"
     )]
     NotFinite {
         /// Which picture.

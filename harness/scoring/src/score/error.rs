@@ -18,12 +18,12 @@ pub enum ScoreError {
     )]
     NoTruth(PathBuf),
     /// A file that must be there is not.
-    #[error("{path}: is missing; {mend}")]
+    #[error("{path}: is missing; {fix}")]
     Missing {
         /// The file.
         path: PathBuf,
-        /// The mend.
-        mend: &'static str,
+        /// The fix.
+        fix: &'static str,
     },
     /// The maps folder has nothing to score.
     #[error(

@@ -113,7 +113,7 @@ pub fn fit_scale(capture: &Path, maps: &Path) -> Result<Scale, ScoreError> {
     let truth = Truth::open(capture)?;
     let albedo = Maps::read(maps)?.diffuse_albedo.ok_or_else(|| ScoreError::Missing {
         path: maps.join("diffuse_albedo.exr"),
-        mend: "a face cannot be relit without it",
+        fix: "a face cannot be relit without it",
     })?;
     maps::fit(&albedo, &truth)
 }

@@ -74,7 +74,7 @@ fn given(capture: &Path, relit: &Path) -> Result<Vec<Relit>, ScoreError> {
             let found = Given::Colour.read(&folder, name)?;
             let picture = found.ok_or_else(|| ScoreError::Missing {
                 path: folder.join(format!("{name}.exr")),
-                mend: INCOMPLETE,
+                fix: INCOMPLETE,
             })?;
             let path = present(truths.join(format!("{name}.exr")), AGAIN)?;
             let truth = formats::picture::read_exr_colour(&path, &["R", "G", "B"])?;

@@ -54,8 +54,8 @@ impl Frame {
         RegionSize::new(&self.region, &name, &self.mask, None)
     }
 
-    fn read(&self, folder: &Path, mend: &'static str) -> Result<Render, ScoreError> {
-        let path = present(folder.join(format!("{}.exr", self.name)), mend)?;
+    fn read(&self, folder: &Path, fix: &'static str) -> Result<Render, ScoreError> {
+        let path = present(folder.join(format!("{}.exr", self.name)), fix)?;
         Render::read_masked(&path, &self.mask)
     }
 }
@@ -133,8 +133,8 @@ fn compare(
     subjects: [&'static str; 3],
     highlights: Highlights,
 ) -> Result<Vec<Row>, ScoreError> {
-    let read = |folder, mend| -> Result<Vec<Render>, ScoreError> {
-        frames.iter().map(|frame| frame.read(folder, mend)).collect()
+    let read = |folder, fix| -> Result<Vec<Render>, ScoreError> {
+        frames.iter().map(|frame| frame.read(folder, fix)).collect()
     };
     let (found, truths) = (read(folder, INCOMPLETE)?, read(truth, truth::AGAIN)?);
     let mut floors = Floors::new();

@@ -9,7 +9,7 @@ use super::ScoreError;
 use super::protocol::Protocol;
 use crate::metrics::{Region, lab, typology_angle};
 
-/// The mend for a truth that lacks something.
+/// The fix for a truth that lacks something.
 pub(super) const AGAIN: &str = "render the capture again with `unshade synth`";
 
 /// Names of the label ids, as a face parser gives them.
@@ -159,8 +159,8 @@ pub(super) fn folder(capture: &Path) -> Result<PathBuf, ScoreError> {
 }
 
 /// The path, if there is something.
-pub(super) fn present(path: PathBuf, mend: &'static str) -> Result<PathBuf, ScoreError> {
-    if path.exists() { Ok(path) } else { Err(ScoreError::Missing { path, mend }) }
+pub(super) fn present(path: PathBuf, fix: &'static str) -> Result<PathBuf, ScoreError> {
+    if path.exists() { Ok(path) } else { Err(ScoreError::Missing { path, fix }) }
 }
 
 pub(super) fn check_size(

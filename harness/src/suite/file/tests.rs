@@ -308,7 +308,7 @@ fn every_suite_of_the_project_can_be_read() {
 }
 
 #[test]
-fn errors_name_the_file_the_key_and_the_mend() {
+fn errors_name_the_file_the_key_and_the_fix() {
     let root = tempfile::tempdir().unwrap();
     scenes(root.path());
     let head = "format = 1\nname = \"m\"\nscene = \"scene.toml\"\n";

@@ -43,24 +43,24 @@ pub(crate) fn check(
         return Ok(());
     }
     let found = trials::best(mesh, &views, applied).filter(|trial| trial.union >= FITS);
-    let mend = match &found {
-        Some(trial) => format!("{} ({:.2} of it then)", trial.mend, trial.union),
-        None => "no single change mends it: check transform_matrix (camera to world, looking down \
+    let fix = match &found {
+        Some(trial) => format!("{} ({:.2} of it then)", trial.fix, trial.union),
+        None => "no single change fixes it: check transform_matrix (camera to world, looking down \
                  -z), fl_x to cy (pixels), the mesh's units and the masks"
             .to_owned(),
     };
     let path = folder.join("transforms.json");
     let views = compared.len();
     if found.is_some_and(|trial| trial.union >= DOUBTFUL) {
-        return Err(CaptureError::Misplaced { path, overlap: overlap.min(union), views, mend });
+        return Err(CaptureError::Misplaced { path, overlap: overlap.min(union), views, fix });
     }
     if overlap < REFUSED {
-        return Err(CaptureError::Misplaced { path, overlap, views, mend });
+        return Err(CaptureError::Misplaced { path, overlap, views, fix });
     }
     if overlap < DOUBTFUL {
         tracing::warn!(
             "{}: the mesh covers {overlap:.2} of the masks (median of {views} views; .90 is \
-             sound); {mend}",
+             sound); {fix}",
             path.display()
         );
     }

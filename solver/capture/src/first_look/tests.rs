@@ -122,7 +122,7 @@ fn a_stated_transform_a_mesh_in_mm_and_inverted_masks_are_named() {
     let message = look(&sound, &flipped, Some(applied)).unwrap_err();
     assert!(message.contains("applied_transform turned the cameras but not"), "{message}");
     let message = look(&sound, &flipped, None).unwrap_err();
-    assert!(message.contains("no single change mends it"), "{message}");
+    assert!(message.contains("no single change fixes it"), "{message}");
 
     let views = views(&sound);
     let mut large = sound.clone();

@@ -17,7 +17,7 @@ const SENSORS: [f64; 4] = [36.0, 23.6, 22.3, 17.3];
 /// A change, and how well the mesh fits with it.
 pub(super) struct Trial {
     /// The change to make, in words.
-    pub mend: String,
+    pub fix: String,
     /// Median intersection over union of silhouettes and masks.
     pub union: f64,
 }
@@ -28,9 +28,9 @@ pub(super) fn best(mesh: &Mesh, views: &[&View], applied: Option<Mat4>) -> Optio
     let views = spread(views, max_views);
     let mut trials = vec![inverted(mesh, &views)];
     trials.extend(focal(mesh, &views));
-    trials.extend(moved(applied).into_iter().map(|(mend, change)| {
+    trials.extend(moved(applied).into_iter().map(|(fix, change)| {
         let union = union(mesh, &views, |camera| change(camera));
-        Trial { mend, union }
+        Trial { fix, union }
     }));
     let better = |best: Trial, next: Trial| if next.union > best.union { next } else { best };
     trials.into_iter().reduce(better)
@@ -52,8 +52,8 @@ fn inverted(mesh: &Mesh, views: &[&View]) -> Trial {
         mask.data.iter_mut().for_each(|value| *value = 255 - *value);
         fit(compare(mesh, &view.camera, &mask))
     });
-    let mend = "the masks are inverted: write 255 where the mesh is seen".to_owned();
-    Trial { mend, union: median(compared.collect()) }
+    let fix = "the masks are inverted: write 255 where the mesh is seen".to_owned();
+    Trial { fix, union: median(compared.collect()) }
 }
 
 /// Focal lengths times what makes the silhouettes as large as the masks.
@@ -75,8 +75,8 @@ fn focal(mesh: &Mesh, views: &[&View]) -> Option<Trial> {
         Some(sensor) => format!(": it is given in mm of a sensor {sensor} mm wide"),
         None => String::new(),
     };
-    let mend = format!("multiply fl_x and fl_y by {factor:.3} (they count in pixels){unit}");
-    Some(Trial { mend, union })
+    let fix = format!("multiply fl_x and fl_y by {factor:.3} (they count in pixels){unit}");
+    Some(Trial { fix, union })
 }
 
 /// How much larger the masks are than the silhouettes with focal lengths times `factor`, along

@@ -6,6 +6,6 @@
 pub struct ObjError {
     /// Line of the file, from 1.
     pub line: usize,
-    /// The fault and its mend.
+    /// The fault and its fix.
     pub reason: String,
 }

@@ -39,7 +39,7 @@ impl Cutter {
         }
         let places: Vec<Place> = (0..count).map(place).collect();
         let Some(flat) = flattened(&places) else { return Ok(fan()) };
-        // A polygon may be folded to nothing in the chart; no cut mends that.
+        // A polygon may be folded to nothing in the chart; no cut fixes that.
         let chart: Option<Vec<[f64; 2]>> = places.iter().map(|place| place.uv).collect();
         let chart = chart.filter(|chart| area(chart) != 0.0);
         let sound = |[a, b, c]: [usize; 3]| {

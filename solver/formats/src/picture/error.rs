@@ -36,11 +36,11 @@ pub enum PictureError {
     Refused {
         /// The file.
         path: PathBuf,
-        /// The fault and its mend.
+        /// The fault and its fix.
         reason: String,
     },
     /// A value is NaN or infinite.
-    #[error("{path}: {value} at column {x}, row {y}, channel {channel}; mend or mask the pixel")]
+    #[error("{path}: {value} at column {x}, row {y}, channel {channel}; fix or mask the pixel")]
     NotFinite {
         /// The file.
         path: PathBuf,

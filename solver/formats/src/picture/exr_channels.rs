@@ -10,7 +10,7 @@ pub(super) type Place = (usize, usize);
 pub(super) enum NoPlace {
     /// There is none of the name.
     Missing { channel: String, present: String },
-    /// There are several; what is wrong, and the mend.
+    /// There are several; what is wrong, and the fix.
     Several(String),
 }
 

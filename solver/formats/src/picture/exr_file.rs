@@ -240,10 +240,10 @@ fn is_colour(layer: &str) -> bool {
     layer.is_empty() || layer.ends_with('.') && layer != VARIANCE
 }
 
-/// The decoder's error, with the mend where a kind of file is not read.
+/// The decoder's error, with the fix where a kind of file is not read.
 fn explained(error: exr::error::Error) -> String {
     let said = error.to_string().replace(char::is_control, " ");
-    let mend = if said.contains("deep data") {
+    let fix = if said.contains("deep data") {
         "; flatten the deep picture and save it as float EXR"
     } else if said.contains("subsampling") {
         "; save it with R, G, B instead of luminance and chroma"
@@ -252,7 +252,7 @@ fn explained(error: exr::error::Error) -> String {
     } else {
         ""
     };
-    format!("{said}{mend}")
+    format!("{said}{fix}")
 }
 
 /// The decoder's panics as errors: what a damaged file meets must not end the program.

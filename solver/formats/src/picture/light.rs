@@ -9,7 +9,7 @@ use super::{Picture, PictureError, kind};
 /// Texels, and share of the width, by which the sides may miss 2 : 1 (crops and odd sizes).
 const SLACK: (usize, usize) = (2, 100);
 
-const MEND: &str = "convert it to a lat-long picture of 2 : 1 (cmft, or oiiotool and Blender's \
+const FIX: &str = "convert it to a lat-long picture of 2 : 1 (cmft, or oiiotool and Blender's \
                     equirectangular camera)";
 
 /// Reads a light, EXR or Radiance, as linear Rec.709, three channels, finite; a cube map, a cross,
@@ -22,14 +22,14 @@ pub fn read_light(path: &Path) -> Result<Picture, PictureError> {
     } else {
         let file = ExrFile::from_bytes(path, bytes)?;
         if file.is_cube_map() {
-            return Err(refused(format!("is a cube map (envmap = cube); {MEND}")));
+            return Err(refused(format!("is a cube map (envmap = cube); {FIX}")));
         }
         file.read(&["R", "G", "B"], Content::Colour)?
     };
     let (width, height) = (picture.width, picture.height);
     if width.abs_diff(2 * height) > SLACK.0.max(width / SLACK.1) {
         let what = layout(width, height);
-        return Err(refused(format!("is {width} x {height}, {what}, no lat-long picture; {MEND}")));
+        return Err(refused(format!("is {width} x {height}, {what}, no lat-long picture; {FIX}")));
     }
     picture.require_finite(path, &["R", "G", "B"])?;
     Ok(picture)

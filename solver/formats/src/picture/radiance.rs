@@ -125,7 +125,7 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
         }
         let sound = |factor: &f32| factor.is_normal() && *factor > 0.0;
         if !factors.iter().all(sound) {
-            return Err(format!("says {text:?}, which no value can be divided by; mend the line"));
+            return Err(format!("says {text:?}, which no value can be divided by; fix the line"));
         }
     }
     Err("its header has no end; save it again".to_owned())
@@ -136,7 +136,7 @@ fn numbers<const N: usize>(line: &str, text: &str) -> Result<[f32; N], String> {
         text.split_whitespace().map(|number| number.parse().ok()).collect();
     numbers
         .and_then(|numbers| <[f32; N]>::try_from(numbers).ok())
-        .ok_or_else(|| format!("says {line:?}, where {N} numbers belong; mend the line"))
+        .ok_or_else(|| format!("says {line:?}, where {N} numbers belong; fix the line"))
 }
 
 fn axes(line: &str) -> Result<[Axis; 2], String> {

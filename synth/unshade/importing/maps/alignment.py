@@ -75,10 +75,10 @@ def align(
     if how == "fit":
         best = _fitted(surface, points, best)
     if best.median > limit:
-        mend = "state its unit and axes, raise the limit, or let it be fitted (place fit)"
+        fix = "state its unit and axes, raise the limit, or let it be fitted (place fit)"
         raise MapsError(
             f"{shown}: lies {1000 * best.median:.3g} mm (median) from the capture's mesh {best.words}, "
-            f"the limit is {1000 * limit:g} mm; {mend}"
+            f"the limit is {1000 * limit:g} mm; {fix}"
         )
     return best
 

@@ -155,7 +155,7 @@ class _Import:
             (folder.path / light.name).write_bytes(light.read_bytes())  # of a head that was moved it would be another
         findings = json.loads(_native.check_json(folder.path, self.capture.path))
         for finding in findings:
-            warnings.warn(f"{finding['map']}: {finding['message']}; {finding['mend']}", MapsWarning, stacklevel=4)
+            warnings.warn(f"{finding['map']}: {finding['message']}; {finding['fix']}", MapsWarning, stacklevel=4)
         record = self._record(settled, flight, counterparts, limit, size) | {"findings": findings}
         write_text(folder.path / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
         folder.commit()

@@ -25,7 +25,7 @@ def examine(progress: Progress) -> list[dict[str, Any]]:
 
     if mi.variant() != llvm.LLVM_VARIANT:
         why = f"the checks need {llvm.LLVM_VARIANT}: hundreds of millions of samples are too slow without it"
-        return [{"name": "physics", "ok": False, "found": why, "mend": llvm.MEND}]
+        return [{"name": "physics", "ok": False, "found": why, "fix": llvm.FIX}]
     # Classes of Mitsuba belong to the variant that is set when they are made.
     from .determinism import check_determinism
     from .formula import check_formula

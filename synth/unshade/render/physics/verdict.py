@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-_MEND = "compare the versions of `unshade doctor` with those unshade asks for; if they agree, the fault lies in {}"
+_FIX = "compare the versions of `unshade doctor` with those unshade asks for; if they agree, the fault lies in {}"
 
 
 @dataclass(frozen=True)
@@ -19,5 +19,5 @@ class Verdict:
 
     def entry(self) -> dict[str, Any]:
         """The entry of a list as `doctor.examine` makes it."""
-        mend = {} if self.ok else {"mend": _MEND.format(self.suspect)}
-        return {"name": self.name, "ok": self.ok, "found": self.found} | mend
+        fix = {} if self.ok else {"fix": _FIX.format(self.suspect)}
+        return {"name": self.name, "ok": self.ok, "found": self.found} | fix

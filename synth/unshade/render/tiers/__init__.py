@@ -49,7 +49,7 @@ def render_tier(
         )  # fmt: skip
     if not dr.is_jit_v(mi.Float):
         raise SceneError(
-            f'tier = "{render.tier}" in [render] needs the variant llvm_ad_rgb; {llvm.MEND}, or set tier = "opaque"'
+            f'tier = "{render.tier}" in [render] needs the variant llvm_ad_rgb; {llvm.FIX}, or set tier = "opaque"'
         )
     progress = progress or (lambda done, total: None)
     if render.tier == "diffusion":

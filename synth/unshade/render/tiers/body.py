@@ -41,7 +41,7 @@ def close(meshes: list[Mesh]) -> Body:
     if faults := _unpaired(triangles):
         raise SceneError(
             f'tier = "volume" needs a closed head, but {faults} edges of its mesh have no partner that runs the other way; '
-            'mend the mesh (one surface, no flipped or doubled triangles), or set tier = "diffusion"'
+            'fix the mesh (one surface, no flipped or doubled triangles), or set tier = "diffusion"'
         )
     return Body(vertices, triangles.astype(np.uint32))
 
