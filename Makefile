@@ -55,15 +55,16 @@ cycles: .venv-cycles/complete
 validators:
 	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
-# Twelve faces: seven hours on two cores, resumed where it stopped; needs Debian's blender-data for one of the lights.
+# Twelve faces: seven hours on two cores; resumes. Needs Debian's blender-data for one of the lights. Writes all tables
+# into runs/, and the means of every method, light and figure into docs/results.csv.
 results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
 	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights
 	$(BIN)/unshade run scenes/suites/mismatch.toml -o runs/mismatch
 	$(BIN)/unshade table runs/mismatch -o runs/mismatch.md
 	$(BIN)/unshade study runs/held-out runs/held-out-lights -o runs/study
-	cp runs/study/study.md docs/results-study.md
-	$(BIN)/unshade table runs/held-out runs/held-out-lights -o docs/results.md
+	$(BIN)/unshade table runs/held-out runs/held-out-lights -o runs/results.md
+	$(BIN)/unshade table runs/held-out runs/held-out-lights -o docs/results.csv
 
 test: build
 	cargo test --release --workspace --quiet
@@ -86,9 +87,8 @@ software-gpu:
 	  apt-get -qq update && apt-get -qq install --no-install-recommends -y mesa-vulkan-drivers; } >/dev/null 2>&1 || \
 	  echo "no software GPU: mesa-vulkan-drivers cannot be installed here, so the GPU's tests are skipped"
 
-# Heavier than a test: the solver's kernels and steps (UNSHADE_TORCH names a Python with PyTorch, to
-# stand beside), and what the cheap tiers of skin are worth; docs/performance.md and docs/subsurface.md
-# are written anew.
+# Heavier than a test: the solver's kernels and steps (UNSHADE_TORCH names a Python with PyTorch to
+# compare with), and the error of the cheap tiers of skin; writes docs/performance.md and docs/subsurface.md.
 bench: build
 	@mkdir -p runs/bench
 	$(BIN)/unshade bench --json -o runs/bench/performance.json --markdown docs/performance.md
