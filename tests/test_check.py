@@ -234,7 +234,7 @@ def test_maps_far_smaller_than_the_pictures_are_named(tiny_run: Path, capture: P
 def test_the_command_says_what_it_found(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
     sound = tiny_run / "maps" / CASE / "oracle"
     done = command("check", sound, "--capture", capture)
-    assert done.stdout.strip() == f"{sound}: nothing found"
+    assert done.stdout.strip() == f"{sound}: no faults found"
     assert "with --capture" in command("check", sound).stdout
     plant(sound, "albedo flipped in v", tmp_path / "maps")
     done = command("check", tmp_path / "maps", "--capture", capture, check=False)

@@ -115,7 +115,7 @@ def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_pa
     refused(f'captures = ["{tiny_run}/captures/tiny-studio"]\n{solver}', "is no capture without a truth")
     refused(f"captures = []\n{solver}", "must be a list of captures' folders")
     refused(f'captures = ["head", "head"]\n{solver}', "head occurs twice")
-    refused(f'captures = ["head"]\n{solver}[render]\nwidth = 64\n', "render.* has no use for captures")
+    refused(f'captures = ["head"]\n{solver}[render]\nwidth = 64\n', "render.* does not apply to captures")
     refused(solver, "scene: is missing")
 
 

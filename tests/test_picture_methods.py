@@ -199,8 +199,8 @@ def test_an_empty_hand_and_keys_without_use_are_refused(tmp_path: Path, tiny_run
     (tmp_path / "x.py").write_text("")
     refused(f'{words}, "{{lights}}"]\n', 'state gives = "pictures"')
     refused('python = "x:y"\ngives = "pictures"\n', "write a command")
-    refused('config = "fast"\ngives = "pictures"\n', "has no use for gives")
-    refused(f"{words}]\ntexture_size = 64\n", "has no use for texture_size")
+    refused('config = "fast"\ngives = "pictures"\n', "does not support gives")
+    refused(f"{words}]\ntexture_size = 64\n", "does not support texture_size")
     # A program that leaves nothing: its captures are those of another run, so that nothing is rendered.
     shutil.copytree(tiny_run, tmp_path / "run")
     suite.write_text(f'{head}{words}]\ngives = "pictures"\n'.replace('name = "x"\nscene', 'name = "tiny"\nscene'))

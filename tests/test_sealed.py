@@ -28,7 +28,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "secret").write_bytes(bytes(range(40)))
     (place / "suite.toml").write_text(SUITE.format(scene=HERE / "scenes" / "tiny-scene.toml"))
     said = unshade("seal", place / "suite.toml", "--seeds-from", place / "secret", "-o", place / "out").stdout
-    assert "1 captures for others" in said
+    assert "1 captures to publish" in said
     return place
 
 

@@ -209,7 +209,7 @@ def budget(
     view: str | None = None,
     progress: _Progress | None = None,
 ) -> list[Budget]:
-    """Say which map makes how much of the error of a relit view, and write it into the folder ``out``.
+    """Attribute the error of a relit view to each map, and write the result into the folder ``out``.
 
     The view is rendered with every choice of maps from the truth and from ``maps``, whose diffuse albedo is
     multiplied by its one factor. Without ``light`` it is lit as the capture, without ``view`` it is the first

@@ -71,7 +71,7 @@ fn missing_rows_fail_and_new_ones_are_noted() {
     assert!(
         table.contains("MISSING")
             && table.contains("demo: REGRESSION: 0 worse, 1 missing, 1 new, 1 same\n")
-            && table.contains("no rate of false alarms is known"),
+            && table.contains("false-alarm rate unknown"),
         "{table}"
     );
 }
@@ -232,7 +232,7 @@ fn a_spread_on_kept_captures_is_for_comparisons_of_the_same_captures() {
     let measured = Tolerances::read(&path).unwrap();
     assert_eq!(measured.calibration().unwrap().captures["ada-studio"], "a");
     let same = compare(&kept[1], &mean, &measured).unwrap();
-    assert!(same.differences.is_empty() && same.tolerances.ends_with("on kept captures"));
+    assert!(same.differences.is_empty() && same.tolerances.ends_with("on cached captures"));
     // Both on another machine's captures: the spread is still of the methods' seeds alone.
     let elsewhere = |run: &Baseline| on(run.clone(), Some("b"));
     let other = compare(&elsewhere(&kept[1]), &elsewhere(&kept[0]), &measured).unwrap();

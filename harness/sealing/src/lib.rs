@@ -38,7 +38,7 @@ pub enum SealError {
     #[error("{0}: is not signed; `unshade seal --score SUBMISSION` writes signed scores")]
     Unsigned(PathBuf),
     /// The signature is not that of the statement.
-    #[error("{0}: the signature does not fit; the statement was changed after it was signed")]
+    #[error("{0}: the signature does not match; the statement was changed after it was signed")]
     Signature(PathBuf),
     /// Another key signed it.
     #[error(

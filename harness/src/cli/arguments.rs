@@ -17,7 +17,7 @@ use crate::suite::NETS;
 pub(super) struct Cli {
     #[command(subcommand)]
     pub verb: Verb,
-    /// Say more (-v: what each stage does, -vv: everything).
+    /// Print more (-v: what each stage does, -vv: everything).
     #[arg(short, long, action = clap::ArgAction::Count, global = true)]
     pub verbose: u8,
 }
@@ -40,7 +40,7 @@ pub(super) enum Verb {
         /// The path tracer.
         #[arg(long, value_enum, default_value_t = RendererName::Mitsuba)]
         renderer: RendererName,
-        /// A lat-long picture (EXR or HDR) in the place of the capture's lights, with the radiance that it has.
+        /// A lat-long picture (EXR or HDR) to use instead of the capture's lights, with its own radiance.
         #[arg(long, value_name = "FILE")]
         light: Option<PathBuf>,
     },
@@ -50,17 +50,17 @@ pub(super) enum Verb {
         capture: PathBuf,
         /// The maps.
         maps: PathBuf,
-        /// The budget's folder.
+        /// The output folder.
         #[arg(short, long)]
         out: PathBuf,
-        /// The light; the capture's own without it.
+        /// The light; by default the capture's own.
         #[arg(long)]
         light: Option<String>,
-        /// The withheld view; the first without it.
+        /// The withheld view; by default the first.
         #[arg(long)]
         view: Option<String>,
     },
-    /// Write maps as an asset for another program, and report what the asset loses.
+    /// Write maps as an asset for another program, and measure its error.
     Export(ExportArgs),
     /// Report likely faults of maps, with evidence and the fix; exit code 1 if there are any.
     Check {
@@ -70,7 +70,7 @@ pub(super) enum Verb {
         /// The capture that they were made from; its `truth/` is never opened.
         #[arg(long)]
         capture: Option<PathBuf>,
-        /// A submission instead: submission.toml and maps/<case>/, or a run's folder with its scores.
+        /// A submission to check instead: submission.toml and maps/<case>/, or a run's folder with scores.
         #[arg(long, value_name = "FOLDER", conflicts_with_all = ["maps", "capture"])]
         submission: Option<PathBuf>,
         /// The public folder of the round that the submission is for.
@@ -86,10 +86,10 @@ pub(super) enum Verb {
         /// The folder of `unshade relight`.
         #[arg(long)]
         relit: Option<PathBuf>,
-        /// Also score by a network, LPIPS (needs the extra `lpips`).
+        /// Also compute LPIPS with this network (needs the extra `lpips`).
         #[arg(long, value_name = "NET", value_parser = NETS)]
         lpips: Option<String>,
-        /// A metric of yours: module:function, file.py or file.py:function; may be given again.
+        /// Your own metric: module:function, file.py or file.py:function; may be repeated.
         #[arg(long, value_name = "FUNCTION")]
         metric: Vec<String>,
         /// The scores' file.
@@ -103,18 +103,18 @@ pub(super) enum Verb {
     },
     /// Run a whole suite: render, solve, relight, score, report; resumes where it stopped.
     Run(RunArgs),
-    /// Remove what a run can make again, and print the size of each kind of stage.
+    /// Remove outputs that a run can make again; print the size of each kind.
     Clean {
         /// The run's folder.
         run: PathBuf,
         /// Kinds of folders to keep, with commas: captures, lights, maps, relit, logs, debug, scores,
-        /// report, earlier, store. Without it no such folder is removed.
+        /// report, earlier, store. By default nothing is removed.
         #[arg(long, value_delimiter = ',', value_name = "KINDS")]
         keep: Vec<String>,
-        /// Remove the oldest results of earlier settings until the rest takes no more than so many GB (10^9 bytes).
+        /// Remove the oldest results of earlier settings until at most this many GB (10^9 bytes) are left.
         #[arg(long, value_name = "GB", value_parser = not_negative)]
         earlier_gb: Option<f64>,
-        /// Remove results of earlier settings that were replaced longer ago than so many days.
+        /// Remove results of earlier settings that were replaced more than this many days ago.
         #[arg(long, value_name = "DAYS", value_parser = not_negative)]
         earlier_days: Option<f64>,
     },
@@ -126,7 +126,7 @@ pub(super) enum Verb {
         #[arg(short, long)]
         out: PathBuf,
     },
-    /// Draw a figure for a paper from finished runs: PNG, PDF, LaTeX, and the CSV behind it.
+    /// Draw a figure for a paper from finished runs: PNG, PDF, LaTeX, CSV.
     Figure(FigureArgs),
     /// Write the results of finished runs as tables: Markdown, LaTeX or CSV.
     Table {
@@ -145,13 +145,13 @@ pub(super) enum Verb {
         /// The runs' folders.
         #[arg(required = true)]
         runs: Vec<PathBuf>,
-        /// The study's folder (Markdown, JSON, CSV); without it the Markdown is printed.
+        /// The study's folder (Markdown, JSON, CSV); by default the Markdown is printed.
         #[arg(short, long)]
         out: Option<PathBuf>,
     },
     /// Write finished runs, yours or others', as one leaderboard that opens offline.
     Site {
-        /// The runs' folders; captures are the same where their hashes are.
+        /// The runs' folders; captures with equal hashes are joined.
         #[arg(required = true)]
         runs: Vec<PathBuf>,
         /// The leaderboard's folder.
@@ -170,13 +170,13 @@ pub(super) enum Verb {
     },
     /// Compare a run with a baseline or an earlier run; exit code 1 on a regression.
     Compare(Box<CompareArgs>),
-    /// Measure how far a suite's scores move with the seeds, and write tolerances.
+    /// Measure how much a suite's scores depend on the seeds, and write tolerances.
     ///
-    /// The tolerances have a known rate of false alarms.
+    /// The tolerances have a known false-alarm rate.
     Calibrate(CalibrateArgs),
     /// Time the solver's kernels and steps against this machine's peak.
     Bench(BenchArgs),
-    /// Report what this machine has, and how to install what is missing.
+    /// Check this machine, and say how to install what is missing.
     Doctor {
         /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.
         #[arg(long)]
@@ -186,7 +186,7 @@ pub(super) enum Verb {
 
 #[derive(Args)]
 pub(super) struct SynthArgs {
-    /// The scene to render: a file, or the name of a scene that comes with unshade, such as demo.
+    /// The scene to render: a file, or the name of a scene of unshade, such as demo.
     #[arg(required_unless_present = "contact_sheet")]
     pub scene: Option<PathBuf>,
     /// The capture's folder, or the contact sheet's PNG.
@@ -199,7 +199,7 @@ pub(super) struct SynthArgs {
     #[arg(long, value_name = "N", conflicts_with = "scene",
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub contact_sheet: Option<u32>,
-    /// Which identities the contact sheet samples.
+    /// The seed of the identities on the contact sheet.
     #[arg(long, default_value_t = 0, requires = "contact_sheet")]
     pub seed: u64,
 }
@@ -217,13 +217,13 @@ pub(super) struct SolveArgs {
     /// A preset (unshade, paper, paper-tuned, fast) or a TOML file.
     #[arg(long, default_value = "unshade")]
     pub config: String,
-    /// Leave out the maps after every stage and the layers of every training view.
+    /// Do not write the maps after every stage and the layers of every training view.
     #[arg(long)]
     pub no_records: bool,
     /// The device of the solve.
     #[arg(long, value_enum, default_value_t = BackendName::Auto)]
     pub backend: BackendName,
-    /// Show the solve while it runs, in the rerun viewer at this address, or write it to a file that ends in .rrd.
+    /// Show the running solve in the rerun viewer at this address, or write it to a .rrd file.
     /// Needs a program built with `--features rerun`.
     #[arg(long, value_name = "PLACE", num_args = 0..=1,
           default_missing_value = "rerun+http://127.0.0.1:9876/proxy")]
@@ -232,19 +232,19 @@ pub(super) struct SolveArgs {
 
 #[derive(Args)]
 pub(super) struct RunArgs {
-    /// The suite: a file, or the name of one that comes with unshade, such as demo.
+    /// The suite: a file, or the name of a suite of unshade, such as demo.
     pub suite: PathBuf,
     /// The run's folder.
     #[arg(short, long)]
     pub out: PathBuf,
-    /// Run this method alone; may be given again. What is valid of the others stays, and a run without it goes on
-    /// from there.
+    /// Run only this method; may be repeated. Valid results of other methods are kept, and a run without this
+    /// option resumes from there.
     #[arg(long = "method", value_name = "NAME")]
     pub methods: Vec<String>,
-    /// Run this case alone; may be given again.
+    /// Run only this case; may be repeated.
     #[arg(long = "case", value_name = "NAME")]
     pub cases: Vec<String>,
-    /// Make the maps of this method again, although they are valid; may be repeated.
+    /// Run this method again even if its results are valid; may be repeated.
     #[arg(long, value_name = "NAME")]
     pub redo: Vec<String>,
     /// Run up to N stages at once, each on its share of the processors, as memory allows.
@@ -259,23 +259,23 @@ pub(super) struct RunArgs {
     /// in the run's folder.
     #[arg(long, value_name = "URL", requires = "cluster")]
     pub store: Option<String>,
-    /// Run nothing; print what is cached, and the time and disc that the rest takes.
+    /// Run nothing; print what is cached, and the time and disc space of the rest.
     #[arg(long)]
     pub dry_run: bool,
-    /// Estimate by the timings of this run too, beside those of the run's own folder; may be repeated.
+    /// Also estimate from the timings of this run; may be repeated.
     #[arg(long, value_name = "RUN", requires = "dry_run")]
     pub costs: Vec<PathBuf>,
 }
 
 #[derive(Args)]
 pub(super) struct SealArgs {
-    /// The suite: its faces get the seeds of the secret. Its methods play no part.
+    /// The suite, whose faces get seeds from the secret; its methods are ignored.
     #[arg(required_unless_present = "score")]
     pub suite: Option<PathBuf>,
-    /// A secret file of 32 random bytes or more.
+    /// A secret file of at least 32 random bytes.
     #[arg(long, value_name = "SECRET")]
     pub seeds_from: PathBuf,
-    /// A folder for `public` and `private`; with --score, for the signed scores.
+    /// The folder for `public` and `private`; with --score, for the signed scores.
     #[arg(short, long)]
     pub out: PathBuf,
     /// The name of the round; each round has other faces.

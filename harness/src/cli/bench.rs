@@ -18,19 +18,19 @@ pub(super) struct BenchArgs {
     /// Print JSON instead of the tables.
     #[arg(long)]
     json: bool,
-    /// Write what is printed into this file instead.
+    /// Write the output into this file instead.
     #[arg(short, long)]
     out: Option<PathBuf>,
     /// Also write the tables into this file.
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
-    /// A Python that has PyTorch, for the same steps there.
+    /// A Python with PyTorch, to time the same steps.
     #[arg(long, value_name = "PYTHON", env = "UNSHADE_TORCH")]
     torch: Option<PathBuf>,
-    /// Also solve this capture as a whole, with `unshade` and `paper`; may be given again.
+    /// Also solve this whole capture with `unshade` and `paper`; may be repeated.
     #[arg(long, value_name = "CAPTURE")]
     solve: Vec<PathBuf>,
-    /// Check that everything works, on the smallest sizes; the times are meaningless.
+    /// Test that everything works, at the smallest sizes; the times are meaningless.
     #[arg(long)]
     quick: bool,
 }

@@ -25,34 +25,34 @@ pub(super) struct CalibrateArgs {
     #[arg(long, default_value_t = 8, value_name = "N",
           value_parser = clap::value_parser!(u32).range(MIN_RUNS as i64..=1000))]
     seeds: u32,
-    /// Whose seeds: those of the renderer and of the methods; of the methods alone, on captures that are made
-    /// once, as runs that keep theirs are compared; or none, and the last digits of what our solver reads.
+    /// The seeds to vary: those of renderer and methods; of the methods only, with captures made once (to compare runs
+    /// with cached captures); or none, but the last digits of the solver's input.
     #[arg(long, value_enum, default_value_t = Vary::Both, conflicts_with = "runs")]
     vary: Vary,
-    /// Finished runs of one suite that differ in their seeds alone, in place of a suite.
+    /// Finished runs of one suite that differ only in their seeds, instead of a suite.
     #[arg(long, value_name = "RUN", num_args = 1..)]
     runs: Vec<PathBuf>,
     /// The tolerances' file.
     #[arg(short, long)]
     out: PathBuf,
-    /// Where the runs are kept, one folder a seed; beside the tolerances without it.
+    /// The folder for the runs, one for each seed; by default next to the tolerances.
     #[arg(long, value_name = "DIR", conflicts_with = "runs")]
     keep: Option<PathBuf>,
-    /// Also write the means of the runs, a baseline that is nearer to the suite's expected scores than
-    /// any one run.
+    /// Also write the means of the runs: a baseline closer to the suite's expected scores than a single
+    /// run.
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
-    /// The probability that a comparison of runs that differ in their seeds alone calls any row better
+    /// The probability that a comparison of runs that differ only in their seeds labels any row better
     /// or worse.
     #[arg(long, default_value_t = 0.01, value_name = "RATE", value_parser = rate)]
     false_alarms: f64,
-    /// Rules for the changes that matter; the built-in ones are scenes/tolerances.toml.
+    /// The smallest changes worth reporting; by default scenes/tolerances.toml.
     #[arg(long, value_name = "FILE")]
     rules: Option<PathBuf>,
 }
 
 fn rate(text: &str) -> Result<f64, String> {
-    let rate: f64 = text.parse().map_err(|_| "is no number".to_owned())?;
+    let rate: f64 = text.parse().map_err(|_| "is not a number".to_owned())?;
     // Fewer than ten simulated comparisons decide about less.
     let valid = (0.0005..=0.5).contains(&rate);
     valid.then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
@@ -109,7 +109,7 @@ fn tell(calibration: &Calibration, rows: usize) {
     let rate = 100.0 * calibration.false_alarms;
     let count = calibration.rows.len();
     let Some(critical) = calibration.critical else {
-        say!("{count} rows, none of which moves with the seed");
+        say!("{count} rows, none of which depends on the seed");
         return;
     };
     say!(
@@ -121,12 +121,12 @@ fn tell(calibration: &Calibration, rows: usize) {
     let mut blind: Vec<_> = calibration.rows.iter().filter(|(_, row)| row.power < POWER).collect();
     blind.sort_by(|a, b| (b.1.sees / b.1.matters).total_cmp(&(a.1.sees / a.1.matters)));
     say!(
-        "{} rows see a change that matters with probability {POWER} or more, {} do not{}",
+        "{} rows detect a change worth reporting with probability {POWER} or more, {} do not{}",
         count - blind.len(),
         blind.len(),
-        if blind.is_empty() { "" } else { "; least of all:" }
+        if blind.is_empty() { "" } else { "; the least sensitive:" }
     );
     for (id, row) in blind.iter().take(NAMED) {
-        say!("  {id}: {:.4} matters, {:.4} is seen", row.matters, row.sees);
+        say!("  {id}: {:.4} worth reporting, {:.4} detectable", row.matters, row.sees);
     }
 }

@@ -19,9 +19,9 @@ pub(super) fn check(maps: &Path, capture: Option<&Path>) -> Result<u8, CheckErro
     let without = if capture.is_some() {
         ""
     } else {
-        " (with --capture, maps are also compared with its photographs and mesh)"
+        " (--capture also compares maps with its photographs and mesh)"
     };
-    say!("{}: nothing found{without}", maps.display());
+    say!("{}: no faults found{without}", maps.display());
     Ok(DONE)
 }
 

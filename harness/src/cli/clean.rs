@@ -10,17 +10,14 @@ pub(super) fn clean(run: &Path, keep: &[String], bound: Bound) -> Result<(), Run
     for part in &cleaned.parts {
         let [stay, removed] = [part.bytes, part.removed].map(suite::in_bytes);
         let what = match (part.bytes, part.removed) {
-            (_, 0) => format!("{stay} stay"),
+            (_, 0) => format!("{stay} kept"),
             (0, _) => format!("{removed} removed"),
-            _ => format!("{removed} removed, {stay} stay"),
+            _ => format!("{removed} removed, {stay} kept"),
         };
         say!("{:<9} {what}", part.name);
     }
     for path in &cleaned.foreign {
-        eprintln!(
-            "unshade: {}: was not written by unshade, or holds what was not; it stays",
-            path.display()
-        );
+        eprintln!("unshade: {}: kept, since unshade did not write all files in it", path.display());
     }
     Ok(())
 }

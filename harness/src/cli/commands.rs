@@ -139,7 +139,7 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
         config.records = solver::config::RecordConfig { stages: false, layers: false };
     }
     if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
-        let reason = "a baseline has no steps to show; leave it out".to_owned();
+        let reason = "a baseline has no steps to show; remove --rerun".to_owned();
         return Err(ViewerError(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);

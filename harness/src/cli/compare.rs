@@ -18,17 +18,16 @@ use crate::synth::run_stage;
 pub(super) struct CompareArgs {
     /// The run: its folder or its `run.json`; or a file of scores, or a baseline.
     run: PathBuf,
-    /// What it is compared with, likewise: an earlier run, a `baseline.json` that `unshade report` wrote, or a file
-    /// of scores.
+    /// The other side: an earlier run, a `baseline.json` of `unshade report`, or a file of scores.
     #[arg(required_unless_present = "baseline_branch", conflicts_with = "baseline_branch")]
     baseline: Option<PathBuf>,
-    /// The baseline of the commit where this one left the branch, or of the nearest before.
+    /// Use the baseline of the merge base with this branch, or of the nearest commit before it.
     #[arg(long, value_name = "BRANCH", requires = "baselines")]
     baseline_branch: Option<String>,
-    /// Where the branch's baselines are: <commit>.json.
+    /// The folder of the branch's baselines: <commit>.json.
     #[arg(long, value_name = "DIR", requires = "baseline_branch")]
     baselines: Option<PathBuf>,
-    /// A file of `unshade calibrate`, or of rules; by default the tolerances of scenes/tolerances.toml.
+    /// A file of `unshade calibrate`, or of rules; by default scenes/tolerances.toml.
     #[arg(long, value_name = "FILE")]
     tolerances: Option<PathBuf>,
     /// Also write the verdicts as JUnit XML.
@@ -40,17 +39,17 @@ pub(super) struct CompareArgs {
     /// Also write everything as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Print GitHub's annotations before the table.
+    /// Print GitHub annotations before the table.
     #[arg(long)]
     github: bool,
     /// Also write small pictures of each change into this folder: before (if the baseline is a run), after, the
     /// reference, and the difference.
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
-    /// Also add this run to a history of the suite: a line of JSON.
+    /// Also append this run to a history of the suite, as a line of JSON.
     #[arg(long, value_name = "FILE")]
     history: Option<PathBuf>,
-    /// Draw the history as an SVG, with the steps in it (needs the extra `history`).
+    /// Draw the history as an SVG with its detected steps (needs the extra `history`).
     #[arg(long, value_name = "FILE", requires = "history")]
     chart: Option<PathBuf>,
     /// The run's suite, so that JUnit and annotations name the file and line of each case.

@@ -22,7 +22,7 @@ pub(super) struct ExportArgs {
     /// asset is compared.
     #[arg(long, required_unless_present = "mesh")]
     capture: Option<PathBuf>,
-    /// The mesh of maps without a capture: an OBJ with UV; the asset is then compared in even light.
+    /// The mesh of maps without a capture: an OBJ with UV; the asset is then compared in uniform light.
     #[arg(long, conflicts_with = "capture")]
     mesh: Option<PathBuf>,
     /// Bits of the PNGs that hold normals, and of all maps of `png`.
@@ -31,7 +31,7 @@ pub(super) struct ExportArgs {
     /// Which way green points in the normal maps of `png`: plus as in glTF, minus as in MetaHuman.
     #[arg(long, value_enum, default_value_t = GreenName::Plus)]
     normal_y: GreenName,
-    /// Write the asset alone, without comparing it.
+    /// Write the asset without comparing it.
     #[arg(long)]
     no_fidelity: bool,
 }
@@ -40,13 +40,13 @@ pub(super) struct ExportArgs {
 enum FormatName {
     /// glTF 2.0, one GLB.
     Gltf,
-    /// A scene that renders as it is.
+    /// A complete scene.
     Mitsuba,
     /// A .blend (`make cycles`).
     Blender,
     /// An OpenPBR surface with its textures.
     Materialx,
-    /// Textures alone.
+    /// Textures only.
     Png,
 }
 

@@ -19,10 +19,10 @@ pub(super) struct FigureArgs {
     /// The figure's folder.
     #[arg(short, long)]
     out: PathBuf,
-    /// Only this method, by its name in the suite; may be given again.
+    /// Only this method, by its name in the suite; may be repeated.
     #[arg(long, value_name = "NAME")]
     method: Vec<String>,
-    /// Only this case, by its name in the report; may be given again.
+    /// Only this case, by its name in the report; may be repeated.
     #[arg(long, value_name = "NAME")]
     case: Vec<String>,
 }

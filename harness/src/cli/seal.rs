@@ -33,8 +33,8 @@ pub(super) fn seal(arguments: &SealArgs) -> Result<u8, RunError> {
     let sealed = suite::seal(&suite, out, &sealing, &tools(), &mut progress);
     progress.finish();
     let sealed = sealed?;
-    say!("{}: {} captures for others", out.join("public").display(), sealed.cases.len());
-    say!("{}: their truth, which stays here", out.join("private").display());
+    say!("{}: {} captures to publish", out.join("public").display(), sealed.cases.len());
+    say!("{}: their truth, to keep private", out.join("private").display());
     say!("signed by {}", sealed.public_key);
     Ok(DONE)
 }
@@ -51,7 +51,7 @@ pub(super) fn verify(folder: &Path, key: Option<&str>) -> Result<(), RunError> {
         verified.public_key
     );
     if key.is_none() {
-        say!("whose key that is, say --key and the public_key of the round's round.json");
+        say!("to check the signer, pass --key with the public_key of the round's round.json");
     }
     Ok(())
 }

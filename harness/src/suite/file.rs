@@ -88,7 +88,7 @@ impl Suite {
         let mut cases = if photographed.is_empty() || table.contains_key("scene") {
             rendered(path, &table)?
         } else if let Some(key) = OF_SCENES.into_iter().find(|key| table.contains_key(*key)) {
-            let reason = "has no use for captures; leave it out, or name a scene";
+            let reason = "does not apply to captures; remove it, or name a scene";
             return Err(SceneError::value(path, key, reason));
         } else {
             Vec::new()

@@ -351,9 +351,9 @@ impl MethodTable {
                 let fix = match key {
                     "texture_size" if competitor => "; write set = { texture_size = ... }",
                     "texture_size" if fields => "; write [method.set.fine_tuning] texture_size",
-                    _ => "; leave it out",
+                    _ => "; remove it",
                 };
-                return refused(format!("has no use for {key}{fix}"));
+                return refused(format!("does not support {key}{fix}"));
             }
         }
         Ok(())

@@ -115,11 +115,11 @@ pub fn seal(
     observer: &mut dyn Observer,
 ) -> Result<Round, RunError> {
     if suite.lpips.is_some() {
-        let reason = "a round is scored without the network; leave it out".to_owned();
+        let reason = "a round is scored without LPIPS; remove it".to_owned();
         return Err(SceneError::value(&suite.path, "lpips", reason).into());
     }
     if suite.metrics.is_any() {
-        let reason = "a round is scored by unshade's own metrics; leave it out".to_owned();
+        let reason = "a round is scored with unshade's own metrics only; remove it".to_owned();
         return Err(SceneError::value(&suite.path, "metrics", reason).into());
     }
     let mut suite = suite.clone();

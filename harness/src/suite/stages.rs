@@ -128,7 +128,7 @@ pub struct Budget<'a> {
     pub view: Option<&'a str>,
 }
 
-/// Says which map makes how much of the error of a relit view, the diffuse albedo after one factor;
+/// Attributes the error of a relit view to each map, the diffuse albedo after one factor;
 /// the result is what it found.
 pub fn budget(
     budget: &Budget,

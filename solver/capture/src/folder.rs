@@ -75,8 +75,7 @@ impl Capture {
         if flipped != Default::default() {
             let (shown, Flipped { normals, triangles }) = (transforms.mesh_path.display(), flipped);
             tracing::warn!(
-                "{shown}: {normals} normals and {triangles} triangles point inwards; they are read \
-                 as pointing to the cameras"
+                "{shown}: flipped {normals} normals and {triangles} triangles towards the cameras"
             );
         }
         for (view, frame) in train.iter().zip(&transforms.train) {

@@ -235,7 +235,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
         match program.upload(&stage.variables(state)) {
             Ok(()) => Some(program),
             Err(_) => {
-                tracing::info!("{name}: the device cannot take it in");
+                tracing::info!("{name}: does not fit on the device");
                 None
             }
         }
@@ -243,7 +243,7 @@ impl<'a, 'b> StageRunner<'a, 'b> {
 
     /// Goes back to what the host has seen of a stage whose device failed. The device has said why.
     fn fall_back(&mut self, name: &str, known: usize, losses: &mut Vec<f64>) {
-        tracing::info!("{name}: goes on behind step {known}");
+        tracing::info!("{name}: resuming after step {known}");
         self.log.done -= losses.len() - known;
         losses.truncate(known);
         self.cut = None;

@@ -15,8 +15,8 @@ from .parser_labels import PARSERS
 from .pictures import CURVES
 from .placement import PLACES, UNITS
 
-_DESCRIPTION = "Bring photographs, cameras and a mesh of other programs into a capture folder."
-_EPILOG = "unshade import maps --help: results of other methods. docs/photographs.md has each format, what is assumed, and what to do when cameras do not fit."
+_DESCRIPTION = "Import photographs, cameras and a mesh of other programs as a capture folder."
+_EPILOG = "unshade import maps --help: maps of other methods. docs/photographs.md describes the formats, the assumptions, and what to do if cameras do not fit."
 
 
 def main(arguments: list[str]) -> int:
@@ -63,7 +63,9 @@ def main(arguments: list[str]) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="unshade import", description=_DESCRIPTION, epilog=_EPILOG)
-    parser.add_argument("format", choices=FORMATS, help="what wrote the cameras; RealityCapture exports colmap")
+    parser.add_argument(
+        "format", choices=FORMATS, help="the program that wrote the cameras; RealityCapture exports colmap"
+    )
     parser.add_argument(
         "path", type=Path, help="transforms.json, the COLMAP model or project, the XML file, the data set's folder"
     )
@@ -74,44 +76,43 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
         metavar="NAME",
-        help="an object of the mesh that is the face; may be given again",
+        help="an object of the mesh that is the face; may be repeated",
     )
     parser.add_argument(
-        "--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not say it"
+        "--pictures", type=Path, metavar="DIR", help="the photographs' folder, if the files do not state it"
     )
     parser.add_argument(
         "--masks",
         metavar="DIR|alpha|silhouette",
-        help="masks of the photographs' names, their alpha, or the mesh's silhouette",
+        help="a folder of masks named like the photographs, their alpha, or the mesh's silhouette",
     )
-    parser.add_argument("--labels", type=Path, metavar="DIR", help="a face parser's pictures, named as the photographs")
     parser.add_argument(
-        "--parser", metavar="NAME|FILE", help=f"which parser: {', '.join(PARSERS)}, or a JSON file of names by id"
+        "--labels", type=Path, metavar="DIR", help="label pictures of a face parser, named like the photographs"
+    )
+    parser.add_argument(
+        "--parser", metavar="NAME|FILE", help=f"the parser: {', '.join(PARSERS)}, or a JSON file of names by id"
     )
     parser.add_argument("--curve", default="auto", help=f"the photographs' transfer curve: {', '.join(CURVES)}")
+    parser.add_argument("--brackets", type=int, default=1, metavar="N", help="exposures per view, in consecutive files")
+    parser.add_argument("--even-exposure", action="store_true", help="divide by the exposure in EXIF")
     parser.add_argument(
-        "--brackets", type=int, default=1, metavar="N", help="exposures of each view, one file after the other"
-    )
-    parser.add_argument(
-        "--even-exposure", action="store_true", help="divide by what the EXIF says the camera let through"
-    )
-    parser.add_argument(
-        "--holdout", type=_holdout, metavar="N|NAMES", help="withhold every N-th view, or those named: 8, or 003,011"
+        "--holdout",
+        type=_holdout,
+        metavar="N|NAMES",
+        help="withhold every N-th view, or the named views: 8, or 003,011",
     )
     parser.add_argument("--shrink", type=int, default=1, metavar="N", help="average N x N pixels")
     parser.add_argument("--unit", choices=tuple(UNITS), help="the unit of mesh and cameras")
     parser.add_argument(
-        "--place", choices=PLACES, default="auto", help="stand the head upright by its cameras, or keep its place"
+        "--place", choices=PLACES, default="auto", help="turn the head upright by its cameras, or keep its orientation"
     )
-    parser.add_argument(
-        "--front", metavar="VIEW", help="a view that looks at the face, where cameras stand all round the head"
-    )
-    parser.add_argument("--apply", action="store_true", help="make the one change after which masks and mesh fit")
+    parser.add_argument("--front", metavar="VIEW", help="a frontal view, if the cameras surround the head")
+    parser.add_argument("--apply", action="store_true", help="make the change with which masks and mesh match")
     parser.add_argument(
         "--skip-missing", action="store_true", help="leave out views whose photograph or mask is missing"
     )
     parser.add_argument(
-        "--leave-out", type=_names, default=[], metavar="NAMES", help="leave out the views named: 003,cam1/0002.jpg"
+        "--leave-out", type=_names, default=[], metavar="NAMES", help="leave out the named views: 003,cam1/0002.jpg"
     )
     return parser
 

@@ -34,11 +34,11 @@ def oriented_outwards(
         said.append(f"{int(against.sum())} of {len(normals)} normals")
     if said:
         warnings.warn(
-            f"{head.mesh}: {' and '.join(said)} point inwards; they are read as pointing outwards",
+            f"{head.mesh}: {' and '.join(said)} point inwards; flipped them outwards",
             MeshWarning,
             stacklevel=2,
         )
     if one_sided:
-        text = f"{one_sided} of {len(triangles)} triangles lie on surfaces that have one side only; fix the mesh where it is twisted"
+        text = f"{one_sided} of {len(triangles)} triangles are on one-sided (twisted) surfaces; fix the mesh there"
         warnings.warn(f"{head.mesh}: {text}", MeshWarning, stacklevel=2)
     return triangles, normals

@@ -1,4 +1,4 @@
-"""Which map makes how much of the error of a relit view.
+"""The share of each map in the error of a relit view.
 
 The view is rendered once for every choice of maps that are the method's, the others being the true ones, all
 with the same random numbers. A map's share is its Shapley value: the mean, over all orders in which the true

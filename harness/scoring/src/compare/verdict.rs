@@ -218,19 +218,17 @@ impl RowLimits<'_> {
 
 fn in_words(tolerances: &Tolerances, rows: &[Judged]) -> String {
     let Some(calibration) = tolerances.calibration() else {
-        return "reasoned tolerances, for which no rate of false alarms is known; unshade calibrate \
-                measures it"
-            .to_owned();
+        return "default tolerances (false-alarm rate unknown; run `unshade calibrate`)".to_owned();
     };
     let rate = 100.0 * calibration.false_alarms;
     let runs = calibration.runs;
-    let kept = if calibration.captures.is_empty() { "" } else { " on kept captures" };
+    let kept = if calibration.captures.is_empty() { "" } else { " on cached captures" };
     let mut words = format!(
-        "{rate} % false alarms over all rows, from the spread of {runs} runs of other seeds{kept}"
+        "{rate} % false alarms over all rows, from the spread of {runs} runs with different seeds{kept}"
     );
     let reasoned = rows.iter().filter(|row| !row.measured && row.baseline.is_some()).count();
     if reasoned > 0 {
-        words += &format!("; {reasoned} rows were not calibrated and have reasoned tolerances");
+        words += &format!("; {reasoned} rows are not calibrated and use default tolerances");
     }
     words
 }

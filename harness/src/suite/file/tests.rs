@@ -91,7 +91,7 @@ fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
         ("seeds = [1, 1]", "name = \"paper\"", "each once"),
         ("seeds = 3", "name = \"paper\"", "each once"),
         ("", "name = \"paper\"\nseeds = [-1]", "each once"),
-        ("", "name = \"oracle\"\nseeds = [1]", "has no use for seeds"),
+        ("", "name = \"oracle\"\nseeds = [1]", "does not support seeds"),
     ] {
         let error = open(seeds, method).unwrap_err().to_string();
         assert!(error.contains(words) && !error.contains('\n'), "{error}");
@@ -336,11 +336,11 @@ fn errors_name_the_file_the_key_and_the_fix() {
         ),
         (
             &*format!("{head}[[method]]\nname = \"oracle\"\nversion = \"2\"\n"),
-            "has no use for version; leave it out",
+            "does not support version; remove it",
         ),
         (
             &*format!("{head}[[method]]\nname = \"label-means\"\ntexture_size = 512\n"),
-            "\"label-means\" has no use for texture_size; leave it out",
+            "\"label-means\" does not support texture_size; remove it",
         ),
         ("format = 1\nname = \n", "suite.toml:2: is not valid TOML"),
         (
@@ -350,11 +350,11 @@ fn errors_name_the_file_the_key_and_the_fix() {
         ("format = 1\nname = \"m\"\nscene = \"no\\nsuch.toml\"\n", "no such.toml: cannot be read"),
         (
             &*format!("{head}[[method]]\nname = \"mean_texture\"\nconfig = \"fast\"\n"),
-            "\"mean_texture\" has no use for config; leave it out",
+            "\"mean_texture\" does not support config; remove it",
         ),
         (
             &*format!("{head}[[method]]\nname = \"paper\"\ntexture_size = 512\n"),
-            "has no use for texture_size; write [method.set.fine_tuning] texture_size",
+            "does not support texture_size; write [method.set.fine_tuning] texture_size",
         ),
         (
             &*format!("{head}[[method]]\nname = \"mean_texture\"\ntexture_size = 4\n"),

@@ -24,17 +24,17 @@ pub enum FolderError {
         file: PathBuf,
     },
     /// The target is where the user stands, or above.
-    #[error("{0}: is the current folder or one above it; name a folder of its own")]
+    #[error("{0}: is the current folder or contains it; name another folder")]
     Current(PathBuf),
     /// The output would lie over an input.
     #[error(
-        "{out}: is {relation} the input {}, which would be lost or changed; choose another folder",
+        "{out}: {relation} the input {}, which would be overwritten; choose another folder",
         input.display()
     )]
     Input {
         /// The output.
         out: PathBuf,
-        /// "the same as", "above" or "inside".
+        /// "is the same as", "contains" or "is inside".
         relation: &'static str,
         /// The input.
         input: PathBuf,

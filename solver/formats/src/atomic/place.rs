@@ -10,11 +10,11 @@ pub fn refuse_overlap(out: &Path, inputs: &[&Path]) -> Result<(), FolderError> {
     for input in inputs {
         let place = resolve(input);
         let relation = if resolved == place {
-            "the same as"
+            "is the same as"
         } else if place.starts_with(&resolved) {
-            "above"
+            "contains"
         } else if resolved.starts_with(&place) {
-            "inside"
+            "is inside"
         } else {
             continue;
         };

@@ -142,15 +142,15 @@ fn an_output_over_an_input_is_refused() {
     fs::create_dir_all(capture.join("truth")).unwrap();
     std::os::unix::fs::symlink(&capture, root.path().join("link")).unwrap();
     for (out, relation) in [
-        (capture.clone(), "the same as"),
-        (root.path().join("link"), "the same as"),
-        (root.path().to_path_buf(), "above"),
-        (capture.join("maps/new"), "inside"),
-        (root.path().join("link/truth/../x"), "inside"),
+        (capture.clone(), "is the same as"),
+        (root.path().join("link"), "is the same as"),
+        (root.path().to_path_buf(), "contains"),
+        (capture.join("maps/new"), "is inside"),
+        (root.path().join("link/truth/../x"), "is inside"),
     ] {
         let error =
             refuse_overlap(&out, &[Path::new("elsewhere"), &capture]).unwrap_err().to_string();
-        assert!(error.contains(&format!("is {relation} the input")), "{error}");
+        assert!(error.contains(&format!("{relation} the input")), "{error}");
     }
     refuse_overlap(&root.path().join("capture2"), &[&capture]).unwrap();
 }

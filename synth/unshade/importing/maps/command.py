@@ -14,8 +14,8 @@ from .alignment import PLACES
 from .importer import LIMIT_MM, import_maps
 from .statement import known_adapters
 
-_DESCRIPTION = "Bring another method's maps, of any UV layout and encoding, onto a capture's chart."
-_EPILOG = "docs/results-of-others.md has the formats, what is tried, and how to state what a file holds."
+_DESCRIPTION = "Convert another method's maps, of any UV layout and encoding, to a capture's chart."
+_EPILOG = "docs/results-of-others.md describes the formats, the detection of conventions, and how to state them."
 
 
 def main(arguments: list[str]) -> int:
@@ -42,18 +42,20 @@ def main(arguments: list[str]) -> int:
     except UnshadeError as error:
         print(f"unshade: {' '.join(str(error).split())}", file=sys.stderr)
         return error.exit_code
-    print(f"{out}: what was stated, found and assumed stands in {out / 'import.json'}", file=sys.stderr)
+    print(f"{out}: {out / 'import.json'} has the stated, detected and assumed conventions", file=sys.stderr)
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="unshade import maps", description=_DESCRIPTION, epilog=_EPILOG)
-    parser.add_argument("folder", type=Path, help="the folder that holds the maps")
+    parser.add_argument("folder", type=Path, help="the folder with the maps")
     parser.add_argument("-o", "--out", type=Path, required=True, help="the maps' folder")
     parser.add_argument("--capture", type=Path, required=True, help="the capture that they were made from")
-    parser.add_argument("--mesh", type=Path, help="the mesh they lie on, an OBJ; else the one in the folder")
+    parser.add_argument("--mesh", type=Path, help="their mesh, an OBJ; by default the one in the folder")
     parser.add_argument(
-        "--adapter", metavar="NAME|FILE", help=f"who wrote them: {', '.join(known_adapters())}, or a TOML file"
+        "--adapter",
+        metavar="NAME|FILE",
+        help=f"the method that wrote them: {', '.join(known_adapters())}, or a TOML file",
     )
     parser.add_argument(
         "--set",
@@ -61,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
         default=[],
         type=_setting,
         metavar="KEY=VALUE",
-        help="a value laid over the adapter's: v=down, diffuse_albedo.curve=linear, normal.green=down",
+        help="override a value of the adapter: v=down, diffuse_albedo.curve=linear, normal.green=down",
     )
     parser.add_argument(
         "--object", action="append", default=[], metavar="NAME", help="an object of the mesh that is the face"
@@ -71,13 +73,15 @@ def _parser() -> argparse.ArgumentParser:
         "--place",
         choices=PLACES,
         default="auto",
-        help="try units and axes, keep its place, move it as the capture's source was moved, or fit it",
+        help="try units and axes, keep the mesh's place, move it like the capture's source, or fit it",
     )
     parser.add_argument(
-        "--limit-mm", type=float, default=LIMIT_MM, metavar="MM", help="what is further from the capture's mesh is no part of it"
+        "--limit-mm", type=float, default=LIMIT_MM, metavar="MM", help="ignore points farther than this from the capture's mesh"
     )  # fmt: skip
-    parser.add_argument("--size", type=int, metavar="N", help="texels along a side; else those of the largest texture")
-    parser.add_argument("--apply", action="store_true", help="take what fits better than what is stated")
+    parser.add_argument(
+        "--size", type=int, metavar="N", help="texels per side; by default those of the largest texture"
+    )
+    parser.add_argument("--apply", action="store_true", help="use a convention that fits better than the stated one")
     return parser
 
 
