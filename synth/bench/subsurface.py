@@ -216,7 +216,7 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
         "",
         "Half space, without the face (`half_space.py`):",
         "",
-        "| albedo asked for | exact albedo of the medium | pi x BRDF at cosines 0.9, 0.9 | mean distance, walked | of the profile |",
+        "| requested albedo | exact albedo of the medium | pi x BRDF at cosines 0.9, 0.9 | mean distance, walked | of the profile |",
         "|---|---|---|---|---|",
     ]
     for albedo in (0.05, 0.15, 0.3, 0.45, 0.6, 0.8):
@@ -258,7 +258,7 @@ def _document(options, face, figures, seconds, pictures, regions) -> str:
         lines.append(f"| {light} | {' | '.join(cells)} |")
     lines += [
         "",
-        "Each picture is the first of its light and pays what later views share; another view of the last light "
+        "Each picture is the first of its light and includes the shared cost; another view of the last light "
         "in `diffusion` took {:.1f} ({:.1f}) s.".format(*seconds["again"]),
         "",
     ]
@@ -270,7 +270,7 @@ def _edge_lines() -> list[str]:
     lines = [
         "",
         (
-            f"A straight shadow on flat skin of albedo {ALBEDO:g}, red channel: radiance over that 7 mm within the light, "
+            f"A straight shadow on flat skin of albedo {ALBEDO:g}, red channel: radiance relative to that 7 mm inside the light, "
             "at millimetres from the edge into the light:"
         ),
         "",
