@@ -9,16 +9,16 @@ Array = NDArray[np.float64]
 
 
 def harmonics(normal: Array) -> Array:
-    """The nine of order 0 to 2, (n, 9), without their constants, which the light takes in."""
+    """Returns the nine harmonics of order 0 to 2, (n, 9), without their constants, which the light absorbs."""
     x, y, z = normal.T
     return np.stack([np.ones_like(x), x, y, z, x * y, y * z, z * x, x * x - y * y, 3 * z * z - 1], -1)
 
 
 def recover(capture: unshade.Capture, size: int = 128) -> unshade.Maps:
-    """Maps of `size` texels a side: fewer than the face has pixels, so that most of them are seen."""
+    """Returns maps of `size` x `size` texels, few enough that most of them are seen by a pixel."""
     colour, normal, weight = np.zeros((size * size, 3)), np.zeros((size * size, 3)), np.zeros(size * size)
     for name in capture.train:
-        mesh = capture.gbuffer(name)  # the mesh at each pixel's centre; NaN beside it
+        mesh = capture.gbuffer(name)  # the mesh at each pixel's centre; NaN outside it
         inside = (capture.mask(name) > 127) & np.isfinite(mesh["uvs"]).all(-1)
         eye = capture.camera(name)["camera_to_world"][:3, 3]
         to_eye = eye - mesh["positions"][inside]
@@ -36,11 +36,11 @@ def recover(capture: unshade.Capture, size: int = 128) -> unshade.Maps:
     grey = colour[seen].mean(-1)
     light: Array = np.linalg.pinv(harmonics(normal[seen])) @ grey  # least squares, as if skin had one albedo
     shading = np.maximum(harmonics(normal[seen]) @ light, 0.3 * grey.mean())
-    # Every light here is so bright that the largest shading of the face's front is 1.
+    # Lights are scaled so that the largest shading of the face's front is 1.
     albedo = np.zeros_like(colour)
     albedo[seen] = np.clip(colour[seen] / (shading / np.percentile(shading, 99))[:, None], 0, 1)
 
-    # Texels are scored at the truth's size: those without data here take on what is next to them.
+    # Texels are scored at the truth's size: those without data are filled from their neighbours.
     maps, known = [layer.reshape(size, size, 3) for layer in (albedo, normal)], seen.reshape(size, size).copy()
     while not known.all():
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
