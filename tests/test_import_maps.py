@@ -210,7 +210,7 @@ def test_what_cannot_be_is_refused_in_one_line(capture: unshade.Capture, doubted
         assert "\n" not in str(refusal.value)
 
     (tmp_path / "empty").mkdir()
-    refused("is no folder", folder=tmp_path / "nothing")
+    refused("is not a folder", folder=tmp_path / "nothing")
     refused("holds none of diffuseMap", adapter="nextface")
     refused("holds none of", folder=tmp_path / "empty")
     refused("there are any, avatarme", adapter="nextfase")

@@ -153,4 +153,4 @@ def test_what_cannot_be_cleaned_is_said(tiny_run: Path, tmp_path: Path) -> None:
     bad = unshade("clean", tiny_run, "--keep", "scores,photos", check=False)
     assert bad.returncode == 2 and '"photos"' in bad.stderr and "captures, lights" in bad.stderr
     bad = unshade("clean", tmp_path, "--keep", "scores", check=False)
-    assert bad.returncode == 2 and "is no run's folder" in bad.stderr
+    assert bad.returncode == 2 and "is not a run's folder" in bad.stderr

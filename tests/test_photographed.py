@@ -111,8 +111,8 @@ def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_pa
 
     solver = '[[method]]\nname = "mean_texture"\n'
     refused('captures = ["head"]\n[[method]]\nname = "oracle"\n', "photographs have no true maps")
-    refused(f'captures = ["nothing"]\n{solver}', "nothing is no capture without a truth")
-    refused(f'captures = ["{tiny_run}/captures/tiny-studio"]\n{solver}', "is no capture without a truth")
+    refused(f'captures = ["nothing"]\n{solver}', "nothing is not a capture without a truth")
+    refused(f'captures = ["{tiny_run}/captures/tiny-studio"]\n{solver}', "is not a capture without a truth")
     refused(f"captures = []\n{solver}", "must be a list of captures' folders")
     refused(f'captures = ["head", "head"]\n{solver}', "head occurs twice")
     refused(f'captures = ["head"]\n{solver}[render]\nwidth = 64\n', "render.* does not apply to captures")

@@ -179,7 +179,7 @@ def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
         solver["id"]: solver.get("failed", "")
         for solver in json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
     }
-    assert "moon: is no light of the capture; there are studio, uniform" in failed["incomplete"]
+    assert "moon: is not a light of the capture; there are studio, uniform" in failed["incomplete"]
     assert "uniform/004.exr: is missing" in failed["thief"]
     assert [name for name, reason in failed.items() if reason] == ["incomplete", "thief"]
     page = (run / "report" / "index.html").read_text()

@@ -169,7 +169,7 @@ def test_what_cannot_be_meant_is_refused_by_name() -> None:
         r"labels: has shape \(6, 4\), expected \(4, 6\).*transpose": lambda: wcorr(p, p, labels=mask.T * 1),
         r"labels: holds 256; give uint8": lambda: wcorr(p, p, labels=mask * 256),
         r"shading: has shape \(2, 6\), expected \(4, 6\)": lambda: baked(p, p, shading=p[:2]),
-        r"halves: is no pair": lambda: unshade.metrics.psnr_lin_unbiased(p, p, halves=p),
+        r"halves: is not a pair": lambda: unshade.metrics.psnr_lin_unbiased(p, p, halves=p),
         r"halves: has shape \(2, 6\), expected \(4, 6\)": lambda: unshade.metrics.psnr_lin_unbiased(
             p, p, halves=(p, p[:2])
         ),

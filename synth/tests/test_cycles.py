@@ -84,7 +84,7 @@ def test_an_exported_blend_renders_as_the_maps(capture, tmp_path):
 
 def test_without_blender_the_fix_is_named(monkeypatch, tmp_path):
     monkeypatch.setenv("UNSHADE_BLENDER", str(tmp_path / "nowhere"))
-    with pytest.raises(RendererError, match="UNSHADE_BLENDER=.*nowhere: is no program"):
+    with pytest.raises(RendererError, match="UNSHADE_BLENDER=.*nowhere: is not a program"):
         interpreter.command()
     monkeypatch.delenv("UNSHADE_BLENDER")
     monkeypatch.setattr(interpreter, "FOLDER", "no-such-folder")

@@ -125,7 +125,7 @@ def test_maps_of_the_albedo_alone_have_the_meshs_normals(capture, tmp_path):
 
 
 def test_no_other_format_is_taken(capture, tmp_path):
-    with pytest.raises(ExportError, match="usdz: is no format; use one of gltf"):
+    with pytest.raises(ExportError, match="usdz: is not a format; use one of gltf"):
         attempt(capture / "truth", tmp_path / "out", capture=capture, format="usdz")
 
 

@@ -38,7 +38,7 @@ def test_a_written_table_reads_back(seed):
         ({"weight": "heavy"}, "weight in .face. is 'heavy'"),
         ({"texture_size": 512.0}, "texture_size in .face. is 512.0"),
         ({"texture_size": 20}, "texture_size in .face. is 20; use a whole number from 64"),
-        ({"ethnicity": [1, 0, 0]}, "ethnicity in .face. is no table"),
+        ({"ethnicity": [1, 0, 0]}, "ethnicity in .face. is not a table"),
         ({"ethnicity": {"african": 0.5}}, "ethnicity in .face. sums to 0.5; make the shares sum to 1"),
         ({"ethnicity": {"martian": 1.0}}, "unknown key 'martian' in ethnicity"),
     ],

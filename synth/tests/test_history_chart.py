@@ -45,5 +45,5 @@ def test_the_chart_is_an_svg_that_names_the_commit_of_the_step(tmp_path: Path) -
     assert "ci <&>: 20 runs" in words
     assert f"{12:040x}"[:8] in words
     history.write_text(line(0, 0.0) + "\n{\n")
-    with pytest.raises(errors.CompareError, match="jsonl:2: is no line of a history"):
+    with pytest.raises(errors.CompareError, match="jsonl:2: is not a line of a history"):
         write(history, out)

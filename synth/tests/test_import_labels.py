@@ -54,5 +54,5 @@ def test_other_parsers_are_a_file(tmp_path: Path) -> None:
         with pytest.raises(CaptureError, match="names.json") as refusal:
             name_table(str(table))
         assert "\n" not in str(refusal.value)
-    with pytest.raises(CaptureError, match="is no face parser and no file; known by name are celebamask-hq"):
+    with pytest.raises(CaptureError, match="is neither a face parser nor a file; known by name are celebamask-hq"):
         name_table("mediapipe")

@@ -104,7 +104,7 @@ def _read(history: Path) -> list[dict[str, Any]]:
                 raise ValueError(f"format {record['format']}, this version reads 1")
             records.append({key: record[key] for key in ("at", "commit", "suite", "values")})
         except (ValueError, KeyError, TypeError) as error:
-            raise CompareError(f"{history}:{number}: is no line of a history: {error}; remove the line") from None
+            raise CompareError(f"{history}:{number}: is not a line of a history: {error}; remove the line") from None
     if not records:
         raise CompareError(f"{history}: is empty")
     return records

@@ -170,7 +170,7 @@ def _scale(text: str) -> tuple[str, float]:
     except ValueError:
         value = float("nan")
     if not name.isidentifier() or not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is no NAME=FACTOR with a positive factor")
+        raise argparse.ArgumentTypeError(f"{text!r} is not NAME=FACTOR with a positive factor")
     return name, value
 
 

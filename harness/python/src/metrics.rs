@@ -188,7 +188,7 @@ impl Inputs {
 /// The halves of prediction and truth: a pair of pictures of the truth's shape.
 fn halves(given: &Bound<PyAny>, truth: &Picture) -> PyResult<[Picture; 2]> {
     let refused =
-        || argument("halves").refused("is no pair (half of the prediction, of the truth)");
+        || argument("halves").refused("is not a pair (half of the prediction, of the truth)");
     let pair: Vec<Bound<PyAny>> = given.extract().map_err(|_| refused())?;
     let [p, g]: [Bound<PyAny>; 2] = pair.try_into().map_err(|_| refused())?;
     let picture = |given: &Bound<PyAny>| {

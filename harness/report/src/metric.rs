@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn variants_are_metrics_and_trivial_answers_are_subjects() {
         for id in VARIANTS {
-            assert!(Metric::find(id).is_ok(), "{id} is no metric");
+            assert!(Metric::find(id).is_ok(), "{id} is not a metric");
         }
         for (map, trivial) in TRIVIAL {
             assert!(subject(map) != map && subject(trivial) != trivial, "{map}, {trivial}");

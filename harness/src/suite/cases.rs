@@ -182,7 +182,7 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
         let folder = std::path::absolute(&folder).unwrap_or(folder);
         if !score::is_photographed(&folder) {
             let reason =
-                format!("{name} is no capture without a truth; import one, or name a scene");
+                format!("{name} is not a capture without a truth; import one, or name a scene");
             return Err(wrong(reason));
         }
         if !has_withheld_pictures(&folder) {

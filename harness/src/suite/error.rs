@@ -70,7 +70,7 @@ pub enum RunError {
     Worker(String),
     #[error("--keep: a run has no {name:?}; there are {known}")]
     Keep { name: String, known: String },
-    #[error("{0}: is no run's folder; name one that `unshade run` wrote")]
+    #[error("{0}: is not a run's folder; name one that `unshade run` wrote")]
     NoRun(PathBuf),
     #[error("interrupted; the same command goes on from here")]
     Interrupted,

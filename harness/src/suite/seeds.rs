@@ -113,7 +113,7 @@ mod tests {
         let suite = Suite::open(path.as_ref()).unwrap();
         let config = |suite: &Suite| match &suite.methods[0].kind {
             MethodKind::Fields { config, .. } => solver::Config::from_toml(config).unwrap(),
-            _ => panic!("the first method is no solve"),
+            _ => panic!("the first method is not a solve"),
         };
         let given = config(&suite);
         let rounded = config(&suite.reseeded(2, Vary::Rounding).unwrap());

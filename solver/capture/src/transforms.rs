@@ -98,7 +98,9 @@ impl Transforms {
             }
         };
         if let Some(name) = file.label_names.get(&0) {
-            return Err(format!("label_names: 0 is no label, but has the name {name:?}; drop it"));
+            return Err(format!(
+                "label_names: 0 is not a label, but has the name {name:?}; drop it"
+            ));
         }
         let applied = Vec::<Vec<f64>>::deserialize(&file.applied_transform).ok();
         let applied = applied.and_then(|rows| matrix(&rows).ok());

@@ -68,7 +68,7 @@ def _connected(address: str, patience: float) -> Client:
                 ) from error
             time.sleep(0.5)
         except ValueError as error:
-            raise ClusterError(f"{address}: is no scheduler's address: {error}; write tcp://host:8786") from error
+            raise ClusterError(f"{address}: is not a scheduler's address: {error}; write tcp://host:8786") from error
 
 
 def _round(

@@ -26,7 +26,7 @@ def command() -> list[str]:
     own = Path(sys.prefix).parent / FOLDER / "bin" / "python"
     if named:
         if not Path(named).is_file():
-            raise RendererError(f"{VARIABLE}={named}: is no program; name a Python that has bpy, or blender")
+            raise RendererError(f"{VARIABLE}={named}: is not a program; name a Python that has bpy, or blender")
         return _started_by(named)
     if own.is_file():
         return [str(own), str(_CHILD)]

@@ -79,7 +79,7 @@ def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -
         return write_mitsuba(surface, folder, light, setting.camera, setting.depth)
     if options.format == "blender":
         return write_blender(surface, folder, name, light, setting.camera, setting.depth)
-    raise ExportError(f"{options.format}: is no format; use one of {', '.join(FORMATS)}")
+    raise ExportError(f"{options.format}: is not a format; use one of {', '.join(FORMATS)}")
 
 
 def _compare(

@@ -181,7 +181,7 @@ def _number(value: Any, key: str, low: float, high: float, place: str) -> float:
 def _expression(units: Any, place: str) -> Expression:
     if not isinstance(units, Mapping):
         raise FaceError(
-            f"expression in {place} is no table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}"
+            f"expression in {place} is not a table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}"
         )
     for unit in units:
         if unit not in UNITS:
@@ -199,7 +199,7 @@ def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, 
     fractions = table["ethnicity"]
     if not isinstance(fractions, Mapping):
         raise FaceError(
-            f"ethnicity in {place} is no table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}"
+            f"ethnicity in {place} is not a table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}"
         )
     for key in fractions:
         if key not in ETHNICITIES:

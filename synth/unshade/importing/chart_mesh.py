@@ -64,7 +64,7 @@ class ChartMesh:
 def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
     """Reads an OBJ file; of its objects those named, or all. Raises `CaptureError`."""
     if path.suffix.lower() != ".obj":
-        raise CaptureError(f"{path}: is no OBJ file; export the mesh as OBJ with its texture coordinates")
+        raise CaptureError(f"{path}: is not an OBJ file; export the mesh as OBJ with its texture coordinates")
     try:
         data = path.read_bytes()
         pieces = _native.read_obj(data)

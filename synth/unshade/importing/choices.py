@@ -48,4 +48,4 @@ class Choices:
             raise CaptureError("labels need the parser that made them; state its name or a JSON file of names by id")
         for folder in (self.masks, self.labels, self.pictures):
             if isinstance(folder, Path) and not folder.is_dir():
-                raise CaptureError(f"{folder}: is no folder; name one, or of masks alpha or silhouette")
+                raise CaptureError(f"{folder}: is not a folder; name one, or of masks alpha or silhouette")

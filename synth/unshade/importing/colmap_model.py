@@ -181,7 +181,7 @@ def _text_cameras(path: Path) -> dict[int, _Camera]:
             values = [float(word) for word in words[4:]]
         except (ValueError, IndexError) as error:
             raise CaptureError(
-                f"{where}: is no id, model, width, height and parameters; export the model again"
+                f"{where}: is not an id, model, width, height and parameters; export the model again"
             ) from error
         cameras[key] = _camera(where, model, width, height, values)
     return cameras
@@ -199,7 +199,7 @@ def _text_images(path: Path) -> list[_Image]:
             images.append((int(words[8]), pose, words[9].strip()))
         except (ValueError, IndexError) as error:
             raise CaptureError(
-                f"{path}:{number}: is no id, quaternion, translation, camera and name; export the model again"
+                f"{path}:{number}: is not an id, quaternion, translation, camera and name; export the model again"
             ) from error
         next(lines, None)  # The line of its points, which may be empty.
     return images
@@ -216,7 +216,7 @@ def _read_binary(folder: Path) -> tuple[dict[int, _Camera], list[_Image]]:
     except OSError as error:
         raise CaptureError(f"{path}: cannot be read: {error.strerror}; export the model again") from error
     except (struct.error, ValueError) as error:
-        raise CaptureError(f"{path}: ends early or is no COLMAP file; export the model again") from error
+        raise CaptureError(f"{path}: ends early or is not a COLMAP file; export the model again") from error
 
 
 def _unpack(file: BinaryIO, form: str) -> tuple[float, ...]:

@@ -203,11 +203,11 @@ def _document(path: Path) -> xml.Element:
         raise CaptureError(f"{path}: cannot be read: {error.strerror}; name the XML file of the cameras") from error
     # Entities could grow without end; no export has any.
     if len(data) > _LARGEST or b"<!ENTITY" in data:
-        raise CaptureError(f"{path}: is no camera file of Metashape; export cameras as Agisoft XML")
+        raise CaptureError(f"{path}: is not a camera file of Metashape; export cameras as Agisoft XML")
     try:
         return xml.fromstring(data)
     except (xml.ParseError, ValueError, LookupError) as error:
-        raise CaptureError(f"{path}: is no XML: {error}; export cameras as Agisoft XML") from error
+        raise CaptureError(f"{path}: is not XML: {error}; export cameras as Agisoft XML") from error
 
 
 def _sensors(path: Path, chunk: xml.Element) -> dict[str | None, _Sensor]:
@@ -311,5 +311,5 @@ def _numbers(path: Path, what: str, text: str | None, count: int) -> Matrix:
     except ValueError:
         values = []
     if len(values) != count or not all(map(math.isfinite, values)):
-        raise CaptureError(f"{path}: {what} is no list of {count} numbers; export the cameras again")
+        raise CaptureError(f"{path}: {what} is not a list of {count} numbers; export the cameras again")
     return np.array(values)

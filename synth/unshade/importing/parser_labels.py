@@ -68,13 +68,13 @@ def name_table(parser: str) -> dict[int, str]:
     known = f"known by name are {', '.join(PARSERS)}"
     if not path.is_file():
         raise CaptureError(
-            f"labels: {parser!r} is no face parser and no file; {known}, others are a JSON file of names by id"
+            f"labels: {parser!r} is neither a face parser nor a file; {known}, others are a JSON file of names by id"
         )
     try:
         table: Any = json.loads(path.read_bytes().decode("utf-8-sig"))
         names = {int(number): str(name).lower() for number, name in table.items() if int(number)}
     except (OSError, ValueError, AttributeError, RecursionError) as error:
-        raise CaptureError(f'{path}: is no table of names by id, as {{"1": "skin"}}: {error}; {known}') from error
+        raise CaptureError(f'{path}: is not a table of names by id, as {{"1": "skin"}}: {error}; {known}') from error
     if not names or min(names) < 0:
         raise CaptureError(f'{path}: names no id above 0; write {{"1": "skin"}}')
     return {number: name if name in LABELS else "other" for number, name in names.items()}

@@ -132,7 +132,7 @@ def read_photograph(path: Path, curve: str = "auto") -> Photograph:
     if ending in _RADIANCE:
         return _radiance(path)
     if ending not in _READ:
-        raise PictureError(f"{path}: is no kind of picture that is read; write PNG, JPEG, TIFF, EXR or HDR")
+        raise PictureError(f"{path}: is not a supported picture format; write PNG, JPEG, TIFF, EXR or HDR")
     data, turned = _file(path)
     header = _header(path, data, turned)
     codes = _decoded(path, data)
@@ -320,7 +320,7 @@ def _profile(path: Path, icc: bytes | None) -> tuple[NDArray[np.float64] | None,
         return None, name
     if primaries is None:
         raise PictureError(
-            f"{path}: its colour profile {name!r} is no matrix of primaries; convert the picture to sRGB"
+            f"{path}: its colour profile {name!r} is not a matrix of primaries; convert the picture to sRGB"
         )
     matrix = np.linalg.inv(ours) @ primaries
     return (None if np.abs(matrix - np.eye(3)).max() < _SAME_PRIMARIES else matrix), name

@@ -135,7 +135,7 @@ def _check(origin: Path, view: SourceView) -> None:
     rotation = view.camera_to_world[:3, :3]
     off = np.abs(rotation.T @ rotation - np.eye(3)).max()
     if off > _RIGID or np.linalg.det(rotation) < 0:
-        raise CaptureError(f"{where}: its matrix is no rotation and translation; export the cameras again")
+        raise CaptureError(f"{where}: its matrix is not a rotation and translation; export the cameras again")
 
 
 def rigid(matrix: Matrix) -> Matrix:

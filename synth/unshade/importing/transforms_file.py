@@ -122,7 +122,7 @@ def _document(path: Path) -> dict[str, Any]:
     except OSError as error:
         raise CaptureError(f"{path}: cannot be read: {error.strerror}; name transforms.json or its folder") from error
     except (ValueError, RecursionError) as error:
-        raise CaptureError(f"{path}: is no JSON: {error}; export it again") from error
+        raise CaptureError(f"{path}: is not JSON: {error}; export it again") from error
     if not isinstance(document, dict):
         raise CaptureError(f"{path}: is a JSON list, not a table with frames; export it again")
     return document
@@ -246,7 +246,7 @@ def _label_names(path: Path, table: Any) -> dict[int, str]:
         return {int(number): str(name).lower() for number, name in (table or {}).items()}
     except (AttributeError, ValueError) as error:
         raise CaptureError(
-            f'{path}: label_names is no table of names by id, as {{"1": "skin"}}; fix or drop it'
+            f'{path}: label_names is not a table of names by id, as {{"1": "skin"}}; fix or drop it'
         ) from error
 
 
@@ -259,7 +259,7 @@ def _matrix(path: Path, what: str, value: Any) -> Matrix:
         matrix = np.concatenate([matrix, [[0.0, 0.0, 0.0, 1.0]]])
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or not np.allclose(matrix[3], [0, 0, 0, 1], atol=1e-6):
         raise CaptureError(
-            f"{path}: {what} is no matrix of four rows of four numbers with 0, 0, 0, 1 last; export it again"
+            f"{path}: {what} is not a matrix of four rows of four numbers with 0, 0, 0, 1 last; export it again"
         )
     return matrix
 

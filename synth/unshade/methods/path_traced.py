@@ -120,7 +120,7 @@ def _views(capture: Capture, samples: int) -> list[tuple]:
             [given["focal"][0], *given["centre"]], [given["focal"][1], width / 2, height / 2], rtol=1e-4
         ):
             raise SolveError(
-                f"{capture.path}: camera {name} is no centred pinhole with square pixels; undistort its picture"
+                f"{capture.path}: camera {name} is not a centred pinhole with square pixels; undistort its picture"
             )
         matrix = given["camera_to_world"].astype(float)
         sensor = Camera(name, width, height, given["focal"][0], matrix, True).sensor(samples)

@@ -66,7 +66,7 @@ def read_gltf(path: Path) -> list[Surface]:
     """
     document, binary = _binary(path) if path.suffix.lower() == ".glb" else (json.loads(path.read_bytes()), None)
     if not isinstance(document, dict):
-        raise FaceError(f"{path}: is no glTF 2.0; export it again")
+        raise FaceError(f"{path}: is not glTF 2.0; export it again")
     _check_extensions(path, document)
     accessors = Accessors(document, _buffers(path, document, binary))
     skins = Skins(document, accessors)
@@ -118,7 +118,7 @@ def _binary(path: Path) -> tuple[Any, bytes | None]:
     """The document and the buffer of a GLB."""
     data = path.read_bytes()
     if data[:4] != b"glTF" or len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
-        raise FaceError(f"{path}: is no binary glTF 2.0; export it again")
+        raise FaceError(f"{path}: is not binary glTF 2.0; export it again")
     chunks, at = {}, 12
     while at + 8 <= len(data):
         length, kind = struct.unpack_from("<II", data, at)
@@ -127,7 +127,7 @@ def _binary(path: Path) -> tuple[Any, bytes | None]:
         chunks.setdefault(kind, data[at + 8 : at + 8 + length])
         at += 8 + length
     if _JSON_CHUNK not in chunks:
-        raise FaceError(f"{path}: is no binary glTF 2.0; export it again")
+        raise FaceError(f"{path}: is not binary glTF 2.0; export it again")
     return json.loads(chunks[_JSON_CHUNK]), chunks.get(_BINARY_CHUNK)
 
 
@@ -238,7 +238,7 @@ def _moved(name: str, transform: np.ndarray, shape: Shape) -> Shape:
 def _triangles(corners: np.ndarray, mode: int) -> np.ndarray:
     if mode == _TRIANGLES:
         if len(corners) % 3:
-            raise ValueError(f"{len(corners)} indices are no triangles")
+            raise ValueError(f"{len(corners)} indices do not form triangles")
         return corners.reshape(-1, 3)
     count = max(len(corners) - 2, 0)
     if mode == _FAN:

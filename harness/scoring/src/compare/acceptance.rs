@@ -58,7 +58,7 @@ impl Acceptances {
         let dated = |entry: &&Acceptance| entry.until.as_deref().is_some_and(|day| !is_day(day));
         if let Some(entry) = all.entries.iter().find(dated) {
             let until = entry.until.as_deref().unwrap_or_default();
-            return Err(CompareError::text(path, format!("until = {until:?} is no YYYY-MM-DD")));
+            return Err(CompareError::text(path, format!("until = {until:?} is not YYYY-MM-DD")));
         }
         Ok(all)
     }

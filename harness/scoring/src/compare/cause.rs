@@ -121,7 +121,7 @@ impl Comparison {
             and(place)
         );
         if is_pipeline(&(method, subject)) {
-            sentence += "; this is no method's doing: the captures or the pipeline changed, and every \
+            sentence += "; no method caused this: the captures or the pipeline changed, and every \
                          method's rows with them";
         } else if following > 0 {
             sentence += &format!("; so do the pictures that are made with it (rows: {following})");

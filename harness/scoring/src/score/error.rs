@@ -71,7 +71,7 @@ pub enum ScoreError {
     },
     /// A method relit in a light that the capture does not have.
     #[error(
-        "{path}: is no light of the capture; there are {known}, name the folder as one of them"
+        "{path}: is not a light of the capture; there are {known}, name the folder as one of them"
     )]
     Light {
         /// The folder.

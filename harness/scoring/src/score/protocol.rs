@@ -24,7 +24,7 @@ impl Protocol {
         if let Some(tier @ ("diffusion" | "volume")) = said("tier") {
             id.push_str(&format!(" {tier}"));
             statements.push(format!(
-                "tier {tier}: the light that the truth's skin scatters leaves it elsewhere, and so does that of relit maps; such scores are no others' equals."
+                "tier {tier}: the light that the truth's skin scatters leaves it elsewhere, and so does that of relit maps; such scores do not compare with others."
             ));
         }
         if let Some(denoiser @ "oidn") = said("denoise") {

@@ -140,7 +140,7 @@ impl File {
             let uv = index("texture coordinate", self.uvs.len())?;
             let normal = index("normal", self.normals.len())?;
             if position == NONE || parts.next().is_some() {
-                return Err(format!("{shown:?} is no corner; write vertex/uv/normal"));
+                return Err(format!("{shown:?} is not a corner; write vertex/uv/normal"));
             }
             self.corners.push(Corner { position, uv, normal });
         }

@@ -175,10 +175,10 @@ fn convex_faces_are_fans_in_the_files_order() {
 fn every_fault_is_named_with_its_line() {
     let cases = [
         ("v 0 0\n", "line 1: a vertex has 3 numbers, but here are 2"),
-        ("v 0 0 0\n\nv 0 1,5 0\n", "line 3: \"1,5\" is no number"),
+        ("v 0 0 0\n\nv 0 1,5 0\n", "line 3: \"1,5\" is not a number"),
         ("v 0 0 0 0\n", "line 1: the vertex has weight 0"),
         ("vt 0\n", "line 1: a texture coordinate has 2 numbers"),
-        ("vn 1 0 x\n", "line 1: \"x\" is no number"),
+        ("vn 1 0 x\n", "line 1: \"x\" is not a number"),
         ("v 0 0 0\n# \\\nf 1 1 9\n", "line 3: names vertex 9, but there are 1"),
         ("v 0 0 0\nf 1 1 -2\n", "line 2: \"-2\" names no vertex; there are 1 so far"),
         ("v 0 0 0\nf 1/4 1/4 1/4\n", "line 2: names texture coordinate 4, but there are 0"),

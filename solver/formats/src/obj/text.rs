@@ -94,7 +94,7 @@ impl<'a> Values<'a> {
             let parsed = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
             *number = parsed.ok_or_else(|| {
                 let shown = String::from_utf8_lossy(word);
-                format!("{shown:?} is no number; write {what} as numbers with a decimal point")
+                format!("{shown:?} is not a number; write {what} as numbers with a decimal point")
             })?;
         }
         Ok(numbers)

@@ -23,7 +23,7 @@ pub(super) fn to_rec709(from: &Chromaticities) -> Result<Option<Matrix>, String>
     }
     let wrong = || {
         format!(
-            "its primaries {from:?} (chromaticities or PRIMARIES) are no colour space; drop or fix them"
+            "its primaries {from:?} (chromaticities or PRIMARIES) are not a colour space; drop or fix them"
         )
     };
     let back = rgb_to_xyz(&REC709).and_then(inverse).ok_or_else(wrong)?;

@@ -54,7 +54,7 @@ pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, PictureError> {
     let io = |error: std::io::Error| wrong(error.to_string());
     let state = std::fs::metadata(path).map_err(io)?;
     if !state.is_file() {
-        return Err(wrong("is no file; name a picture".to_owned()));
+        return Err(wrong("is not a file; name a picture".to_owned()));
     }
     if state.len() > MAX_BYTES {
         return Err(wrong(format!("is {} bytes long, too long for a picture", state.len())));

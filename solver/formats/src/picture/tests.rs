@@ -313,7 +313,7 @@ fn other_kinds_of_files_are_named() {
     assert!(error.contains("is a JPEG; pictures are linear float EXR"), "{error}");
     std::fs::write(&path, b"text").unwrap();
     assert!(read_exr_rgb(&path).unwrap_err().to_string().contains("cannot be read"));
-    assert!(read_exr_rgb(folder.path()).unwrap_err().to_string().contains("is no file"));
+    assert!(read_exr_rgb(folder.path()).unwrap_err().to_string().contains("is not a file"));
 }
 
 /// A few thousand damaged files; more in a fuzzer.

@@ -82,7 +82,7 @@ def import_maps(
     if size is not None and not 16 <= size <= 8192:
         raise MapsError(f"size is {size}; it must be from 16 to 8192")
     if not Path(folder).is_dir():
-        raise MapsError(f"{folder}: is no folder; name the one that holds the maps")
+        raise MapsError(f"{folder}: is not a folder; name the one that holds the maps")
     opened = capture if isinstance(capture, _native.Capture) else _native.Capture(capture)
     name = os.fspath(adapter) if adapter is not None else OWN if is_own_folder(Path(folder)) else "any"
     statement = read_statement(name, settings or {})

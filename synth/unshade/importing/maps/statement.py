@@ -104,7 +104,7 @@ def read_statement(adapter: str, settings: Mapping[str, Any]) -> Statement:
     except OSError as error:
         raise MapsError(f"adapter {name!r}: cannot be read: {error.strerror}; {known}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise MapsError(f"{path}: is no TOML: {error}; {known}") from error
+        raise MapsError(f"{path}: is not TOML: {error}; {known}") from error
     if table.pop("format", None) != 1:
         raise MapsError(f"{path}: is of no format that is read; write format = 1")
     shown = f"adapter {path.stem}" if path.parent == ADAPTERS else str(path)
