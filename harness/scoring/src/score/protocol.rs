@@ -24,13 +24,13 @@ impl Protocol {
         if let Some(tier @ ("diffusion" | "volume")) = said("tier") {
             id.push_str(&format!(" {tier}"));
             statements.push(format!(
-                "tier {tier}: the light that the truth's skin scatters leaves it elsewhere, and so does that of relit maps; such scores do not compare with others."
+                "tier {tier}: truth and relit maps have subsurface scattering; these scores do not compare with scores of other tiers."
             ));
         }
         if let Some(denoiser @ "oidn") = said("denoise") {
             id.push_str(&format!(" {denoiser}"));
             statements.push(format!(
-                "denoise {denoiser}: true and relit pictures were denoised; their floors are those of the pictures before, so a perfect solver may score above them, and detail finer than the noise is the denoiser's."
+                "denoise {denoiser}: true and relit pictures were denoised. The floors are those of the noisy pictures, so a perfect solver may exceed them, and detail finer than the noise is the denoiser's."
             ));
         }
         Self { id, statements }
@@ -41,13 +41,13 @@ impl Protocol {
         if let Some(renderer @ "cycles") = renderer {
             self.id.push_str(&format!(" {renderer}"));
             self.statements.push(format!(
-                "relit by {renderer}: maps were relit by another renderer than the truth; what the two renderers differ by counts against every method."
+                "relit by {renderer}: maps were relit by another renderer than the truth; differences between the renderers count as errors of every method."
             ));
         }
         if let Some(renderer @ OWN) = renderer {
             self.id.push_str(&format!(" {renderer}"));
             self.statements.push(format!(
-                "relit by {renderer}: the method relit the withheld views itself, given the lights, and no maps were relit. Mode global multiplies its pictures by one factor, the same in all lights and frames, k = <p,g>/<p,p> on linear values over mask-e5: there is no albedo to scale."
+                "relit by {renderer}: the method relit the withheld views itself, given the lights; no maps were relit. Without an albedo to scale, mode global multiplies its pictures by one factor for all lights and frames, k = <p,g>/<p,p> on linear values over mask-e5."
             ));
         }
         self
@@ -61,25 +61,25 @@ impl Protocol {
 }
 
 const PHOTOGRAPHS: [&str; 5] = [
-    "No truth is known: nothing is said of maps alone. Withheld photographs, linear, their lenses taken out, are what pictures are held against; their noise, clipping and exposure are in the error.",
-    "Pictures are compared on the mask eroded once by 5x5: mask-e5; mask-rim is what erosion takes away. Both pictures are black outside the uneroded mask, which is a file's, or the mesh's silhouette where there was none.",
-    "view: the method's own synthesis of a withheld view. relit: its maps path-traced in the light that it found, on the capture's mesh alone, which nothing else shadows. Both share the light, so a light that is wrong with an albedo that is wrong can still fit.",
+    "There is no truth, so maps are not scored by themselves. Pictures are compared with withheld photographs, linear and undistorted; the error includes their noise, clipping and exposure.",
+    "Pictures are compared on the mask eroded once by 5x5: mask-e5; mask-rim is the part that erosion removes. Both pictures are black outside the uneroded mask, which is a file, or the mesh's silhouette without one.",
+    "view: the method's own synthesis of a withheld view. relit: its maps path-traced in its recovered light, on the capture's mesh without other geometry. A wrong light with a wrong albedo can still fit.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames; per_frame has each frame alone. No picture and no map is scaled.",
-    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation has fallen to 1/e.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation falls to 1/e.",
 ];
 
 const STATEMENTS: [&str; 13] = [
-    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. Metrics named _area weigh every texel by the surface in it. coverage-e5-views2 are those of them that at least two views see.",
+    "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. Metrics named _area weight every texel by its surface area. coverage-e5-views2 is the part that at least two views see.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
     "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
-    "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered anew with the scaled albedo; no picture is ever scaled.",
+    "Scale modes of the diffuse albedo: none; global k = <p,g>/<p,p>; channel, the same per channel; median of g/p per channel. Fitted on linear values over coverage-e5. Relit pictures of mode global are rendered again with the scaled albedo; pictures are never scaled.",
     "A metric that is not defined (the correlation with a constant) is null. A subject whose map, view or picture a solver did not write has no rows.",
-    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of square blocks, pooled over frames, fixed seed; block is their side in texels or pixels, four times the distance at which the errors' correlation has fallen to 1/e, from 4 to a fifth of the region, or more where a row would have more than about 2000 of them; texel_mm of a region says what a texel is on the face. It speaks of which part of the face was looked at, not of other faces, lights or seeds.",
-    "floor: the value that the Monte Carlo noise of truth and relit picture (of the truth alone for view) would give a perfect solver, from the variances of their pixel means carried through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
-    "*_unbiased: pictures come in two independent halves of their samples, and the products of the errors of both have no noise in their mean: exact for linear values. Of sRGB values, whose curve bends what is noisy, a bias is left where truth and picture are not equally noisy or bright; docs/statistics.md has its size. Absent where a picture has no halves (an odd number of passes, a denoiser, another renderer).",
-    "orb_*, owl_*, nerfactor_*: protocols of other benchmarks, of pictures and maps as they are, with their own factors, masks, floors and means over pictures. None of their numbers is one of ours.",
+    "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of square blocks, pooled over frames, fixed seed; block is their side in texels or pixels, four times the distance at which the errors' correlation falls to 1/e, from 4 to a fifth of the region, or more if a row would have more than about 2000 blocks; texel_mm of a region is the size of a texel on the face. The interval covers the choice of the part of the face, not of faces, lights or seeds.",
+    "floor: the score of a perfect solver given the Monte Carlo noise of truth and relit picture (for view: of the truth alone), from the variances of their pixel means, propagated through clipping and the sRGB curve by five-point Gauss-Hermite quadrature.",
+    "*_unbiased: pictures have two independent halves of their samples, and the mean product of the errors of both halves is free of noise; this is exact for linear values. For sRGB values the curve leaves a bias where truth and picture are not equally noisy or bright; docs/statistics.md quantifies it. Absent if a picture has no halves (an odd number of passes, a denoiser, another renderer).",
+    "orb_*, owl_*, nerfactor_*: protocols of other benchmarks on unchanged pictures and maps, with their own factors, masks, floors and means over pictures; their numbers do not compare with ours.",
     "leakage_*: the causes are the true diffuse shading (diffuse layer / true albedo) and the true specular layer, means of their reprojections from the training views into the texture.",
-    "confidence: the solver's own trust in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. It is no part of any other score.",
-    "mesh_*: the plain mesh normal, which a recovered normal has to beat. constant_specular_albedo: the best constant.",
+    "confidence: the solver's own confidence in a texel (confidence.exr), against the error of its diffuse albedo after the one factor, on coverage-e5. Other scores do not use it.",
+    "mesh_*: the mesh's normal, the baseline for recovered normals. constant_specular_albedo: the best constant.",
 ];
