@@ -87,7 +87,7 @@ def test_up_is_that_of_the_photographs_as_shown(
 def test_photographs_that_lie_in_a_world_that_lies_are_pointed_out(tmp_path: Path) -> None:
     taken = [view.rolled(1).moved(TURN) for view in painted_capture.views(ARC)]
     folder = painted_capture.write(tmp_path / "head", taken, TURN, colmap=True)
-    with pytest.warns(UserWarning, match="seem to lie on their sides, and no EXIF tells which"):
+    with pytest.warns(UserWarning, match="seem to be rotated by 90 degrees, and EXIF does not state the direction"):
         _record(folder, tmp_path)
     scattered = [view.rolled(number) for number, view in enumerate(painted_capture.views((-40, -20, 0, 20)))]
     folder = painted_capture.write(tmp_path / "scattered", [view.moved(TURN) for view in scattered], TURN, colmap=True)
@@ -101,10 +101,10 @@ def test_a_head_captured_all_round_keeps_its_azimuth_or_a_view_states_it(tmp_pat
     folder = painted_capture.write(tmp_path / "head", taken)
     _, record, said = _imported(folder)
     np.testing.assert_allclose(record["source_to_capture"], np.eye(4), atol=1e-9)
-    assert "stand all round the head" in said and "stand all round the head" in " ".join(record["assumed"])
+    assert "cameras surround the head" in said and "cameras surround the head" in " ".join(record["assumed"])
     assert "not told" in record["front"]
     _, record, said = _imported(folder, "--front", "003.png")
-    assert "stand all round" not in said and record["front"] == "where 003.png looks from"
+    assert "surround the head" not in said and record["front"] == "where 003.png looks from"
     np.testing.assert_allclose(np.array(record["source_to_capture"])[:3, :3] @ [1, 0, 0], [0, 0, 1], atol=1e-6)
     lying = painted_capture.write(tmp_path / "lying", [view.moved(TURN) for view in taken], TURN)
     record = _record(lying, tmp_path)

@@ -19,7 +19,7 @@ LENS = "<k1>0.15</k1><k2>-1.2</k2><k3>2.2</k3>"
 MASKS = ("--masks", "masks")
 CAMERAS = "".join(heads.camera(n, name, name) for n, name in enumerate(NAMES))
 RIGHT = "imported 6 of 6 views, head upright by the cameras' mean up, silhouettes overlap 1.00"
-NO_MASKS = "masks are the mesh's silhouette, so nothing tells whether the cameras fit"
+NO_MASKS = "masks are the mesh's silhouette, so the fit of the cameras is unchecked"
 
 Case = tuple[Callable[[Path], object], tuple[str, ...], str]
 """What writes the source, the arguments after the format and path, and what the terminal must say."""

@@ -72,7 +72,7 @@ def test_an_interrupt_ends_all_jobs(wide: Path, tmp_path: Path) -> None:
         time.sleep(0.1)
     os.kill(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=60)
-    assert process.returncode == 3 and "the same command goes on from here" in said, said
+    assert process.returncode == 3 and "run the same command to resume" in said, said
 
 
 def _table(said: str) -> dict[str, tuple[int, int]]:

@@ -74,7 +74,7 @@ def test_a_stage_stops_when_it_is_asked_to(stage: str, how: str, tiny_run: Path,
     assert len(heard) == 1 and not (out / "report").exists()
     if how == "STOP":
         assert isinstance(caught.value, UnshadeError) and caught.value.exit_code == 3
-        assert "goes on from here" in str(caught.value)
+        assert "run the same command to resume" in str(caught.value)
 
 
 def test_no_falsy_answer_stops_a_stage(tiny_run: Path, tmp_path: Path) -> None:

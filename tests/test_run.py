@@ -138,7 +138,7 @@ def test_an_interrupt_exits_with_3(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
     assert process.returncode == 3, said
-    assert "the same command goes on from here" in said
+    assert "run the same command to resume" in said
 
 
 def test_the_report_opens_offline(tiny_run: Path) -> None:

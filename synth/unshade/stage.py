@@ -66,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     relight.add_argument("--renderer", choices=("mitsuba", "cycles"), default="mitsuba")
     relight.set_defaults(stage=_relight)
 
-    budget = verbs.add_parser("budget", help="say which map makes how much of a relit view's error")
+    budget = verbs.add_parser("budget", help="attribute a relit view's error to each map")
     budget.add_argument("--capture", type=Path, required=True)
     budget.add_argument("--maps", type=Path, required=True)
     budget.add_argument("--out", type=Path, required=True)
@@ -91,7 +91,7 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument("--no-fidelity", action="store_true")
     export.set_defaults(stage=_export)
 
-    lpips = verbs.add_parser("lpips", help="let a network judge pictures")
+    lpips = verbs.add_parser("lpips", help="compute LPIPS of pictures")
     lpips.add_argument("--net", required=True)
     lpips.add_argument("--pictures", type=Path, required=True)
     lpips.set_defaults(stage=_lpips)
@@ -104,14 +104,14 @@ def _parser() -> argparse.ArgumentParser:
     figure.add_argument("--folder", type=Path, required=True)
     figure.set_defaults(stage=_figure)
 
-    method = verbs.add_parser("method", help="recover maps by a method that comes with unshade")
+    method = verbs.add_parser("method", help="recover maps by a built-in method")
     method.add_argument("--name", required=True)
     method.add_argument("--capture", type=Path, required=True)
     method.add_argument("--out", type=Path, required=True)
     method.add_argument("--settings", type=json.loads, default={})
     method.set_defaults(stage=_method)
 
-    cluster = verbs.add_parser("cluster", help="do the stages of a suite on a cluster of Dask")
+    cluster = verbs.add_parser("cluster", help="run the stages of a suite on a Dask cluster")
     cluster.add_argument("--order", type=Path, required=True)
     cluster.add_argument("--address", required=True)
     cluster.add_argument("--store", required=True)
@@ -122,7 +122,7 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--scene", type=Path, required=True)
     check.set_defaults(stage=_check)
 
-    describe = verbs.add_parser("describe", help="say what a scene stands for")
+    describe = verbs.add_parser("describe", help="describe a scene")
     describe.add_argument("--scene", type=Path, required=True)
     describe.set_defaults(stage=_describe)
 

@@ -137,7 +137,7 @@ pub fn check_worker(
     if content(suite)? != suite_content {
         let path = suite.path.display();
         return Err(RunError::Worker(format!(
-            "{path} or what it names is another file here than where the work comes from; share one folder"
+            "{path}, or a file that it names, differs between this worker and the client; use a shared folder"
         )));
     }
     Ok(renderer)

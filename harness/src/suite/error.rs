@@ -72,10 +72,10 @@ pub enum RunError {
     Keep { name: String, known: String },
     #[error("{0}: is not a run's folder; name one that `unshade run` wrote")]
     NoRun(PathBuf),
-    #[error("interrupted; the same command goes on from here")]
+    #[error("interrupted; run the same command to resume")]
     Interrupted,
     #[error(
-        "interrupted in {place}; {} holds what there was, the same command goes on from here",
+        "interrupted in {place}; {} has the maps so far, run the same command to resume",
         maps.display()
     )]
     Stopped { place: String, maps: PathBuf },

@@ -47,7 +47,7 @@ pub enum StageError {
         last_words: String,
     },
     /// The user interrupted.
-    #[error("interrupted; the same command goes on from here")]
+    #[error("interrupted; run the same command to resume")]
     Interrupted,
 }
 

@@ -162,7 +162,7 @@ impl Open {
         let stage = self.read_file::<StageMemory>(STAGE);
         if matches!(kept, Err(Stale)) || matches!(stage, Err(Stale)) {
             tracing::warn!(
-                "{}: is of another capture, configuration, backend or program; starting anew",
+                "{}: belongs to another capture, configuration, backend or program; starting from the beginning",
                 self.folder.display()
             );
             Checkpoint::remove(&self.folder);

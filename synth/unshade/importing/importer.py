@@ -252,7 +252,7 @@ class _Import:
                 evidence.append(taken.evidence())
         verdict = examine(self.mesh, evidence, self.source.elsewhere)
         if verdict is None:
-            self.notes.add("nothing tells whether the cameras fit the mesh; look at masks over images")
+            self.notes.add("cannot check whether the cameras fit the mesh; inspect the masks over the images")
             return None
         if verdict.change is not None and not self.choices.apply:
             raise CaptureError(

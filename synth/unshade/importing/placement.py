@@ -75,7 +75,7 @@ class ShownUps:
     turned: int
 
 
-_ALL_ROUND = "not told by cameras all round: the azimuth is the source's"
+_ALL_ROUND = "cameras surround the head: the azimuth is the source's"
 
 
 def place(
@@ -116,7 +116,7 @@ def place(
     up, upright, doubts = _up(cameras, shown, source_may_stand=how == "auto")
     front, told = _front(np.array([camera[:3, 3] - middle for camera in cameras]), up, facing)
     if front is None:
-        doubts.append("the cameras stand all round the head, so its azimuth is left; name a view of the face (front)")
+        doubts.append("the cameras surround the head, so its azimuth is kept; name a frontal view (front)")
     turn = np.eye(3)
     stands = up[1] >= _UPRIGHT and (front is None or front[2] >= _FACING)
     if how != "auto" or facing is not None or not stands:
@@ -148,7 +148,7 @@ def _up(
     doubts: list[str] = []
     if np.linalg.norm(sides) > np.linalg.norm(ups) + _LYING:
         doubts.append(
-            "the photographs seem to lie on their sides, and no EXIF tells which; if the head does so too, turn mesh "
+            "the photographs seem to be rotated by 90 degrees, and EXIF does not state the direction; if the head does so too, turn mesh "
             "and cameras upright and keep their place (place keep)"
         )
     return _agreed(ups), upright, doubts

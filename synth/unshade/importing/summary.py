@@ -18,7 +18,7 @@ def summary(views: int, stated: int, upright: str, masks: str, overlap: float | 
         fit = f"silhouettes overlap {overlap:.2f}"
     else:
         what = "are the mesh's silhouette" if masks == "silhouette" else "have no outline"
-        fit = f"masks {what}, so nothing tells whether the cameras fit"
+        fit = f"masks {what}, so the fit of the cameras is unchecked"
     return f"imported {views} of {stated} views, {upright}, {fit}"
 
 

@@ -90,7 +90,7 @@ def _files(path: Path) -> list[Path]:
 def _not_read(path: Path, parts: list[_Frames]) -> tuple[str, ...]:
     read = {part.path.name for part in parts}
     beside = [name for name in _SPLIT if name not in read and (path.parent / name).is_file()]
-    return (f"{path.name} is read, {', '.join(beside)} beside it not",) if beside else ()
+    return (f"{path.name} is read, {', '.join(beside)} next to it is not",) if beside else ()
 
 
 def _frames(path: Path) -> _Frames:
