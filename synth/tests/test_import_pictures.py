@@ -243,7 +243,7 @@ def test_what_is_no_photograph_is_refused_in_one_line(tmp_path: Path) -> None:
     for name, words in (
         ("a.CR2", "raw file; develop it"),
         ("b.jpg", "cannot be read"),
-        ("c.gif", "no kind of picture"),
+        ("c.gif", "not a supported picture format"),
         ("d.png", "cannot be read"),
         ("e.png", "there is no such picture"),
     ):

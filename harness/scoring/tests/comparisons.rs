@@ -335,5 +335,5 @@ fn a_map_accounts_for_its_pictures_and_the_oracle_for_the_pipeline() {
     );
     assert!(pictures[0].ends_with("no map that it is made of moved as far"), "{pictures:?}");
     let pipeline = sentences(&rows(1.5, 29.0, 30.0));
-    assert!(pipeline.len() == 2 && pipeline[0].contains("no method's doing"), "{pipeline:?}");
+    assert!(pipeline.len() == 2 && pipeline[0].contains("no method caused this"), "{pipeline:?}");
 }

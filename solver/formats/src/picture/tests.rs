@@ -187,7 +187,7 @@ fn colours_of_other_primaries_are_converted_and_data_are_not() {
     assert_eq!(read_exr_rgb(&path).unwrap(), full());
     let (_kept, path) = write(&part, Some([[0.3; 2]; 4]), LayerAttributes::default());
     let error = read_exr_rgb(&path).unwrap_err().to_string();
-    assert!(error.contains("no colour space"), "{error}");
+    assert!(error.contains("not a colour space"), "{error}");
 }
 
 #[test]
