@@ -61,7 +61,7 @@ pub struct Spread {
     pub relative: bool,
     /// Standard deviation over the runs.
     pub sd: f64,
-    /// The change that matters: the reasoned tolerance.
+    /// The smallest change worth reporting: the default tolerance.
     pub matters: f64,
     /// The change that a comparison of two runs sees with probability 0.9.
     pub sees: f64,
@@ -116,10 +116,10 @@ impl Calibration {
         // A text of JSON is one of TOML.
         let text = |text: &str| Value::from(text).to_string();
         let mut lines = format!(
-            "# How far the scores of a suite move when nothing but seeds, or the last digits, differ, as\n# \
-             `unshade calibrate` measured it.\n# sd: standard deviation; matters: the reasoned tolerance; sees: what a \
-             comparison sees with\n# probability {POWER}; power: the probability of seeing what matters; \
-             relative: as shares of the value.\nformat = 2\n\n[calibration]\nsuite = {}\n",
+            "# Variation of a suite's scores with the seeds, or with rounding alone, measured by\n# `unshade calibrate`.\n\
+             # sd: standard deviation; matters: the default tolerance; sees: the change that a comparison detects \
+             with\n# probability {POWER}; power: the probability of detecting a change of `matters`; relative: as \
+             shares of the value.\nformat = 2\n\n[calibration]\nsuite = {}\n",
             text(&self.suite)
         );
         if let Some(hash) = &self.suite_hash {
@@ -137,7 +137,7 @@ impl Calibration {
         }
         if !self.captures.is_empty() {
             lines.push_str(
-                "\n# Captures that were kept: for comparisons of runs that have the same.\n\
+                "\n# Cached captures: these tolerances apply to runs with the same captures.\n\
                  [calibration.captures]\n",
             );
         }
