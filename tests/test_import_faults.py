@@ -47,7 +47,10 @@ def _refused(format: str, path: Path, words: str) -> None:
         ({"fl_x": None, "camera_angle_x": 4.0}, "is an angle in radians"),
         ({"file_path": None}, "a frame has no file_path"),
         ({"transform_matrix": [[1, 0], [0, 1]]}, "not a matrix of four rows"),
-        ({"transform_matrix": [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}, "not a rotation and translation"),
+        (
+            {"transform_matrix": [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]},
+            "not a rotation and translation",
+        ),
         (
             {"transform_matrix": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]},
             "not a rotation and translation",

@@ -102,7 +102,7 @@ def test_a_head_captured_all_round_keeps_its_azimuth_or_a_view_states_it(tmp_pat
     _, record, said = _imported(folder)
     np.testing.assert_allclose(record["source_to_capture"], np.eye(4), atol=1e-9)
     assert "cameras surround the head" in said and "cameras surround the head" in " ".join(record["assumed"])
-    assert "not told" in record["front"]
+    assert "the azimuth is the source's" in record["front"]
     _, record, said = _imported(folder, "--front", "003.png")
     assert "surround the head" not in said and record["front"] == "where 003.png looks from"
     np.testing.assert_allclose(np.array(record["source_to_capture"])[:3, :3] @ [1, 0, 0], [0, 0, 1], atol=1e-6)

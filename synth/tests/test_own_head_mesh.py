@@ -112,7 +112,7 @@ def test_a_twisted_strip_is_named():
     low, high = np.arange(20), np.arange(20) + 20
     after_low, after_high = np.append(low[1:], high[0]), np.append(high[1:], low[0])
     triangles = np.concatenate([np.stack([low, after_low, after_high], 1), np.stack([low, after_high, high], 1)])
-    with pytest.warns(MeshWarning, match="40 of 40 triangles lie on surfaces that have one side only"):
+    with pytest.warns(MeshWarning, match="40 of 40 triangles are on one-sided"):
         oriented_outwards(points, triangles, None, type("Head", (), {"mesh": "strip.obj"}))
 
 
