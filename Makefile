@@ -5,6 +5,9 @@ PYTHON ?= python3
 UV := $(CURDIR)/.tools/bin/uv
 BIN := $(CURDIR)/.venv/bin
 
+# Compiled modules are kept: without them, importing takes half of each child process's time.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: build wheel demo emily cycles validators results test fuzz heavy-cluster software-gpu bench lint miri neon clean
 
 build: .venv/complete

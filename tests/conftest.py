@@ -1,18 +1,29 @@
-"""A tiny run of everything, made once for all tests from the outside."""
+"""A tiny run of everything, made once for all tests from the outside; what tests start from instead of running anew."""
 
 from __future__ import annotations
 
 import fcntl
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
 HERE = Path(__file__).parent
+CASE = "tiny-studio"
+"""The one case of the tiny suite."""
 TINY = HERE / "scenes" / "tiny.toml"
+QUICK: dict[str, Any] = {"base": "fast", **tomllib.loads(TINY.read_text())["method"][0]["set"]}
+"""The configuration of the tiny suite's method `quick`, a solve of a second."""
 
 
 def unshade(*arguments: object, check: bool = True) -> subprocess.CompletedProcess[str]:
@@ -41,3 +52,21 @@ def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path],
 def tiny_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a finished run of ``tests/scenes/tiny.toml``; a test that changes it takes a copy."""
     return made_once(tmp_path_factory, "tiny", lambda folder: unshade("run", TINY, "-o", folder))
+
+
+@pytest.fixture(scope="session")
+def photographs(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The tiny capture without its truth, as photographs are; a test that changes it takes a copy."""
+    source, ignored = tiny_run / "captures" / CASE, shutil.ignore_patterns("truth")
+    return made_once(
+        tmp_path_factory, "photographs", lambda folder: shutil.copytree(source, folder, ignore=ignored)
+    )
+
+
+def copy_without(run: Path, folder: Path, *lacking: str) -> Path:
+    """Copies a run of the tiny suite without its ``capture`` or without all that the named methods left."""
+    patterns = [text.format(name) for name in lacking for text in ("{}", "{}.json", "*.{}.json", "{}.*.json")]
+    shutil.copytree(run, folder, ignore=shutil.ignore_patterns(*patterns))
+    if "capture" in lacking:
+        shutil.rmtree(folder / "captures")
+    return folder

@@ -17,12 +17,13 @@ from unshade.render.pictures import read_exr, read_gray, read_rgb, write_exr, wr
 CONFIG = """
 base = "fast"
 initialisation.starts = 1
+colour_regions.texture_size = 32
 warm_up = { iterations = 30, texture_size = 64 }
 fine_tuning = { iterations = 5, texture_size = 64 }
 transport = { texture_size = 32, iterations = 20, albedo_frozen_steps = 5, refinement = 5, rows = 6 }
 height.steps = 40
 """
-"""A solve of a quarter of a second."""
+"""A solve of half a second."""
 
 
 @dataclass

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import unshade
+from conftest import QUICK
 
 
 def calls(run: str, case: str, out: str) -> tuple[float | None, ...]:
@@ -26,7 +27,7 @@ def calls(run: str, case: str, out: str) -> tuple[float | None, ...]:
         raise LookupError
 
     with suppress(LookupError):
-        unshade.solve(capture, config="fast", progress=first_step, backend="cpu")
+        unshade.solve(capture, config=QUICK, progress=first_step, backend="cpu")
     return float(seen), psnr, float(len(scores)), *losses
 
 

@@ -16,6 +16,7 @@ import pytest
 from foreign_captures import OPENCV_AXES
 
 import unshade
+from conftest import QUICK
 from conftest import unshade as command
 from unshade import _native
 from unshade.errors import CaptureError, StorageError
@@ -96,10 +97,6 @@ def test_the_silhouette_is_the_mask_where_there_is_none(capture: Path, imported:
 
 
 def test_the_same_solve(capture: Path, imported: Callable[[str], Path]) -> None:
-    config = (
-        'base = "fast"\n[initialisation]\nstarts = 1\n[warm_up]\niterations = 20\n[fine_tuning]\niterations = 4\n'
-        "[transport]\ntexture_size = 32\niterations = 20\nalbedo_frozen_steps = 5\nrefinement = 4\n[height]\nsteps = 4\n"
-    )
     writer = "metashape"  # whose matrices go the longest way
     document = json.loads((imported(writer) / "transforms.json").read_text())
     original = json.loads((capture / "transforms.json").read_text())
@@ -110,7 +107,7 @@ def test_the_same_solve(capture: Path, imported: Callable[[str], Path]) -> None:
     for frame in original["frames"]:
         frame.pop("label_path")
     (same / "transforms.json").write_text(json.dumps(original))
-    first, second = (unshade.solve(folder, config=config) for folder in (same, imported(writer)))
+    first, second = (unshade.solve(folder, config=QUICK) for folder in (same, imported(writer)))
     shutil.rmtree(same)
     coverage = first.coverage
     assert first.diffuse_albedo is not None and second.diffuse_albedo is not None and coverage is not None

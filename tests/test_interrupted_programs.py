@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,30 +12,29 @@ from pathlib import Path
 
 import pytest
 
-from conftest import HERE, unshade
+from conftest import HERE
 
 
 @pytest.fixture(scope="module")
-def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A suite with a program that waits, and its capture."""
+def waiting(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A suite with a program that waits, and a run that has its capture."""
     folder = tmp_path_factory.mktemp("waiting")
-    text = f'format = 1\nname = "waiting"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\nscales = ["global"]\n'
-    (folder / "suite.toml").write_text(text + '[[method]]\nname = "oracle"\n')
-    unshade("run", folder / "suite.toml", "-o", folder / "run")
-    waiting = '[[method]]\nname = "waiting"\ncommand = ["sh", "wait.sh", "{capture}", "{maps}"]\n'
-    (folder / "suite.toml").write_text(text + waiting)
+    shutil.copytree(tiny_run, folder / "run")
+    text = f'format = 1\nname = "waiting"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\n'
+    method = '[[method]]\nname = "waiting"\ncommand = ["sh", "wait.sh", "{capture}", "{maps}"]\n'
+    (folder / "suite.toml").write_text(text + method)
     # One in the group, one that has left it.
     (folder / "wait.sh").write_text("setsid sleep 120 & echo child $!\nsleep 120 & echo child $!\nwait\n")
     return folder
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
-def test_a_program_ends_with_its_suite(rendered: Path, ending: signal.Signals) -> None:
-    log = rendered / "run" / "logs" / "tiny-studio" / "waiting.txt"
+def test_a_program_ends_with_its_suite(waiting: Path, ending: signal.Signals) -> None:
+    log = waiting / "run" / "logs" / "tiny-studio" / "waiting.txt"
     log.unlink(missing_ok=True)
-    command = [Path(sys.executable).with_name("unshade"), "run", rendered / "suite.toml", "-o", rendered / "run"]
+    command = [Path(sys.executable).with_name("unshade"), "run", waiting / "suite.toml", "-o", waiting / "run"]
     # What a killed run leaves, the next one of its folder clears; there is none here.
-    temporary = {**os.environ, "TMPDIR": str(rendered)}
+    temporary = {**os.environ, "TMPDIR": str(waiting)}
     process = subprocess.Popen(
         list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=temporary
     )
@@ -53,7 +53,7 @@ def test_a_program_ends_with_its_suite(rendered: Path, ending: signal.Signals) -
         # Nobody is left to end what the program started; the program itself goes with its parent.
         for child in children:
             os.kill(child, signal.SIGKILL)
-        assert wait_for_no_shell(rendered)
+        assert wait_for_no_shell(waiting)
         return
     assert process.returncode == 3
     for child in children:

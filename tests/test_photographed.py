@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import unshade
-from conftest import TINY
+from conftest import QUICK, TINY
 from conftest import unshade as command
 from unshade.errors import CaptureError, SceneError, ScoreError
 
@@ -120,11 +120,7 @@ def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_pa
 
 
 def test_halves_of_the_views_are_compared(photographed: Path, tmp_path: Path) -> None:
-    config = (
-        'base = "fast"\n[initialisation]\nstarts = 1\n[warm_up]\niterations = 10\n[fine_tuning]\niterations = 2\n'
-        "[transport]\ntexture_size = 16\niterations = 10\nalbedo_frozen_steps = 2\nrefinement = 2\n[height]\nsteps = 2\n"
-    )
-    found = unshade.consistency(photographed / "head", config=config, out=tmp_path / "halves")
+    found = unshade.consistency(photographed / "head", config=QUICK, out=tmp_path / "halves")
     assert found["views"] == (2, 2) and 0.3 < found["common"] <= 1
     first, second = (unshade.Maps.read(tmp_path / "halves" / half) for half in ("first", "second"))
     assert (

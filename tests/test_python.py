@@ -13,6 +13,7 @@ from doc_examples import examples
 from skimage.metrics import peak_signal_noise_ratio
 
 import unshade
+from conftest import QUICK
 
 README = Path(__file__).parents[1] / "README.md"
 CASE = "tiny-studio"
@@ -84,19 +85,12 @@ def test_a_callback_hears_and_stops_a_solve(tiny_run: Path) -> None:
             raise LookupError("enough")
 
     with pytest.raises(LookupError, match="enough"):
-        unshade.solve(capture, config="fast", progress=progress)
+        unshade.solve(capture, config=QUICK, progress=progress)
     assert [iteration for _, iteration, _, _ in heard] == [1, 2, 3]
 
 
 def test_a_stopped_solve_returns_its_maps_and_goes_on(tiny_run: Path, tmp_path: Path) -> None:
     capture = unshade.Capture(tiny_run / "captures" / CASE)
-    config = json.loads((tiny_run / "maps" / CASE / "quick" / "solve.json").read_text())["config"]
-    tables = {key: value for key, value in config.items() if isinstance(value, dict)}
-    lines = [f"{key} = {json.dumps(value)}" for key, value in config.items() if key not in tables]
-    for name, table in tables.items():
-        lines += [f"[{name}]", *(f"{key} = {json.dumps(value)}" for key, value in table.items())]
-    text = "\n".join(lines)
-
     first: list[int] = []
 
     def until_70(_stage: str, iteration: int, _total: int, _loss: float) -> object:
@@ -104,13 +98,13 @@ def test_a_stopped_solve_returns_its_maps_and_goes_on(tiny_run: Path, tmp_path: 
         return unshade.STOP if iteration == 70 else False
 
     out = tmp_path / "maps"
-    stopped = unshade.solve(capture, config=text, out=out, progress=until_70)
+    stopped = unshade.solve(capture, config=QUICK, out=out, progress=until_70)
     assert stopped.interrupted is not None and "at step" in stopped.interrupted
     assert unshade.Maps.read(out).interrupted == stopped.interrupted
     assert np.isfinite(stopped.diffuse_albedo).all()
 
     first.clear()
-    maps = unshade.solve(capture, config=text, out=out, progress=lambda _s, i, _t, _l: first.append(i))
+    maps = unshade.solve(capture, config=QUICK, out=out, progress=lambda _s, i, _t, _l: first.append(i))
     assert first[0] == 71 and maps.interrupted is None
     whole = tiny_run / "maps" / CASE / "quick"
     for name in ("diffuse_albedo.exr", "specular_normal.exr", "solve.json"):
@@ -189,7 +183,7 @@ def test_the_documentations_examples_run(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(unshade, "synth", synth, raising=False)
     monkeypatch.setattr(
-        unshade, "solve", lambda *given, **named: solve(*given, **{**named, "config": "fast"}), raising=False
+        unshade, "solve", lambda *given, **named: solve(*given, **{**named, "config": QUICK}), raising=False
     )
     code = examples()[place]
     exec(compile(code, place, "exec"), {"__name__": "example"})

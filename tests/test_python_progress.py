@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import unshade
+from conftest import QUICK
 from unshade.errors import Stopped, UnshadeError
 
 CASE = "tiny-studio"
@@ -99,7 +100,7 @@ def test_ctrl_c_ends_a_call_that_tells_nothing(tiny_run: Path) -> None:
     case = tiny_run / "captures" / CASE
     for call in (
         lambda: unshade.score(case, tiny_run / "maps" / CASE / "quick", relit=tiny_run / "relit" / CASE / "quick"),
-        lambda: unshade.solve(case, config="fast"),
+        lambda: unshade.solve(case, config=QUICK),
     ):
         done.clear()
         ready = threading.Event()
@@ -123,5 +124,5 @@ def test_ctrl_c_stops_a_solve(tiny_run: Path) -> None:
         os.kill(os.getpid(), signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        unshade.solve(tiny_run / "captures" / CASE, config="fast", progress=progress)
+        unshade.solve(tiny_run / "captures" / CASE, config=QUICK, progress=progress)
     assert len(heard) == 1

@@ -143,7 +143,7 @@ def test_stages_take_paths_and_objects(
     for picture in sorted((tiny_run / "relit" / CASE / "mean_texture").rglob("*.exr")):
         name = picture.relative_to(tiny_run / "relit" / CASE / "mean_texture")
         assert (relit / name).read_bytes() == picture.read_bytes(), name
-    assert unshade.solve(str(capture.path), config="fast", progress=lambda *_: unshade.STOP).interrupted
+    assert unshade.solve(str(capture.path), config=QUICK, progress=lambda *_: unshade.STOP).interrupted
     # Nothing of the maps is left behind, and a failure leaves nothing either.
     with pytest.raises(ScoreError):
         unshade.score(capture, unshade.Maps())

@@ -11,7 +11,7 @@ import pytest
 from blake3_of import blake3_of_folder
 
 import unshade as package
-from conftest import HERE, unshade
+from conftest import HERE, QUICK, unshade
 
 SUITE = """
 format = 1
@@ -40,15 +40,8 @@ def submission(place: Path) -> Path:
     folder.mkdir()
     (folder / "submission.toml").write_text('format = 1\nname = "theirs"\nby = "a stranger"\n')
     (folder / "maps").mkdir()
-    package.solve(capture, config=_quick(), out=folder / "maps" / "tiny-studio")
+    package.solve(capture, config=QUICK, out=folder / "maps" / "tiny-studio")
     return folder
-
-
-def _quick() -> str:
-    return (
-        'base = "fast"\n[initialisation]\nstarts = 1\n[warm_up]\niterations = 60\n[fine_tuning]\niterations = 10\n'
-        "[transport]\ntexture_size = 32\niterations = 60\nalbedo_frozen_steps = 20\nrefinement = 10\n[height]\nsteps = 64\n"
-    )
 
 
 @pytest.fixture(scope="module")
