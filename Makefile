@@ -8,7 +8,7 @@ BIN := $(CURDIR)/.venv/bin
 # Compiled modules are kept: without them, importing takes half of each child process's time.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: build wheel demo emily cycles validators results test fuzz heavy-cluster software-gpu bench lint miri neon clean
+.PHONY: build wheel demo emily cycles validators results test test-all fuzz heavy-cluster software-gpu bench lint miri neon clean
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
@@ -69,9 +69,17 @@ results: build
 	$(BIN)/unshade table runs/held-out runs/held-out-lights -o runs/results.md
 	$(BIN)/unshade table runs/held-out runs/held-out-lights -o docs/results.csv
 
+# Processes take tests from one another, so that they end together.
+PYTEST = $(BIN)/python -m pytest -q -n 2 --dist worksteal
+
 test: build
 	cargo test --release --workspace --quiet
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile
+	$(PYTEST) -m "not heavy"
+
+# With the whole solves and renders that are marked heavy.
+test-all: build
+	cargo test --release --workspace --quiet
+	$(PYTEST)
 
 # Readers on changed files, for as long as it takes: a million inputs of each, others for another
 # UNSHADE_FUZZ_SEED. `make test` tries some thousands.

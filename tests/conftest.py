@@ -58,9 +58,7 @@ def tiny_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def photographs(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The tiny capture without its truth, as photographs are; a test that changes it takes a copy."""
     source, ignored = tiny_run / "captures" / CASE, shutil.ignore_patterns("truth")
-    return made_once(
-        tmp_path_factory, "photographs", lambda folder: shutil.copytree(source, folder, ignore=ignored)
-    )
+    return made_once(tmp_path_factory, "photographs", lambda folder: shutil.copytree(source, folder, ignore=ignored))
 
 
 def copy_without(run: Path, folder: Path, *lacking: str) -> Path:

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import unshade
+from conftest import CASE
 from conftest import unshade as command
 
-CASE = "tiny-studio"
 RGB, GREY, LOBES = ["R", "G", "B"], ["Y"], ["alpha1", "alpha2", "share1"]
 ALBEDO, NORMAL, SPECULAR = "diffuse_albedo.exr", "specular_normal.exr", "specular_albedo.exr"
 ROUGHNESS, COVERAGE = "roughness.exr", "coverage.png"
@@ -142,13 +142,11 @@ def plant(maps: Path, fault: str, out: Path) -> tuple[str, str]:
 
 
 @pytest.fixture(scope="session")
-def capture(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def capture(photographs: Path) -> Path:
     """A capture without its truth."""
-    blind = tmp_path_factory.mktemp("blind") / "capture"
-    shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
-    opened = unshade.Capture(blind)
+    opened = unshade.Capture(photographs)
     VIEW[:] = opened.camera(opened.train[0])["camera_to_world"][:3, :3]
-    return blind
+    return photographs
 
 
 @pytest.mark.parametrize("fault", FAULTS)

@@ -15,9 +15,7 @@ from doc_examples import ROOT
 from markdown_it import MarkdownIt
 
 import unshade as package
-from conftest import TINY, unshade
-
-CASE = "tiny-studio"
+from conftest import CASE, TINY, copy_without, unshade
 
 
 @pytest.mark.parametrize(
@@ -42,9 +40,7 @@ def test_the_ci_files_keep_to_their_schema_and_call_what_there_is(file: str, arg
 
 @pytest.fixture(scope="module")
 def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The tiny run with an albedo that is 3 % darker, scored anew."""
-    import unshade as package
-
+    """The tiny run with an albedo and relit pictures that are 3 % darker, scored anew."""
     run = tmp_path_factory.mktemp("darker") / "run"
     shutil.copytree(tiny_run, run)
     capture, maps, relit = run / "captures" / CASE, run / "maps" / CASE / "quick", run / "relit" / CASE / "quick"
@@ -54,7 +50,9 @@ def darker(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     # The method's own views and its light are no part of what is read and written.
     shutil.copytree(tiny_run / "maps" / CASE / "quick" / "views", maps / "views")
     shutil.copy(tiny_run / "maps" / CASE / "quick" / "light.exr", maps)
-    unshade("relight", capture, maps, "-o", relit)
+    for picture in relit.rglob("*.exr"):
+        channels = package.exr_channels(picture)
+        package.write_exr(picture, 0.97 * package.read_exr(picture, channels), channels)
     unshade("score", capture, maps, "--relit", relit, "-o", run / "scores" / CASE / "quick.json")
     return run
 
@@ -141,7 +139,39 @@ def test_the_baseline_of_a_branch_is_that_of_the_merge_base(tiny_run: Path, tmp_
     assert compare().returncode == 0
 
 
-def test_calibrate_runs_a_suite_over_seeds_and_goes_on_where_it_was(tmp_path: Path) -> None:
+def test_calibrate_resumes_its_runs_and_reads_runs_of_others(tiny_run: Path, tmp_path: Path) -> None:
+    """Four runs that are finished already, and four whose scores were moved by hand."""
+    suite, out = tmp_path / "suite.toml", tmp_path / "tolerances.toml"
+    scene = TINY.with_name("tiny-scene.toml")
+    suite.write_text(f'format = 1\nname = "tiny"\nscene = "{scene}"\n[[method]]\nname = "mean_texture"\n')
+    finished = [copy_without(tiny_run, tmp_path / "tolerances-runs" / f"seed-{k:02d}") for k in range(1, 5)]
+    first = unshade("calibrate", suite, "--seeds", 4, "--vary", "method", "-o", out)
+    assert "maps/tiny-studio/mean_texture: still valid" in first.stderr and "none of which moves" in first.stdout
+    text = out.read_text()
+    assert "runs = 4" in text and "false_alarms = 0.01" in text and "[calibration.captures]" in text
+    assert "still valid" in unshade("calibrate", suite, "--seeds", 4, "--vary", "method", "-o", out).stderr
+    for k, run in enumerate(finished):
+        scores = run / "scores" / CASE / "mean_texture.json"
+        moved = json.loads(scores.read_text())
+        for row in moved["rows"]:
+            row["value"] = row["value"] and row["value"] * (1 + 1e-3 * k)
+        scores.write_text(json.dumps(moved))
+    found = package.calibrate(tmp_path / "moved.toml", runs=finished)
+    assert found["calibration"]["runs"] == 4 and "sd = 0.000e0" not in (tmp_path / "moved.toml").read_text()
+    few = unshade("calibrate", "--runs", *finished[:3], "-o", tmp_path / "few.toml", check=False)
+    assert few.returncode == 2 and "3 runs are too few" in few.stderr
+    assert (
+        "1 % false alarms over all rows"
+        in unshade("compare", *finished[:2], "--tolerances", tmp_path / "moved.toml").stdout
+    )
+    scores = finished[0] / "scores" / CASE / "mean_texture.json"
+    scores.write_text(re.sub(r'"capture": ?"[0-9a-f]{64}"', f'"capture":"{"0" * 64}"', scores.read_text()))
+    other = unshade("compare", *finished[:2], "--tolerances", out, check=False)
+    assert other.returncode == 2 and "tiny-studio: the run's capture is not" in other.stderr
+
+
+@pytest.mark.heavy
+def test_calibrate_renders_a_suite_over_seeds(tmp_path: Path) -> None:
     suite = tmp_path / "suite.toml"
     scene = TINY.with_name("tiny-scene.toml")
     suite.write_text(
@@ -169,5 +199,3 @@ def test_calibrate_runs_a_suite_over_seeds_and_goes_on_where_it_was(tmp_path: Pa
     assert "Not like" not in unshade("compare", kept_runs[0], kept_runs[1], "--tolerances", kept).stdout
     other = unshade("compare", runs[0], kept_runs[0], "--tolerances", kept, check=False)
     assert other.returncode == 2 and "tiny-studio: the run's capture is not the baseline's" in other.stderr
-    few = unshade("calibrate", "--runs", *runs[:3], "-o", tmp_path / "few.toml", check=False)
-    assert few.returncode == 2 and "3 runs are too few" in few.stderr

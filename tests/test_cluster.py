@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -15,7 +16,7 @@ from pathlib import Path
 import pytest
 from test_run import digest
 
-from conftest import TINY
+from conftest import TINY, copy_without
 
 pytest.importorskip("distributed", reason="needs unshade[cluster]")
 
@@ -37,12 +38,14 @@ def free_port() -> int:
         return taken.getsockname()[1]
 
 
+@pytest.mark.heavy
 def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_process(
     tiny_run: Path, tmp_path: Path
 ) -> None:
-    """Killed: the worker that rendered, as soon as it is done, and later the scheduler with all that is left."""
+    """Killed: the worker that rendered, as soon as it is done, and after the solve the scheduler with all that is left;
+    the baselines of an earlier run stay valid."""
     address = f"tcp://127.0.0.1:{(port := free_port())}"
-    run, log = tmp_path / "run", tmp_path / "log.txt"
+    run, log = copy_without(tiny_run, tmp_path / "run", "capture", "quick"), tmp_path / "log.txt"
     with ExitStack() as running:
 
         def scheduler() -> subprocess.Popen[bytes]:
@@ -67,35 +70,34 @@ def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_proc
                 # What it knows of the capture is gone with it; what it left is in the store.
                 workers["one"].send_signal(signal.SIGKILL)
                 workers |= {name: worker(name) for name in ("two", "three")}
-            elif line.startswith("scores/") and first.poll() is None:
+            elif line.startswith("maps/tiny-studio/quick") and first.poll() is None:
                 first.send_signal(signal.SIGKILL)
                 for name in ("two", "three"):
                     workers[name].send_signal(signal.SIGKILL)
                 scheduler()
                 worker("late")
         assert unshade.wait(timeout=60) == 0, "".join(said) + log.read_text()[-2000:]
-    assert "10 stages run, 0 still valid" in "".join(said), said
+    assert "4 stages run, 6 still valid" in "".join(said), said
     assert said.count(next(line for line in said if line.startswith("capture/"))) == 1
     assert digest(run) == digest(tiny_run)
 
 
-def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tmp_path: Path) -> None:
-    (tmp_path / "mine.py").write_text(
-        "import numpy as np\nimport unshade\n\n"
-        "def grey(capture):\n    print('all is grey')\n"
-        "    return unshade.Maps(diffuse_albedo=np.full((32, 32, 3), 0.4, np.float32))\n\n"
-        "def none(capture):\n    raise SystemExit('there is no face')\n"
-    )
-    methods = "".join(f'[[method]]\nname = "{name}"\npython = "mine:{name}"\n' for name in ("grey", "none"))
+def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tiny_run: Path, tmp_path: Path) -> None:
+    relit = 'mkdir -p "$2/relit/uniform"; cp "$1/images/000.exr" "$2/relit/uniform/004.exr"'
+    (tmp_path / "grey.sh").write_text(f"echo all is grey; {relit}\n")
+    (tmp_path / "none.sh").write_text("echo there is no face >&2; exit 1\n")
+    method = '[[method]]\nname = "{0}"\ncommand = ["sh", "{0}.sh", "{{capture}}", "{{maps}}"]\ngives = "pictures"\n'
+    methods = "".join(method.format(name) for name in ("grey", "none"))
     suite = tmp_path / "suite.toml"
     suite.write_text(f'format = 1\nname = "own"\nscene = "{TINY.parent / "tiny-scene.toml"}"\n{methods}')
+    shutil.copytree(tiny_run, tmp_path / "run")
     words = [BIN / "unshade", "run", suite, "-o", tmp_path / "run", "--cluster", "local"]
     workers = len(os.sched_getaffinity(0)) + 1
     done = subprocess.run([*map(str, words), "--jobs", str(workers)], capture_output=True, text=True)
     assert done.returncode == 1 and "there is no face" in done.stderr, done.stderr
     logs = {path.stem: path.read_text() for path in (tmp_path / "run" / "logs").rglob("*.txt")}
     assert "all is grey" in logs["grey"] and "there is no face" in logs["none"]
-    assert [path.stem for path in (tmp_path / "run" / "scores").rglob("*.json")] == ["grey"]
+    assert [path.stem for path in (tmp_path / "run" / "scores").rglob("[gn]*.json")] == ["grey"]
 
 
 def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -110,6 +112,54 @@ def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch
     with pytest.raises(ClusterError, match="no scheduler answers.*dask scheduler"):
         collect(order, f"tcp://127.0.0.1:{free_port()}", Store(str(tmp_path)), [], lambda *_: None, patience=1.0)
     assert time.monotonic() - start < 30
+
+
+def test_stages_survive_the_loss_of_scheduler_and_worker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lost with the first of two stages done, which is not done again; the stages write their names alone."""
+    from distributed import LocalCluster
+
+    from unshade.cluster import client
+    from unshade.cluster.order import Order, Task
+    from unshade.cluster.store import Store
+
+    port, store, calls = free_port(), Store(str(tmp_path / "store")), tmp_path / "calls"
+
+    def start() -> LocalCluster:
+        options = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+        return LocalCluster(scheduler_port=port, protocol="tcp", **options)
+
+    def stage(job: dict[str, str], *before: object) -> dict[str, object]:
+        with calls.open("a") as said:
+            said.write(f"{job['id']}\n")
+        made = tmp_path / job["path"].replace("/", "-")
+        made.write_text(job["id"])
+        content = job["path"].encode().hex().ljust(64, "0")
+        store.put(content, made)
+        record = {"content": content, "seconds": 0.0}
+        return {"id": job["id"], "key": "", "record": record, "failed": None, "log": None, "name": None, "worker": ""}
+
+    monkeypatch.setattr(client, "do", stage)
+    monkeypatch.setattr(client._native, "adopt", lambda *_: None)
+    clusters = [start()]
+
+    def progress(done: int, *_: object) -> None:
+        if done == 1:
+            clusters.pop().close()
+            clusters.append(start())
+
+    tasks = (
+        Task("maps/a/b", (), "maps/a/b", "a", "a/b", None),
+        Task("scores/a/b", ("maps/a/b",), "scores/a/b.json", "a", "a/b", None),
+    )
+    try:
+        found = client.collect(
+            Order(TINY, tmp_path / "run", "", "", tasks), f"tcp://127.0.0.1:{port}", store, [], progress
+        )
+    finally:
+        clusters.pop().close()
+    assert found["failed"] == {} and len(found["records"]) == 2
+    assert [(tmp_path / "run" / task.path).read_text() for task in tasks] == [task.id for task in tasks]
+    assert calls.read_text().split().count("maps/a/b") == 1
 
 
 def test_the_store_keeps_files_and_folders_by_content(tmp_path: Path) -> None:

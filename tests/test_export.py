@@ -5,9 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from conftest import unshade
-
-CASE = "tiny-studio"
+from conftest import CASE, unshade
 
 
 def test_recovered_maps_become_an_asset(tiny_run: Path, tmp_path: Path) -> None:

@@ -12,12 +12,12 @@ import pytest
 from foreign_maps import Layout
 
 import unshade
+from conftest import CASE
 from conftest import unshade as command
 from unshade import _native
 from unshade.errors import MapsError, StorageError
 from unshade.importing.maps.statement import known_adapters
 
-CASE = "tiny-studio"
 LOSS_DB = 0.05
 """What a format and another layout may cost the diffuse albedo."""
 

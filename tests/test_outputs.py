@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 
 import unshade as package
-from conftest import HERE, TINY, unshade
+from conftest import CASE, HERE, TINY, unshade
 
-CASE = "tiny-studio"
 SCENE = HERE / "scenes" / "tiny-scene.toml"
 MOUNTS = (
     shutil.which("unshare") is not None

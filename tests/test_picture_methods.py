@@ -11,10 +11,8 @@ import numpy as np
 import pytest
 
 import unshade
-from conftest import HERE
+from conftest import CASE, HERE
 from conftest import unshade as command
-
-CASE = "tiny-studio"
 
 SUITE = f"""
 format = 1

@@ -16,16 +16,14 @@ from typing import Any
 import pytest
 
 import unshade as package
-from conftest import HERE, unshade
+from conftest import CASE, HERE, copy_without, unshade
 
-CASE = "tiny-studio"
 SPY_ID = "spy-seed3"
 
 SUITE = f"""
 format = 1
 name = "programs"
 scene = "{HERE / "scenes" / "tiny-scene.toml"}"
-scales = ["global"]
 
 [[method]]
 name = "mine"
@@ -134,10 +132,10 @@ for place in (capture / "written", pathlib.Path.cwd() / "written", pathlib.Path(
 
 
 @pytest.fixture(scope="session")
-def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the suite and a finished run of it."""
+def programs(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the suite and a finished run of it, on the capture and the oracle of another run."""
     folder = tmp_path_factory.mktemp("programs")
-    run = folder / "run"
+    run = copy_without(tiny_run, folder / "run", "quick", "mean_texture")
     # Its environment is part of the suite's text.
     (folder / "suite.toml").write_text(
         SUITE.replace('name = "spy"', f'name = "spy"\nenvironment = {{ SPY_RUN = "{run}" }}')
@@ -297,9 +295,11 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     assert "0 stages run" in done.stderr, done.stderr
     assert value(folder, "mine") == before and "seen:" in log(folder, "mine")
     write(folder, "shade.py", "def colour():\n    return 0.75\n")
-    steps: list[str] = []
-    package.run(folder / "suite.toml", folder / "run", progress=lambda *step: steps.append(step[2]))
-    assert f"maps/{CASE}/mine: of the shell: None" in steps
+    printed = f"maps/{CASE}/mine: of the shell: None"
+    with pytest.raises(package.errors.Stopped):
+        package.run(
+            folder / "suite.toml", folder / "run", progress=lambda *step: package.STOP if step[2] == printed else None
+        )
 
 
 @pytest.mark.parametrize(
@@ -323,7 +323,7 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
     ],
 )
 def test_what_can_be_checked_is_checked_before_anything_is_rendered(tmp_path: Path, table: str, expected: str) -> None:
-    head = SUITE.strip().split("[[method]]")[0].replace('scales = ["global"]\n\n', "")
+    head = SUITE.strip().split("[[method]]")[0].rstrip() + "\n"
     (tmp_path / "suite.toml").write_text(head + "[[method]]\n" + table + "\n")
     (tmp_path / "bad.py").write_text("x = 1\ndef (:\n")
     (tmp_path / "ok.py").write_text("def solve(capture, gain=1):\n    return None\n")

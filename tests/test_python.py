@@ -13,10 +13,9 @@ from doc_examples import examples
 from skimage.metrics import peak_signal_noise_ratio
 
 import unshade
-from conftest import QUICK
+from conftest import CASE, QUICK
 
 README = Path(__file__).parents[1] / "README.md"
-CASE = "tiny-studio"
 
 
 def test_no_module_has_the_name_of_a_function() -> None:
@@ -145,7 +144,7 @@ def test_the_renderers_exception_keeps_its_name(tmp_path: Path) -> None:
     assert not (tmp_path / "capture").exists()
 
 
-def test_a_python_function_joins_a_suite(tiny_run: Path, tmp_path: Path) -> None:
+def test_a_python_function_joins_a_suite(tiny_run: Path, photographs: Path, tmp_path: Path) -> None:
     """Someone else's solver, blind to the truth, in five lines of TOML."""
     (tmp_path / "grey.py").write_text(
         "import numpy as np, unshade\n"
@@ -156,11 +155,9 @@ def test_a_python_function_joins_a_suite(tiny_run: Path, tmp_path: Path) -> None
     from unshade import plugin
 
     maps = tmp_path / "maps"
-    blind = tmp_path / "blind"
-    shutil.copytree(tiny_run / "captures" / CASE, blind, ignore=shutil.ignore_patterns("truth"))
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(tmp_path)
-        plugin.main("grey:solve", str(blind), str(maps))
+        plugin.main("grey:solve", str(photographs), str(maps))
     scores = unshade.score(tiny_run / "captures" / CASE, maps)
     subjects = {row["subject"] for row in scores["rows"]}
     # What the function did not recover is absent, never scored as zero.

@@ -12,9 +12,9 @@ import tomllib
 from scipy.ndimage import binary_erosion
 
 import unshade
+from conftest import CASE
 from unshade.errors import ConfigError, MetricError, PictureError, SceneError, StorageError
 
-CASE = "tiny-studio"
 SUITE = Path(__file__).parent / "scenes" / "tiny.toml"
 
 METRICS = '''

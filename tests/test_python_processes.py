@@ -11,7 +11,7 @@ import forked
 import numpy as np
 import pytest
 
-CASE = "tiny-studio"
+from conftest import CASE
 
 
 def warped() -> tuple[int, ...]:

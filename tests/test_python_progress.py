@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 
 import unshade
-from conftest import QUICK
+from conftest import CASE, QUICK
 from unshade.errors import Stopped, UnshadeError
 
-CASE = "tiny-studio"
 SUITE = Path(__file__).parent / "scenes" / "tiny.toml"
 
 

@@ -13,9 +13,8 @@ import pytest
 from PIL import Image
 
 import unshade
+from conftest import CASE, QUICK
 from unshade.errors import ScoreError
-
-CASE = "tiny-studio"
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import pytest
 
 import unshade
 
+pytestmark = pytest.mark.heavy
 PROGRAM = Path(sys.executable).with_name("unshade")
 SCENE = """format = 1
 name = "{name}"

@@ -12,11 +12,10 @@ import pytest
 from doc_examples import ROOT, commands, examples
 
 import unshade
-from conftest import HERE
+from conftest import CASE, HERE
 from conftest import unshade as command
 
 START = ROOT / "harness" / "src" / "cli" / "start"
-CASE = "tiny-studio"
 
 
 def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

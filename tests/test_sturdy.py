@@ -14,7 +14,6 @@ from PIL import Image
 
 import unshade
 
-CASE = "tiny-studio"
 PAPER = """
 base = "paper"
 warm_up.iterations = 20
@@ -23,18 +22,14 @@ fine_tuning = { iterations = 5, texture_size = 64 }
 
 
 @pytest.fixture
-def capture(tiny_run: Path, tmp_path: Path) -> Editable:
-    folder = tmp_path / "capture"
-    shutil.copytree(tiny_run / "captures" / CASE, folder, ignore=shutil.ignore_patterns("truth"))
-    return Editable(folder)
+def capture(photographs: Path, tmp_path: Path) -> Editable:
+    return Editable(shutil.copytree(photographs, tmp_path / "capture"))
 
 
 @pytest.fixture(scope="module")
-def untouched(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> unshade.Maps:
+def untouched(photographs: Path, tmp_path_factory: pytest.TempPathFactory) -> unshade.Maps:
     """The maps of the capture as it is."""
-    folder = tmp_path_factory.mktemp("untouched") / "capture"
-    shutil.copytree(tiny_run / "captures" / CASE, folder, ignore=shutil.ignore_patterns("truth"))
-    return Editable(folder).solve()
+    return Editable(shutil.copytree(photographs, tmp_path_factory.mktemp("untouched") / "capture")).solve()
 
 
 def angle(a: np.ndarray, b: np.ndarray, where: np.ndarray) -> float:
@@ -204,6 +199,7 @@ def test_sizes_of_textures(capture: Editable, config: str, side: int) -> None:
     assert capture.solve(config).diffuse_albedo.shape == (side, side, 3)
 
 
+@pytest.mark.heavy
 def test_textures_of_4096(capture: Editable) -> None:
     """The largest that is promised, once through every stage of the paper."""
     capture.keep_training(1)
@@ -293,11 +289,18 @@ def reversed_without_normals(mesh: dict[str, np.ndarray]) -> None:
 @pytest.mark.parametrize(
     "fault", [negate_all, negate_some, reverse_all, reverse_some, inside_out, reversed_without_normals]
 )
-def test_inverted_normals_and_triangles(capture: Editable, untouched: unshade.Maps, fault: Callable) -> None:
+def test_inverted_normals_and_triangles_are_turned_back(
+    capture: Editable, photographs: Path, untouched: unshade.Maps, fault: Callable
+) -> None:
     capture.change_mesh(fault)
-    maps = capture.solve()
-    looks_like(maps, untouched)
-    assert angle(maps.specular_normal, untouched.specular_normal, untouched.coverage) < 1.5
+    sound, read = (unshade.Capture(folder).mesh for folder in (photographs, capture.folder))
+    assert (sound["normals"] * read["normals"]).sum(-1).mean() > 0.99
+    facing = [np.cross(*np.diff(mesh["vertices"][mesh["triangles"]], axis=1).swapaxes(0, 1)) for mesh in (sound, read)]
+    assert (np.multiply(*facing).sum(-1) > 0).mean() > 0.9999
+    if fault is reversed_without_normals:
+        maps = capture.solve()
+        looks_like(maps, untouched)
+        assert angle(maps.specular_normal, untouched.specular_normal, untouched.coverage) < 1.5
 
 
 def test_a_noisy_mesh_from_photogrammetry(capture: Editable) -> None:

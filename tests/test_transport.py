@@ -10,9 +10,9 @@ import pytest
 from scipy.ndimage import binary_erosion, map_coordinates
 
 import unshade
+from conftest import CASE
 from unshade.render.pictures import read_exr, read_rgb
 
-CASE = "tiny-studio"
 ROWS = 16
 NEARNESS = 1 / 1.5
 """Of the largest panel of the studio, per metre."""
