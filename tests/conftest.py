@@ -13,6 +13,8 @@ from typing import Any
 
 import pytest
 
+import unshade as package
+
 if sys.version_info >= (3, 11):
     import tomllib
 else:
@@ -59,6 +61,12 @@ def photographs(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Pat
     """The tiny capture without its truth, as photographs are; a test that changes it takes a copy."""
     source, ignored = tiny_run / "captures" / CASE, shutil.ignore_patterns("truth")
     return made_once(tmp_path_factory, "photographs", lambda folder: shutil.copytree(source, folder, ignore=ignored))
+
+
+def rows(run: Path, method: str) -> dict[str, package.Score]:
+    """The rows of a method's scores in a run of the tiny suite, by their ids; those of labels are left out."""
+    scores = package.Scores.read(run / "scores" / CASE / f"{method}.json")
+    return {row.id: row for row in scores if row.label is None}
 
 
 def copy_without(run: Path, folder: Path, *lacking: str) -> Path:

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
+from scipy.spatial.transform import Rotation
 
 from unshade import _native
 from unshade.importing.chart_mesh import read_mesh
@@ -106,27 +107,9 @@ def colmap(folder: Path, images: Sequence[tuple[str, str]]) -> None:
     lines = []
     for number, (name, picture) in enumerate(images, 1):
         world = np.linalg.inv(pose(name) @ OPENCV_AXES)
-        w, x, y, z = _quaternion(world[:3, :3])
-        lines.append(f"{number} {w!r} {x!r} {y!r} {z!r} {' '.join(map(repr, map(float, world[:3, 3])))} 1 {picture}\n")
+        x, y, z, w = Rotation.from_matrix(world[:3, :3]).as_quat()
+        lines.append(f"{number} {numbers([w, x, y, z, *world[:3, 3]])} 1 {picture}\n")
     (folder / "images.txt").write_text("\n".join(lines) + "\n")
-
-
-def _quaternion(rotation: np.ndarray) -> tuple[float, ...]:
-    values, vectors = np.linalg.eigh(_quadratic(rotation))
-    x, y, z, w = vectors[:, np.argmax(values)]
-    return float(w), float(x), float(y), float(z)
-
-
-def _quadratic(r: np.ndarray) -> np.ndarray:
-    """Bar-Itzhack's matrix, whose first eigenvector is the quaternion (x, y, z, w)."""
-    return np.array(
-        [
-            [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
-            [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
-            [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r.trace()],
-        ]
-    )
 
 
 def numbers(values: Any) -> str:

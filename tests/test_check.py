@@ -178,7 +178,7 @@ def test_some_faults_are_named_without_a_capture(fault: str, tiny_run: Path, tmp
     assert (file, expected) in [(found["map"], found["id"]) for found in unshade.check(tmp_path / "maps")]
 
 
-def test_what_our_solver_wrote_is_not_called_encoded(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+def test_maps_of_our_solver_are_not_reported_as_encoded(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
     file, _ = plant(tiny_run / "maps" / CASE / "oracle", "specular sRGB-encoded", tmp_path / "maps")
     write(tmp_path / "maps" / ALBEDO, srgb(read(tmp_path / "maps" / ALBEDO)))
     (tmp_path / "maps" / "solve.json").write_text('{"solver": "unshade", "config": {}}')
@@ -229,7 +229,7 @@ def test_maps_far_smaller_than_the_pictures_are_named(tiny_run: Path, capture: P
     assert "small" in [found["id"] for found in unshade.check(maps, capture=capture)]
 
 
-def test_the_command_says_what_it_found(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
+def test_check_prints_its_findings(tiny_run: Path, capture: Path, tmp_path: Path) -> None:
     sound = tiny_run / "maps" / CASE / "oracle"
     done = command("check", sound, "--capture", capture)
     assert done.stdout.strip() == f"{sound}: no faults found"

@@ -39,9 +39,7 @@ def free_port() -> int:
 
 
 @pytest.mark.heavy
-def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_process(
-    tiny_run: Path, tmp_path: Path
-) -> None:
+def test_lost_worker_and_restarted_scheduler_give_identical_bytes(tiny_run: Path, tmp_path: Path) -> None:
     """Killed: the worker that rendered, as soon as it is done, and later the scheduler with all that is left."""
     address = f"tcp://127.0.0.1:{(port := free_port())}"
     run, log = tmp_path / "run", tmp_path / "log.txt"
@@ -81,7 +79,7 @@ def test_a_lost_worker_a_late_one_and_a_new_scheduler_give_the_bytes_of_one_proc
     assert digest(run) == digest(tiny_run)
 
 
-def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tiny_run: Path, tmp_path: Path) -> None:
+def test_program_output_returns_from_more_workers_than_processors(tiny_run: Path, tmp_path: Path) -> None:
     relit = 'mkdir -p "$2/relit/uniform"; cp "$1/images/000.exr" "$2/relit/uniform/004.exr"'
     (tmp_path / "grey.sh").write_text(f"echo all is grey; {relit}\n")
     (tmp_path / "none.sh").write_text("echo there is no face >&2; exit 1\n")
@@ -99,7 +97,7 @@ def test_what_programs_print_comes_back_from_workers_beyond_the_processors(tiny_
     assert [path.stem for path in (tmp_path / "run" / "scores").rglob("[gn]*.json")] == ["grey"]
 
 
-def test_a_scheduler_that_nobody_started_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_scheduler_is_a_one_line_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from unshade.cluster.client import collect
     from unshade.cluster.order import Order, Task
     from unshade.cluster.store import Store

@@ -272,7 +272,7 @@ def test_many_islands_are_a_warning(capture: Path, tmp_path: Path) -> None:
     assert re.search(r"has \d{3,} UV islands; every seam costs a solve accuracy", said)
 
 
-def test_what_cannot_be_is_refused_in_one_line(capture: Path, tmp_path: Path) -> None:
+def test_invalid_imports_are_one_line_errors(capture: Path, tmp_path: Path) -> None:
     path = foreign_captures.colmap(capture, tmp_path / "source", binary=True)
     mesh = path / "mesh.obj"
 

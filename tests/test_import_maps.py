@@ -203,7 +203,7 @@ def test_the_command_line_and_an_adapter_of_ones_own(capture: unshade.Capture, n
     assert refused.returncode == 2 and refused.stderr.count("\n") == 1 and "diffuse_albedo.curv" in refused.stderr
 
 
-def test_what_cannot_be_is_refused_in_one_line(capture: unshade.Capture, doubted: Path, tmp_path: Path) -> None:
+def test_invalid_imports_are_one_line_errors(capture: unshade.Capture, doubted: Path, tmp_path: Path) -> None:
     def refused(words: str, error: type[Exception] = MapsError, folder: Path = doubted, **choices: Any) -> None:
         with pytest.raises(error, match=words) as refusal:
             bring(capture, folder, choices.pop("out", tmp_path / "out"), **choices)

@@ -38,7 +38,7 @@ def wide(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return suite
 
 
-def test_three_jobs_give_the_bytes_of_one(tiny_run: Path, tmp_path: Path) -> None:
+def test_three_jobs_give_identical_bytes(tiny_run: Path, tmp_path: Path) -> None:
     run = copy_without(tiny_run, tmp_path / "run", "quick", "mean_texture")
     said = unshade("run", TINY, "-o", run, "--jobs", 3).stderr
     assert "6 stages run, 4 still valid" in said
@@ -48,7 +48,7 @@ def test_three_jobs_give_the_bytes_of_one(tiny_run: Path, tmp_path: Path) -> Non
     assert stages == known, "times stand in the order of the plan"
 
 
-def test_a_method_that_fails_keeps_no_other_job_waiting(wide: Path, tiny_run: Path, tmp_path: Path) -> None:
+def test_failing_method_does_not_block_other_jobs(wide: Path, tiny_run: Path, tmp_path: Path) -> None:
     """On a run that is still valid but for the scores."""
     run = shutil.copytree(tiny_run, tmp_path / "run")
     (run / "scores" / CASE / "mean_texture.json").unlink()
@@ -66,7 +66,7 @@ def test_a_method_that_fails_keeps_no_other_job_waiting(wide: Path, tiny_run: Pa
     ).exists()
 
 
-def test_an_interrupt_ends_all_jobs(wide: Path, tmp_path: Path) -> None:
+def test_interrupt_ends_all_jobs(wide: Path, tmp_path: Path) -> None:
     command = [Path(sys.executable).with_name("unshade"), "run", wide, "-o", tmp_path / "run", "--jobs", 2]
     process = subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     while len(list((tmp_path / "run" / "captures").glob("*.partial"))) < 2 and process.poll() is None:
@@ -82,7 +82,7 @@ def _table(said: str) -> dict[str, tuple[int, int]]:
     return {kind: (int(cached), int(pending)) for kind, cached, pending in found}
 
 
-def test_a_dry_run_says_what_is_cached_and_writes_nothing(tiny_run: Path, tmp_path: Path) -> None:
+def test_dry_run_counts_cached_stages_and_writes_nothing(tiny_run: Path, tmp_path: Path) -> None:
     run = shutil.copytree(tiny_run, tmp_path / "run")
     assert _table(unshade("run", TINY, "-o", run, "--dry-run").stdout)["capture"] == (1, 0)
     shutil.rmtree(run / "maps" / CASE / "quick")
@@ -99,7 +99,7 @@ def test_a_dry_run_says_what_is_cached_and_writes_nothing(tiny_run: Path, tmp_pa
     assert done.returncode == 2 and "mine" in done.stderr
 
 
-def test_time_and_disc_are_those_that_the_like_of_it_took(tiny_run: Path, wide: Path, tmp_path: Path) -> None:
+def test_dry_run_estimates_time_and_disk_from_earlier_runs(tiny_run: Path, wide: Path, tmp_path: Path) -> None:
     """Other lights, the same sizes: each capture takes what one took, and the bytes come out within a fifth."""
     known = tmp_path / "known"
     known.mkdir()
@@ -115,7 +115,7 @@ def test_time_and_disc_are_those_that_the_like_of_it_took(tiny_run: Path, wide: 
     assert float(disc[1]) * 1e6 == pytest.approx(2 * real, rel=0.2)
 
 
-def test_the_manifest_says_what_each_kind_takes(tiny_run: Path) -> None:
+def test_manifest_holds_the_bytes_of_each_kind(tiny_run: Path) -> None:
     said = json.loads((tiny_run / "run.json").read_text())["bytes"]
     assert list(said) == ["captures", "maps", "relit", "scores"]
     for kind, size in said.items():
@@ -128,7 +128,7 @@ def test_the_manifest_says_what_each_kind_takes(tiny_run: Path) -> None:
         assert size == sum(path.stat().st_size for path in files) - sum(path.stat().st_size for path in scenes), kind
 
 
-def test_cleaning_removes_what_can_be_made_again_and_nothing_else(tiny_run: Path, tmp_path: Path) -> None:
+def test_clean_removes_reproducible_outputs_only(tiny_run: Path, tmp_path: Path) -> None:
     run = shutil.copytree(tiny_run, tmp_path / "run")
     (run / "maps" / CASE / "oracle" / "notes.txt").write_text("mine")
     (run / "captures" / "thesis").mkdir()
@@ -150,7 +150,7 @@ def test_cleaning_removes_what_can_be_made_again_and_nothing_else(tiny_run: Path
     unshade("site", run, "-o", tmp_path / "site")
 
 
-def test_what_cannot_be_cleaned_is_said(tiny_run: Path, tmp_path: Path) -> None:
+def test_clean_refuses_unknown_kinds_and_other_folders(tiny_run: Path, tmp_path: Path) -> None:
     bad = unshade("clean", tiny_run, "--keep", "scores,photos", check=False)
     assert bad.returncode == 2 and '"photos"' in bad.stderr and "captures, lights" in bad.stderr
     bad = unshade("clean", tmp_path, "--keep", "scores", check=False)

@@ -97,7 +97,9 @@ def test_a_dry_run_counts_the_pixels_of_the_photographs(photographed: Path, tmp_
     assert 0.5 * expected < int(found[1]) * {"s": 1, "min": 60}[found[2]] < 2 * expected + 10, said
 
 
-def test_what_cannot_be_scored_or_run_is_said_in_one_line(tiny_run: Path, tmp_path: Path, photographed: Path) -> None:
+def test_photographs_that_cannot_be_scored_are_one_line_errors(
+    tiny_run: Path, tmp_path: Path, photographed: Path
+) -> None:
     every = _imported(tiny_run, tmp_path)
     with pytest.raises(ScoreError, match="no truth and no withheld photographs.*--holdout"):
         unshade.score(every, photographed / "run" / "maps" / "head" / "quick")

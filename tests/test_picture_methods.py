@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import unshade
-from conftest import CASE, HERE
+from conftest import CASE, HERE, rows
 from conftest import unshade as command
 
 SUITE = f"""
@@ -124,12 +124,7 @@ def run(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "run"
 
 
-def rows(run: Path, method: str) -> dict[str, unshade.Score]:
-    scores = unshade.Scores.read(run / "scores" / CASE / f"{method}.json")
-    return {row.id: row for row in scores.select()}
-
-
-def test_relit_views_alone_have_the_picture_rows_of_the_handed_lights_and_no_others(run: Path) -> None:
+def test_relit_views_get_picture_rows_of_the_given_lights_only(run: Path) -> None:
     # The capture's own light is not handed over: an albedo would be found by it.
     assert (run / "logs" / CASE / "relighter.txt").read_text().strip() == "lights: uniform.exr"
     found = rows(run, "relighter")
@@ -143,7 +138,7 @@ def test_relit_views_alone_have_the_picture_rows_of_the_handed_lights_and_no_oth
     assert document["protocol"]["id"] == "unshade-1 own" and document.get("findings", []) == []
 
 
-def test_the_one_factor_is_the_least_squares_one(run: Path) -> None:
+def test_global_factor_is_least_squares(run: Path) -> None:
     """By numpy, from the files: k = <p,g> / <p,p> inside the eroded masks."""
     from scipy.ndimage import binary_erosion
 
@@ -172,7 +167,7 @@ def test_albedo_and_normals_by_view_become_maps(run: Path) -> None:
     assert maps.size == 512 and maps.specular_albedo is None
 
 
-def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
+def test_unknown_light_fails_its_method_alone(run: Path) -> None:
     failed = {
         solver["id"]: solver.get("failed", "")
         for solver in json.loads((run / "run.json").read_text())["cases"][0]["solvers"]
@@ -184,7 +179,7 @@ def test_what_is_no_light_is_the_failure_of_its_method_alone(run: Path) -> None:
     assert "relighter" in page and "relit by own" in page
 
 
-def test_an_empty_hand_and_keys_without_use_are_refused(tmp_path: Path, tiny_run: Path) -> None:
+def test_missing_pictures_and_unsupported_keys_are_refused(tmp_path: Path, tiny_run: Path) -> None:
     suite = tmp_path / "suite.toml"
     head = f'format = 1\nname = "x"\nscene = "{HERE / "scenes" / "tiny-scene.toml"}"\n[[method]]\nname = "x"\n'
     words = f'command = ["{sys.executable}", "x.py", "{{capture}}", "{{maps}}"'

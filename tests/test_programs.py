@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 import unshade as package
-from conftest import CASE, HERE, copy_without, unshade
+from conftest import CASE, HERE, copy_without, rows, unshade
 
 SPY_ID = "spy-seed3"
 
@@ -203,12 +203,14 @@ def test_one_failing_method_leaves_the_others_alone(programs: Path) -> None:
     assert "no diffuse_albedo.exr" in failed["nan"]
     assert "about to fail" in log(programs, "broken")
     assert value(programs, "oracle") > 90
+    # What a method did not recover is absent, never scored as zero.
+    assert "specular_albedo" not in {row.subject for row in rows(programs / "run", "mine").values()}
     page = (programs / "run" / "report" / "index.html").read_text()
     assert "no such lens" in page and page.count("<td>failed</td>") >= 4
     assert (programs / "run" / "report" / "data" / CASE / "broken.log.txt").is_file()
 
 
-def test_a_program_that_is_ended_leaves_no_process(programs: Path) -> None:
+def test_stopped_program_leaves_no_process(programs: Path) -> None:
     child = int(log(programs, "slow").split()[1])
     for _ in range(50):
         if not Path(f"/proc/{child}").exists() or ") Z " in Path(f"/proc/{child}/stat").read_text():
@@ -322,7 +324,7 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
         ('name = "fast"\n[method.set.warm_up]\niteration = 3', "suite.toml:5: name: configuration: "),
     ],
 )
-def test_what_can_be_checked_is_checked_before_anything_is_rendered(tmp_path: Path, table: str, expected: str) -> None:
+def test_suite_errors_are_found_before_rendering(tmp_path: Path, table: str, expected: str) -> None:
     head = SUITE.strip().split("[[method]]")[0].rstrip() + "\n"
     (tmp_path / "suite.toml").write_text(head + "[[method]]\n" + table + "\n")
     (tmp_path / "bad.py").write_text("x = 1\ndef (:\n")
@@ -333,7 +335,7 @@ def test_what_can_be_checked_is_checked_before_anything_is_rendered(tmp_path: Pa
     assert not (tmp_path / "run").exists()
 
 
-def test_a_scene_s_fault_is_told_with_the_user_s_file_before_anything_is_rendered(tmp_path: Path) -> None:
+def test_scene_errors_name_the_users_file_before_rendering(tmp_path: Path) -> None:
     scenes = HERE.parent / "scenes"
     scene = (HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes", str(scenes))
     (tmp_path / "scene.toml").write_text(scene.replace("samples = 32", "sample = 32"))

@@ -74,7 +74,7 @@ def test_scores_are_those_of_the_command_line(tiny_run: Path) -> None:
     assert scores["rows"] == written["rows"]
 
 
-def test_a_callback_hears_and_stops_a_solve(tiny_run: Path) -> None:
+def test_callback_receives_steps_and_stops_a_solve(tiny_run: Path) -> None:
     capture = unshade.Capture(tiny_run / "captures" / CASE)
     heard = []
 
@@ -88,7 +88,7 @@ def test_a_callback_hears_and_stops_a_solve(tiny_run: Path) -> None:
     assert [iteration for _, iteration, _, _ in heard] == [1, 2, 3]
 
 
-def test_a_stopped_solve_returns_its_maps_and_goes_on(tiny_run: Path, tmp_path: Path) -> None:
+def test_stopped_solve_returns_its_maps_and_resumes(tiny_run: Path, tmp_path: Path) -> None:
     capture = unshade.Capture(tiny_run / "captures" / CASE)
     first: list[int] = []
 
@@ -130,38 +130,6 @@ def test_errors_have_names_and_one_line(tiny_run: Path, tmp_path: Path) -> None:
             call()
         assert type(caught.value) is kind and issubclass(kind, unshade.errors.UnshadeError)
         assert "\n" not in str(caught.value) and kind.__doc__
-
-
-def test_the_renderers_exception_keeps_its_name(tmp_path: Path) -> None:
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        'format = 1\nname = "x"\nface = {name = "x", seed = 1}\n'
-        'light = {name = "l", kind = "candle"}\nrig = {name = "r", kind = "phone"}\n'
-        "[render]\nwidth = 16\nheight = 16\n"
-    )
-    with pytest.raises(unshade.errors.SceneError, match="candle"):
-        unshade.synth(scene, tmp_path / "capture")
-    assert not (tmp_path / "capture").exists()
-
-
-def test_a_python_function_joins_a_suite(tiny_run: Path, photographs: Path, tmp_path: Path) -> None:
-    """Someone else's solver, blind to the truth, in five lines of TOML."""
-    (tmp_path / "grey.py").write_text(
-        "import numpy as np, unshade\n"
-        "def solve(capture):\n"
-        "    assert not (capture.path / 'truth').exists()\n"
-        "    return unshade.Maps(diffuse_albedo=np.full((16, 16, 3), 0.3, np.float32))\n"
-    )
-    from unshade import plugin
-
-    maps = tmp_path / "maps"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(tmp_path)
-        plugin.main("grey:solve", str(photographs), str(maps))
-    scores = unshade.score(tiny_run / "captures" / CASE, maps)
-    subjects = {row["subject"] for row in scores["rows"]}
-    # What the function did not recover is absent, never scored as zero.
-    assert "diffuse_albedo" in subjects and "specular_albedo" not in subjects
 
 
 @pytest.mark.parametrize("place", examples())

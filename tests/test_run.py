@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import unshade as package
-from conftest import CASE, QUICK, TINY, copy_without, unshade
+from conftest import CASE, QUICK, TINY, copy_without, rows, unshade
 
 # Wall times are the one thing in which two runs may differ; the report shows them.
 NOT_CONTENT = {"timing.json", ".lock"}
@@ -31,17 +31,6 @@ def digest(run: Path) -> dict[str, str]:
     }
 
 
-def rows(run: Path, solver: str) -> dict[str, dict]:
-    """Rows of a solver's scores by their id."""
-    scores = json.loads((run / "scores" / CASE / f"{solver}.json").read_text())
-    return {
-        f"{row['subject']}{'/' + row['light'] if row['light'] else ''}"
-        f"/{row['metric']}@{row['region']}:{row['scale']}": row
-        for row in scores["rows"]
-        if row.get("label") is None
-    }
-
-
 def test_the_oracle_scores_at_the_noise_floor(tiny_run: Path) -> None:
     """True maps in: the relit pictures differ from the truth by rendering noise alone."""
     relit = {
@@ -52,19 +41,19 @@ def test_the_oracle_scores_at_the_noise_floor(tiny_run: Path) -> None:
     assert {name.split("/")[1] for name in relit} == {"studio", "uniform"}
     for name, row in relit.items():
         # The floor is itself estimated from four passes a picture.
-        assert abs(row["value"] - row["floor"]) < 1.0, (name, row["value"], row["floor"])
+        assert abs(row.value - row.floor) < 1.0, (name, row.value, row.floor)
 
 
 def test_the_oracle_maps_are_exact(tiny_run: Path) -> None:
     oracle = rows(tiny_run, "oracle")
-    assert oracle["specular_normal/normal_mean_deg@coverage-e5:none"]["value"] < 0.05
-    assert oracle["specular_albedo/rmse@coverage-e5:none"]["value"] < 1e-6
+    assert oracle["specular_normal/normal_mean_deg@coverage-e5:none"].value < 0.05
+    assert oracle["specular_albedo/rmse@coverage-e5:none"].value < 1e-6
 
 
 def test_the_solver_beats_the_mean_texture(tiny_run: Path) -> None:
     """Even a few iterations take the baked shading out of the albedo."""
     key = "diffuse_albedo/psnr_srgb@coverage-e5:global"
-    assert rows(tiny_run, "quick")[key]["value"] > rows(tiny_run, "mean_texture")[key]["value"] + 2
+    assert rows(tiny_run, "quick")[key].value > rows(tiny_run, "mean_texture")[key].value + 2
 
 
 def test_the_solver_never_opens_the_truth(tiny_run: Path, tmp_path: Path) -> None:
@@ -100,7 +89,7 @@ def started(run: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(list(map(str, command)), stderr=subprocess.PIPE, text=True)
 
 
-def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -> None:
+def test_resume_after_kill_gives_identical_bytes(tiny_run: Path, tmp_path: Path) -> None:
     """Killed while it renders, and as soon as its first maps and its first scores are there; the baselines of an
     earlier run stay valid."""
     run = copy_without(tiny_run, tmp_path / "run", "capture", "quick")
@@ -116,6 +105,24 @@ def test_a_killed_run_ends_with_the_same_bytes(tiny_run: Path, tmp_path: Path) -
     unshade("run", TINY, "-o", run)
     assert digest(run) == digest(tiny_run)
     assert not list(run.rglob("*.partial"))
+
+
+@pytest.mark.heavy
+def test_resume_after_random_kills_gives_identical_bytes(tiny_run: Path, tmp_path: Path) -> None:
+    """A run that comes to its end first is begun anew."""
+    run, random = tmp_path / "run", np.random.default_rng(0)
+    seconds = sum(stage["seconds"] for stage in json.loads((tiny_run / "timing.json").read_text())["stages"])
+    for _ in range(12):
+        with started(run) as process:
+            try:
+                process.communicate(timeout=random.uniform(0, seconds))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                continue
+        assert digest(run) == digest(tiny_run)
+        shutil.rmtree(run)
+    unshade("run", TINY, "-o", run)
+    assert digest(run) == digest(tiny_run) and not list(run.rglob("*.partial"))
 
 
 def test_the_report_opens_offline(tiny_run: Path) -> None:
@@ -183,7 +190,7 @@ def test_without_a_viewer_the_message_says_how_to_get_one(tiny_run: Path, tmp_pa
     assert not (tmp_path / "maps").exists()
 
 
-def test_a_competitor_runs_by_its_name_in_the_class_of_what_it_is_given(tiny_run: Path, tmp_path: Path) -> None:
+def test_competitor_runs_by_name_and_states_its_class(tiny_run: Path, tmp_path: Path) -> None:
     """On the captures of another run, whose stages are still valid."""
     run = shutil.copytree(tiny_run, tmp_path / "tiny")
     suite = tmp_path / "suite.toml"

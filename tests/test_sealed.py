@@ -119,7 +119,7 @@ def test_a_changed_byte_breaks_the_signature(scored: Path, tmp_path: Path, name:
     assert refused.returncode == 1
 
 
-def test_what_scoring_a_round_would_leave_out_is_refused(place: Path, tmp_path: Path) -> None:
+def test_seal_refuses_settings_that_scoring_ignores(place: Path, tmp_path: Path) -> None:
     suite = tmp_path / "suite.toml"
     suite.write_text((place / "suite.toml").read_text().replace("scales", 'lpips = "alex"\nscales'))
     words = ["--seeds-from", place / "secret", "-o", tmp_path / "out"]
@@ -144,7 +144,7 @@ def test_another_key_or_secret_is_refused(place: Path, submission: Path, scored:
     assert done.returncode == 2 and "32 bytes" in done.stderr
 
 
-def test_what_is_wrong_with_a_submission_is_said(place: Path, submission: Path, tmp_path: Path) -> None:
+def test_submission_check_names_each_fault(place: Path, submission: Path, tmp_path: Path) -> None:
     public = place / "out" / "public"
     broken = shutil.copytree(submission, tmp_path / "broken")
     shutil.rmtree(broken / "maps" / "tiny-studio")

@@ -86,7 +86,7 @@ def test_empty_masks_everywhere_are_refused(capture: Editable) -> None:
     assert "check the camera matrices" in capture.refusal()
 
 
-def test_texels_seen_by_nobody_take_their_neighbours(capture: Editable) -> None:
+def test_unseen_texels_take_their_neighbours_values(capture: Editable) -> None:
     """A small window in a single view: most of the chart is never seen."""
     capture.keep_training(1)
 
@@ -186,7 +186,7 @@ def test_labels_of_a_single_view(capture: Editable) -> None:
     capture.solve()
 
 
-def test_labels_that_say_nothing(capture: Editable) -> None:
+def test_empty_labels(capture: Editable) -> None:
     for name in capture.training:
         capture.change_png("labels", name, np.zeros_like)
     capture.solve()
@@ -323,7 +323,7 @@ def test_a_noisy_mesh_from_photogrammetry(capture: Editable) -> None:
     capture.solve(PAPER)
 
 
-def test_a_masks_soft_edge_and_colours_below_zero(capture: Editable) -> None:
+def test_soft_mask_edges_and_negative_colours(capture: Editable) -> None:
     name = capture.training[0]
     capture.change_png("masks", name, lambda mask: np.array(Image.fromarray(mask).resize((48, 48)).resize((96, 96))))
     capture.change_image(name, lambda image: image - 0.02)
