@@ -96,11 +96,11 @@ def test_the_silhouette_is_the_mask_where_there_is_none(capture: Path, imported:
         assert (rendered & seen).sum() > 0.9 * seen.sum()
 
 
-def test_the_same_solve(capture: Path, imported: Callable[[str], Path]) -> None:
+def test_the_same_solve(capture: Path, imported: Callable[[str], Path], tmp_path: Path) -> None:
     writer = "metashape"  # whose matrices go the longest way
     document = json.loads((imported(writer) / "transforms.json").read_text())
     original = json.loads((capture / "transforms.json").read_text())
-    same = capture.parent / f"same-{writer}"
+    same = tmp_path / "same"
     shutil.copytree(capture, same)
     # The same views are trained on, without labels, of which the import was told none.
     original |= {key: document[key] for key in ("train_filenames", "test_filenames")}
@@ -108,7 +108,6 @@ def test_the_same_solve(capture: Path, imported: Callable[[str], Path]) -> None:
         frame.pop("label_path")
     (same / "transforms.json").write_text(json.dumps(original))
     first, second = (unshade.solve(folder, config=QUICK) for folder in (same, imported(writer)))
-    shutil.rmtree(same)
     coverage = first.coverage
     assert first.diffuse_albedo is not None and second.diffuse_albedo is not None and coverage is not None
     assert (unshade.metrics.psnr_lin(second.diffuse_albedo, first.diffuse_albedo, coverage) or 0) > 40

@@ -19,8 +19,8 @@ pytestmark = pytest.mark.skipif(browser.find() is None, reason="no Chromium here
 
 
 @pytest.fixture(scope="module")
-def report(tiny_run: Path) -> Path:
-    folder = tiny_run.parent / "a report" / "page"
+def report(tiny_run: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("a report") / "page"
     unshade("report", tiny_run, "-o", folder)
     return folder / "index.html"
 
