@@ -12,6 +12,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 build: .venv/complete
 	@PATH="$(CURDIR)/.tools/bin:$$PATH" VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --uv --quiet
+	@$(BIN)/python tests/metric_stub.py
 
 # target/wheels, tried in an empty environment and an empty folder: everything that a user does first.
 wheel: build

@@ -16,6 +16,7 @@ import tempfile
 from pathlib import Path
 
 from doc_examples import ROOT, examples
+from metric_stub import STUB, stub
 
 SOURCES = ROOT / "synth"
 PUBLIC = (
@@ -26,6 +27,7 @@ COMPILED = ("unshade._native", "unshade.metrics")
 
 
 def main() -> int:
+    STUB.write_text(stub())
     public = [str(SOURCES / "unshade" / name) for name in PUBLIC]
     with tempfile.TemporaryDirectory(prefix="unshade-types-") as temporary:
         folder = Path(temporary)

@@ -1,4 +1,4 @@
-"""The type stub of `unshade.metrics`, made from the registry of metrics.
+"""The type stub of `unshade.metrics`, made from the registry of metrics; `make build` writes it into the package.
 
     python tests/metric_stub.py        writes synth/unshade/metrics.pyi
 

@@ -11,15 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from metric_stub import STUB, stub
+from metric_stub import stub
 
 import unshade
 
 PACKAGE = Path(unshade.__file__).parent
-
-
-def test_the_stub_of_the_metrics_is_that_of_the_registry() -> None:
-    assert STUB.read_text() == stub(), "run python tests/metric_stub.py"
 
 
 def test_the_package_says_that_it_is_typed() -> None:
@@ -41,7 +37,7 @@ def _stated(body: list[ast.stmt], prefix: str = "") -> Iterator[tuple[str, ast.F
 
 @pytest.mark.parametrize("module", ["_native", "metrics"])
 def test_help_says_what_the_stub_says(module: str) -> None:
-    tree = ast.parse((PACKAGE / f"{module}.pyi").read_text())
+    tree = ast.parse(stub() if module == "metrics" else (PACKAGE / f"{module}.pyi").read_text())
     loaded = importlib.import_module(f"unshade.{module}")
     for name, node in _stated(tree.body):
         if name.startswith("_"):  # types that the stub alone has
