@@ -83,7 +83,7 @@ def test_an_open_jaw_takes_the_lower_teeth_along(neutral):
     [
         ({"eyeBlinkleft": 0.5}, "unknown key 'eyeBlinkleft' in expression of .face.; did you mean 'eyeBlinkLeft'"),
         ({"jaw_open": 0.5}, "did you mean 'jawOpen'"),
-        ({"jawOpen": 1.5}, "expression.jawOpen in .face. is 1.5; use a number from 0 to 1"),
+        ({"jawOpen": 1.5}, "jawOpen in expression of .face. is 1.5; use a number from 0 to 1"),
         ([0.5], "expression in .face. is not a table"),
     ],
 )

@@ -97,7 +97,7 @@ def test_amounts_are_log_luminance_on_every_skin(fitzpatrick):
 
 
 def test_another_detail_is_refused_and_the_default_is_not_written():
-    with pytest.raises(FaceError, match=r"detail in \[face\] is 'hard'; use one of smooth, natural"):
+    with pytest.raises(FaceError, match=r"detail in \[face\] is 'hard'; use smooth or natural"):
         FaceSpec.from_table(TABLE | {"detail": "hard"})
     assert "detail" not in FaceSpec.from_table(TABLE).to_table()
     natural = FaceSpec.from_table(TABLE | {"detail": "natural"})

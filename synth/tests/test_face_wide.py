@@ -44,5 +44,5 @@ def test_a_scene_states_its_chart():
     table = SPEC.to_table() | {"chart": "wide"}
     assert FaceSpec.from_table(table).to_table() == table
     assert "chart" not in SPEC.to_table()
-    with pytest.raises(SceneError, match="use one of face, wide"):
+    with pytest.raises(SceneError, match="use face or wide"):
         FaceSpec.from_table(table | {"chart": "head"})

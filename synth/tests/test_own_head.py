@@ -304,7 +304,7 @@ TABLE_FAULTS = {
     "diffuse_albedo in [face]: there is no file": {"diffuse_albedo": "none.png"},
     "diffuse_albedo in [face] is missing": {"diffuse_albedo": None, "diffuse_albedo_space": None},
     "diffuse_albedo_space in [face] is missing; state what": {"diffuse_albedo_space": None},
-    "diffuse_albedo_space in [face] is 'gamma'; use one of linear, srgb": {"diffuse_albedo_space": "gamma"},
+    "diffuse_albedo_space in [face] is 'gamma'; use linear or srgb": {"diffuse_albedo_space": "gamma"},
     "roughness_space in [face] is without a file": {"roughness_space": "lobes"},
     "units in [face] is 'feet'; use one of m": {"units": "feet"},
     "which lie in one line": {"forward": "-z"},

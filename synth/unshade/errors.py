@@ -6,6 +6,9 @@ the child process returns for it (see :mod:`unshade.stage`).
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
+
 
 class UnshadeError(Exception):
     """Base of all exceptions of the package: a fault that a user can meet and fix."""
@@ -15,6 +18,22 @@ class UnshadeError(Exception):
 
 class SceneError(UnshadeError):
     """A scene file says something that cannot be rendered."""
+
+    def __init__(self, message: str, *, key: str | None = None) -> None:
+        """``key`` is the one that is wrong, in the table that `in_table` adds."""
+        super().__init__(message)
+        self.key = key
+        self.table = ""
+
+    @staticmethod
+    @contextmanager
+    def in_table(name: str) -> Generator[None]:
+        """Errors of a scene that are raised here are about its table ``name``."""
+        try:
+            yield
+        except SceneError as error:
+            error.table = name
+            raise
 
 
 class CaptureError(UnshadeError):

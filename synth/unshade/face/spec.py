@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import SceneError
+from ..tables import Table
 from .expression import UNITS, Expression
 
 YOUNGEST, OLDEST = 20.0, 70.0
@@ -94,45 +95,28 @@ class FaceSpec:
 
         Raises `FaceError` naming the key and the fix.
         """
-        known = [field.name for field in dataclasses.fields(cls)]
-        for key in table:
-            if key not in known:
-                near = difflib.get_close_matches(key, known, 1, 0.0)[0]
-                raise FaceError(f"unknown key '{key}' in {place}; did you mean '{near}'?")
-        name, seed = _name(table, place), _whole(table, "seed", 0, 2**63 - 1, place)
+        read = Table(table, place, FaceError)
+        read.require_known([field.name for field in dataclasses.fields(cls)])
+        name, seed = read.text("name"), read.whole("seed", 0, 2**63 - 1)
 
         def fraction(key: str, draw: Any) -> float:
-            if key in table:
-                return _number(table[key], key, 0.0, 1.0, place)
-            return float(draw(stream(seed, key)))
+            return read.number(key, 0.0, 1.0) if key in read else float(draw(stream(seed, key)))
 
-        if "fitzpatrick" in table:
-            skin = table["fitzpatrick"]
-            if skin not in FITZPATRICK:
-                raise FaceError(f"fitzpatrick in {place} is {skin!r}; use one of {', '.join(FITZPATRICK)}")
-        else:
-            skin = str(stream(seed, "fitzpatrick").choice(FITZPATRICK))
-        detail = table.get("detail", cls.detail)
-        if detail not in DETAILS:
-            raise FaceError(f"detail in {place} is {detail!r}; use one of {', '.join(DETAILS)}")
-        chart = table.get("chart", cls.chart)
-        if chart not in CHARTS:
-            raise FaceError(f"chart in {place} is {chart!r}; use one of {', '.join(CHARTS)}")
-        size = _whole(table, "texture_size", 64, 8192, place) if "texture_size" in table else cls.texture_size
+        drawn = str(stream(seed, "fitzpatrick").choice(FITZPATRICK))
         return cls(
             name=name,
             seed=seed,
-            fitzpatrick=skin,
+            fitzpatrick=read.choice("fitzpatrick", FITZPATRICK, drawn),
             gender=fraction("gender", lambda rng: rng.uniform()),
             age=fraction("age", lambda rng: rng.beta(1.0, 1.3)),
-            ethnicity=_ethnicity(table, seed, place),
+            ethnicity=_ethnicity(read, seed),
             weight=fraction("weight", lambda rng: np.clip(rng.normal(0.5, 0.18), 0.1, 0.95)),
-            texture_size=size,
-            expression=_expression(table.get("expression", {}), place),
-            detail=detail,
-            chart=chart,
-            displacement=_switch(table, "displacement", place),
-            **{key: _number(table[key], key, 0.25, 4.0, place) for key in _SCALES if key in table},
+            texture_size=read.whole("texture_size", 64, 8192, cls.texture_size),
+            expression=_expression(read),
+            detail=read.choice("detail", DETAILS, cls.detail),
+            chart=read.choice("chart", CHARTS, cls.chart),
+            displacement=read.flag("displacement"),
+            **{key: read.number(key, 0.25, 4.0) for key in _SCALES if key in read},
         )
 
     def to_table(self) -> dict[str, Any]:
@@ -149,64 +133,35 @@ class FaceSpec:
         return table
 
 
-def _name(table: Mapping[str, Any], place: str) -> str:
-    name = table.get("name")
-    if not isinstance(name, str) or not name:
-        raise FaceError(f'name in {place} is missing or no text; give the face a name, as name = "demo"')
-    return name
-
-
-def _whole(table: Mapping[str, Any], key: str, low: int, high: int, place: str) -> int:
-    value = table.get(key)
-    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        said = "missing" if value is None else repr(value)
-        raise FaceError(f"{key} in {place} is {said}; use a whole number from {low} to {high}")
-    return value
-
-
-def _switch(table: Mapping[str, Any], key: str, place: str) -> bool:
-    value = table.get(key, False)
-    if not isinstance(value, bool):
-        raise FaceError(f"{key} in {place} is {value!r}; use true or false")
-    return value
-
-
-def _number(value: Any, key: str, low: float, high: float, place: str) -> float:
-    number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    if not number or not low <= value <= high:
-        raise FaceError(f"{key} in {place} is {value!r}; use a number from {low:g} to {high:g}")
-    return float(value)
-
-
-def _expression(units: Any, place: str) -> Expression:
+def _expression(table: Table) -> Expression:
+    units = table.values.get("expression", {})
     if not isinstance(units, Mapping):
-        raise FaceError(
-            f"expression in {place} is not a table; use expression = {{ jawOpen = 0.2, mouthSmileLeft = 0.6 }}"
-        )
+        raise table.wrong("expression", "is not a table; use expression = { jawOpen = 0.2, mouthSmileLeft = 0.6 }")
     for unit in units:
         if unit not in UNITS:
             # Case and underscores are the usual slips.
             names = {name.lower(): name for name in UNITS}
             near = names[difflib.get_close_matches(str(unit).replace("_", "").lower(), names, 1, 0.0)[0]]
-            raise FaceError(f"unknown key '{unit}' in expression of {place}; did you mean '{near}'?")
-    weights = {unit: _number(units[unit], f"expression.{unit}", 0.0, 1.0, place) for unit in sorted(units)}
+            raise FaceError(f"unknown key '{unit}' in expression of {table.place}; did you mean '{near}'?", key=unit)
+    read = Table(units, f"expression of {table.place}", FaceError)
+    weights = {unit: read.number(unit, 0.0, 1.0) for unit in sorted(units)}
     return tuple((unit, weight) for unit, weight in weights.items() if weight > 0)
 
 
-def _ethnicity(table: Mapping[str, Any], seed: int, place: str) -> tuple[float, float, float]:
+def _ethnicity(table: Table, seed: int) -> tuple[float, float, float]:
     if "ethnicity" not in table:
         return tuple(map(float, stream(seed, "ethnicity").dirichlet([0.6] * 3)))
-    fractions = table["ethnicity"]
+    fractions = table.values["ethnicity"]
     if not isinstance(fractions, Mapping):
-        raise FaceError(
-            f"ethnicity in {place} is not a table; use ethnicity = {{ african = 0.2, asian = 0.3, caucasian = 0.5 }}"
-        )
+        example = "ethnicity = { african = 0.2, asian = 0.3, caucasian = 0.5 }"
+        raise table.wrong("ethnicity", f"is not a table; use {example}")
+    read = Table(fractions, f"ethnicity of {table.place}", FaceError)
     for key in fractions:
         if key not in ETHNICITIES:
-            raise FaceError(f"unknown key '{key}' in ethnicity of {place}; use {', '.join(ETHNICITIES)}")
-    values = [_number(fractions.get(key, 0.0), f"ethnicity.{key}", 0.0, 1.0, place) for key in ETHNICITIES]
+            raise FaceError(f"unknown key '{key}' in {read.place}; use {', '.join(ETHNICITIES)}", key=key)
+    values = [read.number(key, 0.0, 1.0, 0.0) for key in ETHNICITIES]
     total = math.fsum(values)
     if abs(total - 1.0) > 1e-3:
-        raise FaceError(f"ethnicity in {place} sums to {total:g}; make the shares sum to 1")
+        raise FaceError(f"ethnicity in {table.place} sums to {total:g}; make the shares sum to 1", key="ethnicity")
     # The identity of shares read back from a written table survives: they sum to 1 within rounding.
     return tuple(values) if abs(total - 1.0) < 1e-9 else tuple(v / total for v in values)

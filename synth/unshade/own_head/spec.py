@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ..face.spec import FaceError
+from ..tables import Table
 
 
 class MeshWarning(UserWarning):
@@ -93,7 +93,7 @@ class HeadFiles:
 
         Raises `FaceError` naming the key and the fix, also for files that are not there.
         """
-        return _Reader(table, place, folder).head()
+        return _HeadTable(table, place, folder).head()
 
     def to_table(self) -> dict[str, Any]:
         """The complete table: `from_table(head.to_table()) == head`."""
@@ -112,124 +112,84 @@ class HeadFiles:
         return {key: path for key, path in named.items() if isinstance(path, str)}
 
 
-class _Reader:
-    """One table being read."""
+class _HeadTable(Table):
+    """The table of a head, whose file names start from ``folder``."""
 
-    def __init__(self, table: Mapping[str, Any], place: str, folder: Path) -> None:
-        self.table, self.place, self.folder = table, place, folder
+    def __init__(self, values: Mapping[str, Any], place: str, folder: Path) -> None:
+        super().__init__(values, place, FaceError)
+        self.folder = folder
 
     def head(self) -> HeadFiles:
-        known = [field.name for field in dataclasses.fields(HeadFiles)]
-        for key in self.table:
-            if key not in known:
-                near = difflib.get_close_matches(key, known, 1, 0.0)[0]
-                raise FaceError(f"unknown key '{key}' in {self.place}; did you mean '{near}'?")
-        up, forward = self._choice("up", AXES, "+y"), self._choice("forward", AXES, "+z")
+        self.require_known([field.name for field in dataclasses.fields(HeadFiles)])
+        up, forward = self.choice("up", AXES, "+y"), self.choice("forward", AXES, "+z")
         if up[1] == forward[1]:
             raise FaceError(
-                f"up and forward in {self.place} are {up} and {forward}, which lie in one line; name two axes"
+                f"up and forward in {self.place} are {up} and {forward}, which lie in one line; name two axes", key="up"
             )
-        if "diffuse_albedo" not in self.table:
-            raise FaceError(
-                f"diffuse_albedo in {self.place} is missing; name an EXR or PNG, or a linear colour as [0.5, 0.35, 0.3]"
-            )
+        if "diffuse_albedo" not in self:
+            raise self.wrong("diffuse_albedo", "is missing; name an EXR or PNG, or a linear colour as [0.5, 0.35, 0.3]")
         return HeadFiles(
-            name=self._text("name"),
+            name=self.text("name"),
             mesh=self._file("mesh", MESH_FILES),
-            units=self._choice("units", tuple(UNITS), "m"),
+            units=self.choice("units", tuple(UNITS), "m"),
             up=up,
             forward=forward,
-            origin=self._three("origin", -math.inf, math.inf) if "origin" in self.table else None,
+            origin=self._three("origin", -math.inf, math.inf) if "origin" in self else None,
             chart=self._names("chart"),
             diffuse_albedo=self._map("diffuse_albedo", lambda: self._three("diffuse_albedo", 0, 1)),
             specular_albedo=self._map(
-                "specular_albedo", lambda: self._number("specular_albedo", 0, 0.05, SKIN_REFLECTANCE)
+                "specular_albedo", lambda: self.number("specular_albedo", 0, 0.05, SKIN_REFLECTANCE)
             ),
-            specular_albedo_scale=self._number("specular_albedo_scale", 1e-6, 1e6, 1.0),
+            specular_albedo_scale=self.number("specular_albedo_scale", 1e-6, 1e6, 1.0),
             diffuse_normal=self._map("diffuse_normal", lambda: None),
             specular_normal=self._map("specular_normal", lambda: None),
             roughness=self._map("roughness", self._lobes),
-            labels=self._file("labels", (".png",)) if "labels" in self.table else None,
+            labels=self._file("labels", (".png",)) if "labels" in self else None,
             occluder_albedo=self._three("occluder_albedo", 0, 1, HeadFiles.occluder_albedo),
-            texture_size=self._whole("texture_size", 64, 8192, HeadFiles.texture_size),
+            texture_size=self.whole("texture_size", 64, 8192, HeadFiles.texture_size),
             **{f"{name}_space": self._space(name) for name in _MAPS},
         )
 
     def _map(self, key: str, constant) -> Any:
         """The file of a map, or its constant."""
-        value = self.table.get(key)
+        value = self.values.get(key)
         if key.endswith("_normal") and value is not None and not isinstance(value, str):
-            raise FaceError(
-                f"{key} in {self.place} is {value!r}; name an EXR or PNG, or leave it out for the mesh's normals"
-            )
+            raise self.wrong(key, f"is {value!r}; name an EXR or PNG, or leave it out for the mesh's normals")
         return self._file(key, PICTURE_FILES) if isinstance(value, str) else constant()
 
     def _space(self, name: str) -> str:
         key, allowed = f"{name}_space", _MAPS[name]
-        if isinstance(self.table.get(name), str):
-            if key not in self.table:
-                raise FaceError(
-                    f"{key} in {self.place} is missing; state what {self.table[name]} holds: {' or '.join(allowed)}"
-                )
-            return self._choice(key, allowed, allowed[0])
-        if key in self.table:
-            raise FaceError(f'{key} in {self.place} is without a file; name {name} = "..." or leave the key out')
+        if isinstance(self.values.get(name), str):
+            if key not in self:
+                raise self.wrong(key, f"is missing; state what {self.values[name]} holds: {' or '.join(allowed)}")
+            return self.choice(key, allowed, allowed[0])
+        if key in self:
+            raise self.wrong(key, f'is without a file; name {name} = "..." or leave the key out')
         return allowed[0]
 
     def _lobes(self) -> Colour:
         lobes = self._three("roughness", 0, 1, NOMINAL_ROUGHNESS)
         if min(lobes[:2]) < 0.01:
-            raise FaceError(f"roughness in {self.place} is {list(lobes)}; use GGX alphas of 0.01 or more")
+            raise self.wrong("roughness", f"is {list(lobes)}; use GGX alphas of 0.01 or more")
         return lobes
 
     def _file(self, key: str, kinds: tuple[str, ...]) -> str:
-        path = self.folder / self._text(key)
+        path = self.folder / self.text(key)
         if path.suffix.lower() not in kinds:
-            raise FaceError(f"{key} in {self.place} is {path.name!r}; use a file that ends with {' or '.join(kinds)}")
+            raise self.wrong(key, f"is {path.name!r}; use a file that ends with {' or '.join(kinds)}")
         if not path.is_file():
-            raise FaceError(f"{key} in {self.place}: there is no file {path}; name one that is there")
+            raise FaceError(f"{key} in {self.place}: there is no file {path}; name one that is there", key=key)
         return str(path)
 
-    def _text(self, key: str) -> str:
-        value = self.table.get(key)
-        if not isinstance(value, str) or not value:
-            raise FaceError(f'{key} in {self.place} is missing or no text; write {key} = "..."')
-        return value
-
-    def _choice(self, key: str, allowed: tuple[str, ...], default: str) -> str:
-        value = self.table.get(key, default)
-        if value not in allowed:
-            raise FaceError(f"{key} in {self.place} is {value!r}; use one of {', '.join(allowed)}")
-        return value
-
-    def _whole(self, key: str, low: int, high: int, default: int) -> int:
-        value = self.table.get(key, default)
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise FaceError(f"{key} in {self.place} is {value!r}; use a whole number from {low} to {high}")
-        return value
-
-    def _number(self, key: str, low: float, high: float, default: float) -> float:
-        value = self.table.get(key, default)
-        if not _is_number(value) or not low <= value <= high:
-            raise FaceError(f"{key} in {self.place} is {value!r}; use a number from {low:g} to {high:g}")
-        return float(value)
-
     def _three(self, key: str, low: float, high: float, default: Colour | None = None) -> Colour:
-        value = self.table.get(key, default)
-        good = isinstance(value, (list, tuple)) and len(value) == 3 and all(map(_is_number, value))
-        if not good or not all(low <= v <= high for v in value):
-            span = "" if low == -math.inf else f" from {low:g} to {high:g}"
-            raise FaceError(f"{key} in {self.place} is {value!r}; use three numbers{span}")
-        return tuple(map(float, value))
+        span = "" if low == -math.inf else f" from {low:g} to {high:g}"
+        red, green, blue = self.vector(key, f"three numbers{span}", 3, low, high, default)
+        return red, green, blue
 
     def _names(self, key: str) -> tuple[str, ...] | None:
-        if key not in self.table:
+        if key not in self:
             return None
-        names = self.table[key]
+        names = self.values[key]
         if not isinstance(names, (list, tuple)) or not names or not all(isinstance(name, str) for name in names):
-            raise FaceError(f'{key} in {self.place} is {names!r}; list the objects that carry the maps, as ["head"]')
+            raise self.wrong(key, f'is {names!r}; list the objects that carry the maps, as ["head"]')
         return tuple(names)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

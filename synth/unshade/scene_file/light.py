@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import SceneError
-from .checks import choice, folder_name, known_keys, number, text
-from .settings import colour, flag, integer, names, one_of, read_settings, real
+from ..tables import Table, colour, flag, given, integer, names, one_of, real
 
 HADAMARD_ORDERS = (2, 4, 8, 16, 32, 64)
 
@@ -139,39 +137,42 @@ class Light:
         return table
 
 
-def parse_light(table: Mapping[str, Any], place: str, folder: Path) -> Light:
-    kind = choice(table, "kind", LIGHT_KINDS, place)
-    own = (
-        ("path", "rotation_degrees", "clamp") if kind == "envmap" else names(SETTINGS[kind]) if kind in SETTINGS else ()
-    )
-    known_keys(table, ("name", "kind", "exposure", *own), place)
+def parse_light(values: Mapping[str, Any], place: str, folder: Path) -> Light:
+    table = Table(values, place)
+    kind = table.choice("kind", LIGHT_KINDS)
+    own: tuple[str, ...] = ("path", "rotation_degrees", "clamp") if kind == "envmap" else ()
+    if kind in SETTINGS:
+        own = names(SETTINGS[kind])
+    table.require_known(("name", "kind", "exposure", *own))
     path = None
     if kind == "envmap":
-        path = str(folder / text(table, "path", place))
+        path = str(folder / table.text("path"))
         if not Path(path).is_file():
-            raise SceneError(f"path in {place}: there is no picture {path}; name a lat-long EXR or HDR file")
-    settings = read_settings(SETTINGS[kind], table, place) if kind in SETTINGS else None
+            raise SceneError(
+                f"path in {place}: there is no picture {path}; name a lat-long EXR or HDR file", key="path"
+            )
+    settings = SETTINGS[kind](**given(SETTINGS[kind], table)) if kind in SETTINGS else None
     if isinstance(settings, Pattern):
-        _check_pattern(settings, place)
+        _check_pattern(settings, table)
     return Light(
-        name=folder_name(table, place),
+        name=table.folder_name(),
         kind=kind,
-        exposure=number(table, "exposure", place, 1.0, above=0.0),
+        exposure=table.number("exposure", default=1.0, above=0.0),
         path=path,
-        rotation_degrees=number(table, "rotation_degrees", place, 0.0),
-        clamp=number(table, "clamp", place, math.inf, above=0.0) if "clamp" in table else None,
+        rotation_degrees=table.number("rotation_degrees", default=0.0),
+        clamp=table.number("clamp", above=0.0) if "clamp" in table else None,
         settings=settings,
     )
 
 
-def _check_pattern(pattern: Pattern, place: str) -> None:
+def _check_pattern(pattern: Pattern, table: Table) -> None:
     if pattern.pattern != "hadamard":
         return
     if pattern.order not in HADAMARD_ORDERS:
-        raise SceneError(f"order in {place} is {pattern.order}; use one of {', '.join(map(str, HADAMARD_ORDERS))}")
+        raise table.wrong("order", f"is {pattern.order}; use one of {', '.join(map(str, HADAMARD_ORDERS))}")
     if pattern.index >= pattern.order:
-        raise SceneError(
-            f"index in {place} is {pattern.index}, but order {pattern.order} has rows 0 to {pattern.order - 1}"
-        )
+        raise table.wrong("index", f"is {pattern.index}, but order {pattern.order} has rows 0 to {pattern.order - 1}")
     if pattern.index == 0 and pattern.inverse:
-        raise SceneError(f"index 0 in {place} is the full sphere, and its inverse is dark; use another row")
+        raise SceneError(
+            f"index 0 in {table.place} is the full sphere, and its inverse is dark; use another row", key="index"
+        )

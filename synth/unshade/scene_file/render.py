@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import MISSING, asdict, dataclass
 from typing import Any
 
 from ..errors import SceneError
-from .checks import choice, known_keys, whole
+from ..tables import Table, integer, one_of, read, vector
 
 VARIANTS = ("auto", "llvm_ad_rgb", "scalar_rgb")
 MATERIALS = ("skin", "principled")
@@ -22,6 +22,8 @@ Subsurface Light Transport", table 1): 1 / (reduced scattering + absorption)."""
 _SHORTEST_MM, _LONGEST_MM = 0.05, 10.0
 """Below, the skin is opaque (and single precision too coarse for the walks); beyond, light
 would cross the head, and no profile describes that."""
+
+_MEAN_FREE_PATHS = f"three numbers [r, g, b] in millimetres, {_SHORTEST_MM:g} to {_LONGEST_MM:g}"
 
 
 @dataclass(frozen=True)
@@ -39,16 +41,16 @@ class Render:
     ``denoise``: what takes the noise out of every picture, true and relit (`render.denoise`).
     """
 
-    width: int
-    height: int
-    samples: int = 128
-    depth: int = 6
-    seed: int = 0
-    variant: str = "auto"
-    tier: str = "opaque"
-    subsurface_mm: tuple[float, float, float] = SKIN1_MM
-    denoise: str = "none"
-    material: str = "skin"
+    width: int = integer(MISSING, 16, 8192)
+    height: int = integer(MISSING, 16, 8192)
+    samples: int = integer(128, 4, 1 << 16)
+    depth: int = integer(6, 2, 64)
+    seed: int = integer(0, 0, 2**63 - 1)
+    variant: str = one_of(*VARIANTS)
+    tier: str = one_of(*TIERS)
+    subsurface_mm: tuple[float, float, float] = vector(SKIN1_MM, _MEAN_FREE_PATHS, 3, _SHORTEST_MM, _LONGEST_MM)
+    denoise: str = one_of(*DENOISERS)
+    material: str = one_of(*MATERIALS)
 
     def to_table(self) -> dict[str, Any]:
         """All keys; those of tier and denoiser only where there is one."""
@@ -62,27 +64,16 @@ class Render:
         return table
 
 
-def parse_render(table: Mapping[str, Any], place: str) -> Render:
-    known_keys(table, [field.name for field in fields(Render)], place)
-    render = Render(
-        width=whole(table, "width", place, None, 16, 8192),
-        height=whole(table, "height", place, None, 16, 8192),
-        samples=whole(table, "samples", place, Render.samples, 4, 1 << 16),
-        depth=whole(table, "depth", place, Render.depth, 2, 64),
-        seed=whole(table, "seed", place, Render.seed, 0, 2**63 - 1),
-        variant=choice(table, "variant", VARIANTS, place) if "variant" in table else Render.variant,
-        tier=choice(table, "tier", TIERS, place) if "tier" in table else Render.tier,
-        subsurface_mm=_mean_free_paths(table, place),
-        denoise=choice(table, "denoise", DENOISERS, place) if "denoise" in table else Render.denoise,
-        material=choice(table, "material", MATERIALS, place) if "material" in table else Render.material,
-    )
+def parse_render(values: Mapping[str, Any], place: str) -> Render:
+    table = Table(values, place)
+    render = read(Render, table)
     if render.material != "skin" and render.tier != "opaque":
         raise SceneError(
             f'material = "{render.material}" in {place} is opaque; leave tier = "{render.tier}" out, or the material'
         )
     if render.tier == "opaque" and "subsurface_mm" in table:
-        raise SceneError(
-            f'subsurface_mm in {place} means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out'
+        raise table.wrong(
+            "subsurface_mm", 'means nothing to tier = "opaque"; set tier = "diffusion" or "volume", or leave it out'
         )
     if render.tier != "opaque" and render.variant == "scalar_rgb":
         raise SceneError(
@@ -94,20 +85,8 @@ def parse_render(table: Mapping[str, Any], place: str) -> Render:
         )
     if passes_for(render.samples) is None:
         near = next(n for n in range(render.samples, 1 << 17) if passes_for(n))
-        raise SceneError(f"samples in {place} is {render.samples}, which stratified passes cannot share; use {near}")
+        raise table.wrong("samples", f"is {render.samples}, which stratified passes cannot share; use {near}")
     return render
-
-
-def _mean_free_paths(table: Mapping[str, Any], place: str) -> tuple[float, float, float]:
-    value = table.get("subsurface_mm", SKIN1_MM)
-    good = isinstance(value, (list, tuple)) and len(value) == 3
-    good = good and all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in value)
-    if not good or not all(_SHORTEST_MM <= v <= _LONGEST_MM for v in value):
-        raise SceneError(
-            f"subsurface_mm in {place} is {value!r}; use three numbers [r, g, b] in millimetres, {_SHORTEST_MM:g} to {_LONGEST_MM:g}"
-        )
-    red, green, blue = map(float, value)
-    return red, green, blue
 
 
 def passes_for(samples: int) -> int | None:

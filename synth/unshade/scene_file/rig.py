@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import SceneError
-from .checks import choice, known_keys, number, text, whole
+from ..tables import Table, given, integer, real
 
 _OPTICS = ("seed", "distance_metres", "fov_degrees")
 _KEYS = {
@@ -40,13 +40,13 @@ class Rig:
 
     name: str
     kind: str
-    train: int = 10
-    test: int = 2
-    max_angle_degrees: float = 45.0
-    seed: int = 0
-    distance_metres: float = 0.55
-    fov_degrees: float = 25.0
-    equivalent_mm: float | None = None
+    train: int = integer(10, 1, 900)
+    test: int = integer(2, 0, 90)
+    max_angle_degrees: float = real(45, above=0)
+    seed: int = integer(0, 0, 2**63 - 1)
+    distance_metres: float = real(0.55, above=0)
+    fov_degrees: float = real(25, above=0)
+    equivalent_mm: float | None = real(None, above=0)
     withheld: tuple[str, ...] | None = None
 
     def to_table(self) -> dict[str, Any]:
@@ -73,60 +73,43 @@ class Rig:
         return {"emily": 9, "desktop": 6}.get(self.kind, self.train + self.test)
 
 
-def parse_rig(table: Mapping[str, Any], place: str) -> Rig:
-    kind = choice(table, "kind", RIG_KINDS, place)
+def parse_rig(values: Mapping[str, Any], place: str) -> Rig:
+    table = Table(values, place)
+    kind = table.choice("kind", RIG_KINDS)
     own = _KEYS[kind]
-    known_keys(table, ("name", "kind", *own, *(("equivalent_mm",) if own else ()), "withheld"), place)
-    defaults = _DEFAULTS.get(kind, {})
-
-    def real(key: str) -> float:
-        return number(table, key, place, defaults.get(key, getattr(Rig, key)), above=0.0)
-
-    def count(key: str, low: int, high: int) -> int:
-        return whole(table, key, place, defaults.get(key, getattr(Rig, key)), low, high)
-
-    rig = Rig(
-        name=text(table, "name", place),
-        kind=kind,
-        train=count("train", 1, 900),
-        test=count("test", 0, 90),
-        max_angle_degrees=real("max_angle_degrees"),
-        seed=count("seed", 0, 2**63 - 1),
-        distance_metres=real("distance_metres"),
-        fov_degrees=real("fov_degrees"),
-        equivalent_mm=number(table, "equivalent_mm", place, math.inf, above=0.0) if "equivalent_mm" in table else None,
-        withheld=_withheld(table, place),
-    )
+    table.require_known(("name", "kind", *own, *(("equivalent_mm",) if own else ()), "withheld"))
+    stated = _DEFAULTS.get(kind, {}) | given(Rig, table)
+    rig = Rig(name=table.text("name"), kind=kind, withheld=_withheld(table), **stated)
     if "equivalent_mm" in table and "fov_degrees" in table:
         raise SceneError(f"{place} has both equivalent_mm and fov_degrees, which say the same; keep one")
     widest = 90 if kind == "phone" else 85
     if rig.max_angle_degrees > widest:
-        raise SceneError(f"max_angle_degrees in {place} is {rig.max_angle_degrees:g}; use at most {widest}")
+        raise table.wrong("max_angle_degrees", f"is {rig.max_angle_degrees:g}; use at most {widest}")
     if rig.distance_metres < 0.25:
-        raise SceneError(f"distance_metres in {place} is {rig.distance_metres:g}; use at least 0.25, outside the head")
+        raise table.wrong("distance_metres", f"is {rig.distance_metres:g}; use at least 0.25, outside the head")
     if rig.fov_degrees >= 150:
-        raise SceneError(f"fov_degrees in {place} is {rig.fov_degrees:g}; use less than 150")
+        raise table.wrong("fov_degrees", f"is {rig.fov_degrees:g}; use less than 150")
     if rig.equivalent_mm is not None and rig.equivalent_mm < 4:
-        raise SceneError(f"equivalent_mm in {place} is {rig.equivalent_mm:g}; use at least 4")
-    _check_withheld(rig, place)
+        raise table.wrong("equivalent_mm", f"is {rig.equivalent_mm:g}; use at least 4")
+    _check_withheld(rig, table)
     return rig
 
 
-def _withheld(table: Mapping[str, Any], place: str) -> tuple[str, ...] | None:
+def _withheld(table: Table) -> tuple[str, ...] | None:
     if "withheld" not in table:
         return None
-    names = table["withheld"]
+    names = table.values["withheld"]
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        raise SceneError(f'withheld in {place} is {names!r}; use a list of views, as withheld = ["003", "007"]')
+        raise table.wrong("withheld", f'is {names!r}; use a list of views, as withheld = ["003", "007"]')
     if len(set(names)) < len(names):
-        raise SceneError(f"withheld in {place} names a view twice; name it once")
+        raise table.wrong("withheld", "names a view twice; name it once")
     return tuple(names)
 
 
-def _check_withheld(rig: Rig, place: str) -> None:
+def _check_withheld(rig: Rig, table: Table) -> None:
     views = rig.view_names()
     for name in rig.withheld or ():
         if name not in views:
-            raise SceneError(f"withheld in {place} names {name!r}, but the views are {views[0]} to {views[-1]}")
+            raise table.wrong("withheld", f"names {name!r}, but the views are {views[0]} to {views[-1]}")
     if len(rig.withheld or ()) == len(views):
-        raise SceneError(f"withheld in {place} names all {len(views)} views; leave at least one for training")
+        raise table.wrong("withheld", f"names all {len(views)} views; leave at least one for training")

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import SceneError
+from ..tables import Table
 from .captured_mesh import CapturedMesh, parse_captured_mesh
-from .checks import known_keys, subtable, text
 from .face import AnyHead, parse_face
 from .formation import Formation, parse_formation
 from .labels import LabelFaults, parse_labels
@@ -78,38 +78,48 @@ def read_table(path: Path) -> dict[str, Any]:
         raise SceneError(f"{path}: is not valid TOML: {error}") from error
 
 
-def parse_scene(table: Mapping[str, Any], place: str, folder: Path) -> Scene:
+def parse_scene(values: Mapping[str, Any], place: str, folder: Path) -> Scene:
     """Checks a scene's table; ``folder`` is what relative picture paths start from."""
-    known_keys(table, _KEYS, place)
-    if table.get("format") != FORMAT:
-        raise SceneError(f"{place}: format is {table.get('format', 'missing')}; this version reads format = {FORMAT}")
-    name = text(table, "name", place)
-    face = parse_face(subtable(table, "face", place), f"[face] of {place}", folder)
-    light = parse_light(subtable(table, "light", place), f"[light] of {place}", folder)
-    others = table.get("relight", [])
+    table = Table(values, place)
+    table.require_known(_KEYS)
+    if values.get("format") != FORMAT:
+        raise SceneError(f"{place}: format is {values.get('format', 'missing')}; this version reads format = {FORMAT}")
+    name = table.text("name")
+    with SceneError.in_table("face"):
+        face = parse_face(table.subtable("face"), f"[face] of {place}", folder)
+    with SceneError.in_table("light"):
+        light = parse_light(table.subtable("light"), f"[light] of {place}", folder)
+    others = values.get("relight", [])
     if not isinstance(others, list) or not all(isinstance(other, dict) for other in others):
-        raise SceneError(f"{place}: relight must be tables [[relight]]")
-    relight = tuple(
-        parse_light(other, f"[[relight]] number {number} of {place}", folder) for number, other in enumerate(others, 1)
-    )
+        raise SceneError(f"{place}: relight must be tables [[relight]]", key="relight")
+    with SceneError.in_table("relight"):
+        relight = tuple(
+            parse_light(other, f"[[relight]] number {number} of {place}", folder)
+            for number, other in enumerate(others, 1)
+        )
     names = [one.name for one in (light, *relight)]
     for one in names:
         if names.count(one) > 1:
             raise SceneError(f"{place}: two lights are named {one!r}; give each its own name")
-    rig = parse_rig(subtable(table, "rig", place), f"[rig] of {place}")
-    render = parse_render(subtable(table, "render", place), f"[render] of {place}")
+    with SceneError.in_table("rig"):
+        rig = parse_rig(table.subtable("rig"), f"[rig] of {place}")
+    with SceneError.in_table("render"):
+        render = parse_render(table.subtable("render"), f"[render] of {place}")
     if getattr(face, "displacement", False) and render.tier == "volume":
         raise SceneError(
             f'{place}: tier = "volume" fills the smooth head; leave displacement out, or set tier = "diffusion"'
         )
-    formation = parse_formation(table.get("image_formation", {}), f"[image_formation] of {place}")
-    captured_mesh = parse_captured_mesh(table.get("captured_mesh", {}), f"[captured_mesh] of {place}")
-    labels = parse_labels(table.get("labels", {}), f"[labels] of {place}")
-    return Scene(name, face, light, relight, rig, render, _versions(table, place), formation, captured_mesh, labels)
+    with SceneError.in_table("image_formation"):
+        formation = parse_formation(values.get("image_formation", {}), f"[image_formation] of {place}")
+    with SceneError.in_table("captured_mesh"):
+        captured_mesh = parse_captured_mesh(values.get("captured_mesh", {}), f"[captured_mesh] of {place}")
+    with SceneError.in_table("labels"):
+        labels = parse_labels(values.get("labels", {}), f"[labels] of {place}")
+    return Scene(name, face, light, relight, rig, render, _versions(values, place), formation, captured_mesh, labels)
 
 
-def _versions(table: Mapping[str, Any], place: str) -> dict[str, str]:
-    versions = table.get("versions", {})
+def _versions(values: Mapping[str, Any], place: str) -> dict[str, str]:
+    versions = values.get("versions", {})
     if not isinstance(versions, dict) or not all(isinstance(v, str) for v in versions.values()):
         raise SceneError(f"{place}: [versions] must hold texts; it is written by synth, leave it out")
     return versions
