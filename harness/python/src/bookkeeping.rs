@@ -1,4 +1,4 @@
-//! What is made of finished runs, and sealed suites: figures, tables, leaderboards, tolerances, rounds.
+//! Figures, tables, leaderboards and tolerances of finished runs; rounds of sealed suites.
 
 use std::path::PathBuf;
 

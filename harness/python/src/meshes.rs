@@ -1,4 +1,4 @@
-//! Meshes of heads of one's own: the solver's reader of OBJ files, which way surfaces face, and
+//! Meshes of your own heads: the solver's reader of OBJ files, which way surfaces face, and
 //! what a camera sees of them.
 
 use capture::gbuffer::rasterise;

@@ -19,7 +19,7 @@ use rayon::ThreadPool;
 
 use super::errors::named_error;
 
-/// How often Ctrl-C is looked out for.
+/// The interval between two checks for Ctrl-C.
 const TICK: Duration = Duration::from_millis(20);
 
 /// The pool of short calls, and the process that its threads live in.
@@ -78,7 +78,7 @@ impl<S> Arguments for S where
 /// The worker's end of the line to the callback, which takes `S`.
 pub(super) struct Reporter<S> {
     steps: SyncSender<S>,
-    /// None where there is no callback.
+    /// Answers of the callback; absent without one.
     heard: Option<Receiver<bool>>,
 }
 
@@ -99,9 +99,9 @@ pub(super) enum End<T> {
     Stopped,
 }
 
-/// Does long work on threads of its own while the caller's thread hears its progress and looks out for Ctrl-C.
+/// Does long work on threads of its own while the caller's thread reports its progress and checks for Ctrl-C.
 ///
-/// What the callback raises, or Ctrl-C, raises `interrupt`, which ends the work at its next step or
+/// An exception of the callback, or Ctrl-C, raises `interrupt`, which ends the work at its next step or
 /// [`cancel::check`]; it is then raised here. `unshade.STOP` raises it too where `graceful` is false.
 pub(super) fn interruptible<T: Send, S: Arguments>(
     py: Python<'_>,

@@ -9,7 +9,7 @@ use super::progress::Progress;
 use crate::suite::{Observer, RunError, Tools};
 use crate::synth::{StageError, run_stage};
 
-/// Prints one line a part; exit code 1 if something that a run needs is missing.
+/// Shows one line a part; exit code 1 if something that a run needs is missing.
 pub(super) fn examine(tools: &Tools, physics: bool) -> Result<u8, RunError> {
     say!("unshade      {}", env!("CARGO_PKG_VERSION"));
     say!("python       {}", tools.interpreter.path().display());

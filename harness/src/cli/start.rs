@@ -1,4 +1,4 @@
-//! `unshade init`: a suite to start from, and a method of one's own.
+//! `unshade init`: a suite to start from, and your own method.
 
 use std::path::Path;
 use std::{fs, io};

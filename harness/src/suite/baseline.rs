@@ -24,12 +24,12 @@ macro_rules! baselines {
             /// Every one of them.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$variant),*];
 
-            /// As a suite names it.
+            /// The name in a suite.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// As tables name it.
+            /// The name in tables.
             pub fn title(self) -> &'static str {
                 match self { $(Self::$variant => $title,)* }
             }

@@ -89,7 +89,7 @@ impl Variant {
         scene.with_changes(&self.changes)
     }
 
-    /// As ids of cases carry it.
+    /// The name in ids of cases.
     fn id(&self) -> String {
         self.name.replace(' ', "-")
     }

@@ -30,7 +30,7 @@ const PARTS: [&str; 10] = [
 /// Folder that an interrupted run on a cluster leaves: outputs by their content.
 const STORE: &str = "store";
 
-/// Outcome for a folder of a run.
+/// The outcome for a folder of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// The folder.

@@ -36,9 +36,9 @@ impl Class {
 /// A method of the Python package, `unshade.methods`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Competitor {
-    /// As a suite names it.
+    /// The name in a suite.
     pub name: &'static str,
-    /// As tables name it.
+    /// The name in tables.
     pub title: &'static str,
     /// Class of its inputs.
     pub class: Class,

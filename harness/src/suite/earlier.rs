@@ -54,7 +54,7 @@ impl Earlier {
         self.entry(key).join(OUTPUT)
     }
 
-    /// What is known of the output with this key.
+    /// The records of the output with this key.
     pub fn find(&self, key: &str) -> Option<(Finished, Record)> {
         let bytes = fs::read(self.entry(key).join(RECORD)).ok()?;
         let Stage { finished, record } = serde_json::from_slice(&bytes).ok()?;
@@ -142,7 +142,7 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// What may stay of earlier settings.
+/// Limits on the outputs of earlier settings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
     /// Bytes of all together; the oldest go first.

@@ -73,7 +73,7 @@ impl Suite {
         }
     }
 
-    /// As [`Self::open`], of a suite that may have no methods: its captures alone are rendered.
+    /// Opens a suite that may have no methods: only its captures are rendered.
     pub fn open_for_captures(path: &Path) -> Result<Self, SceneError> {
         let path = &scene::typed(path, Kind::Suite)?;
         let table = scene::read_toml(path)?;

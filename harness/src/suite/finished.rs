@@ -1,4 +1,4 @@
-//! What is known of a finished stage.
+//! Records of finished stages.
 
 use serde::{Deserialize, Serialize};
 

@@ -37,7 +37,7 @@ pub struct StageForecast {
 /// Forecast for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Forecast {
-    /// By what stages do, in their order.
+    /// By kind of stage.
     pub kinds: BTreeMap<&'static str, StageForecast>,
     order: Vec<&'static str>,
     /// Seconds that are no stage's: programs and scenes that are read, the report.

@@ -15,7 +15,7 @@ pub(super) struct Made<'a> {
     pub failed: &'a BTreeMap<String, String>,
     /// `<case>/<method>` of which nothing valid is there, and which was not to be run.
     pub left_out: BTreeSet<String>,
-    /// What each method is, by its id, see [`identity`](super::identity).
+    /// The identity of each method, by its id, see [`identity`](super::identity).
     pub contents: BTreeMap<String, String>,
     /// Bytes that the stages of each kind left, by their folders.
     pub sizes: BTreeMap<&'static str, u64>,

@@ -23,7 +23,7 @@ const USED_FRACTION: f64 = 0.9;
 
 /// Running stages, with the memory that each takes.
 pub(super) struct Memory {
-    /// None if one worker runs alone, who takes what it takes, or where the system does not say.
+    /// Bytes; none for a single worker, or where the system does not report its memory.
     limit: Option<u64>,
     /// Estimates of stages that were asked for, by their place in the plan.
     known: BTreeMap<usize, u64>,

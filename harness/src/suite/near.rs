@@ -3,7 +3,7 @@
 /// Similarity (Jaro-Winkler, 0 to 1) from which a name is taken for a misspelling of another.
 const SIMILAR: f64 = 0.7;
 
-/// The message for a name that is not among `known`: the nearest name, or all of them.
+/// The message for an unknown name: the nearest of the `known` names, and all of them.
 pub(super) fn unknown(what: &str, name: &str, known: &[impl AsRef<str>]) -> String {
     let names = || known.iter().map(AsRef::as_ref);
     let similarity = |other: &&str| strsim::jaro_winkler(name, other);

@@ -16,7 +16,7 @@ pub struct Output {
     /// All of it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub content: String,
-    /// What a method is given of a capture: neither its truth nor a withheld view.
+    /// The part of a capture that a method is given: neither its truth nor a withheld view.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub given: String,
     /// The true maps of a capture, without its views and lights; empty without a truth.

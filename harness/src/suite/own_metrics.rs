@@ -22,7 +22,7 @@ pub struct OwnMetrics {
     found: Arc<OnceLock<Found>>,
 }
 
-/// What the functions state of themselves.
+/// Statements of the functions about themselves.
 #[derive(Clone, Debug, Default, Deserialize)]
 struct Found {
     metrics: Vec<OwnMetric>,

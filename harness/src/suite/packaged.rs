@@ -76,13 +76,13 @@ pub(super) fn file(typed: &Path, kind: Kind) -> Result<PathBuf, String> {
 }
 
 /// The file that the value `name` of `key` in the file `from` stands for: one beside it, or, if there is
-/// none and it is a plain name, that of the package; the error is the reason alone.
+/// none and it is a plain name, that of the package; the error is only the reason.
 pub(super) fn referenced(from: &Path, key: &str, name: &str) -> Result<PathBuf, String> {
     named(&beside(from, name), OsStr::new(name), Kind::of_key(key))
         .map_err(|reason| format!("{name}: {reason}"))
 }
 
-/// `file` if it is there or no plain name stands for it; the error is the reason alone.
+/// `file` if it is there or no plain name stands for it; the error is only the reason.
 fn named(file: &Path, name: &OsStr, kind: Kind) -> Result<PathBuf, String> {
     let plain = name.to_str().filter(|name| {
         name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') && !name.is_empty()

@@ -25,7 +25,7 @@ impl Kind {
     /// All, in the order of a case.
     pub const ALL: [Self; 5] = [Self::Capture, Self::Lights, Self::Maps, Self::Relit, Self::Scores];
 
-    /// As ids of stages begin.
+    /// The first word of ids of stages.
     pub fn word(self) -> &'static str {
         match self {
             Self::Capture => "capture",

@@ -49,7 +49,7 @@ pub(super) struct Work<'a> {
 enum Event {
     Begins(usize),
     Step(usize, u64, u64, String),
-    /// None of a stage that is left out.
+    /// Without a result if the stage is left out.
     Ends(usize, Box<Result<Option<Done>, RunError>>),
 }
 

@@ -65,7 +65,7 @@ pub(super) fn costs_of(run: &Path) -> (BTreeMap<String, Record>, Around) {
 /// The records below `RUN/stages`.
 pub(super) struct Records {
     run: PathBuf,
-    /// What stages cost in earlier runs.
+    /// Costs of the stages in earlier runs.
     costs: BTreeMap<String, Record>,
 }
 
@@ -80,7 +80,7 @@ impl Records {
         Ok(Self::of(run))
     }
 
-    /// With what stages cost that were done elsewhere.
+    /// Adds the costs of stages that were executed elsewhere.
     pub fn with(mut self, records: Vec<Record>) -> Self {
         self.costs.extend(records.into_iter().map(|record| (record.id.clone(), record)));
         self
@@ -119,7 +119,7 @@ impl Records {
         Ok(Some(record))
     }
 
-    /// As [`Self::valid`], but nothing is read or moved: an output is there, and as large as it was.
+    /// Checks an output by its size alone; nothing is read or moved, unlike in [`Self::valid`].
     pub fn seems_valid(&self, id: &str, key: &str, output: &Path) -> Option<Output> {
         let as_large = |_: &Finished| {
             let bytes = size_of(output).ok().filter(|bytes| *bytes > 0);
@@ -161,7 +161,7 @@ impl Records {
         Ok(record)
     }
 
-    /// Takes what somewhere else was made for finished here.
+    /// Records an output that was made elsewhere.
     pub fn adopt(&self, id: &str, key: &str, output: &Output) -> io::Result<()> {
         let record = Finished { key: key.to_owned(), output: output.clone() };
         atomic::write_file(&self.path(id), &serde_json::to_vec_pretty(&record)?)

@@ -19,7 +19,7 @@ pub(super) struct Sources {
 }
 
 impl Sources {
-    /// That of this program.
+    /// The code of this program.
     pub const BUILT: Self =
         Self { capture: CAPTURE_SOURCES, solver: SOLVER_SOURCES, scores: SCORE_SOURCES };
 }

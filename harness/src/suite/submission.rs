@@ -32,7 +32,7 @@ pub struct Submission {
     pub format: u32,
     /// The method; letters, digits, `-` and `_`.
     pub name: String,
-    /// As tables show it.
+    /// The name in tables.
     pub title: Option<String>,
     /// Who sends it.
     pub by: String,

@@ -31,7 +31,7 @@ struct Known {
 #[derive(Default)]
 pub(super) struct TreeHashes {
     folder: Option<PathBuf>,
-    /// What was hashed for this run.
+    /// Hashes that this run has computed.
     once: Mutex<BTreeMap<Vec<PathBuf>, String>>,
 }
 

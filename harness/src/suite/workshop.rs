@@ -106,7 +106,7 @@ impl<'a> Workshop<'a> {
         ready.is_some_and(|ready| self.redo.contains(&ready.method.id))
     }
 
-    /// What an earlier run left of a stage, if it is still valid; none too where that cannot be told.
+    /// The earlier output of a stage, if it is still valid; none where its key cannot be computed.
     pub fn kept(
         &self,
         task: &Task,
@@ -119,7 +119,7 @@ impl<'a> Workshop<'a> {
         Ok(record.map(|record| Done { record, kept: true }))
     }
 
-    /// Does a stage unless its output is there, intact, and made from the same inputs.
+    /// Executes a stage unless its output is there, intact, and made from the same inputs.
     pub fn run(
         &self,
         task: &Task,
@@ -130,7 +130,7 @@ impl<'a> Workshop<'a> {
         self.run_by(task, contents, records, |path| self.make(task, path, step))
     }
 
-    /// As [`Self::run`], by whatever makes the output.
+    /// Executes a stage with a function that makes its output.
     pub(super) fn run_by(
         &self,
         task: &Task,

@@ -42,7 +42,7 @@ pub enum InterpreterError {
 pub struct Fingerprints(pub BTreeMap<String, String>);
 
 impl Fingerprints {
-    /// That of one stage, unless the renderer has none of this name.
+    /// The fingerprint of one stage, unless the renderer has none of this name.
     pub fn of(&self, stage: &str) -> Option<&str> {
         self.0.get(stage).map(String::as_str)
     }

@@ -73,7 +73,7 @@ enum Event {
 
 /// Runs `python -m unshade.stage <verb> <arguments>` and returns its result event.
 ///
-/// `progress` hears how many of how many steps are done; warnings go to the log.
+/// `progress` is called with how many of how many steps are done; warnings go to the log.
 pub fn run_stage(
     interpreter: &Interpreter,
     verb: &str,

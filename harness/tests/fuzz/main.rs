@@ -26,7 +26,7 @@ use guard::{Counting, REFUSED, fuzz};
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-const BINARY: Mutator = Mutator { words: &[], repair: None };
+const BINARY: Mutator = Mutator { words: "", repair: None };
 
 /// Name of the file in messages.
 fn name() -> &'static Path {

@@ -21,29 +21,9 @@ const EDGES: [u64; 14] = [
     0xFFFF_FFFF_FFFF_FFFF,
 ];
 
-/// Numbers as texts have them.
-const NUMBERS: [&str; 20] = [
-    "0",
-    "-1",
-    "1",
-    "2",
-    "3",
-    "-0.0",
-    "0.5",
-    "1e-320",
-    "1e300",
-    "-1e300",
-    "1e999",
-    "nan",
-    "inf",
-    "65535",
-    "65536",
-    "4294967295",
-    "4294967296",
-    "9223372036854775807",
-    "-9223372036854775808",
-    "99999999999999999999999999",
-];
+/// Numbers as texts have them, between bars.
+const NUMBERS: &str = "0|-1|1|2|3|-0.0|0.5|1e-320|1e300|-1e300|1e999|nan|inf|65535|\
+    65536|4294967295|4294967296|9223372036854775807|-9223372036854775808|99999999999999999999999999";
 
 /// Levels of nesting or repeats, beyond what a stack holds.
 const MANY: usize = 20_000;
@@ -51,8 +31,8 @@ const MANY: usize = 20_000;
 /// How inputs of a format are changed.
 #[derive(Clone, Copy)]
 pub struct Mutator {
-    /// Words that the format knows; none for binary formats.
-    pub words: &'static [&'static str],
+    /// Words that the format knows, between bars; none for binary formats.
+    pub words: &'static str,
     /// Makes checksums right again.
     pub repair: Option<fn(&mut [u8])>,
 }
@@ -109,7 +89,7 @@ impl Mutator {
                     tokens.splice(at..end, from[first..last].iter().copied());
                 }
             }
-            4 | 5 => tokens[at] = self.words[random.random_range(0..self.words.len())].as_bytes(),
+            4 | 5 => tokens[at] = one_of(self.words, random),
             6 if random.random_range(0..200) == 0 => {
                 word = tokens[at].repeat(MANY);
                 tokens[at] = &word;
@@ -118,11 +98,17 @@ impl Mutator {
                 // A number for a number, if there is one further on.
                 let number = |token: &&[u8]| token.first().is_some_and(|b| b.is_ascii_digit());
                 let at = tokens[at..].iter().position(number).map_or(at, |found| at + found);
-                tokens[at] = NUMBERS[random.random_range(0..NUMBERS.len())].as_bytes();
+                tokens[at] = one_of(NUMBERS, random);
             }
         }
         tokens.concat()
     }
+}
+
+/// One of the words between bars.
+fn one_of(words: &'static str, random: &mut Pcg64Mcg) -> &'static [u8] {
+    let count = words.split('|').count();
+    words.split('|').nth(random.random_range(0..count)).unwrap_or_default().as_bytes()
 }
 
 /// Runs of letters and digits, runs of spaces, and single bytes of all other kinds.

@@ -2,96 +2,17 @@
 
 use std::path::Path;
 
-/// Words of JSON files.
-pub const JSON: &[&str] = &[
-    "{",
-    "}",
-    "[",
-    "]",
-    ",",
-    ":",
-    "\"",
-    "\\",
-    "null",
-    "true",
-    "false",
-    "\\u0000",
-    "\\ud800",
-    "\"\"",
-    "\"a\"",
-    "{}",
-    "[]",
-    "\u{FEFF}",
-    "é",
-    "..",
-    "/",
-    "truth",
-    "w",
-    "h",
-    "k1",
-    "k3",
-    "OPENCV",
-    "camera_angle_x",
-    "is_fisheye",
-    "applied_transform",
-    "name",
-    "format",
-];
-/// Words of TOML files.
-pub const TOML: &[&str] = &[
-    "[",
-    "]",
-    "[[",
-    "]]",
-    "=",
-    "\n",
-    "\"",
-    "\"\"\"",
-    "'",
-    "'''",
-    ".",
-    ",",
-    "{",
-    "}",
-    "#",
-    "\\",
-    "true",
-    "1979-05-27T07:32:00Z",
-    "0x7f",
-    "1_0",
-    "method",
-    "variant",
-    "name",
-    "format",
-    "render",
-    "faces",
-    "lights",
-    "face",
-    "light",
-    "command",
-    "python",
-    "config",
-    "set",
-    "base",
-    "threads",
-    "timeout_s",
-    "memory_gib",
-    "inputs",
-    "version",
-    "oracle",
-    "mean_texture",
-    "fast",
-    "face.toml",
-    "scene.toml",
-    "suite.toml",
-    "é",
-    "\u{FEFF}",
-];
-/// Words of OBJ files.
-pub const OBJ: &[&str] = &[
-    "v ", "vt ", "vn ", "f ", "o ", "g ", "l ", "p ", "s off", "usemtl", "\n", "\r", "\t", " ",
-    "\\\n", "/", "//", "-1", "-4", "1/1/1", "2/2", "3//3", "# ", "\u{FEFF}", "é", "1.5.5",
-];
+/// Words of JSON files, between bars.
+pub const JSON: &str = "{|}|[|]|,|:|\"|\\|null|true|false|\\u0000|\\ud800|\"\"|\"a\"|{}|[]|\u{FEFF}|é|..|/|\
+    truth|w|h|k1|k3|OPENCV|camera_angle_x|is_fisheye|applied_transform|name|format";
+/// Words of TOML files, between bars.
+pub const TOML: &str = "[|]|[[|]]|=|\n|\"|\"\"\"|'|'''|.|,|{|}|#|\\|true|1979-05-27T07:32:00Z|0x7f|1_0|\
+    method|variant|name|format|render|faces|lights|face|light|command|python|config|set|\
+    base|threads|timeout_s|memory_gib|inputs|version|oracle|mean_texture|fast|face.toml|\
+    scene.toml|suite.toml|é|\u{FEFF}";
+/// Words of OBJ files, between bars.
+pub const OBJ: &str = "v |vt |vn |f |o |g |l |p |s off|usemtl|\n|\r|\t| |\\\n|/|//|-1|-4|1/1/1|2/2|3//3|# |\
+    \u{FEFF}|é|1.5.5";
 
 /// OBJ files: with normals, without, polygons, negative indices, several objects.
 pub fn obj() -> Vec<Vec<u8>> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// Paths of the system that every program needs to read: they change with its releases.
 const SYSTEM: [&str; 11] =
     ["/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc", "/nix", "/proc", "/sys", "/run"];
-/// What is in them is the user's, as `/opt` is: read by who states it.
+/// Files below it are the user's, as those of `/opt`: a program that reads them states them.
 const LOCAL: &str = "/usr/local";
 /// Devices, and the memory that processes share.
 const DEVICES: &str = "/dev";

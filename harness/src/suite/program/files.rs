@@ -49,7 +49,7 @@ struct Answer {
 }
 
 impl Program {
-    /// Finds the program and its files; the error is the reason alone.
+    /// Finds the program and its files; the error is only the reason.
     pub fn find(&self, ours: &Interpreter) -> Result<ProgramFiles, String> {
         match &self.start {
             Start::Python(function) => {

@@ -35,7 +35,7 @@ pub enum Gives {
 }
 
 /// Makes maps of `size` texels of the pictures of training views in the folder `left`; nothing if it
-/// has none. The error is the reason alone.
+/// has none. The error is only the reason.
 pub(super) fn into_maps(
     capture: &Path,
     left: &Path,

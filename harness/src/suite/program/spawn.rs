@@ -6,7 +6,7 @@ use std::process::{Child, Command};
 
 use serde::{Deserialize, Serialize};
 
-/// What a program could reach beyond its machine.
+/// The network that a program could reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Network {

@@ -44,7 +44,7 @@ pub struct Usage {
     pub peak_bytes: u64,
     /// Whether the kernel kept it to its own files.
     pub confined: bool,
-    /// What it could reach beyond its machine.
+    /// The network that it could reach.
     #[serde(default)]
     pub network: Network,
 }
@@ -59,7 +59,7 @@ pub(super) enum End {
     Interrupted,
 }
 
-/// What a program is started with, beside its command.
+/// Settings of a program's start, beside its command.
 pub(super) struct Watched<'a> {
     pub limits: &'a Limits,
     /// Whether it may use the network.
