@@ -10,10 +10,10 @@ import numpy as np
 from PIL import Image
 
 import unshade
+from unshade.files.pictures import read_exr
 from unshade.render import llvm
 
 llvm.activate(llvm.choose())
-from unshade.render.pictures import read_exr  # noqa: E402 (after its variant is set)
 
 SIDE = 256
 

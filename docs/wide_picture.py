@@ -13,9 +13,9 @@ import numpy as np
 from picture import srgb
 from PIL import Image
 
+from unshade.camera.camera import Camera, look_at
 from unshade.face import Face, FaceSpec, build_face
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
 from unshade.render.passes import render_layers
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import Light

@@ -1,6 +1,6 @@
 """Checks the types of what users of the package meet, and of the documentation's examples.
 
-    python tests/check_types.py        mypy and pyright, both strict; then the stubs against the code
+    python tests/check_types.py        mypy and pyright, both strict; the stubs against the code; the order of imports
 
 The rendering behind it is no part of this: it is typed for its readers.
 """
@@ -40,13 +40,14 @@ def main() -> int:
         config = folder / "pyrightconfig.json"
         config.write_text(json.dumps({"include": files, "extraPaths": [str(SOURCES)], "typeCheckingMode": "strict"}))
         python = [sys.executable, "-m"]
-        checks = [
-            [*python, "mypy", "--strict", "--no-error-summary", "--explicit-package-bases", *files],
-            [*python, "basedpyright", "--project", str(config), "--pythonpath", sys.executable],
-            [*python, "mypy.stubtest", "--concise", *COMPILED],
-        ]
+        checks = {
+            "mypy": [*python, "mypy", "--strict", "--no-error-summary", "--explicit-package-bases", *files],
+            "pyright": [*python, "basedpyright", "--project", str(config), "--pythonpath", sys.executable],
+            "stubtest": [*python, "mypy.stubtest", "--concise", *COMPILED],
+            "order of imports": [sys.executable, str(SOURCES / "tests" / "import_order.py")],
+        }
         # Each says its own; the last line of all is the verdict.
-        failed = [words[2] for words in checks if subprocess.run(words, env=environment, cwd=ROOT).returncode]
+        failed = [name for name, words in checks.items() if subprocess.run(words, env=environment, cwd=ROOT).returncode]
     print(f"types: {', '.join(failed)} failed" if failed else "types: right")
     return bool(failed)
 

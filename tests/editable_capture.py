@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import unshade
-from unshade.render.pictures import read_exr, read_gray, read_rgb, write_exr, write_gray
+from unshade.files.pictures import read_exr, read_gray, read_rgb, write_exr, write_gray
 
 CONFIG = """
 base = "fast"

@@ -11,7 +11,7 @@ from scipy.ndimage import map_coordinates
 import unshade
 from unshade import _native
 from unshade.face.texels import Texels, rasterise
-from unshade.render.pictures import write_exr
+from unshade.files.pictures import write_exr
 
 Array = np.ndarray
 

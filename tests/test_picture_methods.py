@@ -49,7 +49,7 @@ import sys
 from pathlib import Path
 import numpy as np
 import unshade
-from unshade.render.pictures import read_rgb, write_exr
+from unshade.files.pictures import read_rgb, write_exr
 
 capture, maps, lights = unshade.Capture(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3])
 print("lights:", *sorted(path.name for path in lights.iterdir()))
@@ -73,7 +73,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 import unshade
-from unshade.render.pictures import write_exr
+from unshade.files.pictures import write_exr
 
 capture, maps = unshade.Capture(sys.argv[1]), Path(sys.argv[2])
 (maps / "pictures" / "albedo").mkdir(parents=True)
@@ -89,7 +89,7 @@ INCOMPLETE = """
 import sys
 from pathlib import Path
 import numpy as np
-from unshade.render.pictures import write_exr
+from unshade.files.pictures import write_exr
 
 write_exr(Path(sys.argv[2]) / "relit" / "moon" / "000.exr", {"": np.zeros((96, 96, 3))})
 """
@@ -142,7 +142,7 @@ def test_global_factor_is_least_squares(run: Path) -> None:
     """By numpy, from the files: k = <p,g> / <p,p> inside the eroded masks."""
     from scipy.ndimage import binary_erosion
 
-    from unshade.render.pictures import read_gray, read_rgb
+    from unshade.files.pictures import read_gray, read_rgb
 
     capture = run / "captures" / CASE
     across = square = 0.0

@@ -11,7 +11,7 @@ from scipy.ndimage import binary_erosion, map_coordinates
 
 import unshade
 from conftest import CASE
-from unshade.render.pictures import read_exr, read_rgb
+from unshade.files.pictures import read_exr, read_rgb
 
 ROWS = 16
 NEARNESS = 1 / 1.5

@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 from scipy.ndimage import binary_erosion
 
+from unshade.files.pictures import read_exr, read_gray
 from unshade.render import llvm
 
 llvm.activate(llvm.choose())
-from unshade.render.pictures import read_exr, read_gray  # noqa: E402, needs the variant
 
 LAYERS = ("diffuse", "specular")
 

@@ -1,4 +1,4 @@
-"""What is known of the half space without rendering it: the yardsticks of the subsurface tiers.
+"""Closed-form results for the half space: the yardsticks of the subsurface tiers.
 
 The medium scatters isotropically and its surface does not refract. Lengths are mean free paths.
 """

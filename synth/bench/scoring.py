@@ -1,4 +1,4 @@
-"""What scoring costs beside the Python libraries that compute the same numbers.
+"""The cost of scoring beside the Python libraries that compute the same numbers.
 
     python synth/bench/scoring.py [--views 12] [--size 512]
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import igl
 import numpy as np
 
+from unshade.camera.camera import Camera, look_at
 from unshade.face import Chart, Part
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.tiers import render_tier
 from unshade.scene_file import Render

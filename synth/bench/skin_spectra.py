@@ -2,7 +2,7 @@
 
     python synth/bench/skin_spectra.py --head HEAD.toml [--size 1024] [--document docs/ground-truth.md]
 
-HEAD.toml is the `[face]` table of a head of one's own with a photographed texture and labels.
+HEAD.toml is the `[face]` table of your own head with a photographed texture and labels.
 Prints the tables; with `--document` writes them there, and the pictures beside it: the curves,
 and a contact sheet of sampled faces with natural skin. Of the head
 only curves and single numbers are kept.

@@ -29,16 +29,18 @@ from unshade.render import llvm
 llvm.activate(llvm.choose("llvm_ad_rgb"))
 from PIL import Image  # noqa: E402
 from scipy.interpolate import RegularGridInterpolator  # noqa: E402
+from scipy.ndimage import binary_erosion  # noqa: E402
 from shadow_edge import ALBEDO, shadow_edges  # noqa: E402
 
+from unshade.camera.camera import Camera, look_at  # noqa: E402
 from unshade.face import FaceSpec, build_face  # noqa: E402
 from unshade.face.labels import Label  # noqa: E402
 from unshade.render import lights  # noqa: E402
-from unshade.render.camera import Camera, look_at  # noqa: E402
 from unshade.render.probes import nearest_texels, view_through_centres  # noqa: E402
 from unshade.render.scene import ChartMaps, HeadScene  # noqa: E402
 from unshade.render.tiers import profile, render_tier  # noqa: E402
 from unshade.scene_file import Light, Render  # noqa: E402
+from unshade.srgb import encoded  # noqa: E402
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -140,15 +142,7 @@ def _regions(face, head, camera) -> dict[str, np.ndarray]:
         "whole face": label > 0,
     }
     assert all(region.shape == shape for region in regions.values())
-    return {name: _eroded(region) for name, region in regions.items()}
-
-
-def _eroded(mask: np.ndarray) -> np.ndarray:
-    inner = mask.copy()
-    for axis in (0, 1):
-        for step in (-1, 1):
-            inner &= np.roll(mask, step, axis)
-    return inner
+    return {name: binary_erosion(region) for name, region in regions.items()}
 
 
 def _half_space_level(face, head, camera) -> np.ndarray:
@@ -307,8 +301,7 @@ def _picture(pictures, regions, path: Path) -> None:
 
 def _display(radiance: np.ndarray) -> np.ndarray:
     """sRGB curve."""
-    v = radiance.clip(0, 1)
-    return np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+    return encoded(radiance.clip(0, 1))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import shutil
 from pathlib import Path
 
@@ -35,6 +36,12 @@ def captured(folder: Path, samples: int = 16) -> Path:
         choice = llvm.choose("llvm_ad_rgb")
         capture.synthesise(parse_scene(render_toy.toy_table(samples=samples), "toy", Path()), out, choice, no_progress)
     return out
+
+
+@functools.cache
+def captured_once(factory: pytest.TempPathFactory) -> Path:
+    """The capture that all tests of a process share; none changes it."""
+    return captured(factory.mktemp("toy"))
 
 
 def exported(capture: Path, out: Path, format: str, maps: Path | None = None, **options) -> list[dict]:

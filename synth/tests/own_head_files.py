@@ -6,12 +6,12 @@ one mirrored; quads, triangles and a hexagon; a collar without UV.
 
 from __future__ import annotations
 
-import json
-import struct
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
+
+from unshade.files import glb
 
 STEPS = 24
 OFFSET = np.array([4.0, -30.0, 150.0])
@@ -112,51 +112,69 @@ def write_glb(path: Path) -> None:
     head = np.array([place(*grid[k]) for k, _ in number])
     uv = np.array([uv_of(island, *grid[k]) for k, island in number])
     indices = [[number[face[k], island] for k in cut] for island, face in faces for cut in CUTS[len(face)]]
-    arrays = [
-        (head, "<f4", "VEC3"), (np.stack([uv[:, 0], 1 - uv[:, 1]], 1), "<f4", "VEC2"), (np.array(indices).reshape(-1, 1), "<u4", "SCALAR"),
-        (COLLAR, "<f4", "VEC3"), (np.array([[0], [1], [2], [0], [2], [3]]), "<u4", "SCALAR"),
-    ]  # fmt: skip
-    blob, views, accessors = b"", [], []
-    for values, kind, shape in arrays:
-        data = np.ascontiguousarray(values, kind).tobytes()
-        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)})
-        accessor = {
-            "bufferView": len(views) - 1,
-            "componentType": 5126 if kind == "<f4" else 5125,
-            "count": len(values),
-            "type": shape,
-        }
-        if shape == "VEC3":
-            accessor |= {"min": values.min(0).tolist(), "max": values.max(0).tolist()}
-        accessors.append(accessor)
-        blob += data
     matrix = np.eye(4)
     matrix[:3, :3] = 100 * np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
     matrix[:3, 3] = OFFSET
-    document = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(blob)}],
-        "bufferViews": views,
-        "accessors": accessors,
-        "meshes": [
-            {"name": "m0", "primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]},
-            {"name": "m1", "primitives": [{"attributes": {"POSITION": 3}, "indices": 4}]},
-        ],
-        "nodes": [
-            {"name": "all", "matrix": matrix.T.ravel().tolist(), "children": [1, 2]},
-            {"name": "head", "mesh": 0},
-            {"name": "collar", "mesh": 1},
-        ],
-        "scenes": [{"nodes": [0]}],
-        "scene": 0,
-    }
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(blob)
-    path.write_bytes(
-        struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<II", len(text), 0x4E4F534A) + text
-        + struct.pack("<II", len(blob), 0x004E4942) + blob
-    )  # fmt: skip
+    packed = Packed(
+        {
+            "asset": {"version": "2.0"},
+            "meshes": [
+                {"name": "m0", "primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2}]},
+                {"name": "m1", "primitives": [{"attributes": {"POSITION": 3}, "indices": 4}]},
+            ],
+            "nodes": [
+                {"name": "all", "matrix": matrix.T.ravel().tolist(), "children": [1, 2]},
+                {"name": "head", "mesh": 0},
+                {"name": "collar", "mesh": 1},
+            ],
+            "scenes": [{"nodes": [0]}],
+            "scene": 0,
+        }
+    )
+    for values in (head, np.stack([uv[:, 0], 1 - uv[:, 1]], 1)):
+        packed.add(values.astype("<f4"), 5126)
+    packed.add(np.array(indices, "<u4").reshape(-1, 1), 5125)
+    packed.add(COLLAR.astype("<f4"), 5126)
+    packed.add(np.array([[0], [1], [2], [0], [2], [3]], "<u4"), 5125)
+    packed.write(path)
+
+
+class Packed:
+    """A glTF document whose arrays can be replaced and added to."""
+
+    def __init__(self, document, blob=b""):
+        self.document, self.blob = {"accessors": [], "bufferViews": []} | document, blob
+
+    @classmethod
+    def read(cls, path):
+        return cls(*glb.unpacked(path.read_bytes()))
+
+    def write(self, path):
+        path.write_bytes(glb.packed(self.document, self.blob))
+
+    def values(self, number):
+        accessor = self.document["accessors"][number]
+        view = self.document["bufferViews"][accessor["bufferView"]]
+        kind = {5126: "<f4", 5125: "<u4"}[accessor["componentType"]]
+        values = np.frombuffer(self.blob, kind, view["byteLength"] // 4, view["byteOffset"])
+        return values.reshape(accessor["count"], -1)
+
+    def view(self, values, **more):
+        self.blob += b"\0" * (-len(self.blob) % 4)
+        data = np.ascontiguousarray(values).tobytes()
+        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.blob), "byteLength": len(data)} | more)
+        self.blob += data
+        return len(self.document["bufferViews"]) - 1
+
+    def add(self, values, component, **more):
+        shape = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}[values.shape[1]]
+        accessor = {"bufferView": self.view(values), "componentType": component, "count": len(values), "type": shape}
+        self.document["accessors"].append(accessor | more)
+        return len(self.document["accessors"]) - 1
+
+    @property
+    def head(self):
+        return self.document["meshes"][0]["primitives"][0]
 
 
 def write_albedo(path: Path, size: int = 256) -> None:

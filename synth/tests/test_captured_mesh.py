@@ -8,11 +8,12 @@ from unshade.captured_mesh import degrade, deviation
 from unshade.errors import SceneError
 from unshade.face import Chart
 from unshade.face.cache import load_head
-from unshade.face.geometry import part_mesh, place, vertex_normals
+from unshade.face.geometry import part_mesh, place
 from unshade.face.identity import shape
 from unshade.face.spec import FaceSpec
 from unshade.face.texels import rasterise
 from unshade.scene_file import CapturedMesh
+from unshade.vectors import vertex_normals
 
 STEPS = 70
 
@@ -104,13 +105,13 @@ def test_decimation_keeps_a_share_of_the_vertices_and_the_chart(fraction):
 def test_a_face_keeps_its_outline_eyes_and_mouth(face_chart):
     small = degrade(face_chart, CapturedMesh(vertex_share=0.1), 1)
     require_chart(small, 3)
-    said = deviation(face_chart, small)
-    assert said["vertices"] == round(0.1 * len(face_chart.vertices)) and said["uv_flips"] == 0
+    deviations = deviation(face_chart, small)
+    assert deviations["vertices"] == round(0.1 * len(face_chart.vertices)) and deviations["uv_flips"] == 0
     # Half the spacing of the vertices that are left is some 2 mm; features are kept better.
-    assert 0.01 < said["mean_distance_from_truth_mm"] < 0.1 and said["max_distance_from_truth_mm"] < 1.0
+    assert 0.01 < deviations["mean_distance_from_truth_mm"] < 0.1 and deviations["max_distance_from_truth_mm"] < 1.0
 
 
-def test_what_cannot_be_decimated_is_said():
+def test_a_mesh_that_cannot_be_decimated_that_far_is_refused():
     with pytest.raises(SceneError, match="vertex_share .* of the vertices remain"):
         degrade(sheet_of_four(), CapturedMesh(vertex_share=0.01), 1)
 
@@ -166,9 +167,9 @@ def test_all_together_repeats_bit_by_bit_and_nothing_changes_nothing():
         assert getattr(first, name).tobytes() == getattr(again, name).tobytes()
     assert first.vertices.shape == other.vertices.shape and (first.vertices != other.vertices).any()
     require_chart(first, holes(SHEET))
-    said = deviation(SHEET, first)
+    deviations = deviation(SHEET, first)
     # The mean height of Gaussian bumps is 0.8 of their rms.
-    assert 0.1 < said["mean_distance_to_truth_mm"] < 0.25 and said["max_distance_to_truth_mm"] < 1.2
+    assert 0.1 < deviations["mean_distance_to_truth_mm"] < 0.25 and deviations["max_distance_to_truth_mm"] < 1.2
     assert degrade(SHEET, CapturedMesh(), 1) is SHEET
 
 

@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 import render_toy
 
+from unshade.camera.camera import Camera, look_at
 from unshade.cycles import description, interpreter
 from unshade.cycles import relight as judge
 from unshade.errors import RendererError
-from unshade.exporting.surface import Mesh, Surface
+from unshade.files.pictures import read_exr, read_gray
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
 from unshade.render.lights import conventions
-from unshade.render.pictures import read_exr, read_gray
 from unshade.render.scene import ChartMaps
 from unshade.render.truth_scene import captured_scene
 from unshade.scene_file import Light, parse_scene
 from unshade.scene_file.light import PointLight
+from unshade.surface import Mesh, Surface
 
 
 @pytest.fixture(scope="module")
@@ -140,11 +140,11 @@ def test_lamps_give_the_irradiance_of_the_lights(tmp_path, kind):
     chart = render_toy.toy_face().chart
     scene_light = Light("light", kind, **settings) if kind != "sun" else parsed_sun()
     light = lights.exposed(scene_light, chart.vertices, chart.normals)
-    said = description.write_light(tmp_path, "light", light)
+    described = description.write_light(tmp_path, "light", light)
     normal = export_toy.unit(np.array([0.2, 0.3, 1.0]))
     expected = light.irradiance(np.zeros((1, 3)), normal[None])[0]
     found = np.zeros(3)
-    for lamp in said["lamps"]:
+    for lamp in described["lamps"]:
         data = np.load(lamp["file"])
         centres = data["vertices"][data["triangles"]].mean(1)
         areas = area(lamp)
@@ -152,7 +152,7 @@ def test_lamps_give_the_irradiance_of_the_lights(tmp_path, kind):
         towards = centres / np.sqrt(distance2)[:, None]
         facing = (-(areas * towards).sum(1)).clip(0) * (towards @ normal).clip(0)
         found += (facing / distance2).sum() * np.array(lamp["radiance"])
-    if "background" in said:
+    if "background" in described:
         found += light.sky.irradiance(np.zeros((1, 3)), normal[None])[0]
     # Two triangles of a panel are summed at their centres.
     np.testing.assert_allclose(found, expected, rtol=0.06 if kind == "studio" else 0.01)
@@ -163,7 +163,7 @@ def parsed_sun():
     return parse_scene(table, "toy", Path()).light
 
 
-def test_a_renderer_that_nobody_waits_for_ends(tmp_path):
+def test_a_renderer_ends_with_the_process_that_started_it(tmp_path):
     """The child ends with the process that started it, however that one ends."""
     export_toy.needs_blender()
     mesh = render_toy.toy_face().chart

@@ -52,7 +52,7 @@ def test_lights_are_described(described):
     assert float(sun[5]) > 1e4 and int(sun[7].split()[0]) in range(4500, 9000)
 
 
-def test_what_solvers_get_is_described(described, monkeypatch):
+def test_faults_of_the_solvers_inputs_are_described(described, monkeypatch):
     for part in ("image formation", "mesh", "labels"):
         assert row(described, part)[1] == "perfect"
     monkeypatch.setattr(module, "build_head", lambda spec: FACE)
@@ -60,13 +60,14 @@ def test_what_solvers_get_is_described(described, monkeypatch):
     text = describe(parse_scene(render_toy.toy_table() | faults, "scene", None))
     assert row(text, "labels")[1] == "10 % of the boundary pixels have the label of the other side"
     assert row(text, "mesh")[1] == "smoothing_mm 2" and row(text, "image formation")[1] == "perfect"
-    for faults, said in (
+    for faults, expected in (
         ({"omit": True}, "none"),
         ({"one": True}, "one for everything"),
         ({"hair_is_skin": True}, "hair is called skin"),
     ):
         assert (
-            row(describe(parse_scene(render_toy.toy_table() | {"labels": faults}, "scene", None)), "labels")[1] == said
+            row(describe(parse_scene(render_toy.toy_table() | {"labels": faults}, "scene", None)), "labels")[1]
+            == expected
         )
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from unshade.render.pictures import read_exr, write_exr
+from unshade.files.pictures import read_exr, write_exr
 
 PLAYERS = ("a", "b", "c", "d")
 

@@ -3,7 +3,6 @@
 import io
 import json
 import shutil
-import struct
 import subprocess
 from pathlib import Path
 
@@ -13,8 +12,10 @@ import pytest
 import trimesh
 from PIL import Image
 
-from unshade.exporting import fidelity, layered_bsdf, read_gltf, surface
-from unshade.render.pictures import read_exr
+from unshade import surface
+from unshade.exporting import fidelity, layered_bsdf, read_gltf
+from unshade.files import glb
+from unshade.files.pictures import read_exr
 
 ROOT = Path(__file__).parents[2]
 VALIDATE = """
@@ -26,19 +27,13 @@ validator.validateBytes(new Uint8Array(require("fs").readFileSync(process.argv[2
 
 @pytest.fixture(scope="module")
 def capture(tmp_path_factory):
-    return export_toy.captured(tmp_path_factory.mktemp("gltf"))
+    return export_toy.captured_once(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
 def made(capture, tmp_path_factory):
     out = tmp_path_factory.mktemp("gltf") / "asset"
     return out, export_toy.exported(capture, out, "gltf")
-
-
-def document_of(path):
-    data = path.read_bytes()
-    length = struct.unpack_from("<I", data, 12)[0]
-    return json.loads(data[20 : 20 + length])
 
 
 def test_the_khronos_validator_finds_nothing(made):
@@ -67,17 +62,17 @@ def test_another_reader_finds_shape_and_colours(made, capture):
 
 
 def test_it_states_what_it_uses(made):
-    document = document_of(made[0] / "face.glb")
+    document = glb.unpacked((made[0] / "face.glb").read_bytes())[0]
     material = document["materials"][0]
     assert (
         set(material["extensions"])
         == set(document["extensionsUsed"])
         == {"KHR_materials_ior", "KHR_materials_specular"}
     )
-    said = json.loads((made[0] / "asset.json").read_text())
+    asset = json.loads((made[0] / "asset.json").read_text())
     # The toy's specular albedo reaches 0.05.
-    assert said["ior"] == material["extensions"]["KHR_materials_ior"]["ior"] == pytest.approx(1.576, abs=2e-3)
-    assert 0 < said["lobe_energy_misplaced_mean"] <= said["lobe_energy_misplaced_largest"] < 0.3
+    assert asset["ior"] == material["extensions"]["KHR_materials_ior"]["ior"] == pytest.approx(1.576, abs=2e-3)
+    assert 0 < asset["lobe_energy_misplaced_mean"] <= asset["lobe_energy_misplaced_largest"] < 0.3
 
 
 def test_little_is_lost(made):
@@ -93,9 +88,7 @@ def test_little_is_lost(made):
 
 def with_picture(path, name, change):
     """The GLB with one of its pictures changed: the new one is put behind all others."""
-    data = path.read_bytes()
-    document = document_of(path)
-    binary = data[28 + struct.unpack_from("<I", data, 12)[0] :]
+    document, binary = glb.unpacked(path.read_bytes())
     (image,) = (image for image in document["images"] if image["name"] == name)
     view = document["bufferViews"][image["bufferView"]]
     picture = np.asarray(Image.open(io.BytesIO(binary[view["byteOffset"] :][: view["byteLength"]])))
@@ -103,12 +96,7 @@ def with_picture(path, name, change):
     Image.fromarray(change(picture.copy())).save(stream, format="PNG")
     new = stream.getvalue()
     view.update(byteOffset=len(binary), byteLength=len(new))
-    binary += new + b"\0" * (-len(new) % 4)
-    document["buffers"][0]["byteLength"] = len(binary)
-    words = json.dumps(document).encode()
-    words += b" " * (-len(words) % 4)
-    chunks = struct.pack("<I4s", len(words), b"JSON") + words + struct.pack("<I4s", len(binary), b"BIN\0") + binary
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+    path.write_bytes(glb.packed(document, binary + new))
 
 
 def flipped_green(picture):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from unshade import _native
-from unshade.render.pictures import read_exr
+from unshade.files.pictures import read_exr
 
 
 @pytest.fixture(scope="module")
 def capture(tmp_path_factory):
-    return export_toy.captured(tmp_path_factory.mktemp("materialx"))
+    return export_toy.captured_once(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from unshade.render import llvm
 
 @pytest.fixture(scope="module")
 def capture(tmp_path_factory):
-    return export_toy.captured(tmp_path_factory.mktemp("mitsuba"))
+    return export_toy.captured_once(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -10,15 +10,16 @@ import pytest
 from unshade import _native
 from unshade.errors import CaptureError, ExportError, MapsError, StorageError
 from unshade.exporting.assets import Options, export
-from unshade.exporting.texture_files import from_srgb, png_bytes, srgb
-from unshade.render.pictures import read_exr
+from unshade.exporting.texture_files import png_bytes, srgb
+from unshade.files.pictures import read_exr
+from unshade.srgb import decoded
 
 NAMES = ("diffuse_albedo", "specular_albedo", "roughness", "diffuse_normal", "specular_normal")
 
 
 @pytest.fixture(scope="module")
 def capture(tmp_path_factory):
-    return export_toy.captured(tmp_path_factory.mktemp("pictures"))
+    return export_toy.captured_once(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +62,7 @@ def test_green_turns_and_nothing_else(sets):
 
 def test_srgb_is_its_own_inverse():
     values = np.linspace(0, 1, 300)
-    np.testing.assert_allclose(from_srgb(srgb(values)), values, atol=1e-6)
+    np.testing.assert_allclose(decoded(srgb(values)), values, atol=1e-6)
     np.testing.assert_allclose(srgb(np.array([0.18, 0.5, 2.0])), [0.46135, 0.73536, 1.0], atol=1e-4)
 
 
@@ -129,7 +130,7 @@ def test_no_other_format_is_taken(capture, tmp_path):
         attempt(capture / "truth", tmp_path / "out", capture=capture, format="usdz")
 
 
-def test_what_unshade_did_not_write_stays(capture, tmp_path):
+def test_folders_of_others_are_not_replaced(capture, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
     (out / "mine.txt").write_text("mine")

@@ -10,9 +10,9 @@ import render_toy
 
 from unshade import _native
 from unshade.cycles import interpreter
-from unshade.exporting.surface import Mesh, Surface
 from unshade.exporting.tangents import mikktspace_normals, mitsuba_normals, with_tangents
 from unshade.render.scene import ChartMaps
+from unshade.surface import Mesh, Surface
 
 BLENDER = """
 import json, sys
@@ -114,7 +114,7 @@ def test_blender_has_the_same_tangents(toy, tmp_path):
     mesh = toy.mesh
     np.savez(tmp_path / "mesh.npz", vertices=mesh.vertices, normals=mesh.normals, uv=mesh.uv, triangles=mesh.triangles)
     words = [python[0], "-c", BLENDER, str(tmp_path / "mesh.npz")]
-    said = subprocess.run(words, capture_output=True, text=True, check=True).stdout
-    theirs = np.array(json.loads(next(line for line in said.splitlines() if line.startswith("TANGENTS"))[9:]))
+    output = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    theirs = np.array(json.loads(next(line for line in output.splitlines() if line.startswith("TANGENTS"))[9:]))
     ours = _native.mikktspace(mesh.vertices, mesh.normals, mesh.uv, mesh.triangles).reshape(-1, 4)
     np.testing.assert_allclose(ours, theirs, atol=1e-5)

@@ -9,10 +9,10 @@ import pytest
 from unshade.errors import SceneError
 from unshade.face import Chart, FaceSpec, Label, build_face, displacement
 from unshade.face.displacement import displaced
-from unshade.face.geometry import unit, vertex_normals
 from unshade.face.texels import rasterise
 from unshade.render.scene import mesh_shape
 from unshade.scene_file import parse_scene
+from unshade.vectors import unit, vertex_normals
 
 SPEC = FaceSpec.sample(7, fitzpatrick="III", detail="natural", texture_size=256)
 

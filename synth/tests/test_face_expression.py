@@ -79,7 +79,7 @@ def test_an_open_jaw_takes_the_lower_teeth_along(neutral):
 
 
 @pytest.mark.parametrize(
-    ("expression", "said"),
+    ("expression", "message"),
     [
         ({"eyeBlinkleft": 0.5}, "unknown key 'eyeBlinkleft' in expression of .face.; did you mean 'eyeBlinkLeft'"),
         ({"jaw_open": 0.5}, "did you mean 'jawOpen'"),
@@ -87,8 +87,8 @@ def test_an_open_jaw_takes_the_lower_teeth_along(neutral):
         ([0.5], "expression in .face. is not a table"),
     ],
 )
-def test_faults_name_the_unit_and_the_fix(expression, said):
-    with pytest.raises(FaceError, match=said):
+def test_faults_name_the_unit_and_the_fix(expression, message):
+    with pytest.raises(FaceError, match=message):
         FaceSpec.from_table(TABLE | {"expression": expression})
 
 

@@ -1,4 +1,4 @@
-"""Natural skin: the same person, as uneven as a photographed face, with strands of hair and a sheen of one's own."""
+"""Natural skin: the same person, as uneven as a photographed face, with strands of hair and an individual sheen."""
 
 import numpy as np
 import pytest

@@ -26,7 +26,7 @@ def test_a_written_table_reads_back(seed):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ({"sed": 3}, "unknown key 'sed' in .face.; did you mean 'seed'"),
         ({"seed": -1}, "seed in .face. is -1; use a whole number"),
@@ -43,8 +43,8 @@ def test_a_written_table_reads_back(seed):
         ({"ethnicity": {"martian": 1.0}}, "unknown key 'martian' in ethnicity"),
     ],
 )
-def test_faults_name_the_key_and_the_fix(change, said):
-    with pytest.raises(FaceError, match=said) as fault:
+def test_faults_name_the_key_and_the_fix(change, message):
+    with pytest.raises(FaceError, match=message) as fault:
         FaceSpec.from_table(TABLE | change)
     assert "\n" not in str(fault.value)
 

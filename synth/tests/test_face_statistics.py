@@ -38,7 +38,7 @@ def test_a_wave_lies_in_its_octave_whatever_the_texels_are(width, height, direct
     assert max(found[0], found[1], found[3]) < 0.015
 
 
-def test_what_lies_outside_the_region_is_not_measured():
+def test_texels_outside_the_region_are_not_measured():
     surface = statistics.Surface.of(plane(64.0, 64.0), SIZE)
     noise = np.random.default_rng(1).normal(0, 0.1, (SIZE, SIZE))
     region = np.ones((SIZE, SIZE), bool)
@@ -60,7 +60,7 @@ def test_a_tilted_wave_is_measured_in_degrees():
     assert found[2] == pytest.approx(3 / np.sqrt(2), rel=0.08)
 
 
-def test_pigments_are_told_apart():
+def test_melanin_and_blood_are_separated():
     melanin, blood = MELANOSOMES["III"], BLOOD["III"]
     base, darker, redder = (
         skin_colour(np.array([melanin * m]), np.array([blood * b])) for m, b in ((1, 1), (1.3, 1), (1, 1.3))

@@ -95,7 +95,7 @@ def test_all_kinds_stand_below_each_other_and_equal_descriptions_give_equal_byte
     assert Image.open(png).height == pytest.approx(sum(heights[:5]), abs=10)
 
 
-def test_what_cannot_be_drawn_is_said_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_figure_that_cannot_be_drawn_is_refused_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = folder_with(tmp_path / "f", {"kind": "sculpture"})
     with pytest.raises(ReportError, match=r"figure\.json: blocks \['sculpture'\] are not known"):
         draw(folder)

@@ -84,7 +84,7 @@ def test_equal_seeds_and_names_give_equal_labels():
     assert (first != stated_labels(perfect, camera(), reseeded)).any()
 
 
-def test_withheld_views_and_what_has_no_boundary_stay():
+def test_withheld_views_and_labels_without_a_boundary_stay():
     perfect, faulty = regions(), scene(boundary_error=1.0)
     withheld = next(one for one in cameras(faulty.rig, SIZE, SIZE) if not one.train)
     assert stated_labels(perfect, withheld, faulty) is perfect
@@ -104,7 +104,7 @@ def test_withheld_views_and_what_has_no_boundary_stay():
         ({"omit": True, "boundary_error": 0.1}, "does nothing where omit = true"),
     ],
 )
-def test_tables_that_make_no_sense_are_refused(table, message):
+def test_contradictory_tables_are_refused(table, message):
     with pytest.raises(SceneError, match=message):
         scene(**table)
 

@@ -10,12 +10,12 @@ import pytest
 import render_toy
 from scipy.spatial.transform import Rotation
 
+from unshade.camera.camera import Camera, look_at
+from unshade.camera.distortion import Distortion
 from unshade.errors import SceneError
 from unshade.face import Chart
 from unshade.formation import Lens, camera_lens, camera_model, capture_camera, stated_frame
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
-from unshade.render.distortion import Distortion
 from unshade.render.passes import render_layers
 from unshade.render.probes import view_through_centres
 from unshade.render.rigs import cameras
@@ -70,7 +70,7 @@ def test_masks_see_through_the_lens():
     assert len(rows) > 100 and np.abs(off).max() < 2e-3
 
 
-def test_what_lies_beyond_the_picture_stays_there():
+def test_points_beyond_the_picture_stay_beyond_it():
     """The polynomial alone would fold these directions back into the picture."""
     angles, radii = np.meshgrid(np.linspace(0, 2 * np.pi, 50), np.linspace(1.0, 30.0, 80))
     local = np.stack([radii * np.cos(angles), radii * np.sin(angles), np.full_like(radii, -1)], -1).reshape(-1, 3)
@@ -138,7 +138,7 @@ def test_defocus_is_the_analytic_circle_of_confusion(radius, focus):
     assert np.abs(measured - expected_profile(disk_edge(blur * 1.1))).max() > 0.01
 
 
-def test_what_is_in_focus_is_sharp():
+def test_points_in_focus_are_sharp():
     measured = edge_profile(Lens(LOOK, aperture_radius=0.02, focus_distance=DEPTH))
     assert np.abs(measured - (np.arange(WIDE) < WIDE / 2)).max() < 1e-3
 

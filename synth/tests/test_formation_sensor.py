@@ -133,7 +133,7 @@ def test_every_key_survives_writing_and_reading(tmp_path):
         ({"pose_noise_mm": -1}, "from 0 to 100"),
     ],
 )
-def test_tables_that_make_no_sense_are_refused(table, message):
+def test_contradictory_tables_are_refused(table, message):
     with pytest.raises(SceneError, match=message):
         scene(image_formation=table)
 

@@ -188,7 +188,7 @@ def test_colours_that_exif_alone_states(exif: dict, name: str, profile: str | No
     Image.fromarray(CODES).save(tmp_path / "with.png", icc_profile=ADOBE)
     expected = read_photograph(tmp_path / "with.png").radiance if profile else _srgb(CODES)
     np.testing.assert_allclose(read.radiance, expected, atol=1e-3)
-    assert (read.doubt is not None) == (name == "e.png")
+    assert (read.colour_warning is not None) == (name == "e.png")
 
 
 def test_brackets_become_one_radiance(tmp_path: Path) -> None:
@@ -234,7 +234,7 @@ def test_alpha_masks_and_indexed_labels(tmp_path: Path) -> None:
         read_plane(tmp_path / "c.png")
 
 
-def test_what_is_no_photograph_is_refused_in_one_line(tmp_path: Path) -> None:
+def test_files_that_are_not_photographs_are_refused_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "a.CR2").write_bytes(b"II*\0")
     (tmp_path / "b.jpg").write_bytes(b"no picture")
     (tmp_path / "c.gif").write_bytes(b"GIF89a")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import convex_head
 import drjit as dr
 import mitsuba as mi
@@ -28,6 +26,13 @@ def smooth(tmp_path_factory: pytest.TempPathFactory) -> unshade.Capture:
     folder = tmp_path_factory.mktemp("smooth")
     scene = convex_head.write_scene(folder, size=64, samples=128, views=3, specular=0.028, waves=0)
     return unshade.synth(scene, folder / "capture")
+
+
+@pytest.fixture(scope="module")
+def wavy(tmp_path_factory: pytest.TempPathFactory) -> unshade.Capture:
+    """Normals that the mesh lacks, in small noisy pictures."""
+    folder = tmp_path_factory.mktemp("wavy")
+    return unshade.synth(convex_head.write_scene(folder, size=64, samples=32, views=4), folder / "capture")
 
 
 def quality(capture: unshade.Capture, maps: unshade.Maps, subject: str, metric: str, scale: str = "none") -> float:
@@ -85,9 +90,9 @@ def test_a_texel_is_found_where_the_views_show_it(smooth: unshade.Capture) -> No
     assert np.median(error) < 5e-4 and error.max() < 5e-3
 
 
-def test_the_light_stage_reaches_an_opaque_truth(tmp_path: Path) -> None:
-    """Half of it within 1 degree and all within 45 dB, on normals that the mesh has not, from small noisy pictures."""
-    capture = unshade.synth(convex_head.write_scene(tmp_path, size=64, samples=32, views=4), tmp_path / "capture")
+def test_the_light_stage_reaches_an_opaque_truth(wavy: unshade.Capture) -> None:
+    """Half of the normals within 1 degree, and the albedo within 45 dB."""
+    capture = wavy
     maps = light_stage.recover(capture, laboratory(capture), texture_size=64, shadows=False, samples=512)
     assert quality(capture, maps, "diffuse_albedo", "psnr_srgb") > 45
     assert quality(capture, maps, "diffuse_normal", "normal_median_deg") < 1
@@ -96,9 +101,9 @@ def test_the_light_stage_reaches_an_opaque_truth(tmp_path: Path) -> None:
     assert quality(capture, maps, "specular_albedo", "rmse") < 0.003
 
 
-def test_binary_patterns_part_the_layers_of_coloured_skin(tmp_path: Path) -> None:
-    """Without polarisers, from small noisy pictures of normals that the mesh has not."""
-    capture = unshade.synth(convex_head.write_scene(tmp_path, size=64, samples=32, views=4), tmp_path / "capture")
+def test_binary_patterns_part_the_layers_of_coloured_skin(wavy: unshade.Capture) -> None:
+    """Separates the layers without polarisers."""
+    capture = wavy
     maps = binary_patterns.recover(capture, laboratory(capture), texture_size=64, samples=256)
     assert quality(capture, maps, "diffuse_albedo", "psnr_srgb") > 41
     assert quality(capture, maps, "diffuse_normal", "normal_median_deg") < 1
@@ -128,14 +133,14 @@ def test_path_tracing_reproduces_a_truth_of_its_own_model(smooth: unshade.Captur
 
 @pytest.mark.parametrize("shadows", [False, True])
 def test_even_light_is_found_and_divided_out(smooth: unshade.Capture, shadows: bool) -> None:
-    """What is left are highlights, which the model has not."""
+    """The remaining error is that of highlights, which the model lacks."""
     maps, light = sh_lambert.recover(smooth, texture_size=64, shadows=shadows)
     assert quality(smooth, maps, "diffuse_albedo", "psnr_srgb", "global") > 25
     # As all lights here, it shades a white front with 1 at most.
     assert light.shape == (16, 32, 3) and 0.8 < np.percentile(smooth.shading(light, texture_size=64), 99) < 1.3
 
 
-def test_settings_that_a_method_has_not_are_named() -> None:
+def test_unknown_settings_are_named() -> None:
     assert method("sh-lambert", {"order": 3}) is sh_lambert.recover
     with pytest.raises(SolveError, match="sh-lambert: unknown setting 'ordre'; there are order, shadows, texture_size"):
         method("sh-lambert", {"ordre": 3})

@@ -1,4 +1,4 @@
-"""A head of one's own files: read, placed and painted where its files say, or refused by name."""
+"""Files of your own head: read, placed and painted where its files say, or refused by name."""
 
 import json
 
@@ -9,20 +9,20 @@ import pytest
 from PIL import Image
 
 from unshade.face import FaceError
-from unshade.face.geometry import unit
+from unshade.files.pictures import write_exr
 from unshade.heads import build_head
 from unshade.own_head import HeadFiles
 from unshade.own_head.keep import keep, kept
 from unshade.own_head.spec import NOMINAL_ROUGHNESS
 from unshade.render import lights
 from unshade.render.passes import render_layers
-from unshade.render.pictures import write_exr
 from unshade.render.probes import TexelVisibility, nearest_texels, view_through_centres
 from unshade.render.rigs import cameras
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
 from unshade.scene_file import Rig
 from unshade.scene_file.face import parse_face
+from unshade.vectors import unit
 
 GRID = files.polygons()[0]
 
@@ -315,7 +315,7 @@ TABLE_FAULTS = {
 
 
 @pytest.mark.parametrize("message", TABLE_FAULTS)
-def test_tables_that_say_nothing_usable_are_named(message, folder):
+def test_unusable_tables_are_named(message, folder):
     with pytest.raises(FaceError) as caught:
         parse_face(table(**TABLE_FAULTS[message]), "[face]", folder)
     assert message in str(caught.value) and "\n" not in str(caught.value)

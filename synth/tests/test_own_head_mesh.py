@@ -1,7 +1,6 @@
-"""Meshes of one's own as other programs write them: read as what they mean, turned outwards, or refused by name."""
+"""Your own meshes as other programs write them: read by their meaning, turned outwards, or refused by name."""
 
 import json
-import struct
 import warnings
 
 import numpy as np
@@ -9,6 +8,7 @@ import own_head_files as files
 import pytest
 
 from unshade.face import FaceError
+from unshade.files import glb
 from unshade.own_head import HeadFiles, build, placement
 from unshade.own_head.mesh_file import read_pieces
 from unshade.own_head.outward import MeshWarning, oriented_outwards
@@ -86,14 +86,14 @@ INWARD = {
 
 
 @pytest.mark.parametrize("name", INWARD)
-def test_what_points_inwards_is_turned_with_a_warning(name, folder):
-    sound, change, said = INWARD[name]
+def test_inward_normals_and_triangles_are_flipped_with_a_warning(name, folder):
+    sound, change, messages = INWARD[name]
     files.write_obj(folder / "sound.obj", sound)
     files.write_obj(folder / "turned.obj", lambda text: change(sound(text)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         expected = joined(folder, "sound.obj")
-    with pytest.warns(MeshWarning, match=f"turned.obj: .* of .* {said}.* point inwards; flipped them outwards"):
+    with pytest.warns(MeshWarning, match=f"turned.obj: .* of .* {messages}.* point inwards; flipped them outwards"):
         found = joined(folder, "turned.obj")
     # Polygons are cut elsewhere when they run the other way, so the surface is compared by its vertices.
     rows = lambda mesh: np.unique(np.round(np.concatenate([mesh["points"], mesh["uv"]], 1), 6), axis=0)
@@ -152,52 +152,6 @@ def test_points_in_line_and_concave_polygons_keep_the_area(folder):
 
 
 # glTF
-
-
-def parts(path):
-    data = path.read_bytes()
-    length = struct.unpack_from("<I", data, 12)[0]
-    return json.loads(data[20 : 20 + length]), data[28 + length :]
-
-
-def write(path, document, blob):
-    document["buffers"] = [{"byteLength": len(blob)}]
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<II", len(text), 0x4E4F534A)
-    path.write_bytes(head + text + struct.pack("<II", len(blob), 0x004E4942) + blob)
-
-
-class Packed:
-    """A document whose arrays can be replaced and added to."""
-
-    def __init__(self, path):
-        self.document, self.blob = parts(path)
-
-    def values(self, number):
-        accessor = self.document["accessors"][number]
-        view = self.document["bufferViews"][accessor["bufferView"]]
-        kind = {5126: "<f4", 5125: "<u4"}[accessor["componentType"]]
-        return np.frombuffer(self.blob, kind, view["byteLength"] // 4, view["byteOffset"]).reshape(
-            accessor["count"], -1
-        )
-
-    def view(self, values, **more):
-        self.blob += b"\0" * (-len(self.blob) % 4)
-        data = np.ascontiguousarray(values).tobytes()
-        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.blob), "byteLength": len(data)} | more)
-        self.blob += data
-        return len(self.document["bufferViews"]) - 1
-
-    def add(self, values, component, **more):
-        shape = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}[values.shape[1]]
-        accessor = {"bufferView": self.view(values), "componentType": component, "count": len(values), "type": shape}
-        self.document["accessors"].append(accessor | more)
-        return len(self.document["accessors"]) - 1
-
-    @property
-    def head(self):
-        return self.document["meshes"][0]["primitives"][0]
 
 
 def textured(packed, **textures):
@@ -306,9 +260,9 @@ def strips(packed):
 @pytest.mark.filterwarnings("ignore:.*points and lines")
 @pytest.mark.parametrize("change", [scaled_uv, turned_uv, quantised, sparse, morphed, skinned, strips])
 def test_a_glb_however_it_is_packed(change, folder):
-    packed = Packed(folder / "scan.glb")
+    packed = files.Packed.read(folder / "scan.glb")
     change(packed)
-    write(folder / "packed.glb", packed.document, packed.blob)
+    packed.write(folder / "packed.glb")
     expected, found = (joined(folder, name) for name in ("scan.glb", "packed.glb"))
     expected, found = (
         corners({**mesh, "normals": 0 * mesh["normals"], "uv": np.round(mesh["uv"], 3)}) for mesh in (expected, found)
@@ -345,32 +299,32 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("message", REFUSED)
-def test_what_would_change_the_mesh_and_is_not_read_is_named(message, folder):
-    packed = Packed(folder / "scan.glb")
+def test_unread_extensions_that_change_the_mesh_are_named(message, folder):
+    packed = files.Packed.read(folder / "scan.glb")
     REFUSED[message](packed)
-    write(folder / "packed.glb", packed.document, packed.blob)
+    packed.write(folder / "packed.glb")
     with pytest.raises(FaceError) as caught:
         read_pieces(folder / "packed.glb")
     assert message in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_what_is_left_out_of_a_glb_is_said(folder):
-    packed = Packed(folder / "scan.glb")
+def test_parts_of_a_glb_that_are_left_out_are_named(folder):
+    packed = files.Packed.read(folder / "scan.glb")
     strips(packed)
     packed.document["extensionsUsed"] = ["VRM", "KHR_materials_ior"]
-    write(folder / "packed.glb", packed.document, packed.blob)
-    with pytest.warns(MeshWarning) as said:
+    packed.write(folder / "packed.glb")
+    with pytest.warns(MeshWarning) as messages:
         read_pieces(folder / "packed.glb")
-    assert [str(warning.message).partition("packed.glb: ")[2] for warning in said] == [
+    assert [str(warning.message).partition("packed.glb: ")[2] for warning in messages] == [
         "uses the extension VRM, which is not read; the mesh is taken without it",
         "points and lines of object 'head' are left out",
     ]
 
 
-def test_damaged_files_are_refused_and_nothing_else(folder):
+def test_damaged_files_are_read_or_refused_in_one_line(folder):
     """Bytes and numbers of a document changed at random: a mesh, or a `FaceError` of one line."""
     random = np.random.default_rng(3)
-    document, blob = parts(folder / "scan.glb")
+    document, blob = glb.unpacked((folder / "scan.glb").read_bytes())
     text = json.dumps(document)
     refused = 0
     for turn in range(300):
@@ -380,11 +334,11 @@ def test_damaged_files_are_refused_and_nothing_else(folder):
             at = random.choice(numbers)
             changed = text[:at] + str(random.choice([0, 7, 99, 10**12, -1, 0.5])) + text[at + 1 :]
             try:
-                write(path, json.loads(changed), blob)
+                path.write_bytes(glb.packed(json.loads(changed), blob))
             except json.JSONDecodeError:
                 continue
         else:
-            write(path, document, blob)
+            path.write_bytes(glb.packed(document, blob))
             data = bytearray(path.read_bytes())
             for _ in range(3):
                 data[random.integers(0, 400)] = random.integers(0, 256)

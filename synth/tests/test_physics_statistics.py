@@ -55,7 +55,7 @@ def test_the_power_for_one_region_is_the_one_stated():
     assert found == pytest.approx(expected, abs=4 * np.sqrt(0.25 / 120))
 
 
-def test_a_pixel_is_found_where_it_is_said_to_be_found_half_the_time():
+def test_the_stated_bias_of_a_pixel_is_found_half_the_time():
     rng = np.random.default_rng(4)
     bias = np.zeros(SHAPE)
     bias[24, 24] = compare(rng, 0.0).pixel_bias()

@@ -10,10 +10,10 @@ from PIL import Image
 
 from unshade.errors import PictureError
 from unshade.face import FaceError
+from unshade.files.pictures import read_exr, read_gray, read_light, read_rgb, write_exr
 from unshade.heads import build_head
 from unshade.own_head.map_files import read_labels, read_normals, read_picture
 from unshade.render import lights
-from unshade.render.pictures import read_exr, read_gray, read_light, read_rgb, write_exr
 from unshade.render.relight import read_maps
 from unshade.scene_file import Light
 from unshade.scene_file.face import parse_face
@@ -77,11 +77,11 @@ def test_layers_of_colour_are_converted_too(tmp_path):
 LAYOUTS = {"16 x 16, the shape of a light probe": (16, 16), "in a row": (96, 16), "of a cube map's cross": (32, 24)}
 
 
-@pytest.mark.parametrize("said", LAYOUTS)
-def test_lights_of_other_layouts_are_named(said, tmp_path):
-    width, height = LAYOUTS[said]
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_lights_of_other_layouts_are_named(layout, tmp_path):
+    width, height = LAYOUTS[layout]
     write_exr(tmp_path / "l.exr", {"": planes(height, width)})
-    with pytest.raises(PictureError, match=f"l.exr: is .*{said}.*lat-long picture of 2 : 1"):
+    with pytest.raises(PictureError, match=f"l.exr: is .*{layout}.*lat-long picture of 2 : 1"):
         lights.environment(Light("l", "envmap", path=str(tmp_path / "l.exr")))
 
 
@@ -108,7 +108,7 @@ def test_own_heads_state_their_primaries(tmp_path):
     )
 
 
-def test_pictures_that_are_no_normals_are_named(tmp_path):
+def test_pictures_without_normals_are_named(tmp_path):
     Image.new("L", (8, 8), 200).save(tmp_path / "bump.png")
     with pytest.raises(FaceError, match="bump.png: has one channel, as a bump map"):
         read_normals(str(tmp_path / "bump.png"))

@@ -10,8 +10,8 @@ import render_toy
 
 from unshade.errors import CaptureError, MapsError, PictureError, StorageError
 from unshade.face.ita import Tone
+from unshade.files.pictures import read_exr, read_gray, write_exr
 from unshade.render import capture, llvm, relight, shots
-from unshade.render.pictures import read_exr, read_gray, write_exr
 from unshade.render.rigs import cameras
 from unshade.render.scene_text import scene_text
 from unshade.render.truth_scene import captured_scene
@@ -137,7 +137,7 @@ def test_an_interrupted_capture_goes_on_to_the_same_bytes(captured, tmp_path, st
     assert seen[-1][0] == seen[-1][1] and [done for done, _ in seen] == sorted(done for done, _ in seen)
 
 
-def test_what_another_scene_left_is_not_used(captured, tmp_path):
+def test_leftovers_of_another_scene_are_not_used(captured, tmp_path):
     with pytest.raises(Killed):
         capture.synthesise(scene(seed=5), tmp_path / "capture", CHOICE, kill_at("view 002"))
     capture.synthesise(scene(), tmp_path / "capture", CHOICE, no_progress)
@@ -324,9 +324,9 @@ def test_maps_that_cannot_be_rendered_are_named(captured, oracle, tmp_path):
     with pytest.raises(MapsError, match="specular_albedo.exr: channel Y is missing"):
         run_relight(captured, maps, tmp_path / "relit")
     write_exr(maps / "specular_albedo.exr", {"Y": albedo[..., 0] - 0.5})
-    said = []
-    run_relight(captured, maps, tmp_path / "relit", warn=said.append)
-    assert said == [f"{maps}/specular_albedo.exr: 64 values are negative and count as 0"]
+    warned = []
+    run_relight(captured, maps, tmp_path / "relit", warn=warned.append)
+    assert warned == [f"{maps}/specular_albedo.exr: 64 values are negative and count as 0"]
     import mitsuba as mi
 
     albedo[2, 3, 1] = np.nan
@@ -339,7 +339,7 @@ def test_maps_that_cannot_be_rendered_are_named(captured, oracle, tmp_path):
     assert not (tmp_path / "relit2").exists()
 
 
-def test_folders_that_are_no_synthetic_capture(captured, tmp_path):
+def test_folders_without_a_synthetic_capture_are_refused(captured, tmp_path):
     with pytest.raises(CaptureError, match="scene.toml: is missing"):
         captured_scene(tmp_path)
     (tmp_path / "truth").mkdir()

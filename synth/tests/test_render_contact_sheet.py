@@ -18,14 +18,14 @@ def small(monkeypatch):
 
 
 def test_types_ages_and_lights_are_evenly_mixed():
-    chosen = contact_sheet.sitters(24, 0)
+    chosen = contact_sheet.sampled_faces(24, 0)
     met = {(sitter.spec.fitzpatrick, sitter.light) for sitter in chosen}
     assert len(met) == 24 == len(FITZPATRICK) * len(contact_sheet.LIGHTS)
     assert set(contact_sheet.LIGHTS) <= set(LIGHT_KINDS)
     years = sorted(sitter.spec.years for sitter in chosen)
     np.testing.assert_allclose(np.diff(years), 50 / 24)
     assert len({sitter.spec.seed for sitter in chosen}) == 24
-    assert contact_sheet.sitters(24, 0) == chosen != contact_sheet.sitters(24, 1)
+    assert contact_sheet.sampled_faces(24, 0) == chosen != contact_sheet.sampled_faces(24, 1)
 
 
 @pytest.mark.parametrize(("count", "columns"), [(1, 1), (24, 6), (12, 4), (7, 4)])
@@ -34,13 +34,13 @@ def test_the_grid_is_wide_and_wastes_little(count, columns):
 
 
 def test_a_sheet_holds_its_faces_and_is_the_same_again(small, tmp_path):
-    said, out = [], tmp_path / "new" / "sheet.png"
-    contact_sheet.contact_sheet(2, out, 4, lambda done, total, what: said.append((done, total)))
-    assert said == [(0, 2), (1, 2), (2, 2)]
+    steps, out = [], tmp_path / "new" / "sheet.png"
+    contact_sheet.contact_sheet(2, out, 4, lambda done, total, what: steps.append((done, total)))
+    assert steps == [(0, 2), (1, 2), (2, 2)]
     assert [file.name for file in out.parent.iterdir()] == ["sheet.png"]
     picture = np.asarray(Image.open(out))
     tiles = [picture[4:36, x : x + 32] for x in (4, 40)]
-    np.testing.assert_array_equal(tiles[0], contact_sheet._portrait(contact_sheet.sitters(2, 4)[0]))
+    np.testing.assert_array_equal(tiles[0], contact_sheet._portrait(contact_sheet.sampled_faces(2, 4)[0]))
     for tile in (tile.astype(float) for tile in tiles):
         # Skin in the middle, the same backdrop in both upper corners.
         assert tile[12:24, 12:24].std() > 5 and np.abs(tile[0, 0] - tile[0, -1]).max() <= 1

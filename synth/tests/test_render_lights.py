@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import render_toy
 
+from unshade.camera.camera import Camera, look_at
 from unshade.errors import PictureError, SceneError
+from unshade.files.pictures import write_exr
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
 from unshade.render.lights import envmap
 from unshade.render.lights.conventions import around, directions, solid_angles
 from unshade.render.passes import render_layers
-from unshade.render.pictures import write_exr
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import LIGHT_KINDS, Light
 from unshade.scene_file.light import Gradient, KeyLight, Pattern, PointLight, Sun, TwoColours

@@ -109,7 +109,7 @@ from unshade.render import llvm
 llvm.activate(llvm.choose({variant!r}))
 llvm.activate = lambda choice: None
 import render_toy, hashlib, numpy as np
-from unshade.render.camera import Camera, look_at
+from unshade.camera.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.probes import view_through_centres
 face = render_toy.toy_face()

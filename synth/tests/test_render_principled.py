@@ -6,8 +6,8 @@ import pytest
 import render_toy
 from test_render_skin import PARTS, constant, context, direction, interaction
 
+from unshade.camera.camera import Camera, look_at
 from unshade.errors import SceneError
-from unshade.render.camera import Camera, look_at
 from unshade.render.lights import Dome, studio
 from unshade.render.passes import render_layers
 from unshade.render.physics.sampling import all_cases, check_sampling

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import render_toy
 
-from unshade.render.camera import Camera, look_at
-from unshade.render.mesh_file import obj_text
+from unshade.camera.camera import Camera, look_at
+from unshade.files.obj_text import obj_text
 from unshade.render.probes import TexelVisibility, nearest_texels, view_through_centres
 from unshade.render.rigs import cameras
 from unshade.render.scene import ChartMaps, HeadScene

@@ -7,15 +7,8 @@ import numpy as np
 import pytest
 import render_toy
 
-PARTS = {"all": None, "diffuse": +mi.BSDFFlags.DiffuseReflection, "specular": +mi.BSDFFlags.GlossyReflection}
-
-
-def bitmap(picture):
-    return {"type": "bitmap", "bitmap": mi.Bitmap(np.array(picture, np.float32)), "raw": True}
-
-
-def constant(values):
-    return bitmap(np.broadcast_to(np.float32(values), (2, 2, np.size(values))))
+from unshade.render.physics import material
+from unshade.render.physics.material import PARTS, bitmap, constant, context, interaction, vectors
 
 
 def skin(diffuse=0.5, specular=0.04, roughness=None, **others):
@@ -30,26 +23,8 @@ def skin(diffuse=0.5, specular=0.04, roughness=None, **others):
     )
 
 
-def context(part):
-    ctx = mi.BSDFContext()
-    if PARTS[part] is not None:
-        ctx.type_mask = PARTS[part]
-    return ctx
-
-
 def direction(theta_degrees, phi_degrees):
-    theta, phi = np.radians([theta_degrees, phi_degrees])
-    level = np.sin(theta)
-    return mi.Vector3f(*map(float, (level * np.cos(phi), level * np.sin(phi), np.cos(theta))))
-
-
-def interaction(wi, count, u=0.5):
-    si = dr.zeros(mi.SurfaceInteraction3f, count)
-    si.wi = wi
-    si.uv = mi.Point2f(u, 0.5)
-    si.n = mi.Normal3f(0, 0, 1)
-    si.sh_frame = mi.Frame3f(*(mi.Vector3f(*axis) for axis in np.eye(3).tolist()))
-    return si
+    return vectors(material.direction(theta_degrees, phi_degrees))
 
 
 def reflected(bsdf, ctx, wi, count=1 << 18):
@@ -79,7 +54,7 @@ def test_specular_albedo_reads_as_reflectance_at_normal_incidence():
 def test_furnace_on_a_head():
     """In even white light a near-white head is nearly white; lobes that add without
     coupling exceed it at grazing angles only."""
-    from unshade.render.camera import Camera, look_at
+    from unshade.camera.camera import Camera, look_at
     from unshade.render.lights import Dome
     from unshade.render.passes import render_layers
     from unshade.render.scene import ChartMaps, HeadScene
@@ -147,8 +122,8 @@ def test_the_true_roughness_of_a_face_reaches_its_picture():
     """Smoother skin has the brighter highlight; without the map the standard lobes serve."""
     import dataclasses
 
+    from unshade.camera.camera import Camera, look_at
     from unshade.render import lights
-    from unshade.render.camera import Camera, look_at
     from unshade.render.passes import render_layers
     from unshade.render.scene import ChartMaps, HeadScene
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import render_toy
 
+from unshade.camera.camera import Camera, look_at
 from unshade.render import lights
-from unshade.render.camera import Camera, look_at
 from unshade.render.passes import render_layers
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.scene_file import passes_for

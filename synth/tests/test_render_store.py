@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from unshade.errors import StorageError
-from unshade.render.content_key import content_key
+from unshade.files.content_key import content_key
 from unshade.render.layers import Layers
 from unshade.render.picture_store import PictureStore
 
@@ -74,7 +74,7 @@ def test_a_kept_picture_comes_back_bit_by_bit(tmp_path):
     assert store.get("a") is None
 
 
-def test_what_was_used_longest_ago_makes_room(tmp_path):
+def test_the_least_recently_used_pictures_make_room(tmp_path):
     one = PictureStore(tmp_path)
     one.put("a", layers(0))
     size = (tmp_path / "a.npz").stat().st_size
@@ -93,7 +93,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
         PictureStore(tmp_path / "file" / "renders").put("a", layers(0))
 
 
-def test_nothing_is_kept_where_that_is_wished(tmp_path, monkeypatch):
+def test_a_store_that_is_off_keeps_nothing(tmp_path, monkeypatch):
     monkeypatch.setenv("UNSHADE_RENDER_CACHE", "off")
     store = PictureStore.of_user()
     store.put("a", layers(0))

@@ -14,10 +14,10 @@ import render_toy
 sys.path.append(str(Path(__file__).resolve().parents[1] / "bench"))
 import half_space
 
+from unshade.camera.camera import Camera, look_at
 from unshade.errors import SceneError
 from unshade.face import Chart
 from unshade.render import lights, tiers
-from unshade.render.camera import Camera, look_at
 from unshade.render.scene import ChartMaps, HeadScene
 from unshade.render.split import LambertLight
 from unshade.render.tiers import body, gather, irradiance, profile, surface
@@ -293,6 +293,6 @@ def test_scene_files_name_the_tier():
     ({"subsurface_mm": [1, 1, 1]}, "means nothing"),
     ({"tier": "volume", "variant": "scalar_rgb"}, "needs LLVM"),
 ])  # fmt: skip
-def test_what_is_wrong_with_a_tier_is_said(keys, message):
+def test_wrong_tiers_are_refused(keys, message):
     with pytest.raises(SceneError, match=message):
         table(**keys)

@@ -8,8 +8,7 @@ The stages hand folders to each other, on disk::
     scores = unshade.score("capture", "maps", relit="relit")
     scores.value(subject="relit", light="studio", metric="psnr_srgb", scale="global")
 
-Every fault is an exception of :mod:`unshade.errors` whose message says what is wrong, where,
-and the fix.
+Every fault is an exception of :mod:`unshade.errors`, whose message names what is wrong, where, and the fix.
 
 A process that was forked (:mod:`multiprocessing` with ``fork``) can call everything that its parent can.
 """
@@ -26,14 +25,14 @@ _opencv_threads: list[int] = []
 
 
 def _before_fork() -> None:
-    """Ends OpenCV's threads: a child would wait for ever for the ones it lacks, even to end them."""
+    """Ends OpenCV's threads: a child would wait for ever for the threads that it lacks, even to end them."""
     if (cv2 := sys.modules.get("cv2")) is not None:
         _opencv_threads.append(cv2.getNumThreads())
         cv2.setNumThreads(1)
 
 
 def _after_fork() -> None:
-    """Lets OpenCV, in the parent and in the child, start threads anew at its next call."""
+    """Lets OpenCV start threads again at its next call, in the parent and in the child."""
     if _opencv_threads:
         sys.modules["cv2"].setNumThreads(_opencv_threads.pop())
 
@@ -41,50 +40,30 @@ def _after_fork() -> None:
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(before=_before_fork, after_in_parent=_after_fork, after_in_child=_after_fork)
 
-_HOMES = {
-    "Budget": "stages",
-    "Fidelity": "stages",
-    "Finding": "stages",
-    "Capture": "_native",
-    "Maps": "maps",
-    "STOP": "stopping",
-    "Score": "scores",
-    "Scores": "scores",
-    "Study": "studies",
-    "__version__": "_native",
-    "budget": "stages",
-    "solve": "stages",
-    "calibrate": "bookkeeping",
-    "exr_channels": "exr",
-    "figure": "bookkeeping",
-    "read_exr": "exr",
-    "score_submission": "bookkeeping",
-    "seal": "bookkeeping",
-    "site": "bookkeeping",
-    "table": "bookkeeping",
-    "verify": "bookkeeping",
-    "write_exr": "exr",
-    "check": "stages",
-    "compare": "stages",
-    "consistency": "importing.consistency",
-    "export": "stages",
-    "metric": "own_metrics",
-    "import_capture": "importing",
-    "import_maps": "importing.maps",
-    "relight": "stages",
-    "report": "stages",
-    "run": "stages",
-    "score": "stages",
-    "study": "studies",
-    "synth": "stages",
+_NAMES = {
+    "_native": "Capture __version__",
+    "bookkeeping": "calibrate figure score_submission seal site table verify",
+    "exr": "exr_channels read_exr write_exr",
+    "importing": "import_capture",
+    "importing.consistency": "consistency",
+    "importing.maps": "import_maps",
+    "maps": "Maps",
+    "own_metrics": "metric",
+    "scores": "Score Scores",
+    "stages": "Budget Fidelity Finding budget check compare export relight report run score solve synth",
+    "stopping": "STOP",
+    "studies": "Study study",
 }
+"""The public names, by the module that defines them."""
+
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 _MODULES = ("errors", "metrics")
 
 __all__ = sorted([*_HOMES, *_MODULES])
 
 
 def __getattr__(name: str) -> object:
-    """Load on first use: the rendering stages, started as processes, need none of this."""
+    """Loads a name on its first use, because the processes of the rendering stages need none of them."""
     if name in _MODULES:
         return import_module(f"unshade.{name}")
     if name in _HOMES:

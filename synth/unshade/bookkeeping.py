@@ -1,4 +1,4 @@
-"""What is made of finished runs, and sealed suites: figures, tables, leaderboards, tolerances, rounds."""
+"""Outputs of finished runs, and sealed suites: figures, tables, leaderboards, tolerances, rounds."""
 
 from __future__ import annotations
 

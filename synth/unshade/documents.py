@@ -74,10 +74,11 @@ def _body(table: Mapping[str, Any], place: str, what: str, error: type[UnshadeEr
 def _key(key: object, what: str, error: type[UnshadeError]) -> str:
     if not isinstance(key, str):
         raise error(f"the {what} (a dict): {key!r} is not a text; keys are texts")
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text(key)
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else text_of(key)
 
 
-def _text(text: str) -> str:
+def text_of(text: str) -> str:
+    """The TOML string of a text; JSON leaves DEL bare."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
@@ -91,9 +92,9 @@ def _value(value: Any, place: str, what: str, error: type[UnshadeError]) -> str:
     if isinstance(value, float):
         return repr(value) if math.isfinite(value) else str(value)
     if isinstance(value, str):
-        return _text(value)
+        return text_of(value)
     if isinstance(value, os.PathLike):
-        return _text(os.fspath(value))
+        return text_of(os.fspath(value))
     if isinstance(value, Mapping):
         body = _body(value, place, what, error)
         return "{" + ", ".join(body) + "}"

@@ -1,7 +1,7 @@
 """Exceptions, named for what went wrong; Rust and Python raise the same classes.
 
-Each message is one line: what is wrong, where, and the fix. ``exit_code`` is what
-the child process returns for it (see :mod:`unshade.stage`).
+Each message is one line: what is wrong, where, and the fix. ``exit_code`` is the exit
+status of the child process for it (see :mod:`unshade.stage`).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ class UnshadeError(Exception):
 
 
 class SceneError(UnshadeError):
-    """A scene file says something that cannot be rendered."""
+    """A scene file describes something that cannot be rendered."""
 
     def __init__(self, message: str, *, key: str | None = None) -> None:
         """``key`` is the one that is wrong, in the table that `in_table` adds."""
@@ -45,7 +45,7 @@ class MapsError(UnshadeError):
 
 
 class PictureError(UnshadeError):
-    """A picture file cannot be read, or holds values that are no radiance."""
+    """A picture file cannot be read, or holds values that cannot be radiance."""
 
 
 class VariantError(UnshadeError):

@@ -1,4 +1,4 @@
-"""What decides the output of each rendering stage: the code that it reaches, and the versions of what that uses.
+"""The fingerprint of each rendering stage: the code that it reaches, and the versions of the libraries that the code uses.
 
 The code is that of all modules that a stage imports, in whatever function, without comments and docstrings.
 ``python -m unshade.fingerprint`` prints the fingerprints of all stages as one JSON object. An output is valid while
@@ -77,6 +77,11 @@ def fingerprint(*modules: str, native: str = "readers") -> str:
     return f"{versions} sources={digest} {native}={sources[native]}"
 
 
+def imports_of(module: str) -> list[str]:
+    """The modules of the package that ``module`` imports, in whatever function, with the packages above them."""
+    return _Code.shared().of(module)[1]
+
+
 def _modules(module: str, attribute: str) -> Iterator[str]:
     """The modules that ``from module import attribute`` runs. Those of the package itself are loaded on first use."""
     if not module:
@@ -108,7 +113,7 @@ class _Code:
     @staticmethod
     @functools.cache
     def shared() -> _Code:
-        """That of this process."""
+        """The instance of this process."""
         return _Code()
 
     def of(self, name: str) -> tuple[str, list[str], set[str]]:

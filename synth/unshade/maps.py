@@ -50,7 +50,7 @@ class Maps:
     equal, wherever a solve was stopped.
 
     ``maps["diffuse_albedo"]`` is the map of this name and raises KeyError where it is None; iteration,
-    ``in`` and ``keys()`` are of the names of the maps that there are.
+    ``in`` and ``keys()`` list the names of the present maps.
     """
 
     __slots__ = ("_arrays", "interrupted")
@@ -80,7 +80,7 @@ class Maps:
         """Each map as an array, or None. Raises ``errors.MapsError``."""
         self._arrays: dict[str, NDArray[Any]] = {}
         self.interrupted = None
-        # The coverage first: it says which texels of the others count.
+        # The coverage is the first, because it selects the texels of the others that count.
         self["coverage"] = coverage
         self["diffuse_albedo"] = diffuse_albedo
         self["specular_albedo"] = specular_albedo
@@ -191,7 +191,7 @@ class Maps:
     def _repr_html_(self) -> str:
         from .thumbnails import of_maps
 
-        return of_maps(self)
+        return of_maps(repr(self), ((name, self[name]) for name in self))
 
     def _made(self) -> Maps:
         return _restored(dict(self._arrays), self.interrupted)

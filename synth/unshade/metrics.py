@@ -1,8 +1,8 @@
 """Every metric as a function: ``unshade.metrics.psnr_srgb(prediction, truth, mask)``.
 
 ``prediction`` and ``truth`` are linear, (height, width, channels) or (height, width), of float or
-nested lists; they are compared as float32. ``mask`` says which pixels count: booleans, zeros and
-ones, or 0 to 255 of which those above 127 do. What lies beside the mask may be anything, NaN too.
+nested lists; they are compared as float32. ``mask`` selects the pixels that count: booleans, zeros and
+ones, or 0 to 255, of which values above 127 do. Pixels outside the mask may hold anything, NaN too.
 ``erode=True`` shrinks the mask (without one, the whole picture) once by 5 x 5. ``scale`` fits a
 factor on the prediction first: ``none``, ``global``, ``channel`` or ``median``.
 

@@ -175,7 +175,7 @@ def _of_module(module: ModuleType, function: str, name: str) -> list[OwnMetric]:
 
 
 def measured(own: OwnMetric, shown: Sequence[Mapping[str, Any]]) -> list[float | None]:
-    """The metric of each of the pictures and maps (`_native.shown_json`) that are of its subjects.
+    """The metric of each of the pictures and maps (`_native.shown_json`) among its subjects.
 
     Raises `MetricError` for a value that is not a number, and names the function that raised.
     """
@@ -244,7 +244,7 @@ def rows(
 
 
 def answer(request: Mapping[str, Any]) -> dict[str, Any]:
-    """What a suite asks of its metrics: their statements, a hash of their sources, and values of ``pairs``."""
+    """Answers a suite's request: the statements of its metrics, a hash of their sources, and the values of ``pairs``."""
     metrics, key = found(request["names"], Path(request["folder"]))
     values = [measured(own, request["pairs"]) for own in metrics]
     return {"metrics": [own.stated() for own in metrics], "key": key, "values": values}

@@ -34,7 +34,7 @@ def distance(net: str, prediction, truth, mask=None, *, erode=False, scale="none
     planes = [np.broadcast_to(picture, (*picture.shape[:2], 3)).transpose(2, 0, 1)[None] for picture in shown]
     tensors = [torch.from_numpy(np.ascontiguousarray(2 * plane - 1)) for plane in planes]
     threads = torch.get_num_threads()
-    torch.set_num_threads(1)  # the order of sums, and with it the last digit, hangs on it
+    torch.set_num_threads(1)  # the order of sums, and with it the last digit, depends on it
     try:
         with torch.no_grad():
             return float(network(*tensors))
@@ -56,7 +56,7 @@ def judge(net: str, pictures: list[dict[str, str]]) -> list[float]:
 
 
 def found() -> str:
-    """What a machine has of it, in words."""
+    """The version of LPIPS on this machine, in words."""
     try:
         return importlib.metadata.version("lpips")
     except importlib.metadata.PackageNotFoundError:

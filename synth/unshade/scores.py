@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from html import escape
 from importlib import import_module
 from typing import Any, Literal, overload
 
@@ -86,7 +87,7 @@ class Scores:
         """``document`` is what a scores file holds."""
         self._document = document
         self._rows = tuple(_row(row) for row in document["rows"])
-        # The rows that a selection was made of: they say which names there are.
+        # The rows behind a selection, which define the known names.
         self._all = self._rows
 
     @classmethod
@@ -157,8 +158,8 @@ class Scores:
             differ = [name for name in _FILTERS if len(found._values(name)) > 1]
             fix = "; ".join(f"{name}: {_listed(found._values(name))}" for name in differ)
             raise ScoreError(f"{len(found)} rows have {asked or 'any property'}; choose one by {fix}")
-        fix = "; ".join(f"{name}: {_listed(self._values(name))}" for name in _FILTERS[:2])
-        raise ScoreError(f"no row has {asked}; there are {fix}")
+        known = "; ".join(f"{name}: {_listed(self._values(name))}" for name in _FILTERS[:2])
+        raise ScoreError(f"no row has {asked}; there are {known}")
 
     def to_dicts(self) -> list[dict[str, Any]]:
         """One dictionary a row, with its id in front, for a table of your own."""
@@ -204,9 +205,15 @@ class Scores:
         return {name: [cell(row, name) for row in self._rows] for name in _COLUMNS}
 
     def _repr_html_(self) -> str:
-        from .thumbnails import of_scores
-
-        return of_scores(self, _ROWS_SHOWN)
+        cells = "".join(
+            f"<tr><td>{escape(row.id)}</td><td>{_number(row.value)}</td><td>"
+            f"{'' if row.ci95 is None else f'{row.ci95[0]:.4g} to {row.ci95[1]:.4g}'}</td></tr>"
+            for row in self._rows[:_ROWS_SHOWN]
+        )
+        left = len(self) - _ROWS_SHOWN
+        more = f"<p>{left} more rows; select(...) chooses</p>" if left > 0 else ""
+        head = escape(f"Scores of {self.solver} on {self.capture}, {len(self)} rows")
+        return f"<p>{head}</p><table><tr><th>row</th><th>value</th><th>95 %</th></tr>{cells}</table>{more}"
 
     def _values(self, name: str) -> list[Any]:
         return list(dict.fromkeys(getattr(row, name) for row in self._rows))
@@ -253,11 +260,14 @@ class Scores:
         width = max((len(row.id) for row in shown), default=0)
         for row in shown:
             interval = "" if row.ci95 is None else f"  [{row.ci95[0]:.4g}, {row.ci95[1]:.4g}]"
-            value = "-" if row.value is None else f"{row.value:.4g}"
-            lines.append(f"  {row.id:{width}}  {value:>8}{interval}")
+            lines.append(f"  {row.id:{width}}  {_number(row.value):>8}{interval}")
         if len(self) > len(shown):
             lines.append(f"  ... {len(self) - len(shown)} more; select(...) chooses")
         return "\n".join(lines)
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
 
 
 def _row(row: dict[str, Any]) -> Score:

@@ -1,8 +1,8 @@
 """The stages that the command line runs, from Python.
 
-A stage calls ``progress(done, total, what)``, where it takes one, on the caller's thread. What that raises
+A stage calls ``progress(done, total, what)``, where it takes one, on the caller's thread. An exception that it raises
 stops the stage and is raised here, as is Ctrl-C (``KeyboardInterrupt``); returning `unshade.STOP` stops it
-too, and raises :class:`unshade.errors.Stopped`. What was finished is kept: the same call resumes there.
+too, and raises :class:`unshade.errors.Stopped`. Finished work is kept: the same call resumes there.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def solve(
     """Recover maps from a capture or its folder.
 
     ``config`` is a preset's name, a TOML file, a dictionary of what such a file holds, or its text.
-    ``progress(stage, iteration, total, loss)`` is called after every step. What it raises stops the solve and is
+    ``progress(stage, iteration, total, loss)`` is called after every step. An exception that it raises stops the solve and is
     raised here, as is Ctrl-C; returning `unshade.STOP` stops it and returns the maps so far, whose ``interrupted``
     says where. With ``out`` the whole maps folder is written there, after `unshade.STOP` as well; the same call
     then resumes there, to the same bytes. ``backend`` is ``auto`` (a real GPU if there is one), ``cpu`` or ``gpu``.
@@ -118,7 +118,7 @@ def _light_file(light: ArrayLike | _Path | None) -> Generator[_Path | None]:
 
 
 class Fidelity(TypedDict):
-    """Loss of an asset in one light: the asset as its files say it beside the relit maps."""
+    """The loss of an asset in one light: the asset as read from its files, beside the relit maps."""
 
     material: str
     """Which of the asset's materials, or what rendered it."""
@@ -231,14 +231,14 @@ def run(
     anew. Raises ``errors.SceneError`` for a wrong suite, and `SolveError` at the end if a method failed; the others
     are scored all the same.
 
-    ``progress`` counts the suite's stages; ``what`` says how far the present one is.
+    ``progress`` counts the suite's stages; ``what`` is the progress of the current one.
     """
     with as_file(suite, "suite", SceneError) as file:
         return _native.run(file, out, list(redo), progress, jobs)
 
 
 class Finding(TypedDict):
-    """A likely fault of one file of a maps folder, with the numbers that speak for it and the fix."""
+    """A likely fault of one file of a maps folder, with the numbers behind it and the fix."""
 
     id: str
     level: str

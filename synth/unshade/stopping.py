@@ -16,4 +16,4 @@ class Stop(enum.Enum):
 
 
 STOP: Final = Stop.STOP
-"""Returned by a ``progress`` callback, it stops the stage; every other value, False too, goes on."""
+"""Returned by a ``progress`` callback, it stops the stage; every other value, False too, continues it."""

@@ -50,7 +50,7 @@ class Table:
         """A text that is not empty."""
         value = self.values.get(key)
         if not isinstance(value, str) or not value:
-            raise self.wrong(key, f'is missing or no text; write {key} = "..."')
+            raise self.wrong(key, f'is missing or not a text; write {key} = "..."')
         return value
 
     def folder_name(self) -> str:

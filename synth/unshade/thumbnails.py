@@ -6,23 +6,21 @@ import base64
 import html
 import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from ._native import Capture
-    from .maps import Maps
-    from .scores import Scores
+from ._native import Capture
+from .srgb import encoded
 
 _SIDE = 160
 _VIEWS = 8
 
 
-def of_maps(maps: Maps) -> str:
+def of_maps(title: str, maps: Iterable[tuple[str, NDArray[Any]]]) -> str:
     """Returns every map as a picture of its own range, under its name."""
-    return _strip(repr(maps), ((name, _shown(name, maps[name])) for name in maps))
+    return _strip(title, ((name, _shown(name, array)) for name, array in maps))
 
 
 def of_capture(capture: Capture) -> str:
@@ -31,22 +29,6 @@ def of_capture(capture: Capture) -> str:
     pictures = {name: _small(capture.image(name)) for name in names}
     bright = max((float(np.percentile(picture, 99)) for picture in pictures.values()), default=1.0)
     return _strip(repr(capture), ((name, _srgb(picture / max(bright, 1e-6))) for name, picture in pictures.items()))
-
-
-def of_scores(scores: Scores, rows: int) -> str:
-    """Returns the first ``rows`` rows as a table."""
-    cells = "".join(
-        f"<tr><td>{html.escape(row.id)}</td><td>{_number(row.value)}</td><td>"
-        f"{'' if row.ci95 is None else f'{row.ci95[0]:.4g} to {row.ci95[1]:.4g}'}</td></tr>"
-        for row in list(scores)[:rows]
-    )
-    more = f"<p>{len(scores) - rows} more rows; select(...) chooses</p>" if len(scores) > rows else ""
-    head = html.escape(f"Scores of {scores.solver} on {scores.capture}, {len(scores)} rows")
-    return f"<p>{head}</p><table><tr><th>row</th><th>value</th><th>95 %</th></tr>{cells}</table>{more}"
-
-
-def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.4g}"
 
 
 def _shown(name: str, array: NDArray[Any]) -> NDArray[np.uint8]:
@@ -65,9 +47,7 @@ def _small(picture: NDArray[Any]) -> NDArray[np.float32]:
 
 
 def _srgb(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
-    clipped = np.clip(linear, 0, 1)
-    coded = np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
-    return np.round(255 * coded).astype(np.uint8)
+    return np.round(255 * encoded(np.clip(linear, 0, 1))).astype(np.uint8)
 
 
 def _strip(title: str, pictures: Iterable[tuple[str, NDArray[np.uint8]]]) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..vectors import twice_areas
+
 _WAVES = 200
 """Enough that their sum is Gaussian (central limit theorem)."""
 
@@ -23,8 +25,7 @@ def bump_heights(
     heights = np.zeros(len(positions))
     for direction, phase in zip(directions, phases):
         heights += np.cos((positions * direction).sum(1) + phase)
-    corners = positions[triangles]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = twice_areas(positions, triangles)
     weight = sum(np.bincount(triangles[:, k], areas, minlength=len(positions)) for k in range(3))
     weight /= weight.sum()
     heights -= (weight * heights).sum()

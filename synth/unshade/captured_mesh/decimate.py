@@ -82,7 +82,7 @@ class _Round:
 
     def wanted(self, quadrics: Quadrics, fixed: np.ndarray, fraction: float) -> np.ndarray:
         """Vertices whose cheapest collapse is among the cheapest ``fraction`` and breaks nothing,
-        cheapest first; `onto` tells where each goes."""
+        cheapest first; `onto` holds where each goes."""
         start, end = self.edges.T
         # Few can win in one round, so a part of the vertices suffices to find them.
         asked = self.rng.random(self.size) < _ASKED

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..errors import SceneError
 from ..face import Chart
-from ..face.geometry import vertex_normals
 from ..scene_file import CapturedMesh
+from ..vectors import vertex_normals
 from .bumps import bump_heights
 from .decimate import decimate
 from .smooth import smoothed

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..vectors import triangle_normals
 from .smooth import boundary_edges
 
 _EVENNESS = 1e-3
@@ -16,13 +17,12 @@ class Quadrics:
     stand on boundary edges so that outlines keep their shape."""
 
     def __init__(self, positions: np.ndarray, triangles: np.ndarray) -> None:
-        corners = positions[triangles]
-        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal = triangle_normals(positions, triangles)
         area = 0.5 * np.linalg.norm(normal, axis=1)
         self._forms = np.zeros((len(positions), 10))
         self._area = np.zeros(len(positions))
         unit = normal / np.maximum(2 * area, 1e-300)[:, None]
-        self._add(triangles, unit, corners[:, 0], area / 3)
+        self._add(triangles, unit, positions[triangles[:, 0]], area / 3)
         self._area += sum(np.bincount(triangles[:, k], area / 3, minlength=len(positions)) for k in range(3))
         edges = boundary_edges(triangles)
         starts, along = positions[edges[:, 0]], positions[edges[:, 1]] - positions[edges[:, 0]]

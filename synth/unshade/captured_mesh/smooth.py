@@ -7,6 +7,8 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
+from ..vectors import twice_areas
+
 STEPS = 8
 """Implicit steps: a wave that the Gaussian leaves 61 % of keeps 62 %."""
 
@@ -17,8 +19,7 @@ def smoothed(positions: np.ndarray, triangles: np.ndarray, sigma: float) -> np.n
     Heat flow for the time sigma^2 / 2 by implicit fairing (Desbrun et al. 1999) with the
     cotangent Laplacian of the given mesh. Boundary vertices stay, or the outline would shrink.
     """
-    corners = positions[triangles]
-    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = 0.5 * twice_areas(positions, triangles)
     mass = sp.diags(sum(np.bincount(triangles[:, k], areas / 3, minlength=len(positions)) for k in range(3)))
     laplacian = igl.cotmatrix(np.asfortranarray(positions), np.asfortranarray(triangles))
     inner = np.ones(len(positions), bool)

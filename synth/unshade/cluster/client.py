@@ -1,4 +1,4 @@
-"""Hands the stages of an order to Dask and brings back what they leave, whatever becomes of workers and scheduler."""
+"""Hands the stages of an order to Dask and fetches their outputs, even if workers or the scheduler are lost."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .. import _native
 from ..errors import ClusterError, UnshadeError
 from .order import Order, Task
 from .store import Store
-from .work import Done, Job, do, log_path
+from .work import Job, StageOutcome, do, log_path
 
 RETRIES = 2
-"""Further tries of a stage after an error that is no method's: a full disc, a store out of reach."""
+"""Further attempts at a stage after an error outside the method: a full disc, a store out of reach."""
 PATIENCE = 300.0
 """Seconds that a scheduler may be away."""
 _LOST = (OSError, TimeoutError)
@@ -35,8 +35,8 @@ def collect(
     progress: _Progress,
     patience: float = PATIENCE,
 ) -> dict[str, Any]:
-    """Do all stages; returns ``{"failed": ..., "records": ...}``, with all outputs in the run's folder."""
-    done: dict[str, Done] = {}
+    """Does all stages; returns ``{"failed": ..., "records": ...}``, with all outputs in the run's folder."""
+    done: dict[str, StageOutcome] = {}
     for task in order.tasks:
         if task.output is not None:
             store.put(task.output["content"], order.run / task.path)
@@ -53,7 +53,7 @@ def collect(
 
 
 class _Interrupted(Exception):
-    """The scheduler went away; what is in the store stays."""
+    """The scheduler went away; the store keeps its content."""
 
 
 def _connected(address: str, patience: float) -> Client:
@@ -72,12 +72,12 @@ def _connected(address: str, patience: float) -> Client:
 
 
 def _round(
-    order: Order, client: Client, store: Store, processors: list[list[int]], done: dict[str, Done],
+    order: Order, client: Client, store: Store, processors: list[list[int]], done: dict[str, StageOutcome],
     records: list[dict[str, Any]], failed: dict[str, str], progress: _Progress,
 ) -> None:  # fmt: skip
-    """All stages that are still to be done, until they are or the scheduler goes away."""
+    """Does all remaining stages. Raises `_Interrupted` if the scheduler goes away."""
     tasks = {task.id: task for task in order.tasks}
-    # Of another suite or version, stages of the same name are others.
+    # Stages of the same name differ between suites and versions.
     suffix = hashlib.blake2b(f"{order.suite_content} {order.versions}".encode(), digest_size=8).hexdigest()
     futures: dict[str, Future] = {}
     for at, task in enumerate(order.tasks):
@@ -110,20 +110,18 @@ def _round(
             store.get(content, order.run / task.path)
             _native.adopt(order.run, result["key"], task.id, json.dumps(result["record"]))
             records.append(result["record"])
-            said = {"stage": task.id, "seconds": result["record"]["seconds"], "worker": result["worker"]}
-            progress(len(done) + 1, len(order.tasks), json.dumps(said))
+            event = {"stage": task.id, "seconds": result["record"]["seconds"], "worker": result["worker"]}
+            progress(len(done) + 1, len(order.tasks), json.dumps(event))
         elif result["name"] is not None and result["failed"] is not None:
             failed.setdefault(result["name"], result["failed"])
         done[task.id] = result
 
 
-def _result(future: Future) -> Done:
+def _result(future: Future) -> StageOutcome:
     try:
-        result: Done = future.result()
+        result: StageOutcome = future.result()
     except KilledWorker as error:
-        raise ClusterError(
-            f"{future.key}: its worker died each time it was tried, perhaps for want of memory: {error}"
-        ) from error
+        raise ClusterError(f"{future.key}: its worker died at each attempt, perhaps out of memory: {error}") from error
     except UnshadeError:
         raise
     except _LOST as error:
@@ -140,7 +138,7 @@ def _job(order: Order, task: Task, tasks: dict[str, Task], store: Store, process
     }  # fmt: skip
 
 
-def _valid(task: Task, output: dict[str, str]) -> Done:
+def _valid(task: Task, output: dict[str, str]) -> StageOutcome:
     record = {"id": task.id, **output}
     return {
         "id": task.id, "key": "", "record": record, "failed": None, "log": None, "name": task.name, "worker": "",

@@ -16,7 +16,7 @@ _FIX = 'install it: pip install "unshade[cluster]"'
 def on_cluster(
     order_file: Path, address: str, store_url: str, workers: int, progress: Callable[[int, int, str], None]
 ) -> dict[str, Any]:
-    """Do an order; returns what failed and what each stage cost."""
+    """Does an order; returns the failures and the records of its stages."""
     try:
         import dask
         import distributed
@@ -32,9 +32,9 @@ def on_cluster(
     if address != "local":
         result = collect(order, address, store, [], progress)
     else:
-        # Beside the run there is room for what it holds.
+        # The disc of the run has room for its outputs.
         with (
-            # No variables of Dask's own: stages are to take here what they take in one process.
+            # Dask's own variables would change how much memory stages take.
             dask.config.set({"distributed.nanny.pre-spawn-environ": {}}),
             tempfile.TemporaryDirectory(prefix="workers.", dir=order.run, ignore_cleanup_errors=True) as place,
             distributed.LocalCluster(
@@ -44,18 +44,18 @@ def on_cluster(
         ):  # fmt: skip
             result = collect(order, cluster.scheduler_address, store, divided(processors(), workers), progress)
     if own:
-        # All of it is in the run now.
+        # All outputs are in the run now.
         store.remove()
     return result
 
 
 def processors() -> list[int]:
-    """Those that this process may use."""
+    """The processors that this process may use."""
     return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else list(range(os.cpu_count() or 1))
 
 
 def divided(processors: list[int], workers: int) -> list[list[int]]:
-    """As many equal parts as there are workers, or processors where they are fewer: workers beyond them stand ready."""
+    """One equal part for each worker, at most one for each processor; further workers wait."""
     count = len(processors)
     parts = min(workers, count)
     return [processors[part * count // parts : (part + 1) * count // parts] for part in range(parts)]

@@ -38,12 +38,12 @@ class Order:
 
 def read_order(path: Path) -> Order:
     """The order in a file that unshade wrote."""
-    said: dict[str, Any] = json.loads(path.read_text())
+    order: dict[str, Any] = json.loads(path.read_text())
     tasks = tuple(
         Task(
             id=task["id"], after=tuple(task["after"]), path=task["path"], case=task["case"],
             name=task["name"], output=task["output"],
         )
-        for task in said["tasks"]
+        for task in order["tasks"]
     )  # fmt: skip
-    return Order(Path(said["suite"]), Path(said["run"]), said["suite_content"], said["versions"], tasks)
+    return Order(Path(order["suite"]), Path(order["run"]), order["suite_content"], order["versions"], tasks)

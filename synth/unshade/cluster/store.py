@@ -18,7 +18,7 @@ from ..errors import ClusterError
 
 
 class Store:
-    """``objects/<content>.tar`` holds an output, ``keys/<key>.json`` says what a key led to."""
+    """``objects/<content>.tar`` holds an output, ``keys/<key>.json`` the content of a key."""
 
     def __init__(self, url: str) -> None:
         try:
@@ -33,7 +33,7 @@ class Store:
         return bool(self._files.exists(self._object(content)))
 
     def put(self, content: str, output: Path) -> None:
-        """Keep a file or folder under the hash of its content."""
+        """Keeps a file or folder under the hash of its content."""
         if self.contains(content):
             return
         with tempfile.NamedTemporaryFile(suffix=".tar") as packed:
@@ -42,7 +42,7 @@ class Store:
             self._write(packed.name, self._object(content))
 
     def get(self, content: str, output: Path) -> None:
-        """Unpack what is kept under a hash to ``output``, which appears completely or not at all."""
+        """Unpacks the content of a hash to ``output``, which appears completely or not at all."""
         output.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".unshade-", dir=output.parent) as folder:
             packed = Path(folder) / "packed.tar"
@@ -54,21 +54,21 @@ class Store:
             os.replace(Path(folder) / "output", output)
 
     def note(self, key: str, done: dict[str, Any]) -> None:
-        """Say what a key led to; last, so that its output is there."""
+        """Records the outcome of a key; called last, so that its output is there."""
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             json.dump(done, file)
             file.flush()
             self._write(file.name, self._key(key))
 
     def known(self, key: str) -> dict[str, Any] | None:
-        """Record of the output that a key led to, if that output is there still."""
+        """The record of a key, if its output is still there."""
         if not self._files.exists(self._key(key)):
             return None
         done: dict[str, Any] = json.loads(self._files.cat_file(self._key(key)))
         return done if self.contains(done["record"]["content"]) else None
 
     def remove(self) -> None:
-        """Everything."""
+        """Removes everything."""
         self._files.rm(self._root, recursive=True)
 
     def _object(self, content: str) -> str:
@@ -78,7 +78,7 @@ class Store:
         return f"{self._root}/keys/{key}.json"
 
     def _write(self, source: str, target: str) -> None:
-        """Completely or not at all: object stores do so, and in a folder it is renamed."""
+        """Writes completely or not at all: object stores do so, and in a folder the file is renamed."""
         if not isinstance(self._files, LocalFileSystem):
             self._files.put_file(source, target)
             return

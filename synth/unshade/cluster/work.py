@@ -20,7 +20,7 @@ from .. import _native
 from .store import Store
 
 
-class Done(TypedDict):
+class StageOutcome(TypedDict):
     """Outcome of a stage."""
 
     id: str
@@ -29,13 +29,13 @@ class Done(TypedDict):
     """With the hash of its output, unless its method failed."""
     failed: str | None
     log: str | None
-    """Hash of what its program printed."""
+    """Hash of the output that its program printed."""
     name: str | None
     worker: str
 
 
 class Job(TypedDict):
-    """A stage with all that a worker has to know of it."""
+    """A stage, with all that a worker needs for it."""
 
     id: str
     case: str
@@ -48,7 +48,7 @@ class Job(TypedDict):
     versions: str
     store: str
     processors: list[list[int]]
-    """Shares of this machine's processors, one for each stage at once; none where workers have machines of their own."""
+    """Shares of this machine's processors, one for each simultaneous stage; none where each worker has its own machine."""
 
 
 # Dask has its workers give memory back at once, which costs a renderer that one of them starts a third of its time.
@@ -59,8 +59,8 @@ _CHECKED: dict[tuple[str, str], dict[str, str]] = {}
 """The renderer's versions and code, by suites and versions that were compared."""
 
 
-def do(job: Job, *before: Done) -> Done:
-    """Do a stage, or take what the store knows of it. A fault of its method is a result, all else is raised."""
+def do(job: Job, *before: StageOutcome) -> StageOutcome:
+    """Does a stage, or takes its outcome from the store. A fault of its method is a result, all others are raised."""
     for earlier in before:
         if earlier["failed"] is not None:
             return _done(job, "", failed=earlier["failed"])
@@ -80,19 +80,20 @@ def do(job: Job, *before: Done) -> Done:
         for stage, record in records.items():
             _bring(store, place, job["inputs"][stage], record["content"])
         with _share(job) as processors:
-            said = json.loads(_native.run_part(*part, False, processors))
+            outcome = json.loads(_native.run_part(*part, False, processors))
         log = _keep_log(store, place, job)
-        if said["failed"] is not None:
-            return _done(job, key, failed=said["failed"], log=log)
-        store.put(said["record"]["content"], place / job["path"])
-        store.note(key, {"id": job["id"], "record": said["record"], "log": log})
-        _note(place / job["path"], said["record"]["content"])
-        return _done(job, key, record=said["record"], log=log)
+        if outcome["failed"] is not None:
+            return _done(job, key, failed=outcome["failed"], log=log)
+        record = outcome["record"]
+        store.put(record["content"], place / job["path"])
+        store.note(key, {"id": job["id"], "record": record, "log": log})
+        _note(place / job["path"], record["content"])
+        return _done(job, key, record=record, log=log)
 
 
 def _done(
     job: Job, key: str, record: dict[str, Any] | None = None, failed: str | None = None, log: str | None = None
-) -> Done:
+) -> StageOutcome:
     worker = str(get_worker().name)
     return {
         "id": job["id"], "key": key, "record": record, "failed": failed, "log": log, "name": job["name"],
@@ -101,7 +102,7 @@ def _done(
 
 
 def _keep_log(store: Store, place: Path, job: Job) -> str | None:
-    """Of a stage that makes maps by a program."""
+    """Stores the output that the program of a maps stage printed; returns its hash, None without a program."""
     log = place / log_path(job["id"])
     if not job["id"].startswith("maps/") or not log.is_file():
         return None
@@ -111,7 +112,7 @@ def _keep_log(store: Store, place: Path, job: Job) -> str | None:
 
 
 def log_path(stage: str) -> Path:
-    """Where what a stage's program prints lies below a run."""
+    """The place below a run for the output that a stage's program prints."""
     return Path("logs") / f"{stage.partition('/')[2]}.txt"
 
 
@@ -151,7 +152,7 @@ def _note_of(output: Path) -> Path:
 
 
 def _forget_other_cases(place: Path, case: str) -> None:
-    """A worker's disc holds one case: what it needs of another is in the store."""
+    """Removes the files of other cases: a worker's disc holds one case, and the store has the rest."""
     for folder in place.glob("*/*"):
         if folder.is_dir() and folder.parent.name != "stages" and folder.name != case:
             shutil.rmtree(folder)

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..exporting.surface import Surface
+from ..camera.camera import Camera
 from ..face import Part
-from ..render.camera import Camera
+from ..files.pictures import write_exr, write_json
 from ..render.lights import AnyLight, Ball, Dome, Environment, Panels, SunSky
 from ..render.lights.sun import APERTURE_DEGREES
-from ..render.pictures import write_exr, write_text
 from ..render.scene import WET_ALPHA
 from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
+from ..surface import Surface
+from ..vectors import frame, twice_areas
 
 _STANDARD = [*LOBE_ALPHAS, LOBE_WEIGHTS[0]]
 _SUN_METRES = 1000.0
@@ -78,7 +78,7 @@ def _picture(path: Path, values: np.ndarray) -> dict[str, str]:
 
 
 def write_light(folder: Path, name: str, light: AnyLight) -> dict[str, Any]:
-    """A light: its background, and lamps as meshes that shine, as far as they are no background."""
+    """The description of a light: its background, and its lamps as emissive meshes."""
     said: dict[str, Any] = {"name": name, "lamps": []}
 
     def lamp(number: int, vertices: np.ndarray, triangles: np.ndarray, radiance: Any) -> None:
@@ -128,9 +128,7 @@ def equirectangular(picture: np.ndarray) -> np.ndarray:
 
 def _disc(direction: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
     """A polygon of a disc's area that faces the origin."""
-    side = np.cross(direction, [1.0, 0.0, 0.0] if abs(direction[0]) < 0.9 else [0.0, 1.0, 0.0])
-    side /= np.linalg.norm(side)
-    other = np.cross(direction, side)
+    side, other = frame(direction)
     turn = 2 * np.pi * np.arange(_SIDES) / _SIDES
     radius *= np.sqrt(2 * np.pi / _SIDES / np.sin(2 * np.pi / _SIDES))
     ring = radius * (np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * other)
@@ -150,9 +148,8 @@ def _ball(ball: Ball) -> tuple[np.ndarray, np.ndarray]:
     right = np.roll(corner, -1, 1)
     quads = [(corner, corner + columns, right + columns), (corner, right + columns, right)]
     triangles = np.concatenate([np.stack([part.ravel() for part in quad], 1) for quad in quads])
-    a, b, c = (points[triangles[:, k]] for k in range(3))
     # The mean outline of a convex body is a quarter of its surface (Cauchy).
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    area = twice_areas(points, triangles)
     radius = ball.radius * np.sqrt(4 * np.pi / (area.sum() / 2))
     return ball.centre + radius * points, triangles[area > 1e-12]
 
@@ -175,5 +172,5 @@ def write_job(folder: Path, **job: Any) -> Path:
     ``open`` names a .blend to take light and camera from.
     """
     path = folder / "job.json"
-    write_text(path, json.dumps(job, indent=1) + "\n")
+    write_json(path, job)
     return path

@@ -45,7 +45,7 @@ def _started_by(program: str) -> list[str]:
 
 
 def run(job: Path, report: Callable[[dict[str, Any]], None]) -> None:
-    """Does a job of `description`; ``report`` hears of each picture: what is ``done``, its ``light``, ``view`` and ``number``.
+    """Does a job of `description`; calls ``report`` for each picture: what is ``done``, its ``light``, ``view`` and ``number``.
 
     Raises `RendererError` with Blender's last words.
     """

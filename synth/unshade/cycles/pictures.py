@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import RendererError
+from ..files.pictures import read_exr
 from ..render.layers import Layers
 from ..render.passes import seed_of
-from ..render.pictures import read_exr
 
 PASSES = 4
 """Pictures of one view, each with its share of the samples; their spread is the variance of the mean."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -11,18 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from ..exporting.surface import Mesh, Surface
+from ..files.folder import ResumableFolder, content_hash
+from ..files.pictures import write_exr, write_json
 from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..render import lights
-from ..render.folder import ResumableFolder, content_hash
 from ..render.given_light import GivenLight
 from ..render.meter import Meter, Progress
-from ..render.pictures import write_exr, write_text
 from ..render.relight import MAP_FILES, read_maps
 from ..render.rigs import cameras
 from ..render.scene_text import scene_text
 from ..scene_file import Scene
+from ..surface import Mesh, Surface
 from . import description, interpreter
 from .pictures import PASSES, read_layers, samples_each, seeds
 
@@ -90,7 +89,7 @@ def relight(
             out=str((work / "pictures").resolve()),
         )
 
-        def hear(
+        def keep(
             event: dict[str, Any], scale: str = scale, target: Path = target, raw: Path = work / "pictures"
         ) -> None:
             meter.begin(f"{event['done']}, scale {scale}")(1, 1)
@@ -99,7 +98,7 @@ def relight(
                 layers = read_layers(raw / light, view)
                 write_exr(target / light / f"{view}.exr", {"": layers.total, **layers.channels()})
 
-        interpreter.run(job, hear)
+        interpreter.run(job, keep)
         shutil.rmtree(work)
     document = {
         "renderer": "cycles",
@@ -108,6 +107,6 @@ def relight(
         "seed": render.seed,
         "seed_offset": seed_offset,
     }
-    write_text(folder.path / "relit.json", json.dumps(document, indent=1) + "\n")
+    write_json(folder.path / "relit.json", document)
     folder.commit()
     meter.note("relit")

@@ -1,18 +1,18 @@
-"""`export`: maps into one asset folder, with ``asset.json`` (what it says) and ``fidelity.json`` (what it loses)."""
+"""`export`: maps into one asset folder, with ``asset.json`` (its description) and ``fidelity.json`` (its losses)."""
 
 from __future__ import annotations
 
 import importlib.metadata
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import ExportError
+from ..files.folder import ResumableFolder, content_hash
+from ..files.pictures import write_json
 from ..fingerprint import fingerprint
-from ..render.folder import ResumableFolder, content_hash
-from ..render.pictures import write_text
+from ..surface import Surface, read_surface, require_maps
 from . import fidelity, layered_bsdf
 from .blender import FILE as BLEND
 from .blender import write_blender
@@ -23,7 +23,6 @@ from .materialx import write_materialx
 from .mitsuba_scene import mitsuba_shapes, write_mitsuba
 from .plain_pictures import write_pictures
 from .read_gltf import gltf_shape
-from .surface import Surface, read_surface, require_maps
 
 FORMATS = ("gltf", "mitsuba", "blender", "materialx", "png")
 
@@ -56,15 +55,15 @@ def export(
     inputs = [*sorted(maps.glob("*.exr")), maps / "coverage.png", mesh or (capture or maps) / "mesh.obj"]
     folder = ResumableFolder(out, f"{options} {fingerprint(__name__)} {[content_hash(path) for path in inputs]}")
     setting = setting_of(capture, surface)
-    said = _write(surface, folder.path, options, setting)
-    document = {"format": options.format, "generator": _generator(), "texels": surface.size, **said}
-    write_text(folder.path / "asset.json", json.dumps(document, indent=1) + "\n")
+    described = _write(surface, folder.path, options, setting)
+    document = {"format": options.format, "generator": _generator(), "texels": surface.size, **described}
+    write_json(folder.path / "asset.json", document)
     rows: list[dict[str, Any]] = []
     if options.fidelity and options.format in ("gltf", "mitsuba", "blender"):
         rows = _compare(surface, setting, folder.path, options, progress)
     folder.commit()
     progress(1, 1, "asset")
-    return rows, [str(out / said["file"]), *map(fidelity.line, rows)]
+    return rows, [str(out / described["file"]), *map(fidelity.line, rows)]
 
 
 def _write(surface: Surface, folder: Path, options: Options, setting: Setting) -> dict[str, Any]:
@@ -93,7 +92,7 @@ def _compare(
         shapes = mitsuba_shapes(folder) if options.format == "mitsuba" else {"gltf": gltf_shape(folder / GLB)}
         rows = fidelity.compare(setting, ours, shapes, pictures, progress)
     document = {"protocol": fidelity.PROTOCOL, "rows": rows}
-    write_text(folder / "fidelity.json", json.dumps(document, indent=1) + "\n")
+    write_json(folder / "fidelity.json", document)
     return rows
 
 

@@ -10,13 +10,13 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from ..camera.camera import Camera
 from ..cycles import description, interpreter
 from ..cycles.pictures import read_layers, samples_each, seeds
 from ..face import Part
-from ..render.camera import Camera
 from ..render.layers import Layers
 from ..render.lights import AnyLight
-from .surface import Surface
+from ..surface import Surface
 
 FILE = "face.blend"
 
@@ -24,7 +24,7 @@ FILE = "face.blend"
 def write_blender(
     surface: Surface, folder: Path, light_name: str, light: AnyLight, camera: Camera, depth: int
 ) -> dict[str, Any]:
-    """Writes ``face.blend``; returns what the asset says of itself. Raises `RendererError` where Blender is missing."""
+    """Writes ``face.blend``; returns the asset's description. Raises `RendererError` where Blender is missing."""
     with tempfile.TemporaryDirectory(prefix="unshade-blender-") as temporary:
         work = Path(temporary)
         job = description.write_job(

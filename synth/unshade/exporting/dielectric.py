@@ -43,6 +43,6 @@ class Dielectric:
 def dielectric(specular_albedo: np.ndarray, inside: np.ndarray) -> Dielectric:
     """For a specular albedo (N,N); texels outside the chart decide nothing."""
     largest = float(specular_albedo[inside].max())
-    # An index beyond 1.6 is no skin's; what a map claims above 0.05 is cut there.
+    # Skin has no index beyond 1.6, so values of a map above 0.05 are cut there.
     reflectance = min(max(largest, F0), 0.0533)
     return Dielectric(reflectance, (specular_albedo / reflectance).clip(0, 1).astype(np.float32))

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..camera.camera import Camera, look_at
 from ..face import Part
 from ..heads import build_head
 from ..metrics import psnr_srgb
 from ..render import lights
-from ..render.camera import Camera, look_at
 from ..render.layers import Layers
 from ..render.passes import render_layers, seed_of
 from ..render.probes import view_through_centres
@@ -22,8 +22,8 @@ from ..render.rigs import cameras
 from ..render.scene import HeadScene
 from ..render.truth_scene import captured_scene
 from ..scene_file import Light
+from ..surface import Surface
 from .blender import render_blend
-from .surface import Surface
 from .texture_files import srgb, write_png
 
 PROTOCOL = {

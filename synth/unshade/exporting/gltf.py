@@ -7,30 +7,29 @@ turned; the bitangent's sign and green keep meaning up the picture.
 
 from __future__ import annotations
 
-import json
-import struct
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..render.pictures import write_bytes
+from ..files import glb
+from ..files.pictures import write_bytes
+from ..surface import Surface
+from ..vectors import unit
 from . import lobe
 from .dielectric import dielectric
-from .surface import Surface
 from .tangents import TangentMesh, mikktspace_normals, with_tangents
 from .texture_files import encoded_normals, png_bytes, srgb
 
 FILE = "face.glb"
 
-_JSON_CHUNK, _BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 _FLOAT, _UNSIGNED = 5126, 5125
 _VERTICES, _INDICES = 34962, 34963
 _LINEAR, _LINEAR_MIPMAPS, _CLAMP = 9729, 9987, 33071
 
 
 def write_gltf(surface: Surface, folder: Path, bits: int, generator: str) -> dict[str, Any]:
-    """Writes ``face.glb``; ``bits`` of its normal map. Returns what the asset says of itself."""
+    """Writes ``face.glb``; ``bits`` of its normal map. Returns the asset's description."""
     mesh = with_tangents(surface.mesh)
     glint = dielectric(surface.specular_albedo, surface.texels.inside)
     single = lobe.fit(surface.roughness)
@@ -87,8 +86,11 @@ def _glb(mesh: TangentMesh, textures: dict[str, bytes], ior: float, generator: s
     ends = {"min": shape.vertices.min(0).tolist(), "max": shape.vertices.max(0).tolist()}
     accessors = [
         accessor(shape.vertices, "VEC3", **ends),
-        accessor(_unit(shape.normals), "VEC3"),
-        accessor(np.column_stack([_unit(mesh.tangents[:, :3]), mesh.tangents[:, 3]]), "VEC4"),
+        accessor(unit(shape.normals.astype(np.float64)), "VEC3"),
+        accessor(
+            np.column_stack([unit(mesh.tangents[:, :3].astype(np.float64)).astype(np.float32), mesh.tangents[:, 3]]),
+            "VEC4",
+        ),
         accessor(np.column_stack([shape.uv[:, 0], 1 - shape.uv[:, 1]]), "VEC2"),
         accessor(shape.triangles.astype(np.uint32).ravel(), "SCALAR"),
     ]
@@ -133,17 +135,5 @@ def _glb(mesh: TangentMesh, textures: dict[str, bytes], ior: float, generator: s
         "images": images,
         "accessors": accessors,
         "bufferViews": views,
-        "buffers": [{"byteLength": len(binary) + -len(binary) % 4}],
     }
-    words = json.dumps(document, separators=(",", ":")).encode()
-    words += b" " * (-len(words) % 4)
-    binary.extend(b"\0" * (-len(binary) % 4))
-    chunks = (
-        struct.pack("<II", len(words), _JSON_CHUNK) + words + struct.pack("<II", len(binary), _BINARY_CHUNK) + binary
-    )
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    length = np.linalg.norm(vectors.astype(np.float64), axis=1, keepdims=True)
-    return (vectors / np.where(length > 0, length, 1)).astype(np.float32)
+    return glb.packed(document, bytes(binary))

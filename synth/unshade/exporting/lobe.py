@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..render.ggx import density
+
 _ALPHAS = np.geomspace(0.02, 1.0, 256)
-"""Candidates, 1.5 % apart; and the steps in which the alphas of maps are told apart."""
+"""Candidates, 1.5 % apart; and the steps to which the alphas of maps are quantised."""
 
 _WEIGHT_STEPS = 64
 _ANGLES = 192
@@ -48,7 +50,7 @@ def fit(roughness: np.ndarray) -> SingleLobe:
 
 
 def _kinds(roughness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Different pairs of lobes as numbers, and which each texel has; told apart more coarsely where they are many."""
+    """Distinct pairs of lobes as numbers, and the pair of each texel; quantised more coarsely where they are many."""
     for step in (1, 2, 4, 8):
         first, second = (_nearest(roughness[..., lobe]) // step * step for lobe in range(2))
         weight = np.rint(roughness[..., 2] * _WEIGHT_STEPS / step).astype(np.int64) * step
@@ -72,8 +74,7 @@ def _lobes() -> tuple[np.ndarray, np.ndarray]:
     """
     tangent = np.geomspace(1e-3, 1e3, _ANGLES)
     cosine2 = 1 / (1 + tangent**2)
-    a2 = _ALPHAS[:, None] ** 2
-    d = a2 / (np.pi * (cosine2 * (a2 - 1) + 1) ** 2)
+    d = density(cosine2, _ALPHAS[:, None] ** 2)
     # dw cos = 2 pi sin cos dtheta, and dtheta = tan cos^2 dlog(tan).
     step = np.log(tangent[1] / tangent[0])
     weights = 2 * np.pi * tangent * cosine2 * tangent * cosine2 * step

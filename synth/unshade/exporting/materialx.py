@@ -12,11 +12,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ..render.mesh_file import obj_text
-from ..render.pictures import write_text
+from ..files.obj_text import obj_text
+from ..files.pictures import write_text
 from ..render.skin_bsdf import F0
+from ..surface import Surface
 from . import lobe
-from .surface import Surface
 from .tangents import mikktspace_normals, with_tangents
 from .texture_files import encoded_normals, srgb, write_png
 
@@ -27,7 +27,7 @@ WEIGHT_RANGE = 1.25
 
 
 def write_materialx(surface: Surface, folder: Path, bits: int) -> dict[str, Any]:
-    """Writes ``face.mtlx`` and its textures; returns what the asset says of itself."""
+    """Writes ``face.mtlx`` and its textures; returns the asset's description."""
     single = lobe.fit(surface.roughness)
     normals = mikktspace_normals(surface, with_tangents(surface.mesh), surface.specular_normal)
     inside = surface.texels.inside

@@ -2,7 +2,7 @@
 
 ``exact.xml`` needs the plugin ``skin``, which comes along as a Python file; ``render.py`` registers it. ``scene.xml``
 is the same model out of blends: Lambert under its normal map, and two rough conductors without absorption and with
-a glass's index of refraction under theirs. What differs is glass's Fresnel term in place of Schlick's, and that
+a glass's index of refraction under theirs. The difference is glass's Fresnel term in place of Schlick's, and that
 normal maps are read between texels in a triangle's frame.
 """
 
@@ -15,13 +15,13 @@ from typing import Any
 import mitsuba as mi
 import numpy as np
 
+from ..camera.camera import Camera
+from ..files.obj_text import obj_text
+from ..files.pictures import ROUGHNESS_CHANNELS, write_exr, write_text
 from ..render import skin_bsdf
-from ..render.camera import Camera
 from ..render.lights import AnyLight, Environment, SunSky
-from ..render.mesh_file import obj_text
-from ..render.pictures import ROUGHNESS_CHANNELS, write_exr, write_text
 from ..render.skin_bsdf import F0
-from .surface import Surface
+from ..surface import Surface
 from .tangents import mitsuba_normals
 from .texture_files import encoded_normals
 
@@ -47,7 +47,7 @@ mi.util.write_bitmap(picture, mi.render(mi.load_file(scene)))
 
 
 def write_mitsuba(surface: Surface, folder: Path, light: AnyLight, camera: Camera, depth: int) -> dict[str, Any]:
-    """Writes both scenes and all that they name; returns what the asset says of itself."""
+    """Writes both scenes and all that they name; returns the asset's description."""
     textures = folder / "textures"
     maps = surface.maps
     write_text(folder / "face.obj", obj_text(surface.mesh))
@@ -56,7 +56,7 @@ def write_mitsuba(surface: Surface, folder: Path, light: AnyLight, camera: Camer
     write_exr(textures / "diffuse_normal.exr", {"": _or_zero(maps.diffuse_normal)})
     write_exr(textures / "specular_normal.exr", {"": _or_zero(maps.specular_normal)})
     roughness = surface.roughness
-    # Three channels that are no colour, by the names that every reader takes.
+    # Three channels that are not a colour, by the names that every reader takes.
     write_exr(textures / "roughness.exr", {"": roughness})
     _write_stock_textures(surface, textures)
     common = {

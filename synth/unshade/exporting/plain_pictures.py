@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..render.mesh_file import obj_text
-from ..render.pictures import write_exr, write_text
+from ..files.obj_text import obj_text
+from ..files.pictures import write_exr, write_text
+from ..surface import Surface
 from . import lobe
-from .surface import Surface
 from .tangents import mikktspace_normals, with_tangents
 from .texture_files import encoded_normals, srgb, write_png
 
@@ -19,7 +19,7 @@ SPECULAR_RANGE = 0.05
 
 
 def write_pictures(surface: Surface, folder: Path, bits: int, green_up: bool) -> dict[str, Any]:
-    """Writes the set; returns what the asset says of itself."""
+    """Writes the set; returns the asset's description."""
     mesh = with_tangents(surface.mesh)
     single = lobe.fit(surface.roughness)
     inside = surface.texels.inside

@@ -1,4 +1,4 @@
-"""A GLB of one material as a shape for Mitsuba: what its bytes say, by the specification.
+"""Reads a GLB of one material as a shape for Mitsuba, from its bytes alone, by the specification.
 
 Material: glTF 2.0, appendix B, with KHR_materials_ior and KHR_materials_specular. Nothing of the exporter is
 used but the shape of its file: one mesh, textures inside.
@@ -6,24 +6,23 @@ used but the shape of its file: one mesh, textures inside.
 
 from __future__ import annotations
 
-import json
-import struct
 from pathlib import Path
 from typing import Any
 
 import mitsuba as mi
 import numpy as np
 
+from ..files import glb
 from ..own_head.gltf_accessor import Accessors
 from ..render.scene import mesh_shape
+from ..srgb import decoded
+from ..surface import Mesh
 from .layered_bsdf import texture
-from .surface import Mesh
-from .texture_files import from_srgb
 
 
 def gltf_shape(path: Path) -> Any:
     """The face of ``path`` as a Mitsuba mesh with its material."""
-    document, binary = _chunks(path.read_bytes())
+    document, binary = glb.unpacked(path.read_bytes())
     accessors = Accessors(document, [binary])
     primitive = document["meshes"][0]["primitives"][0]
     attributes = primitive["attributes"]
@@ -50,7 +49,7 @@ def gltf_shape(path: Path) -> Any:
         {
             "type": "layered",
             "reflectance": ((ior - 1) / (ior + 1)) ** 2,
-            "diffuse": texture(from_srgb(codes(plain["baseColorTexture"]))),
+            "diffuse": texture(decoded(codes(plain["baseColorTexture"]))),
             "specular": texture(codes(glint["specularTexture"])[..., 3] * glint["specularFactor"]),
             # The material's alpha is the square of what the texture holds, filtered before.
             "perceptual_roughness": texture(rough),
@@ -64,12 +63,6 @@ def gltf_shape(path: Path) -> Any:
     shape.add_attribute("vertex_tangent", 3, np.ascontiguousarray(tangents[:, :3]).ravel())
     shape.add_attribute("vertex_tangent_sign", 1, np.ascontiguousarray(tangents[:, 3]))
     return shape
-
-
-def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
-    length = struct.unpack_from("<I", data, 12)[0]
-    document = json.loads(data[20 : 20 + length])
-    return document, data[28 + length :]
 
 
 def _picture(data: bytes) -> np.ndarray:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _native
-from .surface import Mesh, Surface
+from ..surface import Mesh, Surface
+from ..vectors import unit
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,7 @@ def with_tangents(mesh: Mesh) -> TangentMesh:
 def across(normals: np.ndarray) -> np.ndarray:
     """A unit vector across each normal (N,3)."""
     axis = np.eye(3, dtype=np.float32)[np.abs(normals).argmin(1)]
-    tangent = np.cross(axis, normals)
-    return tangent / np.linalg.norm(tangent, axis=1, keepdims=True)
+    return unit(np.cross(axis, normals))
 
 
 def mikktspace_normals(surface: Surface, tangent_mesh: TangentMesh, normals: np.ndarray) -> np.ndarray:
@@ -66,17 +66,15 @@ def mitsuba_normals(surface: Surface, normals: np.ndarray) -> np.ndarray:
     Its tangent is the triangle's dp/du across the interpolated normal, its bitangent n x t.
     """
     mesh, texels = surface.mesh, surface.texels
-    n = texels.sample(mesh.normals)
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    n = unit(texels.sample(mesh.normals))
     a, b, c = (mesh.vertices[mesh.triangles[:, corner]] for corner in range(3))
     (ua, va), (ub, vb), (uc, vc) = (mesh.uv[mesh.triangles[:, corner]].T for corner in range(3))
     area = (ub - ua) * (vc - va) - (uc - ua) * (vb - va)
-    # Of a triangle without area in the UV no texel asks.
+    # No texel lies in a triangle without area in the UV.
     scale = np.where(area != 0, area, 1)[:, None]
     along_u = ((b - a) * (vc - va)[:, None] - (c - a) * (vb - va)[:, None]) / scale
     t = along_u[texels.triangle]
-    t = t - n * (t * n).sum(1, keepdims=True)
-    t /= np.maximum(np.linalg.norm(t, axis=1, keepdims=True), 1e-20)
+    t = unit(t - n * (t * n).sum(1, keepdims=True))
     return surface.spread(_into(t, np.cross(n, t), n, normals[texels.inside]))
 
 

@@ -9,20 +9,13 @@ import mitsuba as mi
 import numpy as np
 from PIL import Image
 
-from ..render.pictures import write_bytes
-
-SRGB_LIMIT = 0.0031308
+from ..files.pictures import write_bytes
+from ..srgb import encoded
 
 
 def srgb(linear: np.ndarray) -> np.ndarray:
     """Codes 0 to 1 of linear values (IEC 61966-2-1), clipped to what they can hold."""
-    linear = np.clip(linear, 0, 1)
-    return np.where(linear <= SRGB_LIMIT, 12.92 * linear, 1.055 * np.maximum(linear, SRGB_LIMIT) ** (1 / 2.4) - 0.055)
-
-
-def from_srgb(codes: np.ndarray) -> np.ndarray:
-    """Linear values of codes 0 to 1."""
-    return np.where(codes <= 12.92 * SRGB_LIMIT, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+    return encoded(np.clip(linear, 0, 1))
 
 
 def encoded_normals(normals: np.ndarray, *, green_up: bool = True) -> np.ndarray:

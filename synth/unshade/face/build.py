@@ -47,7 +47,7 @@ class Face:
 
     @cached_property
     def surface(self) -> Chart:
-        """What is rendered: the chart, or with `displacement` a finer one that is raised by the painted relief."""
+        """The rendered surface: the chart, or with `displacement` a finer one that is raised by the painted relief."""
         if not getattr(self.spec, "displacement", False):
             return self.chart
         return displaced(self.chart, self.maps.height)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import igl
 import numpy as np
 
+from ..vectors import twice_areas
 from .spec import FaceError
 from .subdivide import triangulate
 
@@ -37,9 +38,7 @@ def unwrap(vertices: np.ndarray, quads: np.ndarray, guess: np.ndarray, mouth: np
     overlap; the eye holes stay open (a fan there is flipped, and SLIM then returns its start).
     """
     real = triangulate(quads)
-    area = 0.5 * np.linalg.norm(
-        np.cross(vertices[real[:, 1]] - vertices[real[:, 0]], vertices[real[:, 2]] - vertices[real[:, 0]]), axis=1
-    )
+    area = 0.5 * twice_areas(vertices, real)
     start = guess * np.sqrt(area.sum() / np.abs(signed_areas(guess, real)).sum())
     if np.median(signed_areas(start, real)) < 0:
         start = start * [1, -1]

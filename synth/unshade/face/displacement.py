@@ -9,8 +9,9 @@ import numpy as np
 from scipy.ndimage import map_coordinates
 from scipy.spatial import cKDTree
 
+from ..vectors import unit
 from .chart import boundary_loops, signed_areas
-from .geometry import Chart, unit
+from .geometry import Chart
 from .regions import smoothstep
 
 _MOST_TRIANGLES = 8_000_000

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..vectors import vertex_normals
 from . import eyeball
-from .geometry import Part, vertex_normals
+from .geometry import Part
 from .noise import smooth_noise
 from .regions import smoothstep
 from .spec import FaceSpec, stream

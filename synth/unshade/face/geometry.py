@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from ..vectors import vertex_normals
 from .eyeball import rotation
 from .head import Head, fit_sphere
 from .lid_motion import close_lids, lift_lids
@@ -43,6 +44,21 @@ class Part:
     diffuse: np.ndarray
     specular: np.ndarray
     uv: np.ndarray | None = None
+
+
+def textured_part(
+    name: str, positions: np.ndarray, triangles: np.ndarray, uv: np.ndarray, diffuse: np.ndarray, specular: float
+) -> Part:
+    """A part with a texture `diffuse` (H,W,3) and one reflectance `specular`."""
+    return Part(
+        name=name,
+        vertices=positions.astype(np.float32),
+        normals=vertex_normals(positions, triangles).astype(np.float32),
+        triangles=triangles.astype(np.uint32),
+        diffuse=diffuse.astype(np.float32),
+        specular=np.full(diffuse.shape[:2], specular, dtype=np.float32),
+        uv=uv.astype(np.float32),
+    )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,25 +115,6 @@ def _posed(
             moved = close_lids(moved, head.refine(offset), weight, head.part_chart, eye, turn)
         moved = lift_lids(resting, moved, head.part_chart, socket, eye, turn)
     return moved
-
-
-def vertex_normals(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Unit normals (V,3), triangles weighted by their angle at the vertex (Thuermer & Wuethrich 1998)."""
-    corner = positions[triangles]
-    face = unit(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]))
-    total = np.zeros_like(positions)
-    for k in range(3):
-        a = unit(corner[:, (k + 1) % 3] - corner[:, k])
-        b = unit(corner[:, (k + 2) % 3] - corner[:, k])
-        weighted = face * np.arccos(np.clip((a * b).sum(axis=1), -1, 1))[:, None]
-        for axis in range(3):
-            total[:, axis] += np.bincount(triangles[:, k], weighted[:, axis], minlength=len(positions))
-    return unit(total)
-
-
-def unit(vectors: np.ndarray) -> np.ndarray:
-    """Vectors scaled to length 1; zero vectors stay zero."""
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-30)
 
 
 def part_mesh(geometry: Geometry, triangles: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:

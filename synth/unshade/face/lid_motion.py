@@ -57,7 +57,7 @@ def close_lids(
 def _stretch(
     points: np.ndarray, turn: np.ndarray, triangles: np.ndarray, gap: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """By what factor the turns (V,) about the eyeball's x axis close the lids, as a curve over x (m)."""
+    """The factor on the turns (V,) about the eyeball's x axis that closes the lids, as a curve over x (m)."""
     crossing, fraction, hidden = margin(triangles, gap)
     edge, closing = between(points, crossing, fraction), between(turn, crossing, fraction)
     upper, lower = margin_sides(triangles, crossing, hidden, edge)

@@ -29,7 +29,7 @@ def margin(triangles: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarr
     `gap` (C,) is the distance of the chart's vertices from the eyeball's surface. The chart
     runs on under the lids, into the eyeball: the margin is the curve in which the rim of
     each eye hole's submerged skin crosses the surface. Skin that dips into the eyeball
-    elsewhere (a deep fold) is no margin.
+    elsewhere (a deep fold) is not a margin.
     """
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     under = gap < 0

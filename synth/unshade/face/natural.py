@@ -1,4 +1,4 @@
-"""Additions of `detail = "natural"` to a face: skin as uneven as people's, hair of strands, a sheen of one's own.
+"""Additions of `detail = "natural"` to a face: skin as uneven as people's, hair of strands, an individual sheen.
 
 Amounts follow the spectra that `statistics` measures on a photographed face; docs/ground-truth.md has both.
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from .geometry import unit
+from ..vectors import unit
 from .texels import Texels
 
 DIFFUSION_MM = 1.2

@@ -6,8 +6,9 @@ import dataclasses
 
 import numpy as np
 
+from ..vectors import unit
 from .chart import signed_areas
-from .geometry import Geometry, unit
+from .geometry import Geometry
 from .hair import HairStyle, beard_cover, draw_brows, scalp_cover, scalp_grain
 from .head import Head
 from .labels import Label
@@ -66,7 +67,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     texel = scale / spec.texture_size
 
     sites = find_regions(head.template[vertices].astype(np.float32), sample_masks(head.native_uv))
-    # What varies slowly is computed at the vertices and interpolated.
+    # Slowly varying quantities are computed at the vertices and interpolated.
     coarse = base_pigments(sites, spec)
     melanin, blood, scalp, x, y, z, s, t, u, v = texels.sample(
         np.column_stack(

@@ -12,7 +12,9 @@ import dataclasses
 import numpy as np
 from scipy.ndimage import binary_erosion
 
-from .geometry import Chart, unit
+from ..srgb import encoded
+from ..vectors import unit
+from .geometry import Chart
 from .normals import tangents
 from .pigment import BLOOD, MELANOSOMES, exact_colour
 from .texels import rasterise
@@ -119,7 +121,7 @@ def _welch(values: np.ndarray, region: np.ndarray, surface: Surface, count: int)
             weights = window * region[part]
             if weights.sum() < _FILLED * window.sum():
                 continue
-            # The plane that fits best is no detail.
+            # The plane that fits best is not detail.
             root = np.sqrt(weights).ravel()
             fit = np.linalg.lstsq(places * root[:, None], values[part].ravel() * root, rcond=None)[0]
             rest = (values[part].ravel() - places @ fit).reshape(count, count) * weights
@@ -177,11 +179,7 @@ def label_mean_psnr(albedo: np.ndarray, labels: np.ndarray, inside: np.ndarray) 
     for label in np.unique(labels[inside]):
         here = inside & (labels == label)
         flat[here] = albedo[here].mean(axis=0)
-
-    def srgb(x: np.ndarray) -> np.ndarray:
-        return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055)
-
-    return float(-10 * np.log10(np.mean((srgb(flat[inside]) - srgb(albedo[inside])) ** 2)))
+    return float(-10 * np.log10(np.mean((encoded(flat[inside]) - encoded(albedo[inside])) ** 2)))
 
 
 def bare_skin(albedo: np.ndarray, skin: np.ndarray, surface: Surface) -> np.ndarray:

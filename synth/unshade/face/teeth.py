@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from .geometry import Geometry, Part, unit, vertex_normals
+from ..vectors import unit
+from .geometry import Geometry, Part, textured_part
 from .head import Head
 from .noise import smooth_noise
 from .spec import FaceSpec, stream
@@ -159,15 +160,7 @@ def _part(
     starts = np.cumsum([0, *(len(positions) for positions, _, _ in pieces[:-1])])
     positions, uv = (np.concatenate([piece[k] for piece in pieces]) for k in (0, 1))
     triangles = np.concatenate([piece[2] + start for piece, start in zip(pieces, starts)])
-    return Part(
-        name=name,
-        vertices=positions.astype(np.float32),
-        normals=vertex_normals(positions, triangles).astype(np.float32),
-        triangles=triangles.astype(np.uint32),
-        diffuse=diffuse.astype(np.float32),
-        specular=np.full(diffuse.shape[:2], specular, dtype=np.float32),
-        uv=uv.astype(np.float32),
-    )
+    return textured_part(name, positions, triangles, uv, diffuse, specular)
 
 
 def _tongue(head: Head, geometry: Geometry, diffuse: np.ndarray) -> Part:

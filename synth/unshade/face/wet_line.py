@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
+from ..vectors import unit, vertex_normals
 from .eyeball import clearance
-from .geometry import Geometry, Part, unit, vertex_normals
+from .geometry import Geometry, Part, textured_part
 from .head import Head
 from .lids import between, margin, margin_sides
 from .regions import smoothstep
@@ -26,7 +27,7 @@ _CLEAR = 0.00001
 _SPECULAR = 0.02
 """Reflectance of water at normal incidence (n = 1.336)."""
 
-# What shows through the film: the lid's moist edge, then the white of the eye in the lid's shade.
+# Colours under the film: the lid's moist edge, then the white of the eye in the lid's shade.
 _LID, _EYE = np.array([0.40, 0.25, 0.22]), np.array([0.42, 0.35, 0.31])
 
 
@@ -82,15 +83,7 @@ def _wet_line(
     uv = np.stack(np.meshgrid(np.linspace(0, 1, _COLUMNS), np.linspace(0, 1, _PROFILE), indexing="ij"), axis=-1)
     blend = (1 - (np.arange(16) + 0.5) / 16)[:, None, None]
     diffuse = np.repeat(_LID + blend * (_EYE - _LID), 4, axis=1)
-    return Part(
-        name=name,
-        vertices=strip.astype(np.float32),
-        normals=vertex_normals(strip, faces).astype(np.float32),
-        triangles=faces.astype(np.uint32),
-        diffuse=diffuse.astype(np.float32),
-        specular=np.full(diffuse.shape[:2], _SPECULAR, dtype=np.float32),
-        uv=uv.reshape(-1, 2).astype(np.float32),
-    )
+    return textured_part(name, strip, faces, uv.reshape(-1, 2), diffuse, _SPECULAR)
 
 
 def _lowered(points: np.ndarray, eye: np.ndarray, gaze: np.ndarray, clear: float = 0.0) -> np.ndarray:

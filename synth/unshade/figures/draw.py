@@ -12,15 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ReportError
+from .panels import FONT, WIDTH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
-WIDTH = 7.2
-"""Width of a page's text, inches."""
 DPI = 300
-FONT = 7
-"""Points."""
 
 Block = dict[str, Any]
 
@@ -87,7 +84,7 @@ def height_of(height: Callable[[Block], float], blocks: list[Block]) -> float:
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Without the date and the program's version, which say nothing of the figure."""
+    """Leaves out the date and the program's version, which do not describe the figure."""
     nameless = (
         {"CreationDate": None, "Producer": None, "Creator": None} if path.suffix == ".pdf" else {"Software": None}
     )

@@ -9,6 +9,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.figure import SubFigure
 
+WIDTH = 7.2
+"""Width of a page's text, inches."""
+FONT = 7
+"""Points."""
 LEFT = 0.28
 """Room for the rows' titles, inches."""
 GAP = 0.03
@@ -24,8 +28,6 @@ def height(block: dict[str, Any]) -> float:
 
 def _layout(block: dict[str, Any]) -> tuple[float, list[float], float]:
     """Width of a panel, height of each row with its captions, height of the whole; inches."""
-    from .draw import WIDTH
-
     count = len(block["columns"])
     # Few panels are no larger than a quarter of the page.
     width = min((WIDTH - LEFT) / count - GAP, 1.7)
@@ -51,8 +53,6 @@ def _wrapped(text: str, width: float) -> str:
 def draw(part: SubFigure, blocks: list[dict[str, Any]], folder: Path) -> None:
     """Draws one block; panels are shown texel by texel."""
     import matplotlib.image as image
-
-    from .draw import FONT, WIDTH
 
     (block,) = blocks
     width, rows, whole = _layout(block)

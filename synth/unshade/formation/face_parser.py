@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
+from ..camera.camera import Camera
 from ..face import Label
-from ..render.camera import Camera
 from ..scene_file import Scene
 from .seeds import generator
 

@@ -9,8 +9,8 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ..render.camera import Camera
-from ..render.distortion import Distortion
+from ..camera.camera import Camera
+from ..camera.distortion import Distortion
 from ..scene_file import Formation, Scene
 from .seeds import generator
 
@@ -36,7 +36,7 @@ class Lens:
     def ray(self, column, row, sampler):
         """World ray from a film position in pixels (x right, y down); draws from ``sampler``
         what aperture and exposure time need."""
-        camera, plain = self.camera, _number
+        camera, plain = self.camera, opaque
         x = (column - plain(camera.width / 2)) / plain(camera.focal)
         y = (row - plain(camera.height / 2)) / plain(camera.focal)
         if camera.distortion is not None:
@@ -58,13 +58,13 @@ class Lens:
 
     def _rotated(self, vector, angle):
         """Rodrigues' rotation about the turn axis."""
-        axis = mi.Vector3f(*map(_number, self.turn_axis), 0)
+        axis = mi.Vector3f(*map(opaque, self.turn_axis), 0)
         cosine, sine = dr.cos(angle), dr.sin(angle)
         return vector * cosine + dr.cross(axis, vector) * sine + axis * (dr.dot(axis, vector) * (1 - cosine))
 
 
-def _number(value: float):
-    """Opaque to the compiler, so that all cameras share one kernel."""
+def opaque(value: float):
+    """A number that the compiler takes for unknown, so that all cameras share one kernel."""
     return dr.opaque(mi.Float, float(value)) if dr.is_jit_v(mi.Float) else float(value)
 
 

@@ -1,4 +1,4 @@
-"""The real cameras of a capture, and what ``transforms.json`` says about them."""
+"""The real cameras of a capture, and their entries in ``transforms.json``."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from ..camera.camera import Camera
+from ..camera.distortion import Distortion
 from ..face import Chart
-from ..render.camera import Camera
-from ..render.distortion import Distortion
 from ..scene_file import Formation, Scene
 from .seeds import generator
 

@@ -6,7 +6,7 @@ import hashlib
 
 import numpy as np
 
-from ..render.camera import Camera
+from ..camera.camera import Camera
 from ..scene_file import Scene
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..errors import PictureError
 from ..scene_file import Formation
+from ..srgb import decoded, encoded
 
 
 def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
@@ -51,13 +52,4 @@ def _quantised(signal: np.ndarray, bits: int, transfer: str) -> np.ndarray:
     largest = 2**bits - 1
     if transfer == "linear":
         return np.rint(signal * largest) / largest
-    return _srgb_decoded(np.rint(_srgb_encoded(signal) * largest) / largest)
-
-
-def _srgb_encoded(linear: np.ndarray) -> np.ndarray:
-    """IEC 61966-2-1."""
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0031308) ** (1 / 2.4) - 0.055)
-
-
-def _srgb_decoded(encoded: np.ndarray) -> np.ndarray:
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    return decoded(np.rint(encoded(signal) * largest) / largest)

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
 
 from .. import _native
-from ..errors import StorageError
-from ..render.folder import ResumableFolder
+from ..files.folder import ResumableFolder
+from ..files.pictures import make_folder, write_bytes, write_gray, write_json
 from .chart_mesh import ChartMesh
-from .photographs import Taken
+from .photographs import ImportedView
 
 RECORD = "import.json"
 
 
 class CaptureWriter:
     """A capture folder under construction; it appears with `commit`. An interrupted import with the same ``key``
-    is taken up. Raises `StorageError` where it may not be written."""
+    resumes. Raises `StorageError` where it may not be written."""
 
     def __init__(self, out: Path, key: str) -> None:
-        self._out = out
         self._folder = ResumableFolder(out, key)
         self._path = self._folder.path
         self._frames: list[dict[str, Any]] = []
@@ -34,10 +30,10 @@ class CaptureWriter:
         self._labelled = False
 
     def mesh(self, mesh: ChartMesh) -> None:
-        self._write("mesh.obj", mesh.text())
+        write_bytes(self._path / "mesh.obj", mesh.text())
 
-    def view(self, taken: Taken, *, withheld: bool) -> None:
-        """One view with its mask; every camera is a pinhole but those whose lens a capture can say."""
+    def view(self, taken: ImportedView, *, withheld: bool) -> None:
+        """Writes one view with its mask; a camera keeps its lens only if ``transforms.json`` can state it."""
         name, camera = taken.name, taken.camera
         image = f"images/{name}.exr"
         frame: dict[str, Any] = {
@@ -61,15 +57,15 @@ class CaptureWriter:
         (self._test if withheld else self._train).append(image)
         if (self._path / image).is_file():
             return
-        if taken.mask is not None:
-            self._gray(f"masks/{name}.png", taken.mask)
-        if taken.labels is not None:
-            self._gray(f"labels/{name}.png", taken.labels)
-        # Last, since it marks the view as finished; it appears whole or not at all.
-        _native.write_colour(self._made(image), taken.radiance)
+        for kind, plane in (("masks", taken.mask), ("labels", taken.labels)):
+            if plane is not None:
+                write_gray(self._path / kind / f"{name}.png", np.ascontiguousarray(plane))
+        # The picture is the last file, because it marks the view as finished; it appears whole or not at all.
+        make_folder(self._path / "images")
+        _native.write_colour(self._path / image, taken.radiance)
 
     def transforms(self, labels: Sequence[tuple[str, int]]) -> None:
-        """The cameras; ``labels`` are the names and ids of label pictures."""
+        """Writes the cameras; ``labels`` are the names and ids of label pictures."""
         document: dict[str, Any] = {
             "mesh": "mesh.obj",
             "frames": self._frames,
@@ -78,36 +74,11 @@ class CaptureWriter:
         }
         if self._labelled:
             document["label_names"] = {str(number): name for name, number in labels}
-        self._write("transforms.json", (json.dumps(document, indent=1) + "\n").encode())
+        write_json(self._path / "transforms.json", document)
 
     def record(self, document: dict[str, Any]) -> None:
-        """Writes `import.json`: what was read, and what had to be assumed."""
-        self._write(RECORD, (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode())
+        """Writes `import.json`: the sources, and the assumptions."""
+        write_json(self._path / RECORD, document, ensure_ascii=False)
 
     def commit(self) -> None:
         self._folder.commit()
-
-    def _gray(self, name: str, plane: NDArray[np.uint8]) -> None:
-        path = self._made(name)
-        try:
-            Image.fromarray(np.ascontiguousarray(plane)).save(path, format="PNG")
-        except OSError as error:
-            raise self._unwritten(error) from error
-
-    def _write(self, name: str, data: bytes) -> None:
-        path = self._made(name)
-        try:
-            path.write_bytes(data)
-        except OSError as error:
-            raise self._unwritten(error) from error
-
-    def _made(self, name: str) -> Path:
-        path = self._path / name
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise self._unwritten(error) from error
-        return path
-
-    def _unwritten(self, error: OSError) -> StorageError:
-        return StorageError(f"{self._out}: cannot be written: {error.strerror}; make room or choose another folder")

@@ -42,7 +42,7 @@ PLAIN = Change("none", "nothing is changed")
 
 
 def single_changes(elsewhere: tuple[str, str, Matrix] | None, camera: Pinhole, *, lens: bool) -> list[Change]:
-    """Every change that is tried, the likelier ones first. ``camera`` is one of the cameras; ``lens`` says whether
+    """Every change that is tried, the likelier ones first. ``camera`` is one of the cameras; ``lens``: whether
     they have lenses, which are tried left out, alone and with each other principal point."""
     width, square = camera.width, camera.width == camera.height  # A square picture may lie on its side unseen.
     changes: list[Change] = _centres(camera)
@@ -121,7 +121,7 @@ def _centres(camera: Pinhole) -> list[Change]:
         change for change in tried if all(0 < p < 1 for p in np.divide(change.camera(camera).centre, (width, height)))
     ]
     middle = (width / 2, height / 2)
-    # Two names for one place would say more than is known.
+    # Two names for one place would claim more than is known.
     return (
         [c for c in inside if c.id == CENTRE or not np.allclose(c.camera(camera).centre, middle)]
         if (x, y) != middle
@@ -130,7 +130,7 @@ def _centres(camera: Pinhole) -> list[Change]:
 
 
 def half_pixels() -> list[Change]:
-    """The two changes that only many pixels can tell."""
+    """The two changes that only many pixels can show."""
     return [
         Change(
             "half-pixel",

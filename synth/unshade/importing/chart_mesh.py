@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .. import _native
 from ..errors import CaptureError
+from ..vectors import triangle_normals
 from .source import Matrix
 
 
@@ -38,7 +39,7 @@ class ChartMesh:
         return replace(self, vertices=vertices, normals=normals, verbatim=None)
 
     def layout_faults(self, used: NDArray[np.bool_] | None = None) -> tuple[str | None, str | None, bool]:
-        """What is wrong with the UV layout of the triangles that are ``used`` (F,), a warning, and whether
+        """The fault of the UV layout of the triangles that are ``used`` (F,), a warning, and whether
         materials lie over each other."""
         used = np.ones(len(self.triangles), bool) if used is None else used
         triangles, part_of = (np.ascontiguousarray(values[used]) for values in (self.triangles, self.part_of))
@@ -112,8 +113,7 @@ def read_mesh(path: Path, objects: tuple[str, ...] = ()) -> ChartMesh:
 def smooth_normals(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float64]:
     """Normals (V,3) by area, one for all vertices of one place: seams of the UV are none of the surface. Not unit."""
     place = np.unique(vertices, axis=0, return_inverse=True)[1].ravel()
-    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
-    normals = np.zeros_like(vertices)
+    facing, normals = triangle_normals(vertices, triangles), np.zeros_like(vertices)
     for corner in range(3):
-        np.add.at(normals, place[triangles[:, corner]], np.cross(b - a, c - a))
+        np.add.at(normals, place[triangles[:, corner]], facing)
     return normals[place]

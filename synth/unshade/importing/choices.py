@@ -1,4 +1,4 @@
-"""The choices of an import, which decide where its files are silent."""
+"""The choices of an import, which decide what its files leave open."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .placement import PLACES, UNITS
 
 @dataclass(frozen=True)
 class Choices:
-    """Choices where the files are silent. The fields are those of `import_capture`."""
+    """The choices that files leave open; the fields are those of `import_capture`."""
 
     mesh: Path | None = None
     objects: tuple[str, ...] = ()
@@ -33,7 +33,7 @@ class Choices:
     leave_out: tuple[str, ...] = ()
 
     def check(self) -> None:
-        """Refuses values that no import has. Raises `CaptureError` or `PictureError`."""
+        """Refuses values out of range. Raises `CaptureError` or `PictureError`."""
         check_curve(self.curve)
         if self.unit is not None and self.unit not in UNITS:
             raise CaptureError(f"unit {self.unit!r} is unknown; there are {', '.join(UNITS)}")

@@ -88,7 +88,7 @@ def read_colmap(path: Path, pictures: Path | None = None) -> Source:
                 stated=f"image {picture!r}",
             )
         )
-    # COLMAP reads the pixels as they are stored and knows no EXIF orientation.
+    # COLMAP reads the pixels as they are stored and ignores EXIF orientation.
     assumed = [f"{folder} is the largest of {len(models)} models"] if others else []
     return Source(
         origin=origin,

@@ -39,4 +39,4 @@ def exif_colour_space(tags: dict[int, Any], exif: Image.Exif, name: str) -> tupl
         return "srgb", "EXIF"
     if name.startswith("_"):
         return ADOBE_RGB, "EXIF (ColorSpace 65535) and the underscore that begins the file's name (DCF)"
-    return None, "EXIF says that the colours are not sRGB (ColorSpace 65535) and nothing says which they are"
+    return None, "EXIF says that the colours are not sRGB (ColorSpace 65535) and nothing states which they are"

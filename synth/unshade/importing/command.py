@@ -31,29 +31,7 @@ def main(arguments: list[str]) -> int:
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, *_, **__: bar.line(f"unshade: {message}")
             warnings.simplefilter("always")
-            out = import_capture(
-                options.format,
-                options.path,
-                options.out,
-                mesh=options.mesh,
-                objects=options.object,
-                pictures=options.pictures,
-                masks=options.masks,
-                labels=options.labels,
-                parser=options.parser,
-                curve=options.curve,
-                brackets=options.brackets,
-                even_exposure=options.even_exposure,
-                holdout=options.holdout,
-                shrink=options.shrink,
-                unit=options.unit,
-                place=options.place,
-                front=options.front,
-                apply=options.apply,
-                skip_missing=options.skip_missing,
-                leave_out=options.leave_out,
-                progress=bar.step,
-            )
+            out = import_capture(**vars(options), progress=bar.step)
     except UnshadeError as error:
         bar.line(f"unshade: {' '.join(str(error).split())}")
         return error.exit_code
@@ -75,6 +53,7 @@ def _parser() -> argparse.ArgumentParser:
         "--object",
         action="append",
         default=[],
+        dest="objects",
         metavar="NAME",
         help="an object of the mesh that is the face; may be repeated",
     )
@@ -129,7 +108,7 @@ def _names(text: str) -> list[str]:
 
 
 class _Bar:
-    """How far it is, on one line of a terminal; nothing elsewhere."""
+    """A progress bar on one line of a terminal; nothing elsewhere."""
 
     def __init__(self) -> None:
         self._shown = sys.stderr.isatty()

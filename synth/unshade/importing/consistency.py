@@ -1,4 +1,4 @@
-"""Two halves of the views, solved alone: what both say of the face is likelier to be the face's."""
+"""Solves two halves of the views separately: agreement between their maps is evidence for both."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The convention detective: does the mesh lie where the masks say, and if not, which one change does it?
+"""The convention detective: does the mesh project onto the masks, and if not, after which one change does it?
 
-Silhouettes of the mesh are compared with the masks. What is said is measured at views spread over all.
+It compares silhouettes of the mesh with the masks, in views spread over all.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _SIZE = 256
 """Longest side of the small pictures at which changes are tried."""
 
 _MAX_FRACTION, _MIN_FRACTION = 0.98, 0.002
-"""Fractions of a picture beyond which a mask says nothing."""
+"""Fractions of a picture beyond which a mask is uninformative."""
 
 _VIEWS_AGREE = 0.8
 """Share of views that must gain by half a pixel."""
@@ -51,7 +51,7 @@ _OF_OPPOSITE = 0.5
 
 
 _SAME = 0.02
-"""Difference of unions that does not tell one principal point from another."""
+"""Difference of unions that does not distinguish one principal point from another."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Verdict:
     views: int
     union: float
     change: Change | None = None
-    fixed: float | None = None
+    union_after: float | None = None
     nearest: tuple[Change, float] | None = None
 
     @property
@@ -93,7 +93,7 @@ class Verdict:
 
 
 def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str, Matrix] | None) -> Verdict | None:
-    """The verdict on cameras, mesh and masks; None where no mask says anything."""
+    """Returns the verdict on cameras, mesh and masks; None where no mask is informative."""
     telling = [e for e in evidence if e.is_telling]
     if not telling:
         return None
@@ -116,7 +116,7 @@ def examine(mesh: ChartMesh, evidence: list[Evidence], elsewhere: tuple[str, str
 
 
 def overlap(mesh: ChartMesh, evidence: Evidence) -> float | None:
-    """Intersection over union of silhouette and mask in a small picture of one view; None where the mask says nothing."""
+    """Intersection over union of silhouette and mask in a small picture of one view; None where the mask is uninformative."""
     return _union(mesh, [_smaller(evidence)], PLAIN) if evidence.is_telling else None
 
 
@@ -158,7 +158,7 @@ def _growth(mesh: ChartMesh, evidence: list[Evidence], change: Change) -> float 
 def _finer(mesh: ChartMesh, evidence: list[Evidence], union: float) -> Verdict:
     """Whether half a pixel makes masks fit that fit already, but for their edges.
 
-    What hides the mesh, and masks that are a little wide, make every shift as wrong as any other; a shift that
+    Occluders of the mesh, and masks that are a little wide, make every shift equally wrong; a shift that
     is due gains about what its opposite loses, a shift twice as far gains nothing more, and one across neither.
     """
     before = [_wrong(mesh, e, PLAIN) for e in evidence]
@@ -183,7 +183,7 @@ def _smaller(evidence: Evidence) -> Evidence:
     every = max(1, -(-max(evidence.camera.width, evidence.camera.height) // _SIZE))
     camera = evidence.camera.smaller(every)
     mask = evidence.mask[every // 2 :: every, every // 2 :: every][: camera.height, : camera.width]
-    # A picture that is no multiple of the step may end before the last small pixel's middle.
+    # A picture whose size is not a multiple of the step may end before the last small pixel's middle.
     mask = np.pad(mask, ((0, camera.height - mask.shape[0]), (0, camera.width - mask.shape[1])), mode="edge")
     return Evidence(camera, mask, evidence.lens)
 

@@ -1,4 +1,4 @@
-"""From another program's capture to a capture folder like any other."""
+"""From another program's capture to a capture folder."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _native
 from ..errors import CaptureError, StorageError
-from ..render.folder import content_hash
+from ..files.folder import content_hash
 from .capture_folder import CaptureWriter
 from .changes import PLAIN, Change
 from .chart_mesh import ChartMesh, read_mesh
@@ -24,7 +24,7 @@ from .emily_folder import read_emily
 from .metashape_file import read_metashape
 from .moving_light import LightMotion, LitView, light_motion
 from .parser_labels import LABELS, name_table
-from .photographs import Reading, Taken, shown_ups, take
+from .photographs import ImportedView, Reading, take, up_directions
 from .pictures import Photograph, read_photograph
 from .pinhole import Pinhole
 from .placement import UNITS, Placement, place
@@ -40,12 +40,12 @@ Progress = Callable[[int, int, str], object]
 AnyPath = str | os.PathLike[str]
 
 
-_LOOKED_AT = 8
-"""Views that the detective looks at."""
+_EXAMINED = 8
+"""Views that the detective examines."""
 
 
 class CaptureWarning(UserWarning):
-    """Something of an imported capture that its maker should know."""
+    """A property of an imported capture that its maker should know."""
 
 
 def import_capture(
@@ -73,10 +73,10 @@ def import_capture(
     progress: Progress | None = None,
 ) -> Path:
     """Bring a capture of ``format`` (``transforms``, ``colmap``, ``metashape``, ``emily``) at ``path`` into the
-    capture folder ``out``, with ``import.json`` that says what was assumed; returns the folder.
+    capture folder ``out``, with ``import.json``, which lists the assumptions; returns the folder.
 
     ``mesh`` is an OBJ with texture coordinates, of which ``objects`` are the face; ``pictures`` the folder of
-    the photographs, where the files do not say it. ``masks`` is a folder of masks, ``alpha`` (that of the
+    the photographs, where the files do not name it. ``masks`` is a folder of masks, ``alpha`` (that of the
     photographs) or ``silhouette`` (of the mesh); by default those that the file names, else alpha, else the
     silhouette. ``labels`` is a folder of a face parser's pictures and ``parser`` its name or a JSON file of
     names by id. ``curve`` is the photographs' transfer curve (``auto``, ``srgb``, ``linear``, ``rec709``,
@@ -100,19 +100,11 @@ def import_capture(
         pictures=path_of(pictures),
         masks=masks if isinstance(masks, str) and masks in ("alpha", "silhouette") else path_of(masks),
         labels=path_of(labels),
-        parser=parser,
-        curve=curve,
-        brackets=brackets,
-        even_exposure=even_exposure,
         holdout=holdout if holdout is None or isinstance(holdout, int) else tuple(holdout),
-        shrink=shrink,
-        unit=unit,
-        place=place,
-        front=front,
-        apply=apply,
-        skip_missing=skip_missing,
         leave_out=tuple(leave_out),
-    )
+        parser=parser, curve=curve, brackets=brackets, even_exposure=even_exposure, shrink=shrink, unit=unit, place=place,
+        front=front, apply=apply, skip_missing=skip_missing,
+    )  # fmt: skip
     choices.check()
     source = read_source(format, Path(path), choices.pictures)
     _Import(format, Path(path), source, choices, progress or (lambda done, total, what: None)).write(Path(out))
@@ -132,7 +124,7 @@ def read_source(format: str, path: Path, pictures: Path | None = None) -> Source
 
 
 class _Import:
-    """One import: a few views are looked at, then all are taken, placed and written."""
+    """One import: examines a few views, then reads, places and writes all."""
 
     def __init__(self, format: str, path: Path, source: Source, choices: Choices, progress: Progress) -> None:
         self.format, self.path, self.source, self.choices, self.progress = format, path, source, choices, progress
@@ -184,13 +176,13 @@ class _Import:
         folder = CaptureWriter(out, self._key())
         folder.mesh(mesh)
         report = ViewStatistics()
-        looked_at, lit = {view.name for view in self._looked_at()}, list[LitView]()
+        examined, lit = {view.name for view in self._examined()}, list[LitView]()
         for number, view in enumerate(self.source.views):
             self.progress(number, len(self.source.views), f"view {view.name}")
             taken = self._placed(take(self.source, view, reading, self.notes), change, placement)
             report.note(taken, overlap(mesh, taken.evidence()) if taken.mask is not None else None)
             taken = self._finished(taken, mesh)
-            if view.name in looked_at:
+            if view.name in examined:
                 lit.append(LitView.of(taken))
             folder.view(taken, withheld=view.name in self.withheld)
         self._judge(report)
@@ -204,17 +196,17 @@ class _Import:
         self.progress(len(self.source.views), len(self.source.views), "capture")
 
     def _judge(self, report: ViewStatistics) -> None:
-        """Refuses single views that do not fit, whatever the others do."""
+        """Refuses single views that do not fit, even if the others do."""
         misfits = report.below(FITTING)
         if misfits:
-            told = listed([f"{name} ({overlap:.2f})" for name, overlap in misfits.items()])
+            shown = listed([f"{name} ({overlap:.2f})" for name, overlap in misfits.items()])
             raise CaptureError(
                 f"{self.source.origin}: silhouettes overlap the masks by less than {FITTING:g} in {len(misfits)} of "
-                f"{len(self.source.views)} views: {told}; fix their cameras or masks, or leave them out (--leave-out)"
+                f"{len(self.source.views)} views: {shown}; fix their cameras or masks, or leave them out (--leave-out)"
             )
 
     def _keep_apart(self, out: Path) -> None:
-        """No input is replaced by the output."""
+        """Refuses an output that would replace an input."""
         target = out.resolve()
         for view in self.source.views:
             for file in (self.source.origin, self.mesh_file, view.picture, view.mask, view.label):
@@ -245,7 +237,7 @@ class _Import:
     def _look(self, reading: Reading) -> Verdict | None:
         """Verdict of the detective on some views; a change that fixes them is an error unless it is to be made."""
         evidence = []
-        for view in self._looked_at():
+        for view in self._examined():
             self.progress(0, len(self.source.views), f"looking at {view.name}")
             taken = take(self.source, view, reading, self.notes)
             if taken.mask is not None:
@@ -257,7 +249,7 @@ class _Import:
         if verdict.change is not None and not self.choices.apply:
             raise CaptureError(
                 f"{self.source.origin}: the mesh covers {verdict.union:.3f} of the masks (union, median of {verdict.views} views), "
-                f"but {verdict.fixed:.3f} if {verdict.change.words} [{verdict.change.id}]; fix the files, or import with apply"
+                f"but {verdict.union_after:.3f} if {verdict.change.words} [{verdict.change.id}]; fix the files, or import with apply"
             )
         if verdict.change is not None:
             self.notes.add(f"applied: {verdict.change.words} [{verdict.change.id}]")
@@ -277,10 +269,10 @@ class _Import:
             )
         return verdict
 
-    def _looked_at(self) -> list[SourceView]:
+    def _examined(self) -> list[SourceView]:
         """Views that are spread over all."""
         views = self.source.views
-        count = min(len(views), _LOOKED_AT)
+        count = min(len(views), _EXAMINED)
         return [views[number * len(views) // count] for number in range(count)]
 
     def _warn(self, words: str) -> None:
@@ -294,41 +286,41 @@ class _Import:
         placement = place(
             mesh.vertices,
             cameras,
-            shown_ups(self.source, cameras, turned=change.orientation != 1),
+            up_directions(self.source, cameras, turned=change.orientation != 1),
             metres=metres,
             how=self.choices.place,
             facing=None if self.choices.front is None else self._view_called(self.choices.front),
         )
         self.notes.update(placement.words)
-        for doubt in placement.doubts:
-            self._warn(doubt)
+        for warning in placement.warnings:
+            self._warn(warning)
         return placement
 
     def _view_called(self, name: str) -> tuple[str, int]:
         (view,) = named_views(self.source, [name], "front")
         return name, [other.name for other in self.source.views].index(view)
 
-    def _placed(self, taken: Taken, change: Change, placement: Placement) -> Taken:
+    def _placed(self, taken: ImportedView, change: Change, placement: Placement) -> ImportedView:
         """The view after the change, where the head comes to stand."""
         taken = taken.oriented(change.orientation, inverted=change.inverted)
         camera = change.camera(taken.camera)
         camera = replace(camera, camera_to_world=moved(placement.matrix, camera.camera_to_world))
         return replace(taken, camera=camera, lens=Lens() if change.no_lens else taken.lens)
 
-    def _finished(self, taken: Taken, mesh: ChartMesh) -> Taken:
-        """The view as it is written: without its lens where a capture cannot say it, smaller, with a mask."""
+    def _finished(self, taken: ImportedView, mesh: ChartMesh) -> ImportedView:
+        """The view as it is written: without its lens where a capture cannot state it, smaller, with a mask."""
         if not taken.lens.kept or taken.mask is None or taken.name in self.withheld:
             taken = taken.undistorted()
         taken = taken.smaller(self.choices.shrink)
         if taken.mask is None or taken.name in self.withheld:
-            # Nothing can be said of what the mesh lacks, so withheld photographs count where it is seen.
+            # The mesh cannot predict what it lacks, so withheld photographs count where it is seen.
             seen = taken.camera.silhouette(mesh.vertices, mesh.triangles)
             inside = seen if taken.mask is None else seen & (taken.mask > 0)
             taken = replace(taken, mask=np.where(inside, 255, 0).astype(np.uint8))
         return taken
 
     def _key(self) -> str:
-        """Everything that decides what is written; of photographs their sizes and times."""
+        """All that determines the output; for photographs their sizes and times."""
         parts = [self.format, str(self.path), repr(self.choices), content_hash(self.mesh_file)]
         for view in self.source.views:
             parts.append(f"{view!r}")
@@ -362,7 +354,7 @@ class _Import:
                 "views": verdict.views,
                 "union": round(verdict.union, 4),
                 "change": verdict.change.id if verdict.change else None,
-                "union_with_change": round(verdict.fixed, 4) if verdict.fixed is not None else None,
+                "union_with_change": round(verdict.union_after, 4) if verdict.union_after is not None else None,
             },
             "front": placement.front,
             "light": None if self.light is None else self.light.record(),

@@ -20,7 +20,7 @@ from .labelled_photographs import DEPTH, LabelledPhotographs
 from .source import OPENCV_AXES, Lens, Matrix, Source, SourceView, frame_names, moved, rigid
 
 _NO_TERM = ("b2", "skew", "k4", "p3", "p4")
-"""Terms of Metashape's frame cameras that OpenCV's lens has not."""
+"""Terms of Metashape's frame cameras that OpenCV's lens lacks."""
 
 _FAR = 0.25
 """Shares of the picture's sides; no principal point lies so far from the middle."""
@@ -177,7 +177,7 @@ def _pose(
 
 
 def _in_one_frame(path: Path, cameras: list[_Camera], left_out: list[tuple[str, str]]) -> list[_Camera]:
-    """The cameras whose poses are of one world: all if every chunk and component has a transform to it, else those
+    """The cameras whose poses share one world: all if every chunk and component has a transform to it, else those
     of the chunk or component that has most. Raises `CaptureError` if two have as many."""
     frames = {camera.frame: camera.transform is not None for camera in cameras}
     if len(frames) == 1 or all(frames.values()):
@@ -255,7 +255,7 @@ def _sensor(path: Path, element: xml.Element, calibration: xml.Element) -> _Sens
     )
     terms = {"k1": term("k1"), "k2": term("k2"), "k3": term("k3")}
     # Metashape's first tangential term is OpenCV's second; PhotoScan's up to 1.2 is OpenCV's first, as tie points of
-    # its projects tell.
+    # its projects show.
     p1, p2 = ("p1", "p2") if photoscan else ("p2", "p1")
     terms |= {"k4": term("k4")} if fisheye else {"p1": term(p1), "p2": term(p2)}
     return _Sensor(

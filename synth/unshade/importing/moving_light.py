@@ -18,8 +18,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from ..vectors import twice_areas, unit
 from .chart_mesh import ChartMesh, smooth_normals
-from .photographs import Taken
+from .photographs import ImportedView
 from .pictures import Floats
 from .pinhole import Pinhole
 
@@ -42,7 +43,7 @@ _DARK = 0.05
 """Share of the median radiance that is added before the logarithm: shadows hold noise."""
 
 _ROUNDS, _HUBER = 5, 1.5
-"""Of reweighting; residuals above so many standard deviations count less."""
+"""Rounds of reweighting, and the number of standard deviations above which residuals count less."""
 
 _EXPLAINED, _AMOUNT = 0.5, 0.1
 """Share of the variance between views, and its root mean square, that lights of the views' own must explain. Renders
@@ -64,7 +65,7 @@ class LitView:
     mask: NDArray[np.bool_] | None
 
     @classmethod
-    def of(cls, taken: Taken) -> LitView:
+    def of(cls, taken: ImportedView) -> LitView:
         """A small copy of a view."""
         small = taken.undistorted().smaller(-(-max(taken.radiance.shape[:2]) // _SIDE))
         return cls(small.camera, small.radiance, None if small.mask is None else small.mask > 0)
@@ -92,7 +93,7 @@ class LightMotion:
 
     @property
     def warning(self) -> str | None:
-        """What is wrong, in a sentence; None if nothing is."""
+        """The fault in a sentence; None without one."""
         if self.disagrees:
             return (
                 f"one place of the mesh differs by {self.own_lights:.0%} between views whatever their light, so "
@@ -142,7 +143,7 @@ def light_motion(mesh: ChartMesh, views: list[LitView]) -> LightMotion | None:
 
 
 def _evenly_exposed(values: NDArray[np.float64], seen: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Radiance (V, N, 3) over each view's exposure, as bright places tell it."""
+    """Radiance (V, N, 3) over each view's exposure, which bright places estimate."""
     total = values.sum(2)
     exposure = np.ones(len(values))
     for _ in range(_ROUNDS):
@@ -157,13 +158,11 @@ def _evenly_exposed(values: NDArray[np.float64], seen: NDArray[np.bool_]) -> NDA
 def _places(mesh: ChartMesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Centroids (N, 3) of triangles, spread by area, and their unit normals (N, 3)."""
     corners = mesh.vertices[mesh.triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = twice_areas(mesh.vertices, mesh.triangles)
     steps = (np.arange(_PLACES) + 0.5) / _PLACES * area.sum()
     chosen = np.unique(np.searchsorted(np.cumsum(area), steps).clip(0, len(area) - 1))
     normals = smooth_normals(mesh.vertices, mesh.triangles) if mesh.normals is None else mesh.normals
-    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True).clip(1e-12)
-    normals = normals[mesh.triangles[chosen]].mean(1)
-    return corners[chosen].mean(1), normals / np.linalg.norm(normals, axis=1, keepdims=True).clip(1e-12)
+    return corners[chosen].mean(1), unit(unit(normals)[mesh.triangles[chosen]].mean(1))
 
 
 def _look(

@@ -15,7 +15,7 @@ _UP = {1: (0, 1), 2: (0, 1), 3: (0, -1), 4: (0, -1), 5: (-1, 0), 6: (-1, 0), 7: 
 """The direction (x to the right, y up) in the stored picture that points up in the picture as shown."""
 
 _INVERSE = {6: 8, 8: 6}
-"""Of the orientations that are not their own inverse."""
+"""The inverses of the orientations that are not their own."""
 
 _CODES = {3: "H", 4: "I"}
 """`struct` codes of TIFF's unsigned integers of 16 and 32 bits."""
@@ -45,8 +45,8 @@ def as_stored(data: bytes) -> tuple[bytes, int | None]:
     """A file's bytes, of which every library decodes the pixels as they are stored, and the orientation that a
     TIFF file states (None of other files, and where it states none).
 
-    OpenCV and Pillow turn TIFF files by their tag, OpenCV even if it is told not to, and leave other files
-    alone. The tag of the copy says 1.
+    OpenCV and Pillow turn TIFF files by their tag, OpenCV even against its flag, and leave other files
+    alone. The tag of the copy is 1.
     """
     place = _tiff_tag(data)
     if place is None:

@@ -1,4 +1,4 @@
-"""Label pictures of face parsers: what their ids stand for, and what ours are."""
+"""Label pictures of face parsers: the meaning of their ids, and our ids."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from .orientation import inverse, oriented, shown_up
 from .parser_labels import our_labels
 from .pictures import Floats, Photograph, Plane, orientation_and_size, read_photograph, read_plane
 from .pinhole import Pinhole
-from .placement import ShownUps
+from .placement import UpDirections
 from .source import FieldOfView, Lens, Matrix, Source, SourceView
 
 _ASPECT = 0.01
@@ -28,7 +28,7 @@ Bytes = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
-class Taken:
+class ImportedView:
     """A view with its pictures, all of the camera's size: radiance [H, W, 3], mask and labels [H, W] or None."""
 
     name: str
@@ -44,7 +44,7 @@ class Taken:
         assert self.mask is not None
         return Evidence(self.camera, self.mask > 0, self.lens)
 
-    def undistorted(self) -> Taken:
+    def undistorted(self) -> ImportedView:
         """The view as a pinhole would have taken it."""
         if self.lens.straight:
             return self
@@ -61,7 +61,7 @@ class Taken:
             labels=None if self.labels is None else straight(self.labels),
         )
 
-    def oriented(self, orientation: int, *, inverted: bool) -> Taken:
+    def oriented(self, orientation: int, *, inverted: bool) -> ImportedView:
         """The view with its pictures turned or mirrored, and its mask inside out."""
         mask = None if self.mask is None else oriented(self.mask, orientation)
         return replace(
@@ -71,7 +71,7 @@ class Taken:
             labels=None if self.labels is None else oriented(self.labels, orientation),
         )
 
-    def smaller(self, every: int) -> Taken:
+    def smaller(self, every: int) -> ImportedView:
         """The view with pixels of ``every`` x ``every`` of the camera's; a last part row or column is dropped."""
         if every == 1:
             return self
@@ -95,7 +95,7 @@ class Taken:
 
 @dataclass(frozen=True)
 class Reading:
-    """How pictures are to be read: their curve, pictures of one bracket, the exposure that all are brought to,
+    """How to read pictures: their curve, pictures of one bracket, the exposure that all are scaled to,
     whether masks are the photographs' alpha or the mesh's silhouette whatever there is, and the names of the ids
     of label pictures."""
 
@@ -107,7 +107,7 @@ class Reading:
     names: dict[int, str]
 
 
-def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) -> Taken:
+def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) -> ImportedView:
     """Reads a view. Raises `CaptureError` or `PictureError`; what is assumed is added to ``notes``."""
     if reading.brackets > 1:
         radiance, photograph = merged(bracket(view.picture, reading.brackets), reading.curve)
@@ -121,8 +121,8 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
             )
         # A merged bracket is radiance over exposure already.
         radiance = radiance * np.float32(reading.reference / (1.0 if reading.brackets > 1 else photograph.exposure))
-    if photograph.doubt is not None:
-        notes.add(f"{photograph.doubt}: Rec.709 primaries are assumed")
+    if photograph.colour_warning is not None:
+        notes.add(f"{photograph.colour_warning}: Rec.709 primaries are assumed")
     height, width = photograph.radiance.shape[:2]
     applied = _applied(source, view, photograph.orientation, width, height)
     orientation = photograph.orientation if applied else 1
@@ -150,7 +150,7 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
             )
         return values
 
-    return Taken(
+    return ImportedView(
         name=view.name,
         camera=camera,
         lens=view.lens,
@@ -161,12 +161,12 @@ def take(source: Source, view: SourceView, reading: Reading, notes: set[str]) ->
     )
 
 
-def shown_ups(source: Source, cameras: list[Matrix], *, turned: bool) -> ShownUps:
+def up_directions(source: Source, cameras: list[Matrix], *, turned: bool) -> UpDirections:
     """Up in the world of each photograph as EXIF has it shown; of its ``cameras`` (camera to world) if photographs
     were ``turned`` by another rule than EXIF's. Raises `PictureError`."""
     axes = [(0, 1)] * len(cameras) if turned else [_shown_axis(source, view) for view in source.views]
     directions = [camera[:3, :2] @ np.array(axis, float) for camera, axis in zip(cameras, axes)]
-    return ShownUps(np.array(directions), sum(axis != (0, 1) for axis in axes))
+    return UpDirections(np.array(directions), sum(axis != (0, 1) for axis in axes))
 
 
 def _shown_axis(source: Source, view: SourceView) -> tuple[int, int]:
@@ -186,12 +186,12 @@ def _camera(view: SourceView, width: int, height: int, notes: set[str]) -> Pinho
     along, across = width / stated[0], height / stated[1]
     if abs(along / across - 1) > _ASPECT:
         raise CaptureError(
-            f"{view.picture}: is {width} x {height}, but its camera says {stated[0]} x {stated[1]}; "
+            f"{view.picture}: is {width} x {height}, but its camera states {stated[0]} x {stated[1]}; "
             "name the pictures that the cameras were fitted to"
         )
     if (width, height) != stated:
         notes.add(
-            f"pictures are {along:.6g} times as large as their cameras say: focal lengths and principal points are scaled"
+            f"pictures are {along:.6g} times as large as their cameras state: focal lengths and principal points are scaled"
         )
     focal = view.focal.focal(*stated) if isinstance(view.focal, FieldOfView) else view.focal
     centre = view.centre or (stated[0] / 2, stated[1] / 2)

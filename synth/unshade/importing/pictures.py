@@ -17,6 +17,7 @@ from PIL import Image, ImageCms, UnidentifiedImageError
 
 from .. import _native
 from ..errors import PictureError
+from ..srgb import decoded
 from .colour_space import ADOBE_RGB, ADOBE_TO_REC709, exif_colour_space
 from .orientation import ORIENTATION, as_stored
 
@@ -61,7 +62,7 @@ _NAMED_CURVES = (
     ("romm", "gamma=1.8"),
     ("709", "rec709"),
 )
-"""Parts of an ICC profile's name, and the curve that each tells."""
+"""Parts of an ICC profile's name, and the curve of each."""
 
 _SAME_PRIMARIES = 2e-3
 """How far a profile's primaries may be from Rec.709's and still be these: profiles are rounded."""
@@ -73,8 +74,8 @@ class Photograph:
 
     ``radiance`` [H, W, 3] float32, linear Rec.709; ``alpha`` [H, W] 0 to 1. ``profile`` is the name of its colour
     space, None where neither a profile nor EXIF states it. ``exposure`` is what the camera let through,
-    time x ISO / f-number², where the file says it; ``codes`` are the 8-bit values [H, W, 3] (R, G, B) where that
-    is what it holds. ``doubt`` is what EXIF leaves open about its colours, in words.
+    time x ISO / f-number², where the file states it; ``codes`` are the 8-bit values [H, W, 3] (R, G, B) where that
+    is what it holds. ``colour_warning`` is what EXIF leaves open about its colours, in words.
     """
 
     radiance: Floats
@@ -84,7 +85,7 @@ class Photograph:
     profile: str | None
     exposure: float | None
     codes: NDArray[np.uint8] | None
-    doubt: str | None = None
+    colour_warning: str | None = None
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,7 @@ def read_photograph(path: Path, curve: str = "auto") -> Photograph:
         profile=name,
         exposure=header.exposure,
         codes=colours if codes.dtype == np.uint8 else None,
-        doubt=grounds if space is None and grounds else None,
+        colour_warning=grounds if space is None and grounds else None,
     )
 
 
@@ -177,7 +178,7 @@ def decode(values: Floats, curve: str) -> Floats:
     if curve == "linear":
         return values
     if curve == "srgb":
-        return np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4).astype(np.float32)
+        return decoded(values).astype(np.float32)
     if curve == "rec709":
         return np.where(values < 0.081, values / 4.5, ((values + 0.099) / 1.099) ** (1 / 0.45)).astype(np.float32)
     return (values.clip(0) ** float(curve.partition("=")[2])).astype(np.float32)
@@ -271,7 +272,7 @@ def _exposure(tags: dict[int, Any]) -> float | None:
     try:
         iso = tags.get(_ISO, 100)
         iso = iso[0] if isinstance(iso, tuple) else iso
-        # A lens without electronics says an f-number of 0.
+        # A lens without electronics states an f-number of 0.
         stop = float(Fraction(tags.get(_F_NUMBER, 0)))
         value = float(Fraction(tags[_EXPOSURE_TIME])) * float(iso) / (stop * stop or 1.0)
     except (KeyError, ValueError, TypeError, ZeroDivisionError, OverflowError):

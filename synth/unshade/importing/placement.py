@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import CaptureError
+from ..vectors import unit
 from .source import Matrix
 
 UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "in": 0.0254}
@@ -54,21 +55,21 @@ _STEEP = 0.2
 
 @dataclass(frozen=True)
 class Placement:
-    """The similarity (4, 4) of cameras and mesh, and what it does in words (none if it does nothing).
+    """The similarity (4, 4) of cameras and mesh, described in words (none for the identity).
 
-    ``upright`` is the phrase of the import's last line that says by what the head is upright, ``front`` says what
-    told its front; ``doubts`` are sentences on what may be wrong.
+    ``upright`` and ``front`` are phrases for the evidence of up and front; ``warnings`` are sentences on possible
+    faults.
     """
 
     matrix: Matrix
     words: tuple[str, ...]
     upright: str
     front: str
-    doubts: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
-class ShownUps:
+class UpDirections:
     """The direction (N, 3) that points up in each photograph as it is shown, and of how many EXIF turns it."""
 
     directions: NDArray[np.float64]
@@ -81,7 +82,7 @@ _ALL_ROUND = "cameras surround the head: the azimuth is the source's"
 def place(
     vertices: NDArray[np.float64],
     cameras: list[Matrix],
-    shown: ShownUps,
+    shown: UpDirections,
     *,
     metres: float | None,
     how: str,
@@ -113,26 +114,26 @@ def place(
             raise CaptureError(f"front turns the head and place {KEPT_PLACE} leaves it; state one of them")
         return Placement(matrix, tuple(words), "head kept as the source has it", "kept")
     middle = (low + high) / 2
-    up, upright, doubts = _up(cameras, shown, source_may_stand=how == "auto")
-    front, told = _front(np.array([camera[:3, 3] - middle for camera in cameras]), up, facing)
+    up, upright, warnings = _up(cameras, shown, source_may_stand=how == "auto")
+    front, evidence = _front(np.array([camera[:3, 3] - middle for camera in cameras]), up, facing)
     if front is None:
-        doubts.append("the cameras surround the head, so its azimuth is kept; name a frontal view (front)")
+        warnings.append("the cameras surround the head, so its azimuth is kept; name a frontal view (front)")
     turn = np.eye(3)
     stands = up[1] >= _UPRIGHT and (front is None or front[2] >= _FACING)
     if how != "auto" or facing is not None or not stands:
         turn = _shortest_turn(up) if front is None else np.stack([np.cross(up, front), up, front])
-        words.append(f"turned: +Y is up {upright}, +Z is the front, {told}")
+        words.append(f"turned: +Y is up {upright}, +Z is the front, {evidence}")
     if not np.array_equal(turn, np.eye(3)) or float(np.linalg.norm(middle)) * scale > _OFF:
         matrix[:3, :3] = turn * scale
         matrix[:3, 3] = -turn @ middle * scale
         words.append("moved: the mesh's middle is the origin")
-    return Placement(matrix, tuple(words), f"head upright {upright}", told, tuple(doubts))
+    return Placement(matrix, tuple(words), f"head upright {upright}", evidence, tuple(warnings))
 
 
 def _up(
-    cameras: list[Matrix], shown: ShownUps, *, source_may_stand: bool
+    cameras: list[Matrix], shown: UpDirections, *, source_may_stand: bool
 ) -> tuple[NDArray[np.float64], str, list[str]]:
-    """The unit vector that is up, what told it, and doubts about it."""
+    """The unit vector that is up, its evidence in words, and warnings."""
     sides, ups = (np.array([camera[:3, axis] for camera in cameras]).mean(0) for axis in (0, 1))
     seen = shown.directions.mean(0)
     # Where EXIF turns some photographs of many, tags that were kept when pixels were turned spread the ups.
@@ -145,13 +146,13 @@ def _up(
         for side, lie in ((sides, "on their sides"), (-sides, "on their sides"), (-ups, "upside down")):
             if np.linalg.norm(side) >= _AGREE and _unit(side)[1] >= _SQUARE:
                 return np.array([0.0, 1.0, 0.0]), f"as in the source, where photographs lie {lie}", []
-    doubts: list[str] = []
+    warnings: list[str] = []
     if np.linalg.norm(sides) > np.linalg.norm(ups) + _LYING:
-        doubts.append(
+        warnings.append(
             "the photographs seem to be rotated by 90 degrees, and EXIF does not state the direction; if the head does so too, turn mesh "
             "and cameras upright and keep their place (place keep)"
         )
-    return _agreed(ups), upright, doubts
+    return _agreed(ups), upright, warnings
 
 
 def _agreed(mean: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -166,11 +167,11 @@ def _agreed(mean: NDArray[np.float64]) -> NDArray[np.float64]:
 def _front(
     away: NDArray[np.float64], up: NDArray[np.float64], facing: tuple[str, int] | None
 ) -> tuple[NDArray[np.float64] | None, str]:
-    """The horizontal unit vector to the front, and what told it; None where nothing tells it.
+    """The horizontal unit vector to the front, and its evidence in words; None without evidence.
 
     ``away`` (N, 3) are the cameras' positions from the mesh's middle.
     """
-    away = away / np.linalg.norm(away, axis=1, keepdims=True).clip(1e-12)
+    away = unit(away)
     level = away - np.outer(away @ up, up)
     if facing is not None:
         name, number = facing
@@ -180,7 +181,7 @@ def _front(
     level = level[np.linalg.norm(level, axis=1) >= _STEEP]
     if not len(level):
         return None, _ALL_ROUND
-    level /= np.linalg.norm(level, axis=1, keepdims=True)
+    level = unit(level)
     angles = np.sort(np.arctan2(np.cross(level[0], level) @ up, level @ level[0]))
     free = np.diff(angles, append=angles[0] + 2 * np.pi).max()
     mean = level.mean(0)

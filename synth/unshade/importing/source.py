@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from ..errors import CaptureError
 
@@ -40,7 +41,7 @@ class Lens:
 
     @property
     def kept(self) -> bool:
-        """Whether ``transforms.json`` of a capture can say it: no more than k1, k2, p1, p2."""
+        """Whether ``transforms.json`` of a capture can state it: no more than k1, k2, p1, p2."""
         return not self.fisheye and not any(self.terms.get(name) for name in BROWN[4:])
 
     def coefficients(self) -> NDArray[np.float64]:
@@ -70,7 +71,7 @@ class SourceView:
 
     ``focal`` and ``centre`` are in pixels, the top left corner of the picture is (0, 0) and pixel
     centres lie at +.5; ``camera_to_world`` has OpenGL axes and is rigid. ``width`` and ``height`` are
-    None where the file does not say them; then they are the picture's. ``stated`` is what the file calls
+    None where the file does not state them; then they are the picture's. ``stated`` is what the file calls
     the camera, for messages.
     """
 
@@ -93,10 +94,10 @@ class Source:
 
     ``origin`` is the file that the cameras came from, ``withheld`` the names that it sets aside.
     ``metres`` is the length of its unit, if the format fixes it. ``objects`` names the mesh's objects
-    that are the face; none means all. ``label_names`` says what the ids of its label pictures are.
-    ``exif_applied`` says whether the program counts pixels after a photograph's EXIF orientation was applied.
+    that are the face; none means all. ``label_names`` are the names of its label pictures by id.
+    ``exif_applied``: whether the program counts pixels after a photograph's EXIF orientation was applied.
     ``left_out`` lists the views that the file states and ``views`` lacks, each with the reason;
-    ``whole_folders`` says whether the program was given every photograph of a folder.
+    ``whole_folders``: whether the program was given every photograph of a folder.
     ``elsewhere`` is where the cameras would be if the mesh lies in the other of two coordinate systems
     that the file speaks of: a name, what it would mean, and the similarity of the cameras' world.
     """
@@ -176,15 +177,9 @@ def _stem(path: str) -> str:
 
 
 def quaternion_matrix(w: float, x: float, y: float, z: float) -> Matrix:
-    """The rotation of a quaternion of any length above 0."""
-    q = np.array([w, x, y, z], float)
-    with np.errstate(over="ignore"):
-        length = np.linalg.norm(q)
-    w, x, y, z = q / length if 0 < length < np.inf else (np.nan,) * 4
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    """The rotation (3, 3) of a quaternion of any length above 0, NaN for any other."""
+    try:
+        with np.errstate(over="ignore"):
+            return Rotation.from_quat([x, y, z, w]).as_matrix()
+    except ValueError:
+        return np.full((3, 3), np.nan)

@@ -1,17 +1,17 @@
-"""The facts that an import states of itself: its last line, and the same in ``import.json``."""
+"""The summary of an import: its last line, also in ``import.json``."""
 
 from __future__ import annotations
 
 from statistics import median
 
-from .photographs import Taken
+from .photographs import ImportedView
 from .source import Source
 from .view_names import listed
 
 
 def summary(views: int, stated: int, upright: str, masks: str, overlap: float | None) -> str:
-    """The last line of an import of ``views`` of the ``stated`` views of a file. ``upright`` says by what the head
-    is upright, ``masks`` where they are from; ``overlap`` is the median intersection over union of silhouettes and
+    """The last line of an import of ``views`` of the ``stated`` views of a file. ``upright`` is how the head
+    was found upright, ``masks`` where they are from; ``overlap`` is the median intersection over union of silhouettes and
     masks, None where the masks are the silhouettes themselves or have no outline.
     """
     if overlap is not None:
@@ -41,7 +41,7 @@ class ViewStatistics:
         self._exposures: list[float] = []
         self._unmasked: list[str] = []
 
-    def note(self, taken: Taken, overlap: float | None) -> None:
+    def note(self, taken: ImportedView, overlap: float | None) -> None:
         self.curves.add(taken.photograph.curve)
         self.profiles.add(taken.photograph.profile or "none: Rec.709 primaries are assumed")
         if taken.photograph.exposure is not None:
@@ -53,7 +53,7 @@ class ViewStatistics:
 
     @property
     def overlap(self) -> float | None:
-        """Median over the views whose masks say anything, None where none does."""
+        """Median over the views with informative masks, None without one."""
         return round(median(self.overlaps.values()), 4) if self.overlaps else None
 
     def below(self, least: float) -> dict[str, float]:

@@ -35,7 +35,7 @@ _TRAIN, *_SET_ASIDE = _SPLIT = ("transforms_train.json", "transforms_val.json", 
 
 @dataclass(frozen=True)
 class _Frames:
-    """The frames of one file, the paths of their pictures, and the matrix that the file says was applied."""
+    """The frames of one file, the paths of their pictures, and the matrix that the file states as applied."""
 
     path: Path
     document: dict[str, Any]
@@ -129,7 +129,7 @@ def _document(path: Path) -> dict[str, Any]:
 
 
 def _undone(path: Path, document: Mapping[str, Any]) -> tuple[Matrix, Matrix | None]:
-    """Matrix from the cameras' world to the mesh's, and the matrix that the file says was applied."""
+    """Matrix from the cameras' world to the mesh's, and the matrix that the file states as applied."""
     stated = document.get("applied_transform")
     scale = document.get("applied_scale", 1.0)
     if stated is None and scale == 1.0:

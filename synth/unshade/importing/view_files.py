@@ -15,13 +15,13 @@ from .source import Source, SourceView
 from .view_names import listed, short_names, tails, without, without_ending
 
 _ENDINGS = (".png", ".tif", ".tiff", ".jpg", ".jpeg")
-"""Of masks and label pictures."""
+"""Endings of masks and label pictures."""
 
 _SAME_POSE = 0.02
 """By how much two cameras of one photograph may differ: radians, and shares of their distance from the others' middle."""
 
 _SAMPLE = 1 << 16
-"""Bytes by which files of one size are told apart before they are compared."""
+"""Bytes that distinguish files of one size before they are compared."""
 
 Warn = Callable[[str], None]
 

@@ -10,7 +10,7 @@ from ..errors import CaptureError
 from .source import Source, SourceView
 
 _DEPTH = 6
-"""Parts of a photograph's path that may tell it from others."""
+"""Parts of a photograph's path that may distinguish it from others."""
 
 _NAMED = 8
 """Views that a message names."""

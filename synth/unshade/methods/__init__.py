@@ -1,6 +1,6 @@
 """Competitors: each a method in a file of its own, run from a suite by its name.
 
-A method's class says what it is given, and no ranking mixes them: *passive* gets the capture that every solver
+A method's class is what it gets, and no ranking mixes classes: *passive* gets the capture that every solver
 gets; *controlled* gets photographs of the same face, from the same places, in light of its own choice.
 """
 
@@ -21,7 +21,7 @@ CONTROLLED = {"binary-patterns": "binary_patterns", "flash-only": "flash_only", 
 
 
 def method(name: str, settings: dict[str, Any]) -> Callable[..., Any]:
-    """The method's ``recover``. Raises `SolveError` for settings that it has not."""
+    """The method's ``recover``. Raises `SolveError` for unknown settings."""
     module = import_module(f".{(PASSIVE | CONTROLLED)[name]}", __package__)
     recover: Callable[..., Any] = module.recover
     known = [key for key, value in signature(recover).parameters.items() if value.kind is value.KEYWORD_ONLY]

@@ -3,7 +3,7 @@ Illumination"; on a desk with screens: Lattas et al. 2022, "Practical and Scalab
 Capture"), without polarisers.
 
 Controlled: every training view is photographed in both halves of the sphere of light along three axes. As described:
-the layers are told apart by colour within a pair of complementary pictures, since highlights have the colour of the
+the layers are separated by colour within a pair of complementary pictures, since highlights have the colour of the
 light and are mostly in one of them; normals are the differences of pairs over their sums; nothing compensates for what
 the face shades itself from. Our own, where the descriptions are silent or ask for more: a whole sphere of screens
 instead of eight tablets, which is kinder; which part of a highlight falls into either half is that of rough skin on the
@@ -19,6 +19,7 @@ from unshade import Capture, Maps
 from ..render.skin_bsdf import F0
 from ..scene_file import Light
 from ..scene_file.light import Pattern
+from ..vectors import unit
 from .laboratory import Laboratory
 from .skin_lobes import everywhere
 from .texel_samples import sample_texels
@@ -54,7 +55,7 @@ def recover(capture: Capture, laboratory: Laboratory, *, texture_size: int = 512
         highlight = _highlight(plus, minus, (1 + split) / 2, usual)
         diffuse = (full - highlight[..., None]).clip(1e-6)
         along = ((plus - minus).mean(-1) - highlight * split) / diffuse.mean(-1)
-        normal = _unit(texels.mean(np.moveaxis(along, 0, -1)))
+        normal = unit(texels.mean(np.moveaxis(along, 0, -1)))
 
     reflectance = texels.mean((F0 * highlight / everywhere(cosine))[..., None]).clip(0, 0.05)
     normals = texels.normals_filled(normal)
@@ -79,7 +80,3 @@ def _highlight(plus: np.ndarray, minus: np.ndarray, part: np.ndarray, usual: np.
     both = (shown * by_highlight).sum((0, -1)) + weight * usual
     found = both / ((by_highlight**2).sum((0, -1)) + weight + 1e-12)
     return found.clip(0, (plus + minus).mean(0).min(-1))
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)

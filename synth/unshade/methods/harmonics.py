@@ -10,6 +10,14 @@ _COSINE_LOBE = {0: 1.0, 1: 2 / 3, 2: 1 / 4, 3: 0.0, 4: -1 / 24}
 Irradiance Environment Maps")."""
 
 
+def sky_directions(rows: int) -> np.ndarray:
+    """Unit vectors (rows, 2 rows, 3) to the cells of a lat-long environment, whose first row is up and centre +Z."""
+    theta = np.pi * (np.arange(rows) + 0.5) / rows
+    phi = np.pi * (np.arange(2 * rows) + 0.5) / rows
+    t, p = np.meshgrid(theta, phi, indexing="ij")
+    return np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1)
+
+
 def harmonics(directions: np.ndarray, order: int) -> np.ndarray:
     """(..., (order + 1)^2) of unit vectors (..., 3), orthonormal, degree by degree."""
     x, y, z = np.moveaxis(directions, -1, 0)

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..heads import build_head
-from ..render.camera import Camera
 from ..render.layers import Layers
 from ..render.lights.point import Ball
 from ..render.meter import Meter

@@ -16,6 +16,8 @@ from ..render.lights.conventions import LUMINANCE
 from ..render.skin_bsdf import F0
 from ..scene_file import Light
 from ..scene_file.light import Gradient
+from ..vectors import unit
+from .harmonics import sky_directions
 from .laboratory import Laboratory
 from .skin_lobes import everywhere, normal_between
 from .texel_samples import TexelSamples, sample_texels
@@ -70,25 +72,22 @@ def _highlights(texels: TexelSamples, layers: dict[str, np.ndarray]) -> tuple[np
     """Specular albedo (M,) and normals (M, 3) of the specular layers (V, M, 3) in each light."""
     grey = {name: colours.mean(-1) for name, colours in layers.items()}
     whole = np.maximum(grey["full"], 1e-9)
-    mean = _unit(np.stack([2 * grey[axis] / whole - 1 for axis in _AXES], -1))
+    mean = unit(np.stack([2 * grey[axis] / whole - 1 for axis in _AXES], -1))
     normals = normal_between(texels.to_eye, mean)
     # Slanted skin shows less of it, and noisier.
     weights = texels.weights**3 * (grey["full"] > 1e-5)
-    # A view whose highlight is cut off by the face itself points elsewhere: the mesh tells.
+    # A highlight that the face itself cuts off points elsewhere, which the mesh shows.
     weights = weights * ((normals * texels.normals).sum(-1) > 0.7)
     normal = texels.mean(normals, weights)
     normal = np.where(weights.sum(0)[:, None] > 0, normal, texels.normals)
-    cosine = (texels.to_eye * _unit(normal)).sum(-1)
+    cosine = (texels.to_eye * unit(normal)).sum(-1)
     reflectance = F0 * grey["full"] / np.maximum(everywhere(cosine), 1e-9)
     return texels.mean(reflectance[..., None])[:, 0].clip(0, 0.05), normal
 
 
 def _mesh_shading(capture: Capture, texels: TexelSamples, bounce_albedo) -> tuple[np.ndarray, np.ndarray]:
     """The mesh's diffuse shading under the full sphere (M, 3), and what shares of it the gradients give (M, 3)."""
-    theta = np.pi * (np.arange(_ROWS) + 0.5) / _ROWS
-    phi = np.pi * (np.arange(2 * _ROWS) + 0.5) / _ROWS
-    t, p = np.meshgrid(theta, phi, indexing="ij")
-    towards = np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1)
+    towards = sky_directions(_ROWS)
 
     def shading(sky: np.ndarray, albedo: float) -> np.ndarray:
         picture = capture.shading(sky, texture_size=_SHADOW_SIZE, bounces=2, bounce_albedo=float(albedo))
@@ -99,7 +98,3 @@ def _mesh_shading(capture: Capture, texels: TexelSamples, bounce_albedo) -> tupl
     gradients = shading((1 + towards) / 2, float(np.mean(bounce_albedo)))
     whole = np.mean([even[albedo] for albedo in bounce_albedo], 0)
     return np.stack([even[albedo][:, 0] for albedo in bounce_albedo], -1), gradients / np.maximum(whole, 1e-6)
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)

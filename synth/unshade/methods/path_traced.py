@@ -15,15 +15,15 @@ import numpy as np
 
 from unshade import Capture, Maps
 
+from ..camera.camera import Camera
 from ..errors import SolveError
-from ..render.camera import Camera
 from ..render.lights.conventions import LUMINANCE, directions, solid_angles
 from ..render.scene import ChartMaps, HeadScene
 from .regions import regions
 from .texel_samples import TexelSamples, sample_texels
 
 _SPECULAR = 0.028
-"""Skin of index 1.4, which pictures tell little of."""
+"""Skin of index 1.4, which pictures constrain little."""
 
 _DEPTH = 3
 """Path segments: direct light and one bounce."""

@@ -1,4 +1,4 @@
-"""Regions of like skin, as the labels of the views say."""
+"""Regions of similar skin, from the labels of the views."""
 
 from __future__ import annotations
 

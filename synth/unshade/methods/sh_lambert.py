@@ -11,7 +11,7 @@ import numpy as np
 
 from unshade import Capture, Maps
 
-from .harmonics import harmonics, irradiance
+from .harmonics import harmonics, irradiance, sky_directions
 from .regions import regions
 from .texel_samples import TexelSamples, sample_texels
 
@@ -37,7 +37,7 @@ def recover(
 
     Light and one colour for each label (or for all) are fitted in turn to the mean colours of the texels; then each
     texel's colour is divided by its shading. The mean shading is taken for grey, and the largest unshadowed
-    irradiance of the front for pi, as all lights here have. What highlights add is reweighted away in the fit, and
+    irradiance of the front for pi, as all lights here have. The fit reweights highlights away, but they
     stays in the albedo.
     """
     if order not in (2, 3, 4):
@@ -65,14 +65,14 @@ def recover(
 def _light(basis: np.ndarray, colour: np.ndarray, region: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Coefficients (K, 3) of a light, and with them a colour for each region, that give texels their colours.
 
-    L1 by reweighting: highlights and shadows that the model has not are no reason to bend the light.
+    An L1 fit by reweighting, because highlights and shadows outside the model must not bend the light.
     """
     albedo = np.ones((region.max() + 1, 3)) * np.average(colour, axis=0, weights=weight)
     light = np.zeros((basis.shape[1], 3))
-    doubt = np.ones_like(colour)
+    robust_weight = np.ones_like(colour)
     for _ in range(_ROUNDS):
         for c in range(3):
-            w = weight * doubt[:, c]
+            w = weight * robust_weight[:, c]
             a = basis * albedo[region, c, None]
             damping = 1e-6 * np.eye(a.shape[1]) * (w @ (a * a)).max()
             light[:, c] = np.linalg.solve((a * w[:, None]).T @ a + damping, (a * w[:, None]).T @ colour[:, c])
@@ -80,16 +80,13 @@ def _light(basis: np.ndarray, colour: np.ndarray, region: np.ndarray, weight: np
             top = np.bincount(region, w * shading * colour[:, c], len(albedo))
             albedo[:, c] = top / np.maximum(np.bincount(region, w * shading**2, len(albedo)), 1e-9)
             residual = np.abs(albedo[region, c] * shading - colour[:, c])
-            doubt[:, c] = 1 / np.maximum(residual, 0.1 * np.median(residual))
+            robust_weight[:, c] = 1 / np.maximum(residual, 0.1 * np.median(residual))
     return light
 
 
 def _sky(order: int) -> np.ndarray:
     """(16, 32, K): the radiance of each harmonic in the directions of a lat-long environment."""
-    theta = np.pi * (np.arange(_ROWS) + 0.5) / _ROWS
-    phi = np.pi * (np.arange(2 * _ROWS) + 0.5) / _ROWS
-    t, p = np.meshgrid(theta, phi, indexing="ij")
-    return harmonics(np.stack([np.sin(t) * np.sin(p), np.cos(t), -np.sin(t) * np.cos(p)], -1), order)
+    return harmonics(sky_directions(_ROWS), order)
 
 
 def _shadowed(capture: Capture, order: int, samples: TexelSamples) -> np.ndarray:

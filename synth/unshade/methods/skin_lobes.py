@@ -6,7 +6,9 @@ import functools
 
 import numpy as np
 
-from ..render.skin_bsdf import F0, LOBE_ALPHAS, LOBE_WEIGHTS
+from ..render.ggx import density, masking, schlick
+from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
+from ..vectors import unit
 
 _ANGLES = np.radians(np.linspace(0, 84, 43))
 _STEPS = (400, 800)
@@ -15,17 +17,13 @@ _STEPS = (400, 800)
 
 def reflected(view: np.ndarray, light: np.ndarray) -> np.ndarray:
     """Highlights' BRDF times cosine over rho_s / F0, for unit vectors (..., 3) in the frame of the normal."""
-    half = view + light
-    half = half / np.maximum(np.linalg.norm(half, axis=-1, keepdims=True), 1e-9)
+    half = unit(view + light)
     v, l, h = np.maximum(view[..., 2], 1e-4), np.maximum(light[..., 2], 1e-4), half[..., 2]
-    total = np.zeros(np.broadcast_shapes(v.shape, l.shape))
-    for alpha, weight in zip(LOBE_ALPHAS, LOBE_WEIGHTS):
-        a2 = alpha * alpha
-        density = a2 / (np.pi * (h * h * (a2 - 1) + 1) ** 2)
-        masking = [2 / (1 + np.sqrt(1 + a2 * (1 / (c * c) - 1))) for c in (v, l)]
-        total = total + weight * density * masking[0] * masking[1] / (4 * v)
-    facing = np.clip((view * half).sum(-1), 0, 1)
-    return np.where(light[..., 2] > 0, total * (F0 + (1 - F0) * (1 - facing) ** 5), 0)
+    total = sum(
+        weight * density(h**2, alpha**2) * masking(v, alpha) * masking(l, alpha) / (4 * v)
+        for alpha, weight in zip(LOBE_ALPHAS, LOBE_WEIGHTS)
+    )
+    return np.where(light[..., 2] > 0, total * schlick((view * half).sum(-1)), 0)
 
 
 @functools.cache
@@ -56,10 +54,9 @@ def everywhere(cosine: np.ndarray) -> np.ndarray:
 def normal_between(view: np.ndarray, mean: np.ndarray) -> np.ndarray:
     """The normal (..., 3) for which light that is seen from ``view`` comes from ``mean`` on average (unit vectors).
 
-    Of a mirror it would be half-way; rough highlights of slanted skin come from nearer to the normal.
+    A mirror's normal lies half-way; rough highlights of slanted skin come from nearer to the normal.
     """
     between = np.arccos(np.clip((view * mean).sum(-1), -1, 1))
     turn = np.interp(between, _tables()[1], _ANGLES)
-    across = mean - (view * mean).sum(-1, keepdims=True) * view
-    across /= np.maximum(np.linalg.norm(across, axis=-1, keepdims=True), 1e-9)
+    across = unit(mean - (view * mean).sum(-1, keepdims=True) * view)
     return np.cos(turn)[..., None] * view + np.sin(turn)[..., None] * across

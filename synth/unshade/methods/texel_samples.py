@@ -13,6 +13,7 @@ from unshade import Capture
 
 from ..errors import SolveError
 from ..face.texels import Texels, rasterise
+from ..vectors import unit
 
 _REACH = 0.003
 """Metres that a texel may lie behind what the pixels around its place show: more is hidden."""
@@ -66,9 +67,8 @@ class TexelSamples:
         """(N, N, 3) float32, unit: ``normals`` (M, 3) where a view sees the texel, elsewhere the mesh's, which is known
         all over the chart; texels beside it take the nearest one's."""
         known = self.normals if normals is None else np.where(self.seen[:, None], normals, self.normals)
-        known = known / np.maximum(np.linalg.norm(known, axis=1, keepdims=True), 1e-12)
         rows, columns = self.texels.nearest_inside()
-        return self.texels.image(known.astype(np.float32))[rows, columns]
+        return self.texels.image(unit(known).astype(np.float32))[rows, columns]
 
     def of_picture(self, picture: np.ndarray) -> np.ndarray:
         """(M, C) of a picture of the chart (n, n, C) of any size, bilinear; row 0 at v = 1."""
@@ -87,8 +87,7 @@ def sample_texels(capture: Capture, size: int, views: list[str] | None = None) -
     mesh = capture.mesh
     texels = rasterise(mesh["uvs"].astype(float), mesh["triangles"].astype(np.int64), size)
     points = texels.sample(mesh["vertices"]).astype(float)
-    normals = texels.sample(mesh["normals"]).astype(float)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals = unit(texels.sample(mesh["normals"]).astype(float))
     found = [_seen_by(capture, name, points, normals) for name in (views or capture.train)]
     to_eye, weights, pixels = (np.stack(parts) for parts in zip(*found))
     return TexelSamples(texels, points, normals, to_eye, weights, pixels)

@@ -10,13 +10,14 @@ import numpy as np
 from .. import _native
 from ..face import Chart, Face, Label, Maps, Part
 from ..face.chart import signed_areas
-from ..face.geometry import unit
 from ..face.normals import tangents
 from ..face.spec import FaceError
 from ..face.texels import Texels, rasterise
+from ..vectors import triangle_normals, unit
 from .map_files import linear, read_labels, read_normals, read_picture, resampled
-from .mesh_file import Piece, read_pieces
+from .mesh_file import read_pieces
 from .outward import oriented_outwards
+from .piece import Piece
 from .placement import axes, in_metres, origin, smooth_normals
 from .spec import SKIN_REFLECTANCE, HeadFiles, MeshWarning
 
@@ -24,7 +25,7 @@ _LARGEST_SPECULAR = 0.05
 
 
 def build_own_head(head: HeadFiles) -> Face:
-    """The face of one's own files; the same files give equal bytes.
+    """Builds the face from the files of your own head; the same files give equal bytes.
 
     Raises `FaceError` (or `PictureError`) for what cannot be rendered.
     """
@@ -124,8 +125,7 @@ def _check_outward(points: np.ndarray, triangles: np.ndarray, head: HeadFiles) -
 
 def _areas(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Unit normals (F,3) and areas (F,) of triangles."""
-    corner = points[triangles]
-    crossed = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    crossed = triangle_normals(points, triangles)
     return unit(crossed), 0.5 * np.linalg.norm(crossed, axis=1)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import base64
 import json
-import struct
 import warnings
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,14 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..face.spec import FaceError
+from ..files import glb
 from .gltf_accessor import Accessors, item
 from .gltf_node import local_transform
 from .gltf_skin import Skins
 from .gltf_uv import UvPlacement, uv_placement
+from .piece import Piece
 from .spec import MeshWarning
-
-_JSON_CHUNK, _BINARY_CHUNK = 0x4E4F534A, 0x004E4942
-"""Types of a GLB's chunks (glTF 2.0 specification, 4.4.3)."""
 
 _NO_GEOMETRY = (
     "KHR_mesh_quantization",
@@ -46,21 +44,8 @@ _MAX_VERTICES = 1 << 25
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
-class Surface(NamedTuple):
-    """Triangles of a primitive: the node's name, `vertices` (V,3), `triangles` (F,3), `uv` (V,2) v up, `normals` (V,3),
-    and its material in words as the one of the `parts`, which `part_of` (F,) are of."""
-
-    name: str
-    vertices: np.ndarray
-    triangles: np.ndarray
-    uv: np.ndarray | None
-    normals: np.ndarray | None
-    parts: list[str]
-    part_of: np.ndarray
-
-
-def read_gltf(path: Path) -> list[Surface]:
-    """All surfaces of a file; several of one name where a node's mesh has several primitives.
+def read_gltf(path: Path) -> list[Piece]:
+    """All objects of a file; several of one name where a node's mesh has several primitives.
 
     Raises `FaceError` for what is named there, and anything for files that are damaged.
     """
@@ -70,7 +55,7 @@ def read_gltf(path: Path) -> list[Surface]:
     _check_extensions(path, document)
     accessors = Accessors(document, _buffers(path, document, binary))
     skins = Skins(document, accessors)
-    surfaces, vertices = [], 0
+    pieces, vertices = [], 0
     for name, transform, node in _nodes(document):
         if "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
             raise FaceError(f"{path}: object {name!r} is drawn by EXT_mesh_gpu_instancing; export single objects")
@@ -95,8 +80,8 @@ def read_gltf(path: Path) -> list[Surface]:
                 if material
                 else f"object {json.dumps(name)}"
             )
-            surfaces.append(Surface(name, *shape, [words], np.zeros(len(shape.triangles), np.int64)))
-    return surfaces
+            pieces.append(Piece(name, *shape, [words], np.zeros(len(shape.triangles), np.int64)))
+    return pieces
 
 
 def _check_extensions(path: Path, document: dict[str, Any]) -> None:
@@ -116,19 +101,10 @@ def _check_extensions(path: Path, document: dict[str, Any]) -> None:
 
 def _binary(path: Path) -> tuple[Any, bytes | None]:
     """The document and the buffer of a GLB."""
-    data = path.read_bytes()
-    if data[:4] != b"glTF" or len(data) < 20 or struct.unpack_from("<I", data, 4)[0] != 2:
-        raise FaceError(f"{path}: is not binary glTF 2.0; export it again")
-    chunks, at = {}, 12
-    while at + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, at)
-        if at + 8 + length > len(data):
-            raise FaceError(f"{path}: ends within a chunk of {length} bytes; copy or export it again")
-        chunks.setdefault(kind, data[at + 8 : at + 8 + length])
-        at += 8 + length
-    if _JSON_CHUNK not in chunks:
-        raise FaceError(f"{path}: is not binary glTF 2.0; export it again")
-    return json.loads(chunks[_JSON_CHUNK]), chunks.get(_BINARY_CHUNK)
+    try:
+        return glb.unpacked(path.read_bytes())
+    except ValueError as error:
+        raise FaceError(f"{path}: {error}; copy or export it again") from error
 
 
 def _buffers(path: Path, document: dict[str, Any], binary: bytes | None) -> list[bytes | None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from .gltf_accessor import item
 
@@ -19,13 +20,8 @@ def local_transform(node: dict[str, Any]) -> np.ndarray:
         moved[:3, 3] = node["translation"]
         matrix = matrix @ moved
     if "rotation" in node:
-        x, y, z, w = np.array(node["rotation"], np.float64) / np.linalg.norm(node["rotation"])
         rotated = np.eye(4)
-        rotated[:3, :3] = [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
+        rotated[:3, :3] = Rotation.from_quat(node["rotation"]).as_matrix()
         matrix = matrix @ rotated
     if "scale" in node:
         matrix = matrix @ np.diag([*node["scale"], 1.0])

@@ -22,8 +22,8 @@ class Skins:
         self._worlds: Worlds | None = None
 
     def posed(self, path: Path, name: str, number: int, primitive: dict[str, Any], shape: _Shape) -> _Shape:
-        """A shape under its joints' transforms times their inverse bind matrices, weighed at every vertex; where the
-        node of the mesh stands has no part in it. Raises `FaceError` for vertices that no joint holds."""
+        """A shape under its joints' transforms times their inverse bind matrices, weighted at every vertex; the
+        place of the mesh's node does not matter. Raises `FaceError` for vertices that no joint holds."""
         matrices = self._joint_matrices(number)
         count = len(shape.vertices)
         blended, sums = np.zeros((count, 4, 4)), np.zeros(count)

@@ -6,7 +6,7 @@ import dataclasses
 import shutil
 from pathlib import Path
 
-from ..errors import StorageError
+from ..files.pictures import unwritten
 from .spec import HeadFiles
 
 
@@ -22,9 +22,7 @@ def keep(head: HeadFiles, folder: Path) -> None:
         for key, path in head.files().items():
             shutil.copyfile(path, folder / _name(key, path))
     except OSError as error:
-        raise StorageError(
-            f"{folder}: cannot be written: {error.strerror}; make room or choose another folder"
-        ) from error
+        raise unwritten(folder, error) from error
 
 
 def _name(key: str, path: str) -> str:

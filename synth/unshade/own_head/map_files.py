@@ -10,7 +10,8 @@ from PIL import Image
 
 from .. import _native
 from ..face.spec import FaceError
-from ..render.pictures import ROUGHNESS_CHANNELS, read_exr
+from ..files.pictures import ROUGHNESS_CHANNELS, read_exr
+from ..srgb import decoded
 
 _ORDERS = (tuple("RGB"), tuple("XYZ"), ROUGHNESS_CHANNELS)
 """Channels of an EXR with three values a texel."""
@@ -61,15 +62,13 @@ def linear(values: np.ndarray, space: str) -> np.ndarray:
     """Linear values of sRGB-coded ones (IEC 61966-2-1)."""
     if space == "linear":
         return values
-    return np.where(values <= 0.04045, values / 12.92, ((values.clip(0.04045) + 0.055) / 1.055) ** 2.4).astype(
-        np.float32
-    )
+    return decoded(values).astype(np.float32)
 
 
 def resampled(values: np.ndarray, nearest: Callable[[int], tuple[np.ndarray, np.ndarray]], size: int) -> np.ndarray:
     """A map [H, W, C] at ``size`` x ``size`` texels.
 
-    What lies outside the UV islands in the file is replaced by the nearest texel inside
+    Texels outside the UV islands in the file are replaced by the nearest texel inside
     before anything is averaged, so no background bleeds in over their rims. ``nearest``
     gives row and column of that texel for a square map of any side.
     """

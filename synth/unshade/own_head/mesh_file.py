@@ -9,33 +9,16 @@ import numpy as np
 
 from ..face.spec import FaceError
 from .gltf_file import read_gltf
-
-
-@dataclasses.dataclass(frozen=True)
-class Piece:
-    """One object of a file, in the file's units and axes.
-
-    `vertices` (V,3) f64, `triangles` (F,3) i64, `uv` (V,2) f64 (v up) and `normals` (V,3)
-    f64 where the file has them. Vertices are split where uvs or normals are. `parts` are its
-    materials (or the object) in words, `part_of` (F,) i64 which of them each triangle is of.
-    """
-
-    name: str
-    vertices: np.ndarray
-    triangles: np.ndarray
-    uv: np.ndarray | None
-    normals: np.ndarray | None
-    parts: list[str]
-    part_of: np.ndarray
+from .piece import Piece
 
 
 def read_pieces(path: Path) -> list[Piece]:
     """All objects of a mesh file in order of their names; quads and polygons become triangles.
 
-    Raises `FaceError` for files that are no mesh.
+    Raises `FaceError` for files without a mesh.
     """
     try:
-        pieces = _read_obj(path) if path.suffix.lower() == ".obj" else [Piece(*surface) for surface in read_gltf(path)]
+        pieces = _read_obj(path) if path.suffix.lower() == ".obj" else read_gltf(path)
     except FaceError:
         raise
     except Exception as error:  # whatever a broken file holds

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..face.geometry import vertex_normals
 from ..face.spec import FaceError
-from .mesh_file import Piece
+from ..vectors import vertex_normals
+from .piece import Piece
 from .spec import UNITS, HeadFiles
 
 NOSE_TO_ORIGIN = 0.11
@@ -46,7 +46,7 @@ def origin(points: np.ndarray, head: HeadFiles) -> np.ndarray:
 
 
 def middle(points: np.ndarray) -> np.ndarray:
-    """A point (3,) inside the head that the chart's points (V,3) are of, as in `origin`."""
+    """A point (3,) inside the head of the chart's points (V,3), as in `origin`."""
     low, high = points.min(axis=0), points.max(axis=0)
     return np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, high[2] - NOSE_TO_ORIGIN])
 

@@ -1,13 +1,12 @@
 """Renders a scene into a capture folder: pictures, masks, labels, mesh, and the truth.
 
-What solvers get (images, masks, labels, mesh, cameras) goes through the scene's image
+The inputs of solvers (images, masks, labels, mesh, cameras) go through the scene's image
 formation; everything under ``truth/`` is that of the perfect face and perfect pinholes.
 """
 
 from __future__ import annotations
 
 import importlib.metadata
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,23 +15,23 @@ import mitsuba as mi
 import numpy as np
 
 from .. import formation
+from ..camera.camera import Camera
 from ..captured_mesh import degrade, deviation
 from ..face import Chart, Face, FaceSpec, Label
 from ..face.ita import face_ita
+from ..files.folder import ResumableFolder, content_hash
+from ..files.obj_text import obj_text
+from ..files.pictures import ROUGHNESS_CHANNELS, read_gray, read_rgb, write_exr, write_gray, write_json, write_text
 from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..own_head import HeadFiles
 from ..own_head.keep import keep
 from ..scene_file import CapturedMesh, Light, Scene
-from .camera import Camera
-from .folder import ResumableFolder, content_hash
 from .layers import Layers
 from .llvm import Choice
-from .mesh_file import obj_text
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import ROUGHNESS_CHANNELS, read_gray, read_rgb, write_exr, write_gray, write_text
 from .probes import TexelVisibility, nearest_texels, view_through_centres
 from .rigs import cameras
 from .scene import ChartMaps
@@ -40,7 +39,7 @@ from .scene_text import scene_text, with_own_files
 from .shots import Shots
 
 _ENVIRONMENTS, _HEAD = Path("lights"), Path("head")
-"""Where a capture keeps its environment maps and the files of a head of one's own, seen from
+"""Where a capture keeps its environment maps and the files of your own head, seen from
 its ``truth/scene.toml``."""
 
 
@@ -99,7 +98,7 @@ class Capture:
         mesh = degrade(perfect, spec, seed_of("mesh", self.scene.render.seed))
         write_text(self.path / "mesh.obj", obj_text(mesh))
         if spec != CapturedMesh():
-            _write_json(self.truth / "captured_mesh.json", deviation(perfect, mesh))
+            write_json(self.truth / "captured_mesh.json", deviation(perfect, mesh))
         frames = [formation.stated_frame(camera, self.scene, mesh) for camera in self.cameras]
         document = {
             "camera_model": formation.camera_model(self.scene),
@@ -110,7 +109,7 @@ class Capture:
         }
         if not self.scene.labels.omit:
             document["label_names"] = {int(label): label.name.lower() for label in Label if label}
-        _write_json(self.path / "transforms.json", document)
+        write_json(self.path / "transforms.json", document)
 
     def _write_maps(self, face: Face) -> None:
         maps = face.maps
@@ -121,7 +120,7 @@ class Capture:
         write_exr(self.truth / "roughness.exr", dict(zip(ROUGHNESS_CHANNELS, np.moveaxis(maps.roughness, -1, 0))))
         write_gray(self.truth / "labels.png", np.where(maps.inside, maps.labels, 0).astype(np.uint8))
         if isinstance(face.spec, FaceSpec):
-            _write_json(
+            write_json(
                 self.truth / "skin_tone.json",
                 {"fitzpatrick": face.spec.fitzpatrick} | face_ita(maps, face.spec.chart).to_table(),
             )
@@ -191,10 +190,6 @@ class Capture:
         )
         write_gray(self.truth / "views.png", views.clip(0, 255).astype(np.uint8))
         write_gray(self.truth / "coverage.png", np.where(views > 0, 255, 0).astype(np.uint8))
-
-
-def _write_json(path: Path, document: dict) -> None:
-    write_text(path, json.dumps(document, indent=1) + "\n")
 
 
 def versions(choice: Choice) -> dict[str, str]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,12 +11,15 @@ import mitsuba as mi
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ..errors import SceneError, StorageError
+from ..camera.camera import Camera, look_at
+from ..errors import SceneError
 from ..face import FaceSpec, build_face
 from ..face.spec import FITZPATRICK, stream
+from ..files.pictures import replace_file
 from ..scene_file import Light
+from ..srgb import encoded
+from ..vectors import away
 from . import lights
-from .camera import Camera, look_at
 from .passes import render_layers, seed_of
 from .scene import ChartMaps, HeadScene
 
@@ -41,13 +42,13 @@ _BACKDROP = 0.10
 """Linear grey behind the heads."""
 
 _COARSE = 4
-"""Rays along each edge of a pixel that tell the head from the backdrop."""
+"""Rays along each edge of a pixel that separate the head from the backdrop."""
 
 _PAPER, _INK = 24, 215
 
 
 @dataclass(frozen=True)
-class Sitter:
+class SampledFace:
     """One face of a sheet: who, in which kind of light, and seen from where (degrees)."""
 
     spec: FaceSpec
@@ -61,7 +62,7 @@ class Sitter:
         return f"seed {spec.seed} · type {spec.fitzpatrick}", f"{spec.years:.0f} years · {self.light}"
 
 
-def sitters(count: int, seed: int, detail: str = "smooth") -> list[Sitter]:
+def sampled_faces(count: int, seed: int, detail: str = "smooth") -> list[SampledFace]:
     """The faces of a sheet: skin types take turns, ages are spread evenly from 20 to 70 years
     in an order of their own, lights take turns so that each meets every type; `detail` as of a `[face]`."""
     rng = stream(seed, "contact sheet")
@@ -77,7 +78,7 @@ def sitters(count: int, seed: int, detail: str = "smooth") -> list[Sitter]:
             detail=detail,
         )
         light = tuple(LIGHTS)[(i + i // len(FITZPATRICK)) % len(LIGHTS)]
-        chosen.append(Sitter(spec, light, rng.uniform(-22, 22), rng.uniform(-4, 8)))
+        chosen.append(SampledFace(spec, light, rng.uniform(-22, 22), rng.uniform(-4, 8)))
     return chosen
 
 
@@ -96,22 +97,22 @@ def contact_sheet(
     if count < 1:
         raise SceneError(f"a contact sheet of {count} faces has nothing to show; ask for 1 or more")
     pictures, captions = [], []
-    for done, sitter in enumerate(sitters(count, seed, detail)):
+    for done, sitter in enumerate(sampled_faces(count, seed, detail)):
         progress(done, count, f"face {sitter.spec.name}")
         pictures.append(_portrait(sitter))
         captions.append(sitter.caption)
-    _save(_page(pictures, captions), out)
+    page = _page(pictures, captions)
+    replace_file(out, lambda partial: page.save(partial, format="PNG", optimize=True))
     progress(count, count, "contact sheet")
 
 
-def _portrait(sitter: Sitter) -> np.ndarray:
+def _portrait(sitter: SampledFace) -> np.ndarray:
     """8-bit sRGB picture (SIDE, SIDE, 3)."""
     face = build_face(sitter.spec)
     head = HeadScene(face.surface, face.parts, ChartMaps.truth(face))
     light = lights.exposed(Light(sitter.light, sitter.light), face.chart.vertices, face.chart.normals)
-    azimuth, elevation = np.radians([sitter.azimuth, sitter.elevation])
-    away = [math.cos(elevation) * math.sin(azimuth), math.sin(elevation), math.cos(elevation) * math.cos(azimuth)]
-    matrix = look_at(_AIM + _DISTANCE * np.array(away), _AIM)
+    towards = away(*np.radians([sitter.azimuth, sitter.elevation]))
+    matrix = look_at(_AIM + _DISTANCE * towards, _AIM)
     focal = SIDE / 2 * _DISTANCE / _HALF_HEIGHT
     camera = Camera("portrait", SIDE, SIDE, focal, matrix, True)
     seed = seed_of("contact sheet", sitter.spec.seed)
@@ -135,7 +136,7 @@ def srgb(linear: np.ndarray) -> np.ndarray:
     """8-bit sRGB (IEC 61966-2-1) of linear Rec.709; highlights roll off from 0.7 on instead of clipping."""
     x = np.maximum(linear, 0)
     x = np.where(x < 0.7, x, 1 - 0.3 * np.exp(-(x - 0.7) / 0.3))
-    return np.round(255 * np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)).astype(np.uint8)
+    return np.round(255 * encoded(x)).astype(np.uint8)
 
 
 def _columns(count: int) -> int:
@@ -155,17 +156,3 @@ def _page(pictures: list[np.ndarray], captions: list[tuple[str, str]]) -> Image.
         for k, line in enumerate(lines):
             draw.text((x + SIDE / 2, y + SIDE + 9 + 15 * k), line, fill=(_INK,) * 3, font=font, anchor="mm")
     return page
-
-
-def _save(page: Image.Image, out: Path) -> None:
-    partial = out.with_name(f"{out.name}.partial")
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        page.save(partial, format="PNG", optimize=True)
-        os.replace(partial, out)
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            partial.unlink()
-        raise StorageError(
-            f"{out}: cannot be written: {error.strerror or error}; make room or choose another folder"
-        ) from error

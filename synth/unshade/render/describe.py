@@ -8,11 +8,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..face import Face
 from ..heads import build_head
 from ..scene_file import Light, Scene
 from . import lights
-from .camera import Camera
 from .colour_temperature import correlated_kelvin
 from .lights.conventions import LUMINANCE, solid_angles
 from .rigs import FACE_CENTRE, cameras
@@ -134,7 +134,7 @@ def _render(scene: Scene, views: list[Camera]) -> list[str]:
 
 
 def _faults(scene: Scene) -> list[str]:
-    """Lines on the faults of pictures, cameras, mesh and labels, as the scene asks for them."""
+    """Lines on the faults of pictures, cameras, mesh and labels in the scene."""
     fraction = scene.labels.boundary_error
     labels = (
         f"{100 * fraction:.3g} % of the boundary pixels have the label of the other side" if fraction else "perfect"

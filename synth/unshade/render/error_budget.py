@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import io
 import itertools
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -18,17 +17,19 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from scipy.ndimage import binary_erosion
 
 from ..errors import SceneError
+from ..files.folder import ResumableFolder, content_hash
+from ..files.pictures import read_gray, write_bytes, write_exr, write_json, write_text
 from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..scene_file import Scene
-from .folder import ResumableFolder, content_hash
+from ..srgb import encoded
 from .layers import Layers
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import read_gray, write_bytes, write_exr, write_text
 from .relight import MAP_FILES, read_maps
 from .rigs import cameras
 from .scene import ChartMaps
@@ -43,8 +44,8 @@ PLAYERS = {
 }
 """Maps that are replaced together."""
 
-_EROSION = 2
-"""Pixels that the mask loses on every side, as in scores."""
+_EROSION = 5
+"""Side (pixels) of the square that erodes the mask, as in scores."""
 
 
 def shapley(worth: Mapping[frozenset[str], float], players: Sequence[str]) -> dict[str, float]:
@@ -77,7 +78,7 @@ def write_budget(
     progress: Progress,
     warn: Callable[[str], None],
 ) -> dict:
-    """Writes ``out/budget.json``, ``budget.md`` and pictures; returns what the JSON says.
+    """Writes ``out/budget.json``, ``budget.md`` and pictures; returns the content of the JSON.
 
     ``factor`` multiplies the diffuse albedo of ``maps``. Errors are mean squares over the eroded mask and the
     channels of linear values, estimated from independent halves of the samples, so that noise which the maps
@@ -110,12 +111,13 @@ def write_budget(
         model = model or shots.light(chosen_light)
         shots.set_light(chosen_light.name, model)
         pictures[frozenset(mix)] = shots.layers(chosen_light, camera, *seeds, report)
-    inside = eroded(read_gray(capture / "masks" / f"{camera.name}.png") > 127)
+    mask = read_gray(capture / "masks" / f"{camera.name}.png") > 127
+    inside = binary_erosion(mask, np.ones((_EROSION, _EROSION)))
     halves = {mix: _halves(layers) for mix, layers in pictures.items()}
     exact = halves[frozenset()]
     worth = {mix: _error(half, exact, inside) for mix, half in halves.items()}
     document = _document(worth, chosen_light.name, camera.name, factor)
-    write_text(folder.path / "budget.json", json.dumps(document, indent=1) + "\n")
+    write_json(folder.path / "budget.json", document)
     write_text(folder.path / "budget.md", _page(document))
     for mix in (*((name,) for name in PLAYERS), tuple(PLAYERS), ()):
         name = {0: "truth", len(PLAYERS): "method"}.get(len(mix), f"wrong-{mix[0].replace(' ', '-')}" if mix else "")
@@ -135,13 +137,6 @@ def _same(truth: ChartMaps, found: ChartMaps, names: Sequence[str]) -> bool:
     """Whether the maps found are the true ones."""
     pairs = ((getattr(truth, name), getattr(found, name)) for name in names)
     return all(b is not None and np.array_equal(a, b) for a, b in pairs)
-
-
-def eroded(mask: np.ndarray) -> np.ndarray:
-    """A mask [H, W] eroded by 5 x 5; beyond the border is background."""
-    size = 2 * _EROSION + 1
-    windows = np.lib.stride_tricks.sliding_window_view(np.pad(mask, _EROSION), (size, size))
-    return windows.all((2, 3))
 
 
 def _halves(layers: Layers) -> tuple[np.ndarray, np.ndarray]:
@@ -224,5 +219,4 @@ def _strip(pictures, inside: np.ndarray) -> bytes:
 
 
 def _srgb(picture: np.ndarray) -> np.ndarray:
-    clipped = picture.astype(np.float64).clip(0, 1)
-    return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1 / 2.4) - 0.055)
+    return encoded(picture.astype(np.float64).clip(0, 1))

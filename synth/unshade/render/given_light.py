@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..files.folder import content_hash
 from ..scene_file import Light
-from .folder import content_hash
 from .lights import Environment, environment
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..files.folder import ResumableFolder
+from ..files.pictures import write_exr
 from ..fingerprint import fingerprint
 from ..heads import build_head
 from ..scene_file import Scene
-from .folder import ResumableFolder
 from .lights import exposed
-from .pictures import write_exr
 from .scene_text import scene_text
 
 

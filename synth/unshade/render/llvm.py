@@ -67,7 +67,7 @@ class Probe:
 
 @dataclass(frozen=True)
 class Choice:
-    """The variant to render with, its LLVM if it has one, and what the user must hear."""
+    """The variant to render with, its LLVM if it has one, and a warning for the user."""
 
     variant: str
     llvm: Probe | None

@@ -35,7 +35,7 @@ def seed_of(*parts: object) -> int:
 
 Estimator = Callable
 """(sampler, ray, number of the pass) to diffuse and specular radiance, linear RGB, in a
-variant with a compiler. What else an estimator draws at random it can draw anew for every
+variant with a compiler. An estimator can draw its other random numbers anew for every
 pass, so that the spread of the passes holds it."""
 
 
@@ -52,7 +52,7 @@ def render_layers(
     """Renders ``sensor`` with ``samples`` per pixel in all; ``passes_for`` must allow them.
 
     With a ``lens``, film, pixels and samples are the sensor's, and the rays the lens's own.
-    ``progress`` hears how many samples of all are done, before the first and after each band.
+    ``progress`` gets the samples done and in all, before the first and after each band.
     """
     if not dr.is_jit_v(mi.Float):
         return _render_bands(partial(_band_slowly, lit, depth), sensor, samples, seed, lens, progress)

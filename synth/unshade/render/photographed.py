@@ -1,32 +1,31 @@
-"""Renders recovered maps on the mesh of a photographed capture, in the withheld views: in the light that the
-method found, and in others. No truth is needed and none is there."""
+"""Renders recovered maps on the mesh of a photographed capture, which has no truth: in its withheld views, in the
+light that the method found and in others."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import drjit as dr
 import mitsuba as mi
 import numpy as np
 
 from .. import _native
+from ..camera.camera import Camera
 from ..errors import CaptureError, SceneError
 from ..face import Chart
+from ..files.folder import ResumableFolder, content_hash
 from ..fingerprint import fingerprint
+from ..formation.lens import opaque
 from ..scene_file import Light, Render, read_table
 from ..scene_file.light import parse_light
-from .camera import Camera
-from .folder import ResumableFolder, content_hash
 from .given_light import GivenLight
 from .lights.found import found_light
 from .meter import Meter, Progress
-from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import write_exr, write_text
-from .relight import MAP_FILES, read_maps
+from .relight import MAP_FILES, read_maps, write_relit
 from .shots import Shots
 
 FOUND = "found"
@@ -39,8 +38,8 @@ _SAMPLES = 64
 
 
 @dataclass(frozen=True)
-class Photographed:
-    """A mesh alone, as `shots.Shots` renders a face; nothing beside it is known."""
+class PhotographedHead:
+    """A mesh without other parts, in the place of a face in `shots.Shots`."""
 
     chart: Chart
     parts: tuple[()] = ()
@@ -60,10 +59,10 @@ class Pinhole:
 
     def ray(self, column, row, sampler):
         """World ray from a film position in pixels (x right, y down)."""
-        x = (column - _number(self.centre[0])) / _number(self.focal[0])
-        y = (row - _number(self.centre[1])) / _number(self.focal[1])
-        right, up, back = (mi.Vector3f(*map(_number, axis)) for axis in self.matrix[:3, :3].T)
-        return mi.Ray3f(mi.Point3f(*map(_number, self.matrix[:3, 3])), dr.normalize(x * right - y * up - back))
+        x = (column - opaque(self.centre[0])) / opaque(self.focal[0])
+        y = (row - opaque(self.centre[1])) / opaque(self.focal[1])
+        right, up, back = (mi.Vector3f(*map(opaque, axis)) for axis in self.matrix[:3, :3].T)
+        return mi.Ray3f(mi.Point3f(*map(opaque, self.matrix[:3, 3])), dr.normalize(x * right - y * up - back))
 
 
 def relight_photographed(
@@ -95,35 +94,23 @@ def relight_photographed(
     target = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
     mesh = capture.mesh
     chart = Chart(mesh["vertices"], mesh["normals"], mesh["uvs"], mesh["triangles"])
-    shots = Shots(Photographed(chart), chart_maps, render, PictureStore.of_user())  # type: ignore[arg-type]
+    shots = Shots(PhotographedHead(chart), chart_maps, render, PictureStore.of_user())  # type: ignore[arg-type]
     lights = [*([Light(FOUND, "envmap")] if found else []), *others]
     if found:
         shots.set_light(FOUND, found)
     if given:
         shots.set_light(given.light.name, given.model)
-    jobs = [(scale, light, name) for scale in scales for light in lights for name in capture.withheld]
-    first = capture.camera(capture.withheld[0])
-    meter = Meter(progress, len(jobs), first["width"] * first["height"] * render.samples)
-    current = None
-    for scale, light, name in jobs:
-        report = meter.begin(f"view {name} in {light.name}, scale {scale}")
-        path = target.path / scale / light.name / f"{name}.exr"
-        if path.exists():
-            continue
-        if scale != current:
-            shots.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
-            current = scale
-        stated = capture.camera(name)
-        matrix = np.asarray(stated["camera_to_world"], float)
-        focal, centre = tuple(map(float, stated["focal"])), tuple(map(float, stated["centre"]))
-        camera = Camera(name, stated["width"], stated["height"], focal[0], matrix, train=False)
-        seeds = (seed_of("relit", 0, seed_offset, light.name, view) for view in (name, "shared"))
-        layers = shots.layers(light, camera, *seeds, report, Pinhole(focal, centre, matrix))  # type: ignore[arg-type]
-        write_exr(path, {"": layers.total, **layers.channels()})
-    document = {"scales": dict(scales), "samples": render.samples, "seed": 0, "seed_offset": seed_offset}
-    write_text(target.path / "relit.json", json.dumps(document, indent=1) + "\n")
-    target.commit()
-    meter.note("relit")
+    views = [_view(capture.camera(name), name) for name in capture.withheld]
+    first = views[0][0]
+    meter = Meter(progress, len(scales) * len(lights) * len(views), first.width * first.height * render.samples)
+    write_relit(target, shots, views, lights, scales, seed_offset, meter)
+
+
+def _view(stated: Mapping[str, Any], name: str) -> tuple[Camera, Pinhole]:
+    matrix = np.asarray(stated["camera_to_world"], float)
+    focal, centre = tuple(map(float, stated["focal"])), tuple(map(float, stated["centre"]))
+    camera = Camera(name, stated["width"], stated["height"], focal[0], matrix, train=False)
+    return camera, Pinhole(focal, centre, matrix)
 
 
 def _lights(folder: Path) -> list[Light]:
@@ -138,8 +125,3 @@ def _lights(folder: Path) -> list[Light]:
     if FOUND in names or len(set(names)) < len(names):
         raise SceneError(f"{path}: a light is called {FOUND} or as another; rename it")
     return lights
-
-
-def _number(value: float):
-    """Opaque to the compiler, so that all cameras share one kernel."""
-    return dr.opaque(mi.Float, float(value)) if dr.is_jit_v(mi.Float) else float(value)

@@ -36,7 +36,7 @@ class PictureStore:
 
     @classmethod
     def of_user(cls) -> PictureStore:
-        """The store of this machine's user: `cache_folder`, or what `SWITCH` says."""
+        """The store of this machine's user: in `cache_folder`, or where `SWITCH` names."""
         said = os.environ.get(SWITCH)
         if said == "off":
             return cls(None)

@@ -1,6 +1,6 @@
 """Exact visibility: what pixel centres see, and which texels the cameras see.
 
-Pixel-filtered pictures cannot tell whether a surface is in view; single rays can.
+Pixel-filtered pictures do not show whether a surface is in view; single rays do.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from ..camera.camera import Camera
 from ..face import Chart
 from ..face.texels import rasterise
-from .camera import Camera
+from ..vectors import triangle_normals, unit
 from .scene import HeadScene
 
 _LIFT = 2e-5
@@ -65,9 +66,7 @@ class TexelVisibility:
         self._head = head
         self._texels = rasterise(chart.uv.astype(float), chart.triangles, size)
         self._points = self._texels.sample(chart.vertices).astype(float)
-        corners = chart.vertices.astype(float)[chart.triangles[self._texels.triangle]]
-        facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        self._normals = facing / np.linalg.norm(facing, axis=1, keepdims=True)
+        self._normals = unit(triangle_normals(chart.vertices.astype(float), chart.triangles[self._texels.triangle]))
 
     def seen_by(self, camera: Camera, mask: np.ndarray) -> np.ndarray:
         """[N, N] bool: the texel faces the camera, nothing lies between, and the pixel it

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-import json
+import itertools
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..errors import MapsError
+from ..files.folder import ResumableFolder, content_hash
+from ..files.pictures import ROUGHNESS_CHANNELS, read_exr, read_gray, require_finite, write_exr, write_json
 from ..fingerprint import fingerprint
 from ..heads import build_head
-from ..scene_file import Scene
-from .folder import ResumableFolder, content_hash
+from ..scene_file import Light, Scene
 from .given_light import GivenLight
 from .meter import Meter, Progress
 from .passes import seed_of
 from .picture_store import PictureStore
-from .pictures import ROUGHNESS_CHANNELS, read_exr, read_gray, require_finite, write_exr, write_text
 from .rigs import cameras
 from .scene import ChartMaps
 from .scene_text import scene_text
@@ -59,17 +61,30 @@ def relight(
     key = f"{scene_text(scene)}\n{fingerprint(__name__)}\n{hashes}\n{sorted(scales.items())}\n{seed_offset}"
     folder = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
     lights = [given.light] if given else scene.lights
-    jobs = [(scale, light, view) for scale in scales for light in lights for view in views]
-    meter = Meter(progress, len(jobs), render.width * render.height * render.samples)
+    meter = Meter(progress, len(scales) * len(lights) * len(views), render.width * render.height * render.samples)
     meter.note("face")
-    face = build_head(scene.face)
-    shots = Shots(face, chart_maps, render, PictureStore.of_user())
+    shots = Shots(build_head(scene.face), chart_maps, render, PictureStore.of_user())
     if given:
         shots.set_light(given.light.name, given.model)
+    write_relit(folder, shots, [(view, None) for view in views], lights, scales, seed_offset, meter)
+
+
+def write_relit(
+    folder: ResumableFolder,
+    shots: Shots,
+    views: Sequence[tuple[Camera, Any]],
+    lights: Sequence[Light],
+    scales: Mapping[str, float],
+    seed_offset: int,
+    meter: Meter,
+) -> None:
+    """Writes ``<scale>/<light>/<view>.exr`` for each of the cameras, which come with their lenses, and the folder's
+    ``relit.json``; then commits the folder. Pictures that are there already are kept."""
+    albedo, render = shots.maps.diffuse_albedo, shots.render
     current = None
-    for scale, light, view in jobs:
-        report = meter.begin(f"view {view.name} in {light.name}, scale {scale}")
-        path = folder.path / scale / light.name / f"{view.name}.exr"
+    for scale, light, (camera, lens) in itertools.product(scales, lights, views):
+        report = meter.begin(f"view {camera.name} in {light.name}, scale {scale}")
+        path = folder.path / scale / light.name / f"{camera.name}.exr"
         if path.exists():
             continue
         twin = next(name for name in scales if scales[name] == scales[scale])
@@ -78,21 +93,21 @@ def relight(
             shutil.copyfile(folder.path / twin / light.name / path.name, path)
             continue
         if scale != current:
-            shots.set_diffuse_albedo(chart_maps.diffuse_albedo * np.float32(scales[scale]))
+            shots.set_diffuse_albedo(albedo * np.float32(scales[scale]))
             current = scale
-        seeds = (seed_of("relit", render.seed, seed_offset, light.name, name) for name in (view.name, "shared"))
-        layers = shots.layers(light, view, *seeds, report)
+        seeds = (seed_of("relit", render.seed, seed_offset, light.name, name) for name in (camera.name, "shared"))
+        layers = shots.layers(light, camera, *seeds, report, lens)
         write_exr(path, {"": layers.total, **layers.channels()})
     document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
-    write_text(folder.path / "relit.json", json.dumps(document, indent=1) + "\n")
+    write_json(folder.path / "relit.json", document)
     folder.commit()
     meter.note("relit")
 
 
 def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:
-    """The maps of a solver: all but the diffuse albedo may be missing.
+    """The maps of a solver, of which all but the diffuse albedo may be missing.
 
-    Texels that its ``coverage.png`` leaves out may hold anything; what is not finite there counts as 0.
+    Texels outside its ``coverage.png`` may hold anything; values there that are not finite count as 0.
     """
     path = folder / "coverage.png"
     coverage = read_gray(path) if path.exists() else None

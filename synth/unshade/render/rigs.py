@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from ..camera.camera import Camera, look_at
 from ..scene_file import Rig
-from .camera import Camera, look_at
+from ..vectors import away
 
 
 def cameras(rig: Rig, width: int, height: int) -> list[Camera]:
@@ -55,7 +56,7 @@ def _phone(rig: Rig, width: int, height: int):
             elevation = reach * _ELEVATION_FRACTION * y * math.sqrt(1 - x * x)
             distance = rig.distance_metres * rng.uniform(0.95, 1.05)
             yield (
-                FACE_CENTRE + distance * _away(azimuth, elevation),
+                FACE_CENTRE + distance * away(azimuth, elevation),
                 FACE_CENTRE + rng.uniform(-0.008, 0.008, 3),
                 focal,
                 train,
@@ -83,8 +84,8 @@ def _desktop(rig: Rig, width: int, height: int):
     place_play, aim_play = _DESKTOP_PLAY
     focal = _focal(rig, width, height)
     for number, (azimuth, elevation, scale) in enumerate(_DESKTOP):
-        away = _away(math.radians(azimuth), math.radians(elevation))
-        position = FACE_CENTRE + rig.distance_metres * scale * away + rng.uniform(-place_play, place_play, 3)
+        position = FACE_CENTRE + rig.distance_metres * scale * away(math.radians(azimuth), math.radians(elevation))
+        position = position + rng.uniform(-place_play, place_play, 3)
         yield position, FACE_CENTRE + rng.uniform(-aim_play, aim_play, 3), focal, number < len(_DESKTOP) - 1
 
 
@@ -101,23 +102,17 @@ def _dome(rig: Rig, width: int, height: int):
     cosine = 1 - fraction * (1 - math.cos(math.radians(rig.max_angle_degrees)))
     sine = np.sqrt(1 - cosine**2)
     around = turn + _GOLDEN_ANGLE * np.arange(count)
-    away = np.stack([sine * np.cos(around), sine * np.sin(around), cosine], 1)
+    directions = np.stack([sine * np.cos(around), sine * np.sin(around), cosine], 1)
     withheld = ((np.arange(rig.test) + 0.5) / max(rig.test, 1) * count).astype(int)
     training = np.setdiff1d(np.arange(count), withheld)
     focal = _focal(rig, width, height)
     for number in (*training, *withheld):
-        yield FACE_CENTRE + rig.distance_metres * away[number], FACE_CENTRE, focal, number not in withheld
+        yield FACE_CENTRE + rig.distance_metres * directions[number], FACE_CENTRE, focal, number not in withheld
 
 
 def _focal(rig: Rig, width: int, height: int) -> float:
     """Focal length in pixels."""
     return min(width, height) / 2 / math.tan(math.radians(rig.short_side_degrees) / 2)
-
-
-def _away(azimuth: float, elevation: float) -> np.ndarray:
-    """Unit direction from the face: azimuth 0 in front, positive towards +X (radians)."""
-    level = math.cos(elevation)
-    return np.array([level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)])
 
 
 _EMILY = (

@@ -33,7 +33,7 @@ def scene_text(scene: Scene) -> str:
 
 def with_own_files(scene: Scene, lights: Path, head: Path) -> Scene:
     """The scene with the environment maps of its lights at ``lights/<light>.exr``, and the files
-    of a head of one's own in ``head``."""
+    of your own head in ``head``."""
 
     def moved(light: Light) -> Light:
         return replace(light, path=str(lights / f"{light.name}.exr")) if light.path else light

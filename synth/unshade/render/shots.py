@@ -8,13 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..face import Face
+from ..files.content_key import content_key
 from ..fingerprint import fingerprint
 from ..formation import Lens
 from ..scene_file import Light, Render
 from . import lights
-from .camera import Camera
-from .content_key import content_key
 from .denoise import denoised
 from .layers import Layers
 from .lights.found import CellSphere
@@ -29,8 +29,8 @@ class Shots:
 
     def __init__(self, face: Face, maps: ChartMaps, render: Render, store: PictureStore) -> None:
         self._face = face
-        self._maps = maps
-        self._render = render
+        self.maps = maps
+        self.render = render
         self._store = store
         self._models: dict[str, lights.AnyLight | CellSphere] = {}
         self._lit: dict[str, LitHead] = {}
@@ -39,7 +39,7 @@ class Shots:
 
     @cached_property
     def head(self) -> HeadScene:
-        return HeadScene(self._face.surface, self._face.parts, self._maps, self._render.material)
+        return HeadScene(self._face.surface, self._face.parts, self.maps, self.render.material)
 
     def light(self, light: Light) -> lights.AnyLight | CellSphere:
         """The light, exposed for this face."""
@@ -54,8 +54,8 @@ class Shots:
 
     def set_diffuse_albedo(self, albedo: np.ndarray) -> None:
         """Replaces the diffuse albedo [N, N, 3] for the pictures to come."""
-        self._maps = replace(self._maps, diffuse_albedo=albedo)
-        self._maps_key = content_key(self._maps)
+        self.maps = replace(self.maps, diffuse_albedo=albedo)
+        self._maps_key = content_key(self.maps)
         if "head" in self.__dict__:
             self.head.set_diffuse_albedo(albedo)
 
@@ -70,7 +70,7 @@ class Shots:
     ) -> Layers:
         """One picture, through ``lens`` if there is one.
 
-        ``seed`` and ``shared_seed`` are those of `tiers.render_tier`; ``report`` hears of samples
+        ``seed`` and ``shared_seed`` are those of `tiers.render_tier`; ``report`` gets the samples
         done and in all.
         """
         key = content_key(self._shapes_key, self._maps_key, self.light(light), camera, lens, seed, shared_seed)
@@ -84,8 +84,8 @@ class Shots:
     def _render_anew(self, light, camera, seed, shared_seed, report, lens) -> Layers:
         if light.name not in self._lit:
             self._lit[light.name] = self.head.lit(self.light(light))
-        sensor = camera.sensor(self._render.samples)
+        sensor = camera.sensor(self.render.samples)
         layers = render_tier(
-            self.head, self._lit[light.name], sensor, self._render, seed, report, lens=lens, shared_seed=shared_seed,
+            self.head, self._lit[light.name], sensor, self.render, seed, report, lens=lens, shared_seed=shared_seed,
         )  # fmt: skip
-        return denoised(layers, self.head, sensor, lens) if self._render.denoise == "oidn" else layers
+        return denoised(layers, self.head, sensor, lens) if self.render.denoise == "oidn" else layers

@@ -35,7 +35,7 @@ def _lambert_weight(lambert_light, blend, towards_light, from_surface):
 class LambertLight(Enum):
     """How light that arrives directly at the Lambert term of the first surface is sampled.
 
-    Either way of sampling alone is right, and so is any blend. What suits the light best
+    Either way of sampling alone is right, and so is any blend. The choice that suits the light best
     halves the noise: specular light and bounces always use the blend.
     """
 

@@ -51,7 +51,7 @@ def split_radiance_scalar(scene, head, sampler, ray, max_depth: int, lambert_lig
 
 
 def _weighed(light, diffuse_fraction, blend, depth, lambert_light, towards_light, from_surface) -> np.ndarray:
-    """Layers of some light at a vertex, weighed as its Lambert term wants it."""
+    """Layers of some light at a vertex, weighted as for its Lambert term."""
     weight = blend
     if depth == 0 and lambert_light is not LambertLight.BLEND:
         weight = towards_light if lambert_light is LambertLight.TOWARDS_LIGHT else from_surface

@@ -12,9 +12,7 @@ def captured_scene(capture: Path) -> Scene:
     """Reads ``capture/truth/scene.toml``. Raises `CaptureError` where it cannot be relit."""
     path = capture / "truth" / "scene.toml"
     if not path.is_file():
-        raise CaptureError(
-            f"{path}: is missing, so nothing says how to light this capture again; relight synthetic captures only"
-        )
+        raise CaptureError(f"{path}: is missing, so its lights are unknown; relight synthetic captures only")
     scene = read_scene(path)
     if "variant" not in scene.versions:
         raise CaptureError(f"{path}: [versions] names no variant; render the capture again")

@@ -1,4 +1,4 @@
-"""The resolved scene file: one TOML text that says all that a capture depends on."""
+"""The resolved scene file: one TOML text with all that a capture depends on."""
 
 from .captured_mesh import CapturedMesh
 from .face import AnyHead

@@ -1,4 +1,4 @@
-"""The `[face]` table: a generated face, or files of a head of one's own."""
+"""The `[face]` table: a generated face, or the files of your own head."""
 
 from __future__ import annotations
 

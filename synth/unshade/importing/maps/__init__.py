@@ -1,7 +1,7 @@
-"""Others' maps walk in: any layout, any encoding, onto the capture's chart.
+"""Imports maps of other methods, of any layout and encoding, onto the capture's chart.
 
-A `statement` (an adapter with settings over it) says what the files hold; `alignment` finds where their mesh lies,
-`counterpart` which of its points a texel is; the `preflight` settles what was left open and doubts what was stated;
+A `statement` (an adapter with settings over it) describes the files; `alignment` finds where their mesh lies,
+`counterpart` which of its points a texel is; the `preflight` settles open questions and checks the statement;
 `decoding` makes the numbers ours; the `importer` writes the maps folder.
 """
 

@@ -25,20 +25,7 @@ def main(arguments: list[str]) -> int:
         with warnings.catch_warnings():
             warnings.showwarning = lambda message, *_, **__: print(f"unshade: {message}", file=sys.stderr)
             warnings.simplefilter("always")
-            out = import_maps(
-                options.folder,
-                options.out,
-                capture=options.capture,
-                mesh=options.mesh,
-                adapter=options.adapter,
-                settings=_settings(options.set),
-                objects=options.object,
-                unit=options.unit,
-                place=options.place,
-                limit_mm=options.limit_mm,
-                size=options.size,
-                apply=options.apply,
-            )
+            out = import_maps(**{**vars(options), "settings": _settings(options.settings)})
     except UnshadeError as error:
         print(f"unshade: {' '.join(str(error).split())}", file=sys.stderr)
         return error.exit_code
@@ -61,12 +48,18 @@ def _parser() -> argparse.ArgumentParser:
         "--set",
         action="append",
         default=[],
+        dest="settings",
         type=_setting,
         metavar="KEY=VALUE",
         help="override a value of the adapter: v=down, diffuse_albedo.curve=linear, normal.green=down",
     )
     parser.add_argument(
-        "--object", action="append", default=[], metavar="NAME", help="an object of the mesh that is the face"
+        "--object",
+        action="append",
+        default=[],
+        dest="objects",
+        metavar="NAME",
+        help="an object of the mesh that is the face",
     )
     parser.add_argument("--unit", choices=tuple(UNITS), help="the mesh's unit")
     parser.add_argument(

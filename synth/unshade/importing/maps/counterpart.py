@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ... import _native
 from ...face.texels import Texels, rasterise
+from ...vectors import triangle_normals, unit
 from ..chart_mesh import ChartMesh, smooth_normals
 
 Floats = NDArray[np.float64]
@@ -44,7 +45,7 @@ def find_counterparts(
 ) -> Counterparts:
     """Counterparts on ``theirs``, which lies in the capture's place, of a chart of ``size`` texels; ``limit`` in m.
 
-    A point beyond the limit, or whose surface faces the other way, is none.
+    A point beyond the limit, or whose surface faces the other way, does not count.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         texels = rasterise(uv.astype(np.float64), triangles.astype(np.int64), size)
@@ -53,7 +54,9 @@ def find_counterparts(
     triangle = np.asarray(triangle, np.int64)
     a, b, c = (theirs.vertices[theirs.triangles[triangle, corner]] for corner in range(3))
     weights = _barycentric(nearest, a, b, c)
-    same = (np.einsum("mk,mk->m", _facing(theirs)[triangle], texels.sample(normals))) > 0
+    same = (
+        np.einsum("mk,mk->m", triangle_normals(theirs.vertices, theirs.triangles)[triangle], texels.sample(normals))
+    ) > 0
     distance = np.sqrt(squared)
     return Counterparts(texels, (distance <= limit) & same, triangle, weights, distance)
 
@@ -61,18 +64,13 @@ def find_counterparts(
 def facing_out(theirs: ChartMesh, points: Floats, normals: Floats) -> ChartMesh:
     """The mesh with its triangles and normals turned as the capture's surface is at ``points`` (K,3), if they are not."""
     _, triangle, _ = igl.point_mesh_squared_distance(points, theirs.vertices, theirs.triangles)
-    facing = _unit(_facing(theirs))
+    facing = unit(triangle_normals(theirs.vertices, theirs.triangles))
     if np.einsum("mk,mk->m", facing[np.asarray(triangle)], normals).mean() < 0:
         theirs = replace(theirs, triangles=np.ascontiguousarray(theirs.triangles[:, ::-1]))
         facing = -facing
     if theirs.normals is not None and (facing * theirs.normals[theirs.triangles[:, 0]]).sum() < 0:
         theirs = replace(theirs, normals=-theirs.normals)
     return theirs
-
-
-def _facing(mesh: ChartMesh) -> Floats:
-    a, b, c = (mesh.vertices[mesh.triangles[:, corner]] for corner in range(3))
-    return np.cross(b - a, c - a)
 
 
 def _barycentric(p: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
@@ -123,11 +121,6 @@ class Layout:
     def _tangents(self) -> tuple[Floats, Floats]:
         """Normals (V,3) and MikkTSpace's tangents (F,3,4)."""
         mesh = self.mesh
-        normals = _unit(mesh.normals if mesh.normals is not None else smooth_normals(mesh.vertices, mesh.triangles))
+        normals = unit(mesh.normals if mesh.normals is not None else smooth_normals(mesh.vertices, mesh.triangles))
         parts = [np.ascontiguousarray(values, np.float32) for values in (mesh.vertices, normals, self.uv)]
         return normals, _native.mikktspace(*parts, mesh.triangles).astype(np.float64)
-
-
-def _unit(vectors: Floats) -> Floats:
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.where(length > 0, length, 1)

@@ -1,4 +1,4 @@
-"""From another method's codes to the numbers of a maps folder, as a statement says."""
+"""From another method's codes to the numbers of a maps folder, by a statement."""
 
 from __future__ import annotations
 

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ... import _native
 from ...errors import MapsError, StorageError
-from ...render.folder import ResumableFolder, content_hash
-from ...render.pictures import ROUGHNESS_CHANNELS, write_exr, write_gray, write_text
+from ...files.folder import ResumableFolder, content_hash
+from ...files.pictures import ROUGHNESS_CHANNELS, write_exr, write_gray, write_json, write_text
 from ..capture_folder import RECORD
 from ..chart_mesh import read_mesh
 from ..placement import UNITS
@@ -34,14 +34,14 @@ LIMIT_MM = 5.0
 """How far (mm) a point of another mesh may be from the capture's surface and still be the same."""
 
 NORMALS = ("normal", "diffuse_normal", "specular_normal")
-"""Normals that stand for both, and those of one kind."""
+"""Normals for both kinds, and those of one kind."""
 
 _TRIAL = 256
 """Side of the chart on which encodings are tried, texels."""
 
 
 class MapsWarning(UserWarning):
-    """Something of imported maps that their maker should know."""
+    """A property of imported maps that their maker should know."""
 
 
 def import_maps(
@@ -60,7 +60,7 @@ def import_maps(
     apply: bool = False,
 ) -> Path:
     """Bring the maps in ``folder``, another method's of the face of ``capture``, into the maps folder ``out``, with
-    ``import.json`` that says what was stated, found and assumed; returns ``out``.
+    ``import.json``, which lists statements, findings and assumptions; returns ``out``.
 
     ``mesh`` is the OBJ that they lie on (by default that in the folder which the adapter names), of which ``objects``
     are the face. ``adapter`` is a format by name or a TOML file (by default ``unshade`` for a folder that `solve` wrote,
@@ -68,7 +68,7 @@ def import_maps(
     ``{"v": "down", "diffuse_albedo": {"curve": "linear"}}``. ``unit`` (``m``, ``cm``, ``mm``, ``dm``, ``in``) is the
     mesh's; ``place`` is ``auto`` (units and axes are tried), ``keep``, ``source`` (where the capture was before its
     import) or ``fit`` (a similarity by ICP). Texels whose counterpart is further than ``limit_mm`` stay uncovered.
-    ``size`` is that of the maps, by default that of the largest texture. What fits better than what is stated is the
+    ``size`` is that of the maps, by default that of the largest texture. A better fit than the statement is the
     error, or with ``apply`` is taken.
 
     Raises `MapsError`, `CaptureError`, `PictureError` or `StorageError`.
@@ -94,7 +94,7 @@ def import_maps(
 
 
 class _Import:
-    """One import: textures and mesh are read and placed, encodings are settled, then maps are written."""
+    """One import: reads textures and mesh, places the mesh, settles encodings, and writes maps."""
 
     def __init__(
         self, folder: Path, mesh: Path | None, capture: _native.Capture, statement: Statement, objects: tuple[str, ...]
@@ -157,7 +157,7 @@ class _Import:
         for finding in findings:
             warnings.warn(f"{finding['map']}: {finding['message']}; {finding['fix']}", MapsWarning, stacklevel=4)
         record = self._record(settled, flight, counterparts, limit, size) | {"findings": findings}
-        write_text(folder.path / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
+        write_json(folder.path / RECORD, record, ensure_ascii=False)
         folder.commit()
 
     def _counterparts(self, size: int, limit: float) -> Counterparts:

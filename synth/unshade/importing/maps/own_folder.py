@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from ... import _native
-from ...render.pictures import ROUGHNESS_CHANNELS
+from ...files.pictures import ROUGHNESS_CHANNELS
 from .statement import Statement
 from .texture import DEVIATION, Codes, read_codes
 

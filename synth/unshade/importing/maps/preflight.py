@@ -1,7 +1,7 @@
-"""Trials of what a statement leaves open, and doubts of what it says: which encoding makes plausible maps of a face.
+"""Trials of the open questions and the claims of a statement: which encoding makes plausible maps of a face.
 
 The witnesses are the capture's: its photographs, projected into the chart, for the albedo's pattern and curve; its
-mesh for normals; skin's ranges for highlights. A relief has no curl, which tells green up from green down.
+mesh for normals; skin's ranges for highlights. A relief has no curl, which distinguishes green up from green down.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ class Preflight:
         return planes[0], planes[1], mask
 
     def _curve(self) -> None:
-        """Linear or encoded: a curve of 1 / 2.2 halves what a logarithm says of colours, and brightens."""
+        """Linear or encoded: a curve of 1 / 2.2 halves the logarithms of ratios of colours, and brightens."""
         codes, stated = self._codes["diffuse_albedo"], self.statement.maps["diffuse_albedo"]
         default = decoding.curve_of(stated, colour=True, exact=codes.exact)
         looked_up = self._looked_up(codes.values, self.statement.v)
@@ -166,7 +166,7 @@ class Preflight:
         picture, mask = self._image(values), self._lit()
         ours, theirs = picture[mask].astype(np.float64) + 1e-6, self._witness.texture[mask].astype(np.float64) + 1e-6
         red, photographed = (float(np.median(np.log(c[:, 0] / c[:, 2].clip(1e-6)))) for c in (ours, theirs))
-        # Photographs without colour tell nothing by it.
+        # Photographs without colour are uninformative here.
         redness = max(red, 1e-3) / photographed if photographed > 0.1 else 1.0
         return redness, float(np.median(ours.mean(-1) / theirs.mean(-1)))
 
@@ -203,7 +203,7 @@ class Preflight:
         self.statement = self.statement.with_map(name, kind=kind, green=green)
 
     def _lobes(self) -> None:
-        """An EXR with alpha1, alpha2, share1 says itself what it holds."""
+        """An EXR with alpha1, alpha2, share1 is a map of lobes by its channels."""
         codes, stated = self._codes.get("roughness"), self.statement.maps.get("roughness", Texture()).kind
         if codes is None or codes.lobes == (stated == "lobes"):
             return
@@ -216,7 +216,7 @@ class Preflight:
     def _range(
         self, name: str, kinds: tuple[str, ...], decoded: Callable[[Floats, str], Floats], skin: tuple[float, float]
     ) -> None:
-        """The kind whose median is skin's, of several the first; what is stated counts unless only another one's is."""
+        """The kind whose median lies in the range of skin, the first of several; the stated kind, unless only another one fits."""
         stated = self.statement.maps.get(name, Texture())
         if name not in self._codes or stated.kind in ("metalness", "lobes"):
             return

@@ -106,7 +106,7 @@ def read_statement(adapter: str, settings: Mapping[str, Any]) -> Statement:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise MapsError(f"{path}: is not TOML: {error}; {known}") from error
     if table.pop("format", None) != 1:
-        raise MapsError(f"{path}: is of no format that is read; write format = 1")
+        raise MapsError(f"{path}: has an unknown format; write format = 1")
     shown = f"adapter {path.stem}" if path.parent == ADAPTERS else str(path)
     statement = _statement(shown, table, Statement(str(table.pop("name", path.stem)), shown))
     keys = frozenset(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ... import _native
 from ...errors import MapsError
 from ...face.texels import Texels
-from ...render.pictures import ROUGHNESS_CHANNELS
+from ...files.pictures import ROUGHNESS_CHANNELS
 from ..pictures import decode, read_photograph
 
 Floats = NDArray[np.float32]

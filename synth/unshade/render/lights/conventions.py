@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ...vectors import away
+
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 LATLONG = (256, 512)
 """Height and width of a light's lat-long picture, unless it is an environment map."""
@@ -57,9 +59,7 @@ def deposit(picture: np.ndarray, direction: np.ndarray, energy: np.ndarray) -> N
 
 def around(azimuth_degrees: float, elevation_degrees: float, distance: float) -> np.ndarray:
     """A place seen from the head: azimuth 0 in front of the face, positive towards +X."""
-    azimuth, elevation = np.radians([azimuth_degrees, elevation_degrees])
-    level = math.cos(elevation)
-    return distance * np.array([level * math.sin(azimuth), math.sin(elevation), level * math.cos(azimuth)])
+    return distance * away(*np.radians([azimuth_degrees, elevation_degrees]))
 
 
 def rgb(value: float | np.ndarray) -> dict[str, Any]:

@@ -10,8 +10,9 @@ import mitsuba as mi
 import numpy as np
 
 from ...errors import SceneError
+from ...files.pictures import read_light
 from ...scene_file import Light
-from ..pictures import read_light
+from ...vectors import unit
 from ..split import LambertLight
 from .conventions import LUMINANCE, directions, solid_angles
 
@@ -50,8 +51,7 @@ class Environment:
             moment = np.add.reduceat(direction * weight[..., None], starts, axis)
             energy, weight = (np.add.reduceat(a, starts, axis) for a in (energy, weight))
             direction = moment / weight[..., None]
-        direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
-        return direction.reshape(-1, 3), energy.reshape(-1, 3)
+        return unit(direction).reshape(-1, 3), energy.reshape(-1, 3)
 
     def brightest(self) -> np.ndarray:
         texels = self.picture.reshape(-1, 3).astype(float)

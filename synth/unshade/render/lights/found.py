@@ -12,7 +12,7 @@ import mitsuba as mi
 import numpy as np
 
 from ...errors import MapsError
-from ..pictures import read_light
+from ...files.pictures import read_light
 from ..split import LambertLight
 from .conventions import LATLONG, averaged, directions
 from .envmap import Environment
@@ -80,7 +80,7 @@ def found_light(maps: Path) -> CellSphere | Environment | None:
     for name, value in (("diffuse_scale", scale), ("light_distance", distance)):
         if value is not None and not (isinstance(value, (int, float)) and 0 < value < math.inf):
             raise MapsError(f"{maps / 'solve.json'}: {name} is {value!r}; it must be a positive number: solve again")
-    # What the albedo was multiplied with, the light is divided by.
+    # The light is divided by the factor of the albedo.
     cells = (cells / scale).astype(np.float32)
     if distance is None:
         return Environment(_latlong(cells))

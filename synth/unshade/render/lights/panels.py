@@ -164,6 +164,6 @@ def _rectangle(panel: Panel) -> dict[str, Any]:
         "type": "rectangle",
         "to_world": mi.ScalarTransform4f(columns),
         "emitter": {"type": "area", "radiance": rgb(panel.radiance)},
-        # A softbox takes no part in the interreflection of the head.
+        # A softbox does not reflect light of the head.
         "bsdf": {"type": "diffuse", "reflectance": rgb(0.0)},
     }

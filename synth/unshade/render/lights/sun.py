@@ -17,6 +17,7 @@ import mitsuba as mi
 import numpy as np
 
 from ...scene_file.light import Sun
+from ...vectors import frame
 from ..split import LambertLight
 from .conventions import LATLONG, LUMINANCE, around, deposit, directions, rgb
 from .envmap import Environment
@@ -91,9 +92,7 @@ def _projected() -> float:
 
 def _disc(direction: np.ndarray) -> np.ndarray:
     """Directions [N, 3] spread evenly over the sun's disc."""
-    side = np.cross(direction, [1.0, 0.0, 0.0] if abs(direction[0]) < 0.9 else [0.0, 1.0, 0.0])
-    side /= np.linalg.norm(side)
-    other = np.cross(direction, side)
+    side, other = frame(direction)
     count = _RINGS**2
     angle = np.radians(APERTURE_DEGREES / 2) * np.sqrt((np.arange(count) + 0.5) / count)[:, None]
     turn = (np.arange(count) * math.pi * (3 - math.sqrt(5)))[:, None]

@@ -1,4 +1,4 @@
-"""Checks that the renderer tells the truth, for `unshade doctor --physics` and the tests.
+"""Checks the renderer against physics, for `unshade doctor --physics` and the tests.
 
 One check a file; each is a function that returns a `Verdict` and takes the pieces that it
 examines as arguments, so that tests can show it fail on a fault. All seeds are fixed: on

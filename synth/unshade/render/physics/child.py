@@ -44,12 +44,12 @@ def render_in_child(setting: Setting) -> dict[str, Layers]:
 
 
 @dataclass(frozen=True)
-class Running:
+class RunningChild:
     process: subprocess.Popen
     folder: TemporaryDirectory
 
 
-def start(setting: Setting) -> Running:
+def start(setting: Setting) -> RunningChild:
     """Starts a child, so that several can render side by side; `collect` waits for it."""
     folder = TemporaryDirectory()
     environment = dict(os.environ)
@@ -62,10 +62,10 @@ def start(setting: Setting) -> Running:
         [sys.executable, "-m", "unshade.render.physics.child", json.dumps(asdict(setting)), folder.name],
         env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
     )  # fmt: skip
-    return Running(process, folder)
+    return RunningChild(process, folder)
 
 
-def collect(running: Running) -> dict[str, Layers]:
+def collect(running: RunningChild) -> dict[str, Layers]:
     with running.folder as folder:
         words, _ = running.process.communicate()
         if running.process.returncode != 0:

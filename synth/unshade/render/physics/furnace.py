@@ -17,6 +17,7 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from ...vectors import unit
 from ..lights import Dome
 from ..passes import render_layers
 from ..scene import ChartMaps, HeadScene
@@ -115,7 +116,7 @@ def _cosines(camera, fine: int = 3) -> np.ndarray:
     column, row, dx, dy = np.meshgrid(np.arange(camera.width), np.arange(camera.height), steps, steps, indexing="xy")
     x, y = column + dx - camera.width / 2, camera.height / 2 - row - dy
     d = np.stack([x, y, np.full_like(x, -camera.focal)], -1)
-    d = d / np.linalg.norm(d, axis=-1, keepdims=True) @ camera.matrix[:3, :3].T
+    d = unit(d) @ camera.matrix[:3, :3].T
     along = d @ camera.position
     inside = along**2 - camera.position @ camera.position + specimen.RADIUS**2
     distance = -along - np.sqrt(inside.clip(0))

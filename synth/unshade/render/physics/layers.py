@@ -1,6 +1,6 @@
 """Diffuse and specular layer add up to the picture, and each is the picture of its term.
 
-The sum is compared pixel by pixel and without noise: a plain path tracer that knows no
+The sum is compared pixel by pixel and without noise: a plain path tracer without
 layers follows the same paths with the same random numbers, so only rounding may differ.
 The terms are compared with skins that have one term only, by pooled z-tests.
 """
@@ -13,6 +13,7 @@ from collections.abc import Callable
 import drjit as dr
 import mitsuba as mi
 import numpy as np
+from scipy.ndimage import binary_erosion
 
 from ..passes import render_layers
 from ..probes import view_through_centres
@@ -120,7 +121,7 @@ def _heuristic(pdf, other):
 def _terms(head, render: Callable):
     """Layer, pooled z, relative bias and power to find 1 % against a skin with that term only.
 
-    Of direct light, since bounces mix the terms, and inside the chart.
+    Compares direct light, since bounces mix the terms, inside the chart.
     """
     camera, light = specimen.camera(), lights()["dome"]
     maps = specimen.varied_maps()
@@ -128,7 +129,7 @@ def _terms(head, render: Callable):
         "diffuse": dataclasses.replace(maps, specular_albedo=None),
         "specular": dataclasses.replace(maps, diffuse_albedo=np.zeros((2, 2, 3), np.float32)),
     }
-    inside = _eroded(view_through_centres(head, camera).mask)
+    inside = binary_erosion(view_through_centres(head, camera).mask)
 
     def runs(scene, first_seed: int):
         lit = scene.lit(light)
@@ -141,10 +142,3 @@ def _terms(head, render: Callable):
         theirs = Estimate.of_runs([run.total for run in runs(specimen.head(term), 100 * (number + 1))])
         comparison = Comparison(ours, theirs, inside)
         yield layer, comparison.pooled, comparison.bias, comparison.pooled_power(0.01)
-
-
-def _eroded(mask: np.ndarray) -> np.ndarray:
-    inner = mask.copy()
-    inner[1:-1, 1:-1] &= mask[2:, 1:-1] & mask[:-2, 1:-1] & mask[1:-1, 2:] & mask[1:-1, :-2]
-    inner[[0, -1]] = inner[:, [0, -1]] = False
-    return inner

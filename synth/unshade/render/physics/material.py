@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import drjit as dr
 import mitsuba as mi
 import numpy as np
 
+from ...vectors import unit
 from ..skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS
 
 PARTS = {
@@ -16,7 +18,7 @@ PARTS = {
     "diffuse": +mi.BSDFFlags.DiffuseReflection,
     "specular": +mi.BSDFFlags.GlossyReflection,
 }
-"""Parts of the material that a context asks for."""
+"""Parts of the material that a context can select."""
 
 NORMALS = {
     "mesh": ((0.0, 0.0, 1.0), (0.0, 0.0, 1.0)),
@@ -69,13 +71,13 @@ class Skin:
     def bsdf(self) -> mi.BSDF:
         plugin = {
             "type": "skin",
-            "diffuse": _constant([self.diffuse] * 3),
-            "specular": _constant([self.specular]),
-            "diffuse_normal": _constant(self.diffuse_normal),
-            "specular_normal": _constant(self.specular_normal),
+            "diffuse": constant([self.diffuse] * 3),
+            "specular": constant([self.specular]),
+            "diffuse_normal": constant(self.diffuse_normal),
+            "specular_normal": constant(self.specular_normal),
         }
         if self.roughness:
-            plugin["roughness"] = _constant(ROUGHNESS[self.roughness])
+            plugin["roughness"] = constant(ROUGHNESS[self.roughness])
         return mi.load_dict(plugin)
 
 
@@ -86,11 +88,11 @@ def context(part: str) -> mi.BSDFContext:
     return ctx
 
 
-def interaction(wi, count: int):
-    """``count`` times the same point, seen from ``wi`` in the mesh's frame (z is its normal)."""
+def interaction(wi, count: int, u: float = 0.5):
+    """``count`` times the same point, seen from ``wi`` in the mesh's frame (z is its normal), at (``u``, 0.5) of the UV."""
     si = dr.zeros(mi.SurfaceInteraction3f, count)
     si.wi = wi
-    si.uv = mi.Point2f(0.5)
+    si.uv = mi.Point2f(u, 0.5)
     si.n = mi.Normal3f(0, 0, 1)
     si.sh_frame = mi.Frame3f(*(mi.Vector3f(*axis) for axis in np.eye(3).tolist()))
     return si
@@ -113,13 +115,18 @@ def hemisphere(rng: np.random.Generator, count: int) -> np.ndarray:
     """Directions [count, 3] above the mesh, at least 3 degrees or so from grazing."""
     v = rng.standard_normal((count, 3))
     v[:, 2] = np.abs(v[:, 2]) + 0.05
-    return v / np.linalg.norm(v, axis=1, keepdims=True)
+    return unit(v)
 
 
 def _unit(v) -> np.ndarray:
     return np.array(v) / np.linalg.norm(v)
 
 
-def _constant(values):
-    picture = np.broadcast_to(np.float32(values), (2, 2, np.size(values)))
-    return {"type": "bitmap", "bitmap": mi.Bitmap(np.array(picture)), "raw": True}
+def constant(values) -> dict[str, Any]:
+    """A texture of one value."""
+    return bitmap(np.broadcast_to(np.float32(values), (2, 2, np.size(values))))
+
+
+def bitmap(picture) -> dict[str, Any]:
+    """A texture of a picture [H, W, C]."""
+    return {"type": "bitmap", "bitmap": mi.Bitmap(np.array(picture, np.float32)), "raw": True}

@@ -1,7 +1,7 @@
 """The split path tracer has the expectation of Mitsuba's own ``path``, and states its noise.
 
 The variance that a picture states is used as scoring uses it, and compared with that of
-repeated renders first: z-tests with a wrong variance would say anything.
+repeated renders first: z-tests with a wrong variance would be meaningless.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .statistics import Comparison, Estimate
 from .verdict import Verdict
 
 SAMPLES = 832
-"""Per pixel, in 13 passes: many tell a pixel's variance well."""
+"""Per pixel, in 13 passes: many passes estimate a pixel's variance well."""
 
 BIAS_POOLED, BIAS_REGIONAL = 0.01, 0.03
 """Relative biases, of the picture and of one region, that must be found."""
@@ -28,7 +28,7 @@ MIN_POWER = (0.99, 0.8)
 """With at least this chance, the second for the noisiest region, or the check is too noisy to pass."""
 
 VARIANCE_TOLERANCE = 0.12
-"""Relative, of the mean stated variance; repeated renders tell it to 4 % or so."""
+"""Relative, of the mean stated variance; repeated renders estimate it to 4 % or so."""
 
 _DEPTH = 4
 _REPEATS = 24

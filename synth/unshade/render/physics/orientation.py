@@ -21,10 +21,11 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from ..camera import Camera
+from ...camera.camera import Camera
+from ...files.pictures import read_rgb, write_exr
+from ...vectors import unit
 from ..lights import AnyLight, Dome, Environment, Panel, Panels
 from ..passes import render_layers
-from ..pictures import read_rgb, write_exr
 from ..scene import ChartMaps, HeadScene
 from . import specimen
 from .verdict import Verdict
@@ -36,7 +37,7 @@ DEGREES = 0.3
 """Largest angle between a direction solved for and the true one."""
 
 CLEAR = 4.0
-"""Every mistake that is told apart moves what is seen by this many times the tolerance."""
+"""Every distinguishable mistake moves the observation by this many times the tolerance."""
 
 _SIZE = 32
 _MARKS = ((9, 20), (14, 8), (21, 18))
@@ -165,7 +166,7 @@ def _ball_normals(camera: Camera) -> np.ndarray:
         np.arange(camera.width) + 0.5 - camera.width / 2, camera.height / 2 - np.arange(camera.height) - 0.5
     )
     d = np.stack([x, y, np.full_like(x, -camera.focal)], -1)
-    d = d / np.linalg.norm(d, axis=-1, keepdims=True) @ camera.matrix[:3, :3].T
+    d = unit(d) @ camera.matrix[:3, :3].T
     eye = camera.matrix[:3, 3]
     along = d @ eye
     inside = along**2 - eye @ eye + specimen.RADIUS**2
@@ -276,7 +277,7 @@ def _judged(what: str, tolerance: float, unit: str, misses: dict[str, float], cl
     miss = misses["as stated"]
     text = f"{what} within {miss:.2f} {unit}"
     if clear < CLEAR * tolerance:
-        return text, f"{what}: the probe cannot tell its mistakes apart ({clear:.1f} {unit})"
+        return text, f"{what}: the probe cannot distinguish its mistakes ({clear:.1f} {unit})"
     if miss < tolerance:
         return text, ""
     best = min(misses, key=misses.get)

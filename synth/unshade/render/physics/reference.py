@@ -3,9 +3,7 @@
     f(v, l) cos = rho_d/pi max(n_d.l, 0)
                 + rho_s/F0 sum_k w_k D_k(h) G1_k(v) G1_k(l) / (4 n_s.v) F(h.v)
 
-D and G1: GGX as in Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
-EGSR 2007, equations 33 and 34; F: Schlick 1994. Nothing of the renderer is used, so that
-agreement with it says something.
+D, G1 and F are those of `ggx`. Nothing of the renderer is used, so that agreement with it is evidence.
 """
 
 from __future__ import annotations
@@ -14,6 +12,8 @@ import functools
 
 import numpy as np
 
+from ...vectors import unit
+from ..ggx import density, masking, schlick
 from .material import Skin
 
 _F0 = 0.04
@@ -27,14 +27,14 @@ def value(skin: Skin, wi: np.ndarray, wo: np.ndarray, part: str = "all") -> np.n
         total += skin.diffuse / np.pi * (wo @ skin.diffuse_normal).clip(0)
     if part != "diffuse":
         n = skin.specular_normal
-        h = wi + wo
-        h = h / np.linalg.norm(h, axis=1, keepdims=True)
+        h = unit(wi + wo)
         v, l = wi @ n, wo @ n
         seen = (v > 0) & (l > 0)
         lobes = sum(
-            weight * _ggx(h @ n, alpha) * _masking(v, alpha) * _masking(l, alpha) for alpha, weight in skin.lobes
+            weight * density((h @ n) ** 2, alpha**2) * masking(v, alpha) * masking(l, alpha)
+            for alpha, weight in skin.lobes
         )
-        specular = skin.specular / _F0 * lobes * _schlick((h * wi).sum(1)) / (4 * np.where(seen, v, 1))
+        specular = skin.specular / _F0 * lobes * schlick((h * wi).sum(1)) / (4 * np.where(seen, v, 1))
         total += np.where(seen, specular, 0)
     return np.where((wi[:, 2] > 0) & (wo[:, 2] > 0), total, 0)
 
@@ -75,17 +75,5 @@ def _lobe_albedo(normal: tuple[float, ...], towards: tuple[float, ...], alpha: f
     ln, vn = l @ n, float(wi @ n)
     ok = (hv > 0) & (ln > 0) & (l[..., 2] > 0)
     # dl = 4 (h.v) dh; D (n.h) dh is the measure above.
-    estimate = _masking(vn, alpha) * _masking(np.where(ok, ln, 1), alpha) * _schlick(hv) * hv / (cos * vn)
+    estimate = masking(vn, alpha) * masking(np.where(ok, ln, 1), alpha) * schlick(hv) * hv / (cos * vn)
     return float(np.where(ok, estimate, 0).mean())
-
-
-def _ggx(cosine: np.ndarray, alpha: float) -> np.ndarray:
-    return alpha**2 / (np.pi * (cosine**2 * (alpha**2 - 1) + 1) ** 2)
-
-
-def _masking(cosine, alpha: float):
-    return 2 / (1 + np.sqrt(1 + alpha**2 * (1 / np.maximum(cosine, 1e-9) ** 2 - 1)))
-
-
-def _schlick(cosine: np.ndarray) -> np.ndarray:
-    return _F0 + (1 - _F0) * (1 - cosine).clip(0, 1) ** 5

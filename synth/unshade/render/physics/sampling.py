@@ -38,7 +38,7 @@ Case = tuple[str, "str | None", str, float]
 
 
 def all_cases() -> list[Case]:
-    """The whole grid; the Lambert term knows no roughness."""
+    """The whole grid; the Lambert term has no roughness."""
     return [
         (normals, roughness, part, angle)
         for normals, roughness, part, angle in product(NORMALS, (None, *ROUGHNESS), PARTS, ANGLES)

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...camera.camera import Camera, look_at
 from ...face import Chart, Part
-from ..camera import Camera, look_at
+from ...vectors import unit
 from ..scene import ChartMaps, HeadScene
 
 RADIUS = 0.1
@@ -41,8 +42,7 @@ def ledge() -> Part:
     """A flat ball under the chin."""
     whole = ball(40)
     scale = np.array([1.7, 0.45, 1.5])
-    normals = whole.normals / scale
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = unit(whole.normals / scale)
     return Part(
         "ledge", _f32(whole.vertices * scale + [0, -0.13, 0.01]), _f32(normals), whole.triangles,
         np.tile(np.float32([0.55, 0.4, 0.3]), (len(whole.vertices), 1)), np.full(len(whole.vertices), 0.03, np.float32),
@@ -57,8 +57,7 @@ def varied_maps(size: int = 64) -> ChartMaps:
     wave = np.stack([np.sin(19 * u), np.cos(23 * v), 0 * u], -1)
 
     def tilted(amount: float) -> np.ndarray:
-        n = normal + amount * wave
-        return _f32(n / np.linalg.norm(n, axis=-1, keepdims=True))
+        return _f32(unit(normal + amount * wave))
 
     albedo = np.stack([0.45 + 0.2 * np.sin(7 * u + k) * np.cos(9 * v - k) for k in range(3)], -1)
     roughness = np.stack(
@@ -70,7 +69,7 @@ def varied_maps(size: int = 64) -> ChartMaps:
 
 
 def head(maps: ChartMaps | None = None) -> HeadScene:
-    """Ball and ledge, with varied maps unless told otherwise."""
+    """Ball and ledge, with varied maps by default."""
     return HeadScene(ball(), [ledge()], varied_maps() if maps is None else maps)
 
 

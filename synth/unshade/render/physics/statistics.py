@@ -31,7 +31,7 @@ _MIN_SEEN = 24
 
 @dataclass(frozen=True)
 class Estimate:
-    """Luminance [H, W], variance of its mean [H, W], and the passes that told the variance."""
+    """Luminance [H, W], variance of its mean [H, W], and the number of passes behind the variance."""
 
     mean: np.ndarray
     variance: np.ndarray
@@ -70,7 +70,7 @@ class Comparison:
 
     @property
     def per_pixel(self) -> np.ndarray:
-        """p-values of the pixels seen: Welch's t-test, since few passes tell each variance."""
+        """p-values of the pixels seen: Welch's t-test, since few passes estimate each variance."""
         a, b = self.ours.variance[self.seen], self.theirs.variance[self.seen]
         variance = np.maximum(a + b, 1e-30)
         freedom = variance**2 / (a**2 / (self.ours.passes - 1) + b**2 / (self.theirs.passes - 1) + 1e-60)

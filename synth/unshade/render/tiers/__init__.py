@@ -40,7 +40,7 @@ def render_tier(
 
     ``shared_seed`` (``render.seed`` unless given) seeds what the views of a light share: the
     irradiance of ``diffusion``. Pictures whose noise must be independent need another.
-    ``progress`` hears how many samples of all are done; a new bake counts as much as the
+    ``progress`` gets the samples done and in all; a new bake counts as much as the
     picture. Raises `SceneError` for a tier that the variant cannot render.
     """
     if render.tier == "opaque":
@@ -53,12 +53,12 @@ def render_tier(
         )
     progress = progress or (lambda done, total: None)
     if render.tier == "diffusion":
-        heard = []
+        reports = []
         baked = shared.baked(
             head, lit, render, render.seed if shared_seed is None else shared_seed,
-            lambda done, total: heard.append(progress(done, 2 * total)),
+            lambda done, total: reports.append(progress(done, 2 * total)),
         )  # fmt: skip
-        if heard:
+        if reports:
             whole = progress
             progress = lambda done, total: whole(total + done, 2 * total)
         estimator = diffusion.estimator(head, lit, baked, render.depth)

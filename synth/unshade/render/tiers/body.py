@@ -1,7 +1,7 @@
 """The head as one closed surface, which a medium can fill.
 
 Chart and the parts that scatter are generated from one mesh, so their rims share vertices
-to the bit: they are welded there. What stays open (the cut through the shoulders) is capped.
+to the bit: they are welded there. Open rims (the cut through the shoulders) are capped.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import igl
 import numpy as np
 
 from ...errors import SceneError
-from ...face.geometry import vertex_normals
+from ...vectors import vertex_normals
 from .surface import Mesh
 
 
@@ -29,7 +29,7 @@ class Body:
 
 
 def close(meshes: list[Mesh]) -> Body:
-    """Weld and cap. Raises `SceneError` where no inside can be told from an outside."""
+    """Weld and cap. Raises `SceneError` where inside and outside cannot be distinguished."""
     vertices = np.concatenate([mesh.vertices for mesh in meshes])
     starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
     triangles = np.concatenate([mesh.triangles.astype(np.int64) + start for mesh, start in zip(meshes, starts)])

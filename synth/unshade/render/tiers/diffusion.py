@@ -22,7 +22,7 @@ from .surface import SkinPoints
 
 
 @dataclass(frozen=True)
-class Baked:
+class BakedIrradiance:
     """Blurred irradiance of a head in a light, ``bakes`` times independently."""
 
     points: SkinPoints
@@ -30,7 +30,7 @@ class Baked:
     bakes: int
 
 
-def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> Baked:
+def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> BakedIrradiance:
     """As many paths per point as a pixel has samples, one bake for each pass of a picture."""
     passes = passes_for(render.samples)
     points = SkinPoints.of(head)
@@ -40,10 +40,10 @@ def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None
     )  # fmt: skip
     open_ = ~irradiance.shut_in(lit, points, seed_of("shut in", seed))
     path = np.array(render.subsurface_mm) * 1e-3
-    return Baked(points, gather.blur(light, points, points.albedo(head), path, open_), passes)
+    return BakedIrradiance(points, gather.blur(light, points, points.albedo(head), path, open_), passes)
 
 
-def estimator(head: HeadScene, lit: LitHead, baked: Baked, depth: int):
+def estimator(head: HeadScene, lit: LitHead, baked: BakedIrradiance, depth: int):
     """Function of sampler, ray and pass that gives the layers of `passes.render_estimate`."""
     lookup = _Lookup(head, baked)
 
@@ -65,7 +65,7 @@ def estimator(head: HeadScene, lit: LitHead, baked: Baked, depth: int):
 class _Lookup:
     """Blurred irradiance where a ray met the skin: bilinear on the chart, barycentric on the parts."""
 
-    def __init__(self, head: HeadScene, baked: Baked) -> None:
+    def __init__(self, head: HeadScene, baked: BakedIrradiance) -> None:
         points, values = baked.points, baked.blurred.irradiance
         self._chart = mi.ShapePtr(head.chart)
         self._size = len(points.texels.inside)

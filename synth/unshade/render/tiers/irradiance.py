@@ -83,7 +83,7 @@ def _interactions(points: SkinPoints, part: slice, repeats: int, seed: int, stra
 
 
 def _irradiance(lit: LitHead, later, sampler, si, normal):
-    """One sample of the irradiance for every lane, sampled as `LambertLight` says."""
+    """One sample of the irradiance for every lane, sampled by the `LambertLight`."""
     scene, way = lit.scene, lit.lambert_light
     total = mi.Color3f(0)
     light, radiance = scene.sample_emitter_direction(si, sampler.next_2d(), True)

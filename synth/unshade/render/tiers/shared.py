@@ -16,11 +16,11 @@ from ...scene_file import Render
 from ..scene import HeadScene, LitHead
 from . import diffusion, volume
 
-_baked: weakref.WeakKeyDictionary[LitHead, tuple[tuple, diffusion.Baked]] = weakref.WeakKeyDictionary()
+_baked: weakref.WeakKeyDictionary[LitHead, tuple[tuple, diffusion.BakedIrradiance]] = weakref.WeakKeyDictionary()
 _flesh: weakref.WeakKeyDictionary[HeadScene, tuple[bytes, volume.Flesh]] = weakref.WeakKeyDictionary()
 
 
-def baked(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> diffusion.Baked:
+def baked(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> diffusion.BakedIrradiance:
     """The latest bake in this light, if nothing it depends on has changed."""
     key = (_albedo_key(head), render.samples, render.depth, render.subsurface_mm, seed)
     kept = _baked.get(lit)

@@ -1,7 +1,7 @@
 """The skin as points: the chart's texels and the vertices of the parts that scatter.
 
-What carries one colour per vertex (rest of the head, mouth, sockets) is tissue like the
-chart; what carries a texture (the eyes) stays opaque in every tier.
+Parts with one colour per vertex (rest of the head, mouth, sockets) are tissue like the
+chart; parts with a texture (the eyes) stay opaque in every tier.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-from ...face.geometry import unit
 from ...face.texels import Texels, rasterise
+from ...vectors import triangle_normals, unit
 from ..scene import HeadScene
 
 TEXEL = 0.8e-3
@@ -43,8 +43,7 @@ class Mesh:
     @cached_property
     def doubled(self) -> np.ndarray:
         """Triangle normals (F,3) f64, as long as twice the triangle's area."""
-        a, b, c = (self.vertices[self.triangles[:, k]].astype(float) for k in range(3))
-        return np.cross(b - a, c - a)
+        return triangle_normals(self.vertices.astype(float), self.triangles)
 
 
 def scattering_parts(head: HeadScene) -> list:

@@ -132,7 +132,7 @@ def _transmittance(scene, body, sigma, vertex, light, inside, active):
         through *= dr.select(within & hit, dr.exp(-sigma * si.t), 1)
         passes = hit & (si.shape == body) & ((dr.dot(si.n, ray.d) > 0) == within)
         onward = passes & (through > _DARK) & (crossings < _MAX_CROSSINGS)
-        # What ends its way in the air, unhindered, has come from the emitter.
+        # A path that ends unhindered in the air has come from the emitter.
         through = dr.select(onward | (~hit & ~within), through, 0)
         within = within ^ passes
         rest = ray.maxt - si.t

@@ -1,14 +1,17 @@
 """Picture files: float EXRs whose channels have names, and 8-bit grey PNGs.
 
-Read as the solver reads them, by its own reader; faults are `PictureError`. Written beside as ``X.partial`` and renamed; equal pictures give equal bytes.
+The solver's own reader reads them; faults are `PictureError`. A file is written beside its place as ``X.partial`` and
+renamed. Equal pictures give equal bytes.
 """
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-import mitsuba as mi
 import numpy as np
 from PIL import Image
 
@@ -18,14 +21,12 @@ from ..errors import PictureError, StorageError
 ROUGHNESS_CHANNELS = ("alpha1", "alpha2", "share1")
 """Channels of a roughness map: GGX alphas of the two lobes, share of the first (all 0 to 1)."""
 
-_OPENEXR = mi.Bitmap.FileFormat.OpenEXR
-
 
 def write_exr(path: Path, channels: dict[str, np.ndarray]) -> None:
     """Writes float32 channels: ``{"": [H, W, 3]}`` as R, G, B, ``{"diffuse": ...}`` as
     diffuse.R and so on, ``{"Y": [H, W]}`` as one channel.
 
-    Raises `PictureError` for NaN or infinity, `StorageError` if it cannot be written.
+    Raises `PictureError` for NaN or infinity, `StorageError` if the file cannot be written.
     """
     names, planes = [], []
     for name, picture in channels.items():
@@ -37,16 +38,19 @@ def write_exr(path: Path, channels: dict[str, np.ndarray]) -> None:
             planes += list(np.moveaxis(picture, -1, 0))
     stack = np.ascontiguousarray(np.stack(planes, -1), dtype=np.float32)
     require_finite(path, stack, names)
+    # Mitsuba takes any LLVM if it is imported before one is chosen.
+    import mitsuba as mi
+
     if names == ["R", "G", "B"]:
         bitmap = mi.Bitmap(stack, mi.Bitmap.PixelFormat.RGB)
     else:
         bitmap = mi.Bitmap(stack, mi.Bitmap.PixelFormat.MultiChannel, names)
-    _replace(path, lambda partial: bitmap.write(partial, _OPENEXR))
+    replace_file(path, lambda partial: bitmap.write(partial, mi.Bitmap.FileFormat.OpenEXR))
 
 
 def write_gray(path: Path, picture: np.ndarray) -> None:
     """Writes an 8-bit grey PNG from an array [H, W] of uint8."""
-    _replace(path, lambda partial: Image.fromarray(picture).save(partial, format="PNG"))
+    replace_file(path, lambda partial: Image.fromarray(picture).save(partial, format="PNG"))
 
 
 def write_text(path: Path, text: str) -> None:
@@ -54,9 +58,14 @@ def write_text(path: Path, text: str) -> None:
     write_bytes(path, text.encode())
 
 
+def write_json(path: Path, document: Any, *, ensure_ascii: bool = True) -> None:
+    """Writes a JSON file."""
+    write_text(path, json.dumps(document, indent=1, ensure_ascii=ensure_ascii) + "\n")
+
+
 def write_bytes(path: Path, data: bytes) -> None:
     """Writes a file, completely or not at all. Raises `StorageError`."""
-    _replace(path, lambda partial: Path(partial).write_bytes(data))
+    replace_file(path, lambda partial: Path(partial).write_bytes(data))
 
 
 def read_exr(path: Path, *, colour: bool = False, finite: bool = True) -> dict[str, np.ndarray]:
@@ -75,7 +84,7 @@ def read_rgb(path: str | Path) -> np.ndarray:
 
 
 def read_light(path: str | Path) -> np.ndarray:
-    """As `read_rgb`; refuses what is no lat-long picture of 2 : 1, as cube maps and light probes."""
+    """As `read_rgb`; refuses a picture that is not lat-long, 2 : 1, such as a cube map or a light probe."""
     return _native.read_light(path)
 
 
@@ -95,7 +104,22 @@ def require_finite(path: str | Path, values: np.ndarray, names: list[str]) -> No
         )
 
 
-def _replace(path: Path, write) -> None:
+def make_folder(path: Path) -> None:
+    """Makes a folder and those above it. Raises `StorageError`."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise unwritten(path, error) from error
+
+
+def unwritten(path: Path, error: Exception) -> StorageError:
+    """The error for a file or folder that cannot be written."""
+    reason = getattr(error, "strerror", None) or str(error).strip().splitlines()[-1]
+    return StorageError(f"{path}: cannot be written: {reason}; make room or choose another folder")
+
+
+def replace_file(path: Path, write: Callable[[str], object]) -> None:
+    """Lets ``write`` make a file beside ``path``, and renames it. Raises `StorageError`."""
     partial = path.with_name(f"{path.name}.partial")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -103,5 +127,4 @@ def _replace(path: Path, write) -> None:
         os.replace(partial, path)
     except (OSError, RuntimeError) as error:
         partial.unlink(missing_ok=True)
-        reason = getattr(error, "strerror", None) or str(error).strip().splitlines()[-1]
-        raise StorageError(f"{path}: cannot be written: {reason}; make room or choose another folder") from error
+        raise unwritten(path, error) from error

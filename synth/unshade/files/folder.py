@@ -1,4 +1,4 @@
-"""A folder that is written completely or not at all, and taken up where it was left.
+"""A folder that is written completely or not at all, and resumed after an interruption.
 
 Work goes into ``X.partial``, which carries a key of everything that decides its content.
 A later attempt with the same key keeps what is finished; with another key it starts anew.
@@ -11,7 +11,7 @@ import hashlib
 from pathlib import Path
 
 from .. import _native
-from ..errors import StorageError
+from .pictures import unwritten
 
 
 def content_hash(path: Path) -> str:
@@ -33,7 +33,5 @@ class ResumableFolder:
             for left in self.path.rglob("*.partial"):
                 left.unlink()
         except OSError as error:
-            raise StorageError(
-                f"{self.target}: cannot be written: {error.strerror}; make room or choose another folder"
-            ) from error
+            raise unwritten(self.target, error) from error
         _native.commit_folder(self.target, self._key)

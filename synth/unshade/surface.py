@@ -9,13 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import _native
-from ..errors import CaptureError, MapsError
-from ..face.texels import Texels, rasterise
-from ..importing.chart_mesh import smooth_normals
-from ..render.relight import read_maps
-from ..render.scene import ChartMaps
-from ..render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS, MIN_ALPHA
+from . import _native
+from .errors import CaptureError, MapsError
+from .face.texels import Texels, rasterise
+from .importing.chart_mesh import smooth_normals
+from .render.relight import read_maps
+from .render.scene import ChartMaps
+from .render.skin_bsdf import LOBE_ALPHAS, LOBE_WEIGHTS, MIN_ALPHA
+from .vectors import unit
 
 _RIM = 1e-4
 """How far rounding may carry UV out of the unit square."""
@@ -57,7 +58,7 @@ class Surface:
     @cached_property
     def mesh_normal(self) -> np.ndarray:
         """Interpolated normals (N,N,3) of the mesh, unit."""
-        return self.spread(_unit(self.texels.sample(self.mesh.normals)))
+        return self.spread(unit(self.texels.sample(self.mesh.normals)))
 
     @property
     def specular_albedo(self) -> np.ndarray:
@@ -67,7 +68,7 @@ class Surface:
 
     @cached_property
     def diffuse_normal(self) -> np.ndarray:
-        """Unit normals (N,N,3) in object space; the mesh's own where the map says nothing."""
+        """Unit normals (N,N,3) in object space; the mesh's own where the map holds no direction."""
         return self._normal(self.maps.diffuse_normal)
 
     @cached_property
@@ -105,7 +106,7 @@ def read_surface(maps: Path, capture: Path | None, mesh: Path | None, warn: Call
         )
     where = capture / "mesh.obj" if capture else mesh
     if not all(np.isfinite(values).all() for values in (shape.vertices, shape.normals, shape.uv)):
-        raise CaptureError(f"{where}: holds numbers that are none; export the mesh again")
+        raise CaptureError(f"{where}: holds numbers that are not finite; export the mesh again")
     if shape.uv.size and (shape.uv.min() < -_RIM or shape.uv.max() > 1 + _RIM):
         raise CaptureError(f"{where}: its UV leave the unit square; use one tile, the one that the maps were made for")
     surface = Surface(replace(shape, uv=shape.uv.clip(0, 1)), read_maps(maps, warn))
@@ -129,13 +130,8 @@ def _read_mesh(path: Path) -> Mesh:
     normals = shape["normals"]
     if normals is None:
         normals = smooth_normals(shape["vertices"], shape["triangles"])
-    vertices, normals, uv = (values.astype(np.float32) for values in (shape["vertices"], _unit(normals), shape["uv"]))
+    vertices, normals, uv = (values.astype(np.float32) for values in (shape["vertices"], unit(normals), shape["uv"]))
     return Mesh(vertices, normals, uv, shape["triangles"])
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors / np.where(length > 0, length, 1)
 
 
 def resized(picture: np.ndarray, size: int) -> np.ndarray:

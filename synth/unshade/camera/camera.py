@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import SceneError
 from ..scene_file import passes_for
+from ..vectors import unit
 from .distortion import Distortion
 
 _UP = np.array([0.0, 1.0, 0.0])
@@ -52,8 +53,7 @@ class Camera:
             x, y = self.distortion.undistort(x, -y)
             y = -y
         local = np.stack([x, y, np.full_like(x, -1.0)], -1).reshape(-1, 3)
-        local /= np.linalg.norm(local, axis=1, keepdims=True)
-        return local @ self.matrix[:3, :3].T
+        return unit(local) @ self.matrix[:3, :3].T
 
     def project(self, points: np.ndarray) -> np.ndarray:
         """Pixel coordinates [N, 2] (x right, y down) of world points [N, 3] in front."""

@@ -1,0 +1,1 @@
+"""Cameras: pinholes, and lenses that distort."""
