@@ -38,10 +38,16 @@ def captured(folder: Path, samples: int = 16) -> Path:
     return out
 
 
-@functools.cache
 def captured_once(factory: pytest.TempPathFactory) -> Path:
     """The capture that all tests of a process share; none changes it."""
-    return captured(factory.mktemp("toy"))
+    return _captured_in(factory.getbasetemp())
+
+
+@functools.cache
+def _captured_in(base: Path) -> Path:
+    folder = base / "toy"
+    folder.mkdir()
+    return captured(folder)
 
 
 def exported(capture: Path, out: Path, format: str, maps: Path | None = None, **options) -> list[dict]:
