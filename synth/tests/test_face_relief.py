@@ -89,6 +89,7 @@ def sizes():
     return {size: build_face(FaceSpec.from_table(TABLE | {"texture_size": size})) for size in (512, 2048)}
 
 
+@pytest.mark.heavy
 def test_the_large_maps_are_the_same_face(sizes):
     small, large = (sizes[size].maps for size in (512, 2048))
     inner = large.inside.reshape(512, 4, 512, 4).all(axis=(1, 3)) & small.inside
@@ -104,6 +105,7 @@ def test_the_large_maps_are_the_same_face(sizes):
     assert np.median(angle) < 1.0
 
 
+@pytest.mark.heavy
 def test_2048_texels_show_pores(sizes):
     maps = sizes[2048].maps
     skin = maps.labels == Label.SKIN
@@ -117,6 +119,7 @@ def test_2048_texels_show_pores(sizes):
     assert np.quantile(nose, 0.95) > 4 and np.median(fine[skin]) > 0.5
 
 
+@pytest.mark.heavy
 def test_relief_has_the_measured_size(sizes):
     for size, low, high in ((512, 2.7, 3.4), (2048, 3.0, 4.3)):
         face = sizes[size]

@@ -90,25 +90,25 @@ def test_a_texel_is_found_where_the_views_show_it(smooth: unshade.Capture) -> No
     assert np.median(error) < 5e-4 and error.max() < 5e-3
 
 
+@pytest.mark.heavy
 def test_the_light_stage_reaches_an_opaque_truth(wavy: unshade.Capture) -> None:
     """Half of the normals within 1 degree, and the albedo within 45 dB."""
-    capture = wavy
-    maps = light_stage.recover(capture, laboratory(capture), texture_size=64, shadows=False, samples=512)
-    assert quality(capture, maps, "diffuse_albedo", "psnr_srgb") > 45
-    assert quality(capture, maps, "diffuse_normal", "normal_median_deg") < 1
-    assert quality(capture, maps, "specular_normal", "normal_median_deg") < 1
-    assert quality(capture, maps, "mesh_specular_normal", "normal_median_deg") > 4
-    assert quality(capture, maps, "specular_albedo", "rmse") < 0.003
+    maps = light_stage.recover(wavy, laboratory(wavy), texture_size=64, shadows=False, samples=512)
+    assert quality(wavy, maps, "diffuse_albedo", "psnr_srgb") > 45
+    assert quality(wavy, maps, "diffuse_normal", "normal_median_deg") < 1
+    assert quality(wavy, maps, "specular_normal", "normal_median_deg") < 1
+    assert quality(wavy, maps, "mesh_specular_normal", "normal_median_deg") > 4
+    assert quality(wavy, maps, "specular_albedo", "rmse") < 0.003
 
 
+@pytest.mark.heavy
 def test_binary_patterns_part_the_layers_of_coloured_skin(wavy: unshade.Capture) -> None:
     """Separates the layers without polarisers."""
-    capture = wavy
-    maps = binary_patterns.recover(capture, laboratory(capture), texture_size=64, samples=256)
-    assert quality(capture, maps, "diffuse_albedo", "psnr_srgb") > 41
-    assert quality(capture, maps, "diffuse_normal", "normal_median_deg") < 1
-    assert quality(capture, maps, "mesh_diffuse_normal", "normal_median_deg") > 4
-    assert quality(capture, maps, "specular_albedo", "rmse") < 0.005
+    maps = binary_patterns.recover(wavy, laboratory(wavy), texture_size=64, samples=256)
+    assert quality(wavy, maps, "diffuse_albedo", "psnr_srgb") > 41
+    assert quality(wavy, maps, "diffuse_normal", "normal_median_deg") < 1
+    assert quality(wavy, maps, "mesh_diffuse_normal", "normal_median_deg") > 4
+    assert quality(wavy, maps, "specular_albedo", "rmse") < 0.005
 
 
 def test_a_known_flash_gives_the_albedo_as_it_is(smooth: unshade.Capture) -> None:
@@ -117,6 +117,7 @@ def test_a_known_flash_gives_the_albedo_as_it_is(smooth: unshade.Capture) -> Non
     assert quality(smooth, maps, "specular_albedo", "rmse") < 0.01
 
 
+@pytest.mark.heavy
 def test_path_tracing_reproduces_a_truth_of_its_own_model(smooth: unshade.Capture) -> None:
     fit = path_traced.fit(smooth, texture_size=64, samples=16, basis_steps=10, free_steps=60)
     assert quality(smooth, fit.maps, "diffuse_albedo", "psnr_srgb", "global") > 33
