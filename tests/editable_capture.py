@@ -16,12 +16,12 @@ from unshade.files.pictures import read_exr, read_gray, read_rgb, write_exr, wri
 
 CONFIG = """
 base = "fast"
-initialisation.starts = 1
-colour_regions.texture_size = 32
-warm_up = { iterations = 30, texture_size = 64 }
-fine_tuning = { iterations = 5, texture_size = 64 }
-transport = { texture_size = 32, iterations = 20, albedo_frozen_steps = 5, refinement = 5, rows = 6 }
-height.steps = 40
+regions.texture_size = 32
+transport = { texture_size = 32, rows = 6 }
+joint = { grey_steps = 10, steps = 10 }
+relief.steps = 40
+albedo.steps = 5
+maps.texture_size = 64
 """
 """A solve of half a second."""
 

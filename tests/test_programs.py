@@ -321,7 +321,7 @@ def test_an_edited_module_is_run_again_and_nothing_else(programs: Path, tmp_path
             'name = "a"\npython = "ok:solve"\nset = { gian = 2 }',
             'suite.toml:6: python: ok:solve has no argument "gian"; did you mean "gain"?',
         ),
-        ('name = "fast"\n[method.set.warm_up]\niteration = 3', "suite.toml:5: name: configuration: "),
+        ('name = "fast"\n[method.set.joint]\nstep = 3', "suite.toml:5: name: configuration: "),
     ],
 )
 def test_suite_errors_are_found_before_rendering(tmp_path: Path, table: str, expected: str) -> None:

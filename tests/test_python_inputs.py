@@ -125,7 +125,7 @@ def test_a_wrong_dictionary_is_named_as_such(tiny_run: Path, tmp_path: Path) -> 
 def test_configurations_are_alike_as_name_text_file_and_dictionary(tiny_run: Path, tmp_path: Path) -> None:
     """By the loss of the first step, which a callback takes and ends the solve with."""
     case = unshade.Capture(tiny_run / "captures" / CASE)
-    text = 'base = "fast"\n[initialisation]\nstarts = 1\n[colour_regions]\ntexture_size = 32\n'
+    text = 'base = "fast"\n[regions]\ntexture_size = 32\n[light]\nsteps = 20\n[joint]\n'
     (tmp_path / "config").write_text(text)
 
     def first(config: object) -> tuple[int, float]:

@@ -63,6 +63,6 @@ def test_relief_is_believed_where_other_views_show_it(faces):
 
 
 def test_paint_is_no_relief(faces):
-    believing, mesh = normals(faces["painted"], 'base = "fast"\n[height]\ndoubt = 0.0\n')
-    assert mesh < 0.01 and believing > 0.3, "without doubt paint is taken for relief"
+    believing, mesh = normals(faces["painted"], 'base = "fast"\n[relief]\nminimum_agreement = 0.0\n')
+    assert mesh < 0.01 and believing > 0.3, "without the test paint is taken for relief"
     assert normals(faces["painted"], "fast")[0] < 0.3

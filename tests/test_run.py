@@ -70,10 +70,10 @@ def test_the_solver_never_opens_the_truth(tiny_run: Path, tmp_path: Path) -> Non
 
 def test_a_wrong_configuration_is_named_by_its_file(tmp_path: Path) -> None:
     config = tmp_path / "mine.toml"
-    config.write_text('base = "fast"\n[hair_in_skin]\nlobe_width = 0')
+    config.write_text('base = "fast"\n[transport]\nrows = 1')
     failed = unshade("solve", tmp_path, "-o", tmp_path / "maps", "--config", config, check=False)
     assert failed.returncode != 0
-    assert f"{config}: configuration: hair_in_skin.lobe_width is 0, but must be above 0" in failed.stderr, failed.stderr
+    assert f"{config}: configuration: transport.rows is 1, but must be 2 to 64" in failed.stderr, failed.stderr
     assert not (tmp_path / "maps").exists()
 
 

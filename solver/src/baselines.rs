@@ -8,14 +8,15 @@ use capture::{Camera, Capture, CaptureError};
 use formats::Maps;
 use formats::picture::Picture;
 
+use crate::config::ViewWeightConfig;
 use crate::model::taps::Taps;
-use crate::{Config, semantic};
+use crate::semantic;
 
 /// The semantic initialisation alone, see [`semantic::initial_diffuse_albedo`]; the rest as in
 /// [`mean_texture`](capture::mean_texture::mean_texture).
 pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, CaptureError> {
     let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
-    let (mesh, views, weights) = (&capture.mesh, &capture.train, Config::default().view_weights);
+    let (mesh, views, weights) = (&capture.mesh, &capture.train, ViewWeightConfig::default());
     let albedo = semantic::initial_diffuse_albedo(mesh, views, &gbuffers, &weights, size, &[]);
     let atlas = Atlas::new(&capture.mesh, size);
     let projections = Projection::of_views(&capture.train, &gbuffers);

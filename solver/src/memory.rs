@@ -43,7 +43,7 @@ use std::fs;
 
 use capture::Capture;
 
-use crate::config::{Config, map_size, texture_size};
+use crate::config::Config;
 
 /// Program, libraries and the stacks and scratch of the threads.
 const PROGRAM: f64 = 50e6;
@@ -59,7 +59,8 @@ const SIDES_SAMPLE: f64 = 100.0;
 const HEIGHT_TEXEL: f64 = 100.0;
 const FINE_SAMPLE: f64 = 190.0;
 const FINE_TEXEL: f64 = 190.0;
-const FINE_TEXEL_AFTER_HEIGHTS: f64 = 170.0;
+const RELIEF_TEXEL: f64 = 28.0;
+const ALBEDO_TEXEL: f64 = 130.0;
 const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
 const CHART: f64 = 0.8;
@@ -79,11 +80,11 @@ pub struct Estimate {
     pub taken: u64,
 }
 
-/// The machine has not the memory.
+/// Not enough memory.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the solve needs {} of memory more ({estimate} in all), but {} are free; lower \
-     fine_tuning.texture_size, take the pictures at half their size, or fewer views",
+     the textures' texture_size, take the pictures at half their size, or fewer views",
     bytes(*needed), bytes(*available)
 )]
 pub struct NotEnoughMemory {
@@ -102,49 +103,47 @@ impl Estimate {
         let frame: usize = views.iter().map(|view| view.mask.data.len()).sum();
         let covered = |data: &[u8]| data.iter().filter(|value| **value == 255).count();
         let pixels = views.iter().map(|view| covered(&view.mask.data)).sum();
-        let size = texture_size(config.fine_tuning.texture_size, capture);
+        let size = config.texture_size().solved(capture);
         Self::of(views.len(), frame, pixels, size, config)
     }
 
     /// For `frame` pixels of which `pixels` are covered, and textures of side `size`.
     pub fn of(views: usize, frame: usize, pixels: usize, size: usize, config: &Config) -> Self {
-        let square = |side: usize| (side * side) as f64;
-        let texels = square(size);
+        let texture_size = config.texture_size();
         let (all, covered) = (frame as f64, pixels as f64);
-        let share = if config.warm_up.half_resolution { 0.25 } else { 1.0 };
         let taken = PROGRAM + all * FRAME_PIXEL;
         let base = taken + covered * COVERED_PIXEL;
-        let warm_up_pictures = share * (all * FRAME_PIXEL + covered * COVERED_PIXEL);
-        let warm_up = warm_up_pictures
-            + share * covered * WARM_UP_SAMPLE.max(SAMPLE + SORTING)
-            + square(config.warm_up.texture_size) * WARM_UP_TEXEL;
-        let t = &config.transport;
-        let cells = (2 * t.rows * t.rows) as f64;
-        let matrix = CHART * square(t.texture_size) * cells * 4.0;
-        let transport = match t.enabled {
-            true => {
-                let samples = share * covered;
-                let followed = samples.min(t.highlight_samples as f64) * cells * 4.0;
-                let stages = 3.0 * matrix + followed + samples * TRANSPORT_SAMPLE;
-                warm_up_pictures + (6.0 * matrix).max(stages)
-            }
-            false => 0.0,
-        };
-        let height = match config.height.enabled {
-            true => {
-                let side = size as f64 * f64::from(config.height.texture_scale);
-                let sides = if config.height.doubt > 0.0 { SIDES_SAMPLE } else { 0.0 };
-                covered * (HEIGHT_SAMPLE + sides) + side * side * HEIGHT_TEXEL + texels * 28.0
-            }
-            false => 0.0,
-        };
-        let texel = if config.height.enabled { FINE_TEXEL_AFTER_HEIGHTS } else { FINE_TEXEL };
-        let fine = covered * FINE_SAMPLE + texels * texel;
+        let half_pictures = 0.25 * (all * FRAME_PIXEL + covered * COVERED_PIXEL);
         let sorting = covered * (SAMPLE + SORTING);
-        let maps =
-            square(map_size(config.fine_tuning.texture_size, size)) * MAP_TEXEL + covered * SAMPLE;
-        let most =
-            [warm_up, transport, sorting, height, fine, maps].into_iter().fold(0.0, f64::max);
+        let maps = square(texture_size.maps(size)) * MAP_TEXEL + covered * SAMPLE;
+        let stages = match config {
+            Config::Paper(config) => {
+                let share = if config.warm_up.half_resolution { 0.25 } else { 1.0 };
+                let warm_up = half_pictures
+                    + share * covered * WARM_UP_SAMPLE.max(SAMPLE + SORTING)
+                    + square(config.warm_up.texture_size) * WARM_UP_TEXEL;
+                [warm_up, covered * FINE_SAMPLE + square(size) * FINE_TEXEL, 0.0]
+            }
+            Config::Unshade(config) => {
+                let cast = &config.transport;
+                let cells = (2 * cast.rows * cast.rows) as f64;
+                let matrix = CHART * square(cast.texture_size) * cells * 4.0;
+                let samples = 0.25 * covered;
+                let followed = samples.min(config.light.samples as f64) * cells * 4.0;
+                let light = half_pictures
+                    + samples * TRANSPORT_SAMPLE
+                    + (6.0 * matrix).max(3.0 * matrix + 2.0 * followed);
+                let side = (size as f64 * f64::from(config.relief.texture_scale)) as usize;
+                let sides = if config.relief.minimum_agreement > 0.0 { SIDES_SAMPLE } else { 0.0 };
+                let relief = 2.0 * matrix
+                    + covered * (HEIGHT_SAMPLE + sides)
+                    + square(side) * HEIGHT_TEXEL
+                    + square(size) * RELIEF_TEXEL;
+                let albedo = 2.0 * matrix + covered * FINE_SAMPLE + square(size) * ALBEDO_TEXEL;
+                [light, relief, albedo]
+            }
+        };
+        let most = stages.into_iter().chain([sorting, maps]).fold(0.0, f64::max);
         Self { views, pixels, texture_size: size, peak: (base + most) as u64, taken: taken as u64 }
     }
 
@@ -167,6 +166,10 @@ impl fmt::Display for Estimate {
         let (pixels, memory) = (count(*pixels), bytes(*peak));
         write!(f, "{pixels} pixels of {views}, {texture_size} x {texture_size} textures, {memory}")
     }
+}
+
+fn square(side: usize) -> f64 {
+    (side * side) as f64
 }
 
 fn count(number: usize) -> String {
@@ -252,10 +255,10 @@ mod tests {
         let small = of(655_360, 250_000, 512).peak;
         assert!(of(10_485_760, 4_000_000, 512).peak > 4 * small);
         let estimate = of(655_360, 250_000, 4096);
-        assert!(estimate.peak > 2_500_000_000);
+        assert!(estimate.peak > 2_000_000_000);
         assert!(estimate.fits(None).is_ok() && estimate.fits(Some(estimate.peak)).is_ok());
         let error = estimate.fits(Some(1 << 30)).unwrap_err().to_string();
-        for word in ["fine_tuning.texture_size", "views", "half", "1.1 GB", "4096"] {
+        for word in ["texture_size", "views", "half", "1.1 GB", "4096"] {
             assert!(error.contains(word), "{word}: {error}");
         }
         assert!(!error.contains('\n'));

@@ -6,12 +6,13 @@ mod chart;
 mod clusters;
 mod colours;
 mod explanation;
-pub mod found;
 mod hair;
 mod lamps;
 mod merging;
 mod part_of_skin;
 mod parts;
+pub(crate) mod regions;
+mod settings;
 
 use capture::gbuffer::{Atlas, GBuffer};
 use capture::projection::{Observation, Projection, per_texel};

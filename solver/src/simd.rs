@@ -82,11 +82,11 @@ pub(crate) use widened;
 mod tests {
     use std::cell::Cell;
 
+    use crate::fit::adam::Adam;
     use crate::model::blur::Blur;
     use crate::model::prior::prior;
     use crate::model::pyramid::Pyramid;
     use crate::model::taps::Taps;
-    use crate::optimise::adam::Adam;
 
     thread_local! {
         static WIDEST: Cell<u8> = const { Cell::new(2) };
@@ -108,7 +108,7 @@ mod tests {
             let mut all = Blur::new(side, 3, 2.0).apply(&texture);
             let mut gradient = all.clone();
             all.push(prior(&texture, side, 0.3, &mut gradient) as f32);
-            let mut adam = Adam::new(&crate::config::Config::default().adam, 0.1, texture.len());
+            let mut adam = Adam::new(&crate::config::AdamConfig::default(), 0.1, texture.len());
             let mut moved = texture.clone();
             adam.step(&mut moved, &gradient, 1.0, 0.0);
             let uvs: Vec<_> = (0..999).map(|i| glam::Vec2::splat(i as f32 / 999.0)).collect();

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::config::Config;
+use crate::maps::Scales;
 
 /// The result of [`crate::solve`].
 #[derive(Clone, Debug)]
@@ -17,7 +18,7 @@ pub struct Solution {
     pub maps: Maps,
     /// The light, if explicit transport had a part.
     pub light: Option<RecoveredLight>,
-    /// Every withheld view as the networks see it.
+    /// Every withheld view as the model sees it.
     pub views: Vec<ViewLayers>,
     /// The maps after every stage, small; empty if the configuration wants no record of them.
     pub stages: Vec<StageMaps>,
@@ -25,6 +26,19 @@ pub struct Solution {
     pub record: Record,
     /// Wall times.
     pub timing: Timing,
+}
+
+/// What a method returns: a solution without its record.
+pub(crate) struct Results {
+    pub maps: Maps,
+    pub light: Option<RecoveredLight>,
+    pub views: Vec<ViewLayers>,
+    pub stages: Vec<StageMaps>,
+    pub scales: Scales,
+    /// Side of the textures that were solved for, texels.
+    pub texture_size: usize,
+    /// The number of samples of the full pictures.
+    pub samples: usize,
 }
 
 /// The maps that a stage changed, at most 256 texels a side, normalised like the final ones.

@@ -68,11 +68,10 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::Config;
     use crate::testing;
 
     fn config(depth_blur: f32) -> ViewWeightConfig {
-        ViewWeightConfig { depth_blur, ..Config::default().view_weights }
+        ViewWeightConfig { depth_blur, ..ViewWeightConfig::default() }
     }
 
     #[test]

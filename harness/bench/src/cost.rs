@@ -6,7 +6,7 @@
 //! solver's kernels do it at their best level, its parts written out below.
 
 use serde::Serialize;
-use solver::Config;
+use solver::config::PaperConfig;
 use solver::model::pyramid::Pyramid;
 
 /// Bytes of a value, of a sample's place in the textures, and of a value that Adam moves: it, its two
@@ -50,7 +50,7 @@ pub struct Cost {
 }
 
 /// Multiply-adds of a network: forward, to the weights and to the inputs of every layer but the first.
-fn products(config: &Config) -> [f64; 3] {
+fn products(config: &PaperConfig) -> [f64; 3] {
     let n = &config.networks;
     let (width, outputs) = (n.width as f64, n.outputs as f64);
     let first = 3.0 * width;
@@ -59,14 +59,14 @@ fn products(config: &Config) -> [f64; 3] {
 }
 
 /// Neurons of a network's hidden layers, and its outputs.
-fn neurons(config: &Config) -> [f64; 2] {
+fn neurons(config: &PaperConfig) -> [f64; 2] {
     let n = &config.networks;
     [(n.hidden_layers * n.width) as f64, n.outputs as f64]
 }
 
 /// A warm-up step: three networks with their gradients; positions, two directions, Fresnel factor,
 /// colour and weight of every pixel (14 values); four values per texel.
-pub fn warm_up(config: &Config, pixels: usize, size: usize) -> Cost {
+pub fn warm_up(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
     let [hidden, outputs] = neurons(config);
     // ReLU, its gate, and the sums for the biases.
     let networks = 3.0 * (3.0 * hidden + outputs);
@@ -80,7 +80,7 @@ pub fn warm_up(config: &Config, pixels: usize, size: usize) -> Cost {
 /// A step on normals and specular albedo: two networks and their gradients by the inputs; light
 /// vector, normal, view, Fresnel factor, colour, weight, diffuse albedo (22 values); four values per
 /// texel, of which three pass through a blur and its transpose, as the blur's pyramid takes them.
-pub fn normals(config: &Config, pixels: usize, size: usize) -> Cost {
+pub fn normals(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
     let [forward, ..] = products(config);
     let [hidden, outputs] = neurons(config);
     let shading = outputs * (2.0 * SOFTPLUS + 2.0 + 4.0);

@@ -7,13 +7,14 @@ use capture::rays::Occluder;
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 use solver::backend::Backend;
+use solver::config::TransportConfig;
+use solver::fit::adam::Adam;
 use solver::memory::KeepFreedMemory;
 use solver::model::blur::Blur;
 use solver::model::normals::DirectionScale;
 use solver::model::prior::prior;
 use solver::model::pyramid::Pyramid;
-use solver::optimise::adam::Adam;
-use solver::transport::{Beside, Sky, Transport};
+use solver::transport::{Sky, Transport};
 
 use super::clock::best;
 use super::cost::Cost;
@@ -104,10 +105,9 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     });
 
     let (mesh, sky) = (bump(256), Sky::even(16));
-    let mut config = config.transport;
-    config.texture_size = size.transport;
-    config.bounces = 0;
-    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Nothing);
+    let config =
+        TransportConfig { texture_size: size.transport, bounces: 0, ..TransportConfig::default() };
+    let transport = Transport::new(&mesh, &sky, &config, 0);
     let rows = size.transport * size.transport;
     let entries = (rows * sky.len()) as f64;
     let lights = vec![1.0f32; 3 * sky.len()];

@@ -26,10 +26,6 @@ use solver::backend::cpu::{Cpu, Level};
 use solver::backend::gpu::Adapter;
 use solver::backend::{Backend, BackendError};
 use solver::model::deviation::Deviation;
-use solver::optimise::diffuse::Diffuse;
-use solver::optimise::normals::Normals;
-use solver::optimise::stage::Stage;
-use solver::optimise::warm_up::WarmUp;
 
 pub use error::BenchError;
 pub use gpu::GpuReport;
@@ -275,15 +271,9 @@ fn torch_row(
 
 /// The losses before the first steps.
 fn losses(kind: Kind, problem: &Problem, device: &dyn Backend) -> Vec<f64> {
-    let Problem { config, samples, state } = problem;
-    let mut state = state.clone();
-    let deviation = Deviation::new(config, state.size);
-    let mut stage: Box<dyn Stage> = match kind {
-        Kind::WarmUp => Box::new(WarmUp::new(config, samples, &state)),
-        Kind::Normals => Box::new(Normals::new(config, samples, &deviation, &state, device, 1)),
-        Kind::Diffuse => Box::new(Diffuse::new(config, samples, &deviation, &state, device, 1)),
-    };
-    (0..TORCH_STEPS).map(|_| stage.step(&mut state, device, 1.0)).collect()
+    let deviation = Deviation::new(&problem.config, problem.state.size);
+    let mut fit = problem.fit(kind, &deviation, device);
+    (0..TORCH_STEPS).map(|_| fit.step(device, 1.0)).collect()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use capture::Capture;
 use serde::Serialize;
-use solver::config::{TextureRule, TextureSize};
+use solver::config::{PaperConfig, TextureRule, TextureSize};
 use solver::memory::Estimate;
 use solver::{Backend, BackendError, Config};
 
@@ -38,11 +38,11 @@ pub struct Solved {
 
 /// Solves a capture with `unshade` and with `paper`, the latter with textures of the same side.
 pub fn measure(capture: &Path, backend: &dyn Backend) -> Result<[Solved; 2], BenchError> {
-    let mut paper = Config::preset("paper")?;
+    let mut paper = PaperConfig::default();
     paper.fine_tuning.texture_size = TextureSize::Rule(TextureRule::Auto);
     Ok([
         solve(capture, backend, "unshade", &Config::default())?,
-        solve(capture, backend, "paper", &paper)?,
+        solve(capture, backend, "paper", &Config::Paper(paper))?,
     ])
 }
 

@@ -7,10 +7,6 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::memory::KeepFreedMemory;
 use solver::model::deviation::Deviation;
-use solver::optimise::diffuse::Diffuse;
-use solver::optimise::normals::Normals;
-use solver::optimise::stage::Stage;
-use solver::optimise::warm_up::WarmUp;
 
 use super::clock::{best, forget_peak, peak_memory};
 use super::cost::{self, Cost};
@@ -115,20 +111,16 @@ pub fn measure(
     // As in a solve; dropped last, so that the next measurement begins with little memory.
     let _kept = KeepFreedMemory::begin();
     let forgot = forget_peak();
-    let Problem { config, samples, mut state } = Problem::new(pixels, texture);
-    let deviation = Deviation::new(&config, texture);
-    let mut stage: Box<dyn Stage> = match kind {
-        Kind::WarmUp => Box::new(WarmUp::new(&config, &samples, &state)),
-        Kind::Normals => Box::new(Normals::new(&config, &samples, &deviation, &state, backend, 1)),
-        Kind::Diffuse => Box::new(Diffuse::new(&config, &samples, &deviation, &state, backend, 1)),
-    };
+    let problem = Problem::new(pixels, texture);
+    let deviation = Deviation::new(&problem.config, texture);
+    let mut fit = problem.fit(kind, &deviation, backend);
     let seconds = best(budget, 2, || {
-        stage.step(&mut state, backend, 1.0);
+        fit.step(backend, 1.0);
     });
     // Not in between: the steps are to find the processor as those of a solve do.
     let mut flops_after = 0.0f64;
     best(budget / 4, 2, || {
-        stage.step(&mut state, backend, 1.0);
+        fit.step(backend, 1.0);
         flops_after = flops_after.max(peak_now(backend));
     });
     let cost = kind.cost(pixels, texture);

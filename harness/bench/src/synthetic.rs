@@ -4,13 +4,21 @@
 //! neighbouring pixels share texels as on a real chart, and views meet them in different places.
 
 use glam::{Vec2, Vec3};
-use solver::Config;
+use solver::backend::Backend;
+use solver::config::PaperConfig;
+use solver::fit::Fit;
+use solver::model::deviation::Deviation;
 use solver::model::networks::Networks;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
 use solver::model::taps::Taps;
-use solver::optimise::stage::State;
+use solver::paper::diffuse::diffuse;
+use solver::paper::fields::ShadingFields;
+use solver::paper::normals::Normals;
+use solver::paper::warm_up::WarmUp;
 use solver::transport::skin::schlick;
+
+use super::steps::Kind;
 
 /// Views of every problem.
 pub const VIEWS: usize = 10;
@@ -20,11 +28,11 @@ const SEEN: f32 = 0.8;
 /// Starting point of an optimisation's stages.
 pub struct Problem {
     /// The configuration `paper`.
-    pub config: Config,
+    pub config: PaperConfig,
     /// Pixels of all views, in texel order.
     pub samples: Samples,
     /// Textures with some structure, and networks of seed 0.
-    pub state: State,
+    pub state: ShadingFields,
 }
 
 impl Problem {
@@ -54,7 +62,7 @@ impl Problem {
         };
         let wave = |i: usize| 0.5 + 0.4 * (i as f32 * 0.37).sin();
         let texels = size * size;
-        let state = State {
+        let state = ShadingFields {
             networks: Networks::new(&config.networks, 0),
             size,
             diffuse: (0..3 * texels).map(wave).collect(),
@@ -63,12 +71,26 @@ impl Problem {
         };
         Self { config, samples, state }
     }
+
+    /// The fit whose steps are timed; `deviation` has the side of the textures.
+    pub fn fit<'a>(
+        &'a self,
+        kind: Kind,
+        deviation: &'a Deviation,
+        backend: &dyn Backend,
+    ) -> Box<dyn Fit + 'a> {
+        let Self { config, samples, state } = self;
+        match kind {
+            Kind::WarmUp => Box::new(WarmUp::new(config, samples, state.clone())),
+            Kind::Normals => Box::new(Normals::new(config, samples, deviation, state, backend)),
+            Kind::Diffuse => Box::new(diffuse(config, samples, deviation, state, backend)),
+        }
+    }
 }
 
 /// The configuration whose steps are timed.
-pub fn paper() -> Config {
-    // The default only stands for a name that does not exist.
-    Config::preset("paper").unwrap_or_default()
+pub fn paper() -> PaperConfig {
+    PaperConfig::default()
 }
 
 /// A pixel of a synthetic G-buffer.

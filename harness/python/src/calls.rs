@@ -48,7 +48,7 @@ pub(super) fn solve<'py>(
     };
     if out.is_none() {
         // Nobody would see them.
-        config.records = solver::config::RecordConfig { stages: false, layers: false };
+        config = config.without_records();
     }
     let backend: Choice = backend.parse().map_err(raise)?;
     let capture = &capture.get().inner;

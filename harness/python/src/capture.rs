@@ -11,7 +11,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scoring::score;
-use solver::transport::{Beside, CHANNELS, Sky, Transport};
+use solver::transport::{CHANNELS, Sky, Transport};
 
 use super::arrays::{self, Argument};
 use super::errors::{named_error, raise};
@@ -163,15 +163,15 @@ impl Capture {
         bounce_albedo: f32,
     ) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
         let light = Argument { name: "light", class: "ValueError" }.light(light)?;
-        let mut config = solver::Config::default();
+        let mut config = solver::config::UnshadeConfig::default();
         let transport = &mut config.transport;
         (transport.texture_size, transport.rows) = (texture_size, light.height);
         (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
-        config.validate().map_err(raise)?;
+        solver::Config::Unshade(config.clone()).validate().map_err(raise)?;
         let data = long(py, || {
             let sky = Sky::even(light.height).at(nearness);
             let (mesh, transport) = (&self.inner.mesh, &config.transport);
-            Transport::new(mesh, &sky, transport, config.seed, Beside::Nothing).shading(&light.data)
+            Transport::new(mesh, &sky, transport, config.seed).shading(&light.data)
         })?;
         let (width, height) = (texture_size, texture_size);
         arrays::picture_to_array(py, Picture { width, height, channels: CHANNELS, data })

@@ -22,7 +22,7 @@ pub(super) fn skin_reflected<'py>(
     if views.len() != normals.len() || lights.len() != normals.len() {
         return Err(PyValueError::new_err("views, lights: expected one per normal"));
     }
-    let skin = solver::Config::default().skin;
+    let skin = solver::config::UnshadeConfig::default().skin;
     let values = normals.iter().zip(&views).zip(&lights).map(|((normal, view), light)| {
         let [normal, view, light] = [normal, view, light].map(|v| Vec3::from_array(*v));
         reflected(&skin, normal, view, light)

@@ -136,7 +136,7 @@ fn synth(arguments: SynthArgs) -> Result<(), RunError> {
 fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
     let mut config = suite::solver_config(&arguments.config)?;
     if arguments.no_records {
-        config.records = solver::config::RecordConfig { stages: false, layers: false };
+        config = config.without_records();
     }
     if arguments.rerun.is_some() && arguments.solver != SolverName::Fields {
         let reason = "a baseline has no steps to show; remove --rerun".to_owned();

@@ -78,7 +78,7 @@ fn work_of_maps(size: &CaseSize, method: &Method) -> f64 {
         MethodKind::Fields { config, .. } => {
             let Ok(config) = Config::from_toml(config) else { return 0.0 };
             let (views, pixels) = (size.views, size.covered as usize);
-            let texture_size = solver::expected_texture_size(&config, views, pixels);
+            let texture_size = config.texture_size().expected(views, pixels);
             solver::seconds_on_two_cores(&config, &Extent { views, pixels, texture_size })
         }
         MethodKind::Competitor { competitor, settings } => {

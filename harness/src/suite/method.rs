@@ -350,7 +350,9 @@ impl MethodTable {
             if given && !means {
                 let fix = match key {
                     "texture_size" if competitor => "; write set = { texture_size = ... }",
-                    "texture_size" if fields => "; write [method.set.fine_tuning] texture_size",
+                    "texture_size" if fields => {
+                        "; write [method.set.maps] texture_size, or [method.set.fine_tuning] texture_size for `paper`"
+                    }
                     _ => "; remove it",
                 };
                 return refused(format!("does not support {key}{fix}"));

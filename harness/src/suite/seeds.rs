@@ -68,7 +68,7 @@ impl Suite {
                             rendering.insert("rounding_seed".to_owned(), add.into());
                         }
                     } else {
-                        let seed = Value::Integer((given.seed as i64).wrapping_add(add));
+                        let seed = Value::Integer((given.seed() as i64).wrapping_add(add));
                         values.insert("seed".to_owned(), seed);
                     }
                     *config =
@@ -117,8 +117,8 @@ mod tests {
         };
         let given = config(&suite);
         let rounded = config(&suite.reseeded(2, Vary::Rounding).unwrap());
-        assert_eq!((rounded.seed, rounded.rendering.rounding_seed), (given.seed, 2 * 7919));
+        assert_eq!((rounded.seed(), rounded.rounding_seed()), (given.seed(), 2 * 7919));
         let other = config(&suite.reseeded(2, Vary::Method).unwrap());
-        assert_eq!((other.seed, other.rendering.rounding_seed), (given.seed + 2 * 7919, 0));
+        assert_eq!((other.seed(), other.rounding_seed()), (given.seed() + 2 * 7919, 0));
     }
 }

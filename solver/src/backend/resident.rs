@@ -7,13 +7,13 @@
 
 use glam::Vec3;
 
+use crate::fit::adam::Adam;
 use crate::model::blur::Blur;
 use crate::model::deviation::Deviation;
 use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
-use crate::optimise::adam::Adam;
 use crate::transport::{Reflection, Transport};
 
 /// A stage as a device may take it in: all that stays as it is while the stage runs.
@@ -41,9 +41,7 @@ pub enum Job<'a> {
     },
     /// Moves deviation and specular albedo under frozen networks.
     Normals(NormalsJob<'a>),
-    /// Moves the light's logarithm, its nearness, diffuse and specular albedo, networks.
-    Transported(TransportedJob<'a>),
-    /// Moves the light's logarithm, its nearness, the diffuse albedo.
+    /// Moves the light's logarithm and the diffuse albedo.
     Highlights(HighlightsJob<'a>),
 }
 
@@ -60,27 +58,6 @@ pub struct NormalsJob<'a> {
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one stays.
     pub albedo: &'a Planes,
-}
-
-/// See [`Job::Transported`]. The samples' taps are of the transport's size.
-#[derive(Clone, Copy)]
-pub struct TransportedJob<'a> {
-    /// The pixels.
-    pub samples: &'a Samples,
-    /// Inputs of the directional networks.
-    pub directions: &'a Planes,
-    /// Of the networks.
-    pub shape: &'a [usize],
-    /// From light to diffuse shading.
-    pub transport: &'a Transport,
-    /// Weight of the albedo prior.
-    pub prior: f32,
-    /// Weight of a coloured mean shading.
-    pub grey_mean: f32,
-    /// Weight of every texel's coloured shading.
-    pub grey_texel: f32,
-    /// Weight and softness of [`crate::transport::light_colour`].
-    pub light_colour: [f32; 2],
 }
 
 /// See [`Job::Highlights`]. The samples' taps are of the transport's size.
@@ -108,19 +85,20 @@ pub struct Variable<'a> {
     pub minimum: f32,
     /// Nor rises above this.
     pub maximum: f32,
-    /// Steps of the stage before it moves; 0 for a stage's first variable.
-    pub frozen_steps: usize,
 }
 
 impl<'a> Variable<'a> {
     /// Of these values.
     pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, minimum: f32) -> Self {
-        Self { values, adam, minimum, maximum: f32::INFINITY, frozen_steps: 0 }
+        Self { values, adam, minimum, maximum: f32::INFINITY }
     }
 
     /// A step on the host.
     pub fn step(&mut self, gradient: &[f32], decay: f32) {
         self.adam.step(self.values, gradient, decay, self.minimum);
+        if self.maximum < f32::INFINITY {
+            self.values.iter_mut().for_each(|value| *value = value.min(self.maximum));
+        }
     }
 }
 
@@ -136,7 +114,7 @@ pub trait Resident {
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
 }
 
-/// The normal equations of the height solve, see [`crate::optimise::height_solve`]: unknown are a height per texel
+/// The normal equations of the height solve, see `unshade/height_solve.rs`: unknown are a height per texel
 /// and three changes of the albedo.
 pub struct NormalEquations<'a> {
     /// From texels to pixels.
@@ -165,7 +143,7 @@ pub struct NormalEquations<'a> {
     pub damping: f32,
     /// Share of a colour's part along that of the diffuse layer (the slopes by the albedo) that counts for
     /// nothing.
-    pub doubt: f32,
+    pub diffuse_share: f32,
     /// Squared norm of the residual, over that of the goal, at which nothing moves any more.
     pub enough: f64,
 }

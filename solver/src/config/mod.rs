@@ -1,97 +1,72 @@
-//! Every number of the method, named, with its source; and the named configurations.
+//! The configurations: every number of a method, with its source. Each preset is a TOML file beside this one, in
+//! which every key has a comment that states its meaning and its unit.
 
 mod error;
-mod known_mesh;
-mod presets;
+mod paper;
 mod ranges;
 mod renamed;
-mod tables;
+mod shared;
+mod unshade;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use toml::{Table, Value};
 
 pub use error::ConfigError;
-pub use known_mesh::*;
-use ranges::{not_negative, positive, range};
-use renamed::refuse_renamed;
-pub use tables::*;
+pub use paper::*;
+pub use shared::*;
+pub use unshade::*;
 
-/// How a capture is decomposed. Section numbers are those of the paper (Neural Shading Fields).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Config {
-    /// Seeds the networks' initial weights.
-    pub seed: u64,
-    /// The three shading networks.
-    pub networks: NetworkConfig,
-    /// The pixel model.
-    pub rendering: RenderingConfig,
-    /// How skin reflects light at its surface.
-    pub skin: SkinConfig,
-    /// How much each pixel counts.
-    pub view_weights: ViewWeightConfig,
-    /// The initial textures.
-    pub initialisation: InitialisationConfig,
-    /// Regions of the face without labels.
-    pub colour_regions: ColourRegionConfig,
-    /// Hair that labels call skin.
-    pub hair_in_skin: HairInSkinConfig,
-    /// Networks and albedos together, at low resolution.
-    pub warm_up: WarmUpConfig,
-    /// Textures alone, at full resolution.
-    pub fine_tuning: FineTuningConfig,
-    /// The optimiser.
-    pub adam: AdamConfig,
-    /// From solved to physical albedos.
-    pub normalisation: NormalisationConfig,
-    /// Diffuse shading by ray casts instead of a network.
-    pub transport: TransportConfig,
-    /// Normals from one height texture.
-    pub height: HeightConfig,
-    /// Errors of the model, by which the refinement weighs pixels.
-    pub model_error: ModelErrorConfig,
-    /// How much regions mirror.
-    pub reflectance: ReflectanceConfig,
-    /// Records that are kept for the report.
-    pub records: RecordConfig,
+/// The presets and their texts. A text with a `base` states what differs from that preset.
+const PRESETS: [(&str, &str); 4] = [
+    ("unshade", include_str!("unshade.toml")),
+    ("fast", include_str!("fast.toml")),
+    ("paper", include_str!("paper.toml")),
+    ("paper-tuned", include_str!("paper-tuned.toml")),
+];
+
+/// How a capture is decomposed: the method, and every value of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "base", rename_all = "lowercase")]
+pub enum Config {
+    /// The default method, with explicit light transport.
+    Unshade(UnshadeConfig),
+    /// The published method, with shading networks.
+    Paper(PaperConfig),
 }
 
 impl Config {
-    /// A named configuration: `paper` (every published value), `paper-tuned` (its unpublished values and its
-    /// rates chosen), `unshade` (the default), or `fast`.
+    /// A preset: `unshade` (the default), `fast` (the same with fewer steps), `paper` (every published value), or
+    /// `paper-tuned` (its unpublished values and its rates chosen).
     pub fn preset(name: &str) -> Result<Self, ConfigError> {
-        match name {
-            "paper" => Ok(Self::paper()),
-            "paper-tuned" => Ok(Self::paper_tuned()),
-            "unshade" => Ok(Self::unshade()),
-            "fast" => Ok(Self::fast()),
-            other => Err(ConfigError::UnknownPreset(other.to_owned())),
-        }
+        let (method, table) = preset_table(name)?;
+        Self::read(method, table)
     }
 
-    /// Reads a configuration. `base = "paper"` names the configuration (default `unshade`) whose
-    /// values hold where the text is silent. Unknown keys are errors.
+    /// Reads a configuration. `base = "paper"` names the preset (default `unshade`) whose values hold where the
+    /// text is silent. Unknown keys, and values outside their ranges, are errors.
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
-        let toml_error = |error: &dyn std::fmt::Display| {
-            let message = error.to_string();
-            let lines: Vec<&str> =
-                message.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
-            ConfigError::Toml(lines.join(" "))
-        };
         let mut given: Table = toml::from_str(text).map_err(|error| toml_error(&error))?;
-        refuse_renamed(&given)?;
         let base = match given.remove("base") {
-            None => Self::unshade(),
-            Some(Value::String(name)) => Self::preset(&name)?,
+            None => "unshade".to_owned(),
+            Some(Value::String(name)) => name,
             Some(other) => {
                 return Err(ConfigError::Toml(format!("base is {other}, expected a name")));
             }
         };
-        let mut merged = Table::try_from(&base).map_err(|error| toml_error(&error))?;
-        overlay(&mut merged, given);
-        let config: Self = merged.try_into().map_err(|error| toml_error(&error))?;
+        let (method, mut table) = preset_table(&base)?;
+        renamed::refuse_renamed(method, &given)?;
+        overlay(&mut table, given);
+        let config = Self::read(method, table)?;
         config.validate()?;
         Ok(config)
+    }
+
+    fn read(method: Method, table: Table) -> Result<Self, ConfigError> {
+        let config = match method {
+            Method::Unshade => table.try_into().map(Self::Unshade),
+            Method::Paper => table.try_into().map(Self::Paper),
+        };
+        config.map_err(|error| toml_error(&error))
     }
 
     /// The whole configuration as TOML that [`Config::from_toml`] reads back.
@@ -102,77 +77,84 @@ impl Config {
 
     /// Checks every value against its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        let (n, w, f) = (&self.networks, &self.warm_up, &self.fine_tuning);
-        let blocks_of_four = |x: usize| x > 0 && x <= 64 && x.is_multiple_of(4);
-        range("networks.width", n.width, blocks_of_four, "a multiple of 4 up to 64")?;
-        range("networks.outputs", n.outputs, blocks_of_four, "a multiple of 4 up to 64")?;
-        range("networks.hidden_layers", n.hidden_layers, |x| (1..=8).contains(&x), "1 to 8")?;
-        positive(&[
-            ("networks.position_scale", n.position_scale),
-            ("networks.normal_scale", n.normal_scale),
-            ("networks.reflection_scale", n.reflection_scale),
-            ("initialisation.specular_maximum", self.initialisation.specular_maximum),
-            ("fine_tuning.deviation_range", f.deviation_range),
-            ("normalisation.specular_maximum", self.normalisation.specular_maximum),
-            ("adam.epsilon", self.adam.epsilon),
-            ("view_weights.edge_slope", self.view_weights.edge_slope),
-        ])?;
-        not_negative(&[
-            ("rendering.exposure", self.rendering.exposure),
-            ("view_weights.depth_blur", self.view_weights.depth_blur),
-            ("view_weights.slope_falloff", self.view_weights.slope_falloff),
-            ("warm_up.prior", w.prior),
-            ("warm_up.network_rate", w.network_rate),
-            ("warm_up.diffuse_rate", w.diffuse_rate),
-            ("warm_up.specular_rate", w.specular_rate),
-            ("fine_tuning.prior", f.prior),
-            ("fine_tuning.diffuse_rate", f.diffuse_rate),
-            ("fine_tuning.specular_rate", f.specular_rate),
-            ("fine_tuning.deviation_rate", f.deviation_rate),
-            ("normalisation.specular_skin", self.normalisation.specular_skin),
-            ("normalisation.specular_pooling", self.normalisation.specular_pooling),
-        ])?;
-        let fraction = |x: f32| (0.0..1.0).contains(&x);
-        let narrow = |x: f32| (0.0..=0.1).contains(&x);
-        range("fine_tuning.deviation_smoothing", f.deviation_smoothing, narrow, "0 to 0.1")?;
-        range("fine_tuning.deviation_extent", f.deviation_extent, narrow, "0 to 0.1")?;
-        range("fine_tuning.deviation_blur", f.deviation_blur, narrow, "0 to 0.1")?;
-        range("adam.final_decay", self.adam.final_decay, |x| x > 0.0 && x <= 1.0, "above 0, to 1")?;
-        range("adam.beta1", self.adam.beta1, fraction, "at least 0 and below 1")?;
-        range("adam.beta2", self.adam.beta2, fraction, "at least 0 and below 1")?;
-        let side = |x: usize| (16..=8192).contains(&x);
-        range("warm_up.texture_size", w.texture_size, side, "16 to 8192")?;
-        if let TextureSize::Side(texels) = f.texture_size {
-            range("fine_tuning.texture_size", texels, side, "16 to 8192, or \"auto\"")?;
+        ranges::check(&Table::try_from(self).map_err(|error| toml_error(&error))?)
+    }
+
+    /// The seed of all random numbers.
+    pub fn seed(&self) -> u64 {
+        match self {
+            Self::Unshade(config) => config.seed,
+            Self::Paper(config) => config.seed,
         }
-        self.skin.validate()?;
-        self.colour_regions.validate()?;
-        self.hair_in_skin.validate()?;
-        self.transport.validate()?;
-        self.model_error.validate()?;
-        self.reflectance.validate()?;
-        self.height.validate()?;
-        let percent = |x: f64| x > 0.0 && x <= 100.0;
-        let normalisation = &self.normalisation;
-        range(
-            "normalisation.diffuse_percentile",
-            normalisation.diffuse_percentile,
-            percent,
-            "above 0, to 100",
-        )?;
-        range(
-            "normalisation.specular_percentile",
-            normalisation.specular_percentile,
-            percent,
-            "above 0, to 100",
-        )
+    }
+
+    /// The seed of the perturbation of the pictures at rounding level; 0: none.
+    pub fn rounding_seed(&self) -> u64 {
+        match self {
+            Self::Unshade(config) => config.rendering.rounding_seed,
+            Self::Paper(config) => config.rendering.rounding_seed,
+        }
+    }
+
+    /// The side of the textures that are solved for.
+    pub fn texture_size(&self) -> TextureSize {
+        match self {
+            Self::Unshade(config) => config.maps.texture_size,
+            Self::Paper(config) => config.fine_tuning.texture_size,
+        }
+    }
+
+    /// Records that are kept for the report.
+    pub fn records(&self) -> RecordConfig {
+        match self {
+            Self::Unshade(config) => config.records,
+            Self::Paper(config) => config.records,
+        }
+    }
+
+    /// The same configuration without records for the report.
+    #[must_use]
+    pub fn without_records(mut self) -> Self {
+        let none = RecordConfig { stages: false, layers: false };
+        match &mut self {
+            Self::Unshade(config) => config.records = none,
+            Self::Paper(config) => config.records = none,
+        }
+        self
     }
 }
 
 impl Default for Config {
     fn default() -> Self {
-        Self::unshade()
+        Self::Unshade(UnshadeConfig::default())
     }
+}
+
+/// The method that a preset configures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Method {
+    Unshade,
+    Paper,
+}
+
+/// The method of a preset, and all its values.
+fn preset_table(name: &str) -> Result<(Method, Table), ConfigError> {
+    let preset = PRESETS.iter().find(|(preset, _)| *preset == name);
+    let (_, text) = preset.ok_or_else(|| ConfigError::UnknownPreset(name.to_owned()))?;
+    let mut given: Table = toml::from_str(text).map_err(|error| toml_error(&error))?;
+    let (method, mut table) = match given.remove("base") {
+        Some(Value::String(base)) => preset_table(&base)?,
+        _ if name == "paper" => (Method::Paper, Table::new()),
+        _ => (Method::Unshade, Table::new()),
+    };
+    overlay(&mut table, given);
+    Ok((method, table))
+}
+
+fn toml_error(error: &dyn std::fmt::Display) -> ConfigError {
+    let message = error.to_string();
+    let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    ConfigError::Toml(lines.join(" "))
 }
 
 /// Replaces what `above` names; tables are merged, everything else is replaced.
@@ -198,54 +180,66 @@ mod tests {
     #[test]
     fn a_file_overrides_single_values_of_its_base() {
         let text = "base = \"paper\"\nseed = 3\n[fine_tuning]\ntexture_size = 256\nprior = 1\n";
-        let config = Config::from_toml(text).unwrap();
-        let mut expected = Config::preset("paper").unwrap();
-        expected.seed = 3;
+        let mut expected = PaperConfig { seed: 3, ..PaperConfig::default() };
         expected.fine_tuning.texture_size = TextureSize::Side(256);
         expected.fine_tuning.prior = 1.0;
-        assert_eq!(config, expected);
+        assert_eq!(Config::from_toml(text).unwrap(), Config::Paper(expected));
         assert_eq!(Config::from_toml("").unwrap(), Config::default());
     }
 
     #[test]
     fn every_preset_is_valid_and_survives_the_round_trip() {
-        for name in ["paper", "paper-tuned", "unshade", "fast"] {
+        for (name, _) in PRESETS {
             let config = Config::preset(name).unwrap();
+            config.validate().unwrap();
             assert_eq!(Config::from_toml(&config.to_toml()).unwrap(), config, "{name}");
         }
     }
 
     #[test]
-    fn renamed_keys_are_refused_with_a_name_that_is_known() {
-        let known = Table::try_from(Config::default()).unwrap();
-        for (old, new) in renamed::RENAMED {
-            let line = |key: &str| match key.split_once('.') {
-                Some((table, key)) => format!("[{table}]\n{key} = 1"),
-                None => format!("[{key}]"),
-            };
-            let message = Config::from_toml(&line(old)).unwrap_err().to_string();
-            assert!(
-                message.contains(old) && message.contains(&format!("write {new}")),
-                "{message}"
-            );
-            let mut steps = new.split('.');
-            let table = known.get(steps.next().unwrap()).unwrap();
-            assert!(steps.next().is_none_or(|key| table.get(key).is_some()), "{new}");
+    fn every_key_of_a_preset_has_a_comment() {
+        for (name, text) in PRESETS {
+            let lines: Vec<&str> = text.lines().collect();
+            for (number, line) in lines.iter().enumerate().filter(|(_, line)| line.contains(" = "))
+            {
+                let above = number > 0 && lines[number - 1].starts_with('#');
+                assert!(line.contains('#') || above, "{name}.toml: {line}");
+            }
+        }
+    }
+
+    #[test]
+    fn old_keys_are_refused_with_their_new_names() {
+        for (base, old, new) in [
+            ("unshade", "height.doubt", "relief.minimum_agreement"),
+            ("unshade", "fine_tuning.texture_size", "maps.texture_size"),
+            ("unshade", "warm_up.iterations", "base = \"paper\""),
+            ("paper", "rendering.f0", "skin.f0"),
+            ("paper", "transport.rows", "base = \"unshade\""),
+        ] {
+            let (table, key) = old.split_once('.').unwrap();
+            let text = format!("base = {base:?}\n[{table}]\n{key} = 1");
+            let message = Config::from_toml(&text).unwrap_err().to_string();
+            assert!(message.contains(table) && message.contains(new), "{message}");
         }
     }
 
     #[test]
     fn mistakes_are_named() {
         let message = |text: &str| Config::from_toml(text).unwrap_err().to_string();
-        assert!(message("[warm_up]\niteration = 3").contains("iteration"));
-        assert!(message("[warm_up]\niterations = 1.5").contains("iterations"));
+        let paper = |text: &str| message(&format!("base = \"paper\"\n{text}"));
+        assert!(paper("[warm_up]\niteration = 3").contains("iteration"));
+        assert!(paper("[warm_up]\niterations = 1.5").contains("iterations"));
         assert!(message("base = \"papper\"").contains("papper"));
-        assert!(message("[fine_tuning]\ntexture_size = \"big\"").contains("auto"));
+        assert!(message("[maps]\ntexture_size = \"big\"").contains("auto"));
         assert!(
-            message("[networks]\nwidth = 10")
+            paper("[networks]\nwidth = 10")
                 .contains("networks.width is 10, but must be a multiple of 4")
         );
-        assert!(message("[adam]\nbeta1 = 1.0").contains("adam.beta1"));
+        assert!(paper("[adam]\nbeta1 = 1.0").contains("adam.beta1"));
+        assert!(
+            message("[albedo]\nrate = -1").contains("albedo.rate is -1, but must be 0 or more")
+        );
         assert!(!message("x = [").contains('\n'));
     }
 }

@@ -11,7 +11,7 @@ use super::pyramid::Pyramid;
 use super::texels::CHANNELS;
 use super::texture::part;
 use crate::backend::cpu::exp;
-use crate::config::Config;
+use crate::config::PaperConfig;
 use crate::parallel::from_parts;
 use crate::simd::widened;
 
@@ -24,7 +24,7 @@ const AXES: usize = 3;
 #[derive(Clone, Debug)]
 pub struct Deviation {
     /// Without it, the texture is d itself.
-    range: Option<f32>,
+    range: f32,
     size: usize,
     narrow: Blur,
     wide: Option<Blur>,
@@ -36,7 +36,7 @@ pub struct Deviation {
 
 /// The parts of a [`Deviation`].
 pub(crate) struct Parts<'a> {
-    pub range: Option<f32>,
+    pub range: f32,
     pub narrow: &'a Blur,
     pub wide: Option<&'a Blur>,
     pub blur: &'a Pyramid,
@@ -58,20 +58,15 @@ impl Deviation {
     }
 
     /// For textures of side `size`.
-    pub fn new(config: &Config, size: usize) -> Self {
+    pub fn new(config: &PaperConfig, size: usize) -> Self {
         let fine = &config.fine_tuning;
         let blur = |sigma: f32| Blur::new(size, AXES, sigma * size as f32);
-        // With heights, their deviations are the texture.
-        let heights = config.height.enabled;
-        let soft = if heights { config.height.blur } else { fine.deviation_blur };
-        let smoothing = if heights { 0.0 } else { fine.deviation_smoothing };
-        let extent = if heights { 0.0 } else { fine.deviation_extent };
         Self {
-            range: (!heights).then_some(fine.deviation_range),
+            range: fine.deviation_range,
             size,
-            narrow: blur(smoothing),
-            wide: (extent > 0.0).then(|| blur(extent)),
-            blur: Pyramid::new(size, soft * size as f32),
+            narrow: blur(fine.deviation_smoothing),
+            wide: (fine.deviation_extent > 0.0).then(|| blur(fine.deviation_extent)),
+            blur: Pyramid::new(size, fine.deviation_blur * size as f32),
             scale: DirectionScale::from(&config.networks),
         }
     }
@@ -149,10 +144,10 @@ impl Deviation {
 
 widened! {
     /// Makes d of B t, and puts the specular albedo beside it.
-    fn squash(sharp: &mut [[f32; CHANNELS]], band: &[[f32; AXES]], specular: &[f32], range: Option<f32>) {
+    fn squash(sharp: &mut [[f32; CHANNELS]], band: &[[f32; AXES]], specular: &[f32], range: f32) {
         for (sharp, (band, specular)) in sharp.iter_mut().zip(band.iter().zip(specular)) {
             for c in 0..AXES {
-                sharp[c] = range.map_or(band[c], |range| range * tanh(band[c]));
+                sharp[c] = range * tanh(band[c]);
             }
             sharp[SPECULAR] = *specular;
         }
@@ -166,10 +161,10 @@ widened! {
         own: &[[f32; ROWS]],
         blurred: &[[f32; CHANNELS]],
         sharp: &[[f32; CHANNELS]],
-        range: Option<f32>,
+        range: f32,
     ) {
         // A range of zero leaves no deviation, and no gradient.
-        let (range, inverse) = range.map_or((1.0, 0.0), |range| (range, 1.0 / range.max(f32::MIN_POSITIVE)));
+        let inverse = 1.0 / range.max(f32::MIN_POSITIVE);
         for (by_band, ((own, blurred), d)) in by_band.iter_mut().zip(own.iter().zip(blurred).zip(sharp)) {
             for c in 0..AXES {
                 by_band[c] = (blurred[c] + own[c]) * (range - inverse * d[c] * d[c]);
@@ -207,7 +202,7 @@ mod tests {
         for (range, blur, extent) in
             [(0.5, 0.05, 0.0), (0.5, 0.0, 0.06), (0.2, 0.03, 0.05), (0.0, 0.05, 0.0)]
         {
-            let mut config = Config::preset("paper").unwrap();
+            let mut config = PaperConfig::default();
             let fine = &mut config.fine_tuning;
             (fine.deviation_range, fine.deviation_blur, fine.deviation_extent) =
                 (range, blur, extent);
@@ -240,7 +235,7 @@ mod tests {
     fn samples_see_the_textures() {
         let texels = SIZE * SIZE;
         let (t, specular) = (noise(AXES * texels, 0.37), noise(texels, 0.11));
-        let deviation = Deviation::new(&Config::preset("paper").unwrap(), SIZE);
+        let deviation = Deviation::new(&PaperConfig::default(), SIZE);
         let place = |i: usize| Vec2::new(i as f32 * 0.618, i as f32 * 0.414).fract();
         let taps = Taps::sorted(SIZE, &(0..1000).map(place).collect::<Vec<_>>()).0;
         let seen = deviation.packed(&t, &specular).sample(&taps);

@@ -79,11 +79,11 @@ impl Networks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::Config;
+    use crate::config::PaperConfig;
 
     #[test]
     fn the_published_shape_has_1416_parameters_in_their_bounds() {
-        let networks = Networks::new(&Config::default().networks, 0);
+        let networks = Networks::new(&PaperConfig::default().networks, 0);
         assert_eq!(networks.shape, [3, 16, 16, 8]);
         assert_eq!(networks.parameters.len(), 1416);
         let (weights, biases) = networks.place(Network::Specular, 2);
@@ -91,7 +91,7 @@ mod tests {
         let (first, _) = networks.place(Network::Light, 0);
         let largest = networks.parameters[first].iter().fold(0.0f32, |m, w| m.max(w.abs()));
         assert!(largest < 3f32.sqrt().recip() && largest > 0.5, "{largest}");
-        assert_eq!(networks, Networks::new(&Config::default().networks, 0));
-        assert_ne!(networks, Networks::new(&Config::default().networks, 1));
+        assert_eq!(networks, Networks::new(&PaperConfig::default().networks, 0));
+        assert_ne!(networks, Networks::new(&PaperConfig::default().networks, 1));
     }
 }

@@ -9,7 +9,7 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 use super::kept::Kept;
 use super::planes::Planes;
 use super::taps::Taps;
-use crate::config::{Config, ViewWeightConfig};
+use crate::config::ViewWeightConfig;
 use crate::transport::skin::schlick;
 use crate::view_weights;
 
@@ -47,7 +47,7 @@ pub struct SampleSpace {
     f0: Option<f32>,
     /// Factor on the pictures.
     gain: f32,
-    /// See [`crate::config::RenderingConfig::rounding_seed`].
+    /// See [`SampleSpace::rounded`].
     rounding_seed: u64,
 }
 
@@ -68,17 +68,27 @@ struct Sample {
 }
 
 impl SampleSpace {
-    /// Positions span -1 to 1 along the longest side of the mesh's box, times the configured scale.
-    pub fn new(mesh: &Mesh, config: &Config) -> Self {
+    /// Positions span -1 to 1 along the longest side of the mesh's box, times `position_scale`.
+    pub fn new(mesh: &Mesh, position_scale: f32) -> Self {
         let (low, high) = mesh.bounds();
         let half = (0.5 * (high - low).max_element()).max(f32::MIN_POSITIVE);
         Self {
             centre: 0.5 * (low + high),
-            scale: config.networks.position_scale / half,
-            f0: config.rendering.fresnel.then_some(config.skin.f0),
+            scale: position_scale / half,
+            f0: None,
             gain: 1.0,
-            rounding_seed: config.rendering.rounding_seed,
+            rounding_seed: 0,
         }
+    }
+
+    /// With Schlick's factor of this reflectance at normal incidence; `None`: a factor of 1.
+    pub fn with_fresnel(self, f0: Option<f32>) -> Self {
+        Self { f0, ..self }
+    }
+
+    /// With every picture value multiplied by a number next to 1 that is drawn by this seed; 0: as they are.
+    pub fn rounded(self, rounding_seed: u64) -> Self {
+        Self { rounding_seed, ..self }
     }
 
     /// Samples of the pictures multiplied with `gain`.
@@ -91,14 +101,14 @@ impl SampleSpace {
         &self,
         views: &[View],
         gbuffers: &[GBuffer],
-        weights: &ViewWeightConfig,
+        weights: Option<&ViewWeightConfig>,
         size: usize,
     ) -> Samples {
         let mut samples = vec![];
         for (number, (view, gbuffer)) in views.iter().zip(gbuffers).enumerate() {
-            let weights = match weights.depth {
-                true => view_weights::view_weights(gbuffer, weights),
-                false => view_weights::cosine_weights(gbuffer),
+            let weights = match weights {
+                Some(weights) => view_weights::view_weights(gbuffer, weights),
+                None => view_weights::cosine_weights(gbuffer),
             };
             let mut random = Pcg64Mcg::seed_from_u64(self.rounding_seed ^ ((number as u64) << 32));
             let mut rounded = |value: f32| match self.rounding_seed {

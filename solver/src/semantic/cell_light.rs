@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::chart::{Chart, largest, luminance, means};
-use crate::config::ColourRegionConfig;
+use super::settings::ColourSettings;
 use crate::transport::add_scaled;
 
 /// Tasks that sum the normal equations of as many texels each, in their order.
@@ -15,7 +15,7 @@ const SWEEPS: usize = 60;
 /// A light of R, G, B per cell, and the chart that it shines on.
 pub(super) struct CellLight<'a> {
     chart: &'a Chart,
-    config: &'a ColourRegionConfig,
+    config: &'a ColourSettings,
     light: Vec<DVec3>,
     /// The colours of the texels seen divided by their shading, of mean 1.
     pub divided: Vec<Vec3>,
@@ -23,7 +23,7 @@ pub(super) struct CellLight<'a> {
 
 impl<'a> CellLight<'a> {
     /// 1 from everywhere.
-    pub fn new(chart: &'a Chart, config: &'a ColourRegionConfig) -> Self {
+    pub fn new(chart: &'a Chart, config: &'a ColourSettings) -> Self {
         let light = vec![DVec3::ONE; chart.cells()];
         Self { chart, config, light, divided: chart.colours.clone() }
     }
@@ -32,7 +32,7 @@ impl<'a> CellLight<'a> {
     /// of every texel seen. The less light a texel gets, the more it is taken for the largest region, whose colour
     /// counts as much as its own at a shading of `shading_prior`.
     pub fn albedo(&mut self, regions: &[u8]) -> Vec<Vec3> {
-        let ColourRegionConfig { dark, shading_floor, shading_prior: prior, .. } = *self.config;
+        let ColourSettings { dark, shading_floor, shading_prior: prior, .. } = *self.config;
         let of_regions = means(&self.divided, regions, dark);
         let shading = self.solve(&of_regions, regions);
         let lit: Vec<Vec3> = shading.iter().map(|s| s.max(Vec3::splat(shading_floor))).collect();

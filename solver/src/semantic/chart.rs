@@ -7,9 +7,9 @@ use formats::fill;
 use glam::{DVec3, Vec3};
 
 use super::clusters::centres;
-use crate::config::{ColourRegionConfig, TransportConfig};
+use super::settings::{ColourSettings, TransportConfig};
 use crate::model::blur::Blur;
-use crate::transport::{self, Beside, CHANNELS, Sky, Transport};
+use crate::transport::{self, CHANNELS, Sky, Transport};
 
 /// What the pictures show of a chart.
 pub(super) struct Chart {
@@ -27,9 +27,9 @@ impl Chart {
         mesh: &Mesh,
         projections: &[Projection],
         transport: &TransportConfig,
-        config: &ColourRegionConfig,
+        config: &ColourSettings,
     ) -> Self {
-        let ColourRegionConfig { texture_size: side, rows, blur, .. } = *config;
+        let ColourSettings { texture_size: side, rows, blur, .. } = *config;
         let atlas = Atlas::new(mesh, side);
         let texel = |seen: &[(usize, Observation)]| {
             let colour = |(view, seen): &(usize, Observation)| {
@@ -45,14 +45,14 @@ impl Chart {
         Self {
             colours: seen.iter().map(colour).collect(),
             side,
-            transport: Transport::new(mesh, &Sky::even(rows), &transport, 0, Beside::Nothing),
+            transport: Transport::new(mesh, &Sky::even(rows), &transport, 0),
             seen,
         }
     }
 
     /// The colours divided by the shading of the light that explains them best with one reflectance for each of
     /// the `regions`.
-    pub fn albedo(&self, config: &ColourRegionConfig, lobes: &Lobes, regions: &[u8]) -> Vec<Vec3> {
+    pub fn albedo(&self, config: &ColourSettings, lobes: &Lobes, regions: &[u8]) -> Vec<Vec3> {
         let mut albedo = self.colours.clone();
         for _ in 0..config.rounds {
             let means = means(&albedo, regions, config.dark);
@@ -112,7 +112,7 @@ impl Chart {
     /// (Lee and Seung 2001).
     pub fn shading(
         &self,
-        config: &ColourRegionConfig,
+        config: &ColourSettings,
         lobes: &Lobes,
         means: &[Vec3],
         regions: &[u8],

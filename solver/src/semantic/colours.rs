@@ -15,8 +15,8 @@ use super::clusters::{clusters, lloyd};
 use super::explanation::{Explanation, residuals};
 use super::lamps::Lamps;
 use super::merging::merged;
-use crate::Config;
-use crate::config::ColourRegionConfig;
+use super::settings::ColourSettings;
+use super::settings::Settings;
 
 /// The regions of a chart and their colours.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl ColourRegions {
     ///
     /// The cells' light and regions are found in turn, from two starts: the pictures' colours, and these divided by the
     /// shading of all cells on one reflectance, since between lamps of two colours skin in the pictures has two as well.
-    pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Config) -> Option<Self> {
+    pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Settings) -> Option<Self> {
         let whole = vec![1; chart.side * chart.side];
         let one = Explanation::new(mesh, chart, config, &whole, &[1])?;
         let under = match one.lamps() {
@@ -71,10 +71,10 @@ impl ColourRegions {
 /// The first regions are clusters of `start`, linear RGB in any unit.
 pub(super) fn by_cells(
     chart: &Chart,
-    config: &ColourRegionConfig,
+    config: &ColourSettings,
     start: &[Vec3],
 ) -> Option<(Vec<u8>, Vec<Vec3>)> {
-    let ColourRegionConfig { count, luminance_weights, .. } = *config;
+    let ColourSettings { count, luminance_weights, .. } = *config;
     let mut light = CellLight::new(chart, config);
     let mut albedo = start.to_vec();
     let mut regions = clusters(&features(start, luminance_weights[0], config.dark)?, count);
@@ -97,7 +97,7 @@ struct Under {
 
 impl Under {
     /// From the start that leaves the smaller sum of [`residuals`]: the pictures' colours, or these under one reflectance.
-    fn cells(chart: &Chart, config: &ColourRegionConfig, under_one: &[Vec3]) -> Option<Self> {
+    fn cells(chart: &Chart, config: &ColourSettings, under_one: &[Vec3]) -> Option<Self> {
         let from = |start: &[Vec3]| {
             let (regions, albedo) = by_cells(chart, config, start)?;
             let means = means(&albedo, &regions, config.dark);
@@ -113,12 +113,12 @@ impl Under {
     fn lamp(
         mesh: &Mesh,
         chart: &Chart,
-        all_config: &Config,
+        all_config: &Settings,
         first: &Lamps,
         known: &[bool],
     ) -> Option<Self> {
-        let Config { colour_regions: config, hair_in_skin, transport, .. } = all_config;
-        let ColourRegionConfig { count, luminance_weights, .. } = *config;
+        let Settings { colour_regions: config, hair_in_skin, .. } = all_config;
+        let ColourSettings { count, luminance_weights, .. } = *config;
         let lit: Vec<usize> = (0..known.len()).filter(|at| known[*at]).collect();
         let seen: Vec<usize> = lit.iter().map(|at| chart.seen[*at]).collect();
         let mut counted = known.to_vec();
@@ -126,7 +126,7 @@ impl Under {
         for round in 0..2 {
             let of_largest = match round {
                 0 => None,
-                _ => Lamps::new(mesh, chart, transport, hair_in_skin, &counted),
+                _ => Lamps::new(mesh, chart, hair_in_skin, &counted),
             };
             let lamps = of_largest.as_ref().unwrap_or(first);
             let all = lamps.albedo(chart, &counted, &vec![false; known.len()]);
@@ -190,7 +190,7 @@ mod tests {
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
         let projections = Projection::of_views(&views, &gbuffers);
-        let config = Config::default();
+        let config = Settings::default();
         let chart = Chart::new(&mesh, &projections, &config.transport, &config.colour_regions);
         ColourRegions::new(&mesh, &chart, &config)
     }

@@ -6,13 +6,13 @@ use glam::Vec3;
 
 use super::chart::{Chart, Lobes, means};
 use super::lamps::Lamps;
-use crate::Config;
-use crate::config::ColourRegionConfig;
+use super::settings::ColourSettings;
+use super::settings::Settings;
 
 /// A light, and the skin that it tells something of.
 pub(super) struct Explanation<'a> {
     chart: &'a Chart,
-    regions: &'a ColourRegionConfig,
+    regions: &'a ColourSettings,
     cells: Lobes,
     lamps: Option<Lamps>,
     /// Of the texels seen.
@@ -41,7 +41,7 @@ impl<'a> Explanation<'a> {
     pub fn new(
         mesh: &Mesh,
         chart: &'a Chart,
-        config: &'a Config,
+        config: &'a Settings,
         labels: &[u8],
         skin: &[u8],
     ) -> Option<Self> {
@@ -54,7 +54,7 @@ impl<'a> Explanation<'a> {
         let is_skin: Vec<bool> = labels.iter().map(|label| *label == first).collect();
         let cells = Lobes::new(regions.rows, 0.0);
         let skin_and_free = [first, free];
-        let lamps = Lamps::new(mesh, chart, &config.transport, &config.hair_in_skin, &is_skin);
+        let lamps = Lamps::new(mesh, chart, &config.hair_in_skin, &is_skin);
         let mut it = Self {
             chart,
             regions,

@@ -10,7 +10,7 @@ use glam::Vec3;
 use super::chart::{Chart, luminance};
 use super::explanation::{Explanation, sum};
 use super::part_of_skin::{PartOfSkin, large_parts};
-use crate::config::HairInSkinConfig;
+use super::settings::HairSettings;
 use crate::model::blur::Blur;
 
 /// Times that hair may grow; it comes to rest before.
@@ -20,7 +20,7 @@ const GROWTH: usize = 8;
 pub(super) fn hair_in_skin(
     explanation: &Explanation,
     chart: &Chart,
-    config: &HairInSkinConfig,
+    config: &HairSettings,
 ) -> Option<PartOfSkin> {
     let Explanation { is_skin, .. } = explanation;
     let count = is_skin.iter().filter(|skin| **skin).count();
@@ -48,7 +48,7 @@ pub(super) fn hair_in_skin(
 fn grown(
     explanation: &Explanation,
     chart: &Chart,
-    config: &HairInSkinConfig,
+    config: &HairSettings,
     mut inside: Vec<bool>,
 ) -> Option<(Vec<bool>, Vec3)> {
     let is_skin = &explanation.is_skin;
@@ -78,7 +78,7 @@ fn grown(
 /// `bare`; negative infinity outside of the skin.
 fn darkness(
     chart: &Chart,
-    config: &HairInSkinConfig,
+    config: &HairSettings,
     albedo: &[Vec3],
     is_skin: &[bool],
     bare: &[bool],
@@ -106,8 +106,8 @@ mod tests {
     use capture::projection::Projection;
 
     use super::super::lamps::testing::lamp;
+    use super::super::settings::Settings;
     use super::*;
-    use crate::Config;
     use crate::testing;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
@@ -126,14 +126,14 @@ mod tests {
     fn explained<T>(
         share: impl Fn(Vec3) -> Vec3,
         shading: impl Fn(Vec3) -> f32,
-        of: impl Fn(&Explanation, &Chart, &Config) -> Option<T>,
+        of: impl Fn(&Explanation, &Chart, &Settings) -> Option<T>,
     ) -> Option<T> {
         let mesh = testing::dome(24);
         let colour = |p: Vec3| (share(p) * SKIN * shading(p), 1);
         let views: Vec<View> =
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, colour)).collect();
         let projections = Projection::of_views(&views, &GBuffer::of_views(&mesh, &views));
-        let config = Config::default();
+        let config = Settings::default();
         let regions = &config.colour_regions;
         let chart = Chart::new(&mesh, &projections, &config.transport, regions);
         let labels = vec![1; chart.side * chart.side];

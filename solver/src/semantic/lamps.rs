@@ -8,8 +8,8 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::chart::{Chart, luminance};
-use crate::config::{HairInSkinConfig, TransportConfig};
-use crate::transport::Sky;
+use super::settings::HairSettings;
+use crate::transport::{RAY_OFFSET, Sky};
 
 /// Directions that are tried first: rows of an even sky.
 const ROWS: usize = 8;
@@ -47,11 +47,10 @@ impl Lamps {
     pub fn new(
         mesh: &Mesh,
         chart: &Chart,
-        transport: &TransportConfig,
-        config: &HairInSkinConfig,
+        config: &HairSettings,
         is_skin: &[bool],
     ) -> Option<Self> {
-        let scene = Scene::new(mesh, chart, transport);
+        let scene = Scene::new(mesh, chart);
         let skin = Part::new(is_skin, chart, |_| false);
         let even = chart.even();
         let best = |directions: &[Vec3]| {
@@ -163,7 +162,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(mesh: &Mesh, chart: &Chart, transport: &TransportConfig) -> Self {
+    fn new(mesh: &Mesh, chart: &Chart) -> Self {
         let atlas = Atlas::new(mesh, chart.side);
         let (low, high) = mesh.bounds();
         let centre = 0.5 * (low + high);
@@ -172,7 +171,7 @@ impl Scene {
             places: chart.seen.iter().map(|at| atlas.positions[*at] - centre).collect(),
             normals: chart.seen.iter().map(|at| atlas.normals[*at]).collect(),
             centre,
-            lift: transport.ray_offset * (high - low).max_element(),
+            lift: RAY_OFFSET * (high - low).max_element(),
         }
     }
 

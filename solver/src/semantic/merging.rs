@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::chart::{dark, log};
 use super::parts::parts;
-use crate::config::ColourRegionConfig;
+use super::settings::ColourSettings;
 
 /// The regions of a chart, of the texels `seen`, without boundaries that are no edges.
 ///
@@ -14,7 +14,7 @@ use crate::config::ColourRegionConfig;
 /// region so far, does not. The smaller of two parts takes the region of the larger one, and specks that of a
 /// neighbour. Each time `relit` may give a better albedo by the parts that are left.
 pub(super) fn merged(
-    config: &ColourRegionConfig,
+    config: &ColourSettings,
     seen: &[usize],
     albedo: &[Vec3],
     regions: &[u8],
@@ -72,8 +72,8 @@ struct Boundaries {
 }
 
 impl Boundaries {
-    fn new(config: &ColourRegionConfig, seen: &[usize], albedo: &[Vec3], part: &[usize]) -> Self {
-        let ColourRegionConfig { texture_size: side, edge_distance: across, .. } = *config;
+    fn new(config: &ColourSettings, seen: &[usize], albedo: &[Vec3], part: &[usize]) -> Self {
+        let ColourSettings { texture_size: side, edge_distance: across, .. } = *config;
         let dark = dark(albedo, config.dark).unwrap_or(f32::MIN_POSITIVE);
         let mut logs = vec![None; side * side];
         seen.iter().zip(albedo).for_each(|(at, albedo)| logs[*at] = Some(log(*albedo, dark)));
@@ -135,8 +135,8 @@ impl Boundaries {
 
 #[cfg(test)]
 mod tests {
+    use super::super::settings::Settings;
     use super::*;
-    use crate::Config;
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
     const HAIR: Vec3 = Vec3::new(0.08, 0.06, 0.05);
@@ -146,7 +146,7 @@ mod tests {
     fn a_shadow_is_no_hair_where_no_edge_parts_it_from_skin() {
         let side = 32;
         let texture_size = side;
-        let config = ColourRegionConfig { texture_size, ..Config::default().colour_regions };
+        let config = ColourSettings { texture_size, ..Settings::default().colour_regions };
         let seen: Vec<usize> = (0..side * side).collect();
         let column = |at: &usize| at % side;
         let shade = |x: usize| HAIR * (SKIN / HAIR).powf((x as f32 / 20.0).min(1.0));

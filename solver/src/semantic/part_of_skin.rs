@@ -6,7 +6,7 @@ use super::chart::{Chart, largest, means};
 use super::colours::by_cells;
 use super::explanation::Explanation;
 use super::parts::parts;
-use crate::Config;
+use super::settings::Settings;
 
 /// A part of the skin of a chart that is none.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl PartOfSkin {
 pub(super) fn other_colours(
     explanation: &Explanation,
     chart: &Chart,
-    config: &Config,
+    config: &Settings,
     labels: &[u8],
     skin: &[u8],
 ) -> Vec<PartOfSkin> {
@@ -110,7 +110,7 @@ mod tests {
         let views: Vec<View> =
             testing::rig(3, 96).iter().map(|c| testing::view(&mesh, c, pictured)).collect();
         let projections = Projection::of_views(&views, &GBuffer::of_views(&mesh, &views));
-        let mut config = Config::default();
+        let mut config = Settings::default();
         if !asked {
             config.hair_in_skin.most_left = [f32::INFINITY; 2];
         }

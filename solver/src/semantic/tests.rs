@@ -12,7 +12,7 @@ fn two_regions(p: Vec3) -> (Vec3, u8) {
 }
 
 fn weights() -> ViewWeightConfig {
-    crate::Config::default().view_weights
+    ViewWeightConfig::default()
 }
 
 fn initial(views: &[View], size: usize) -> Picture {

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::matrix::Matrix;
 use super::reflection::scale;
 use super::skin::{GRAZING, lobe_slopes, schlick};
-use super::{CHANNELS, LUMINANCE, SpecularTerm, Transport};
+use super::{CHANNELS, LIGHT_EXPONENT, LUMINANCE, SpecularTerm, Transport};
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -29,14 +29,13 @@ pub struct SkinHighlights<'a> {
 }
 
 impl Transport {
-    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. `None` unless the
-    /// transport holds what is open ([`super::Beside::Open`]).
+    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1.
     pub fn skin_highlights<'a>(
         &'a self,
         skin: &'a SkinConfig,
         light: &[f32],
-    ) -> Option<SkinHighlights<'a>> {
-        self.skin_highlights_through(skin, light, self.light_exponent)
+    ) -> SkinHighlights<'a> {
+        self.skin_highlights_through(skin, light, LIGHT_EXPONENT)
     }
 
     /// Likewise, with the light seen through another lobe than the transport's own.
@@ -45,8 +44,7 @@ impl Transport {
         skin: &'a SkinConfig,
         light: &[f32],
         exponent: i32,
-    ) -> Option<SkinHighlights<'a>> {
-        let open = self.open.as_ref()?;
+    ) -> SkinHighlights<'a> {
         let scale = scale(skin, self.peak(light));
         let light = self.through_lobes(light, exponent);
         let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
@@ -56,7 +54,7 @@ impl Transport {
             let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
             (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
         }
-        Some(SkinHighlights { transport: self, skin, open, cells, scale })
+        SkinHighlights { transport: self, skin, open: &self.open, cells, scale }
     }
 }
 
@@ -172,26 +170,26 @@ mod tests {
     use capture::gbuffer::GBuffer;
 
     use super::*;
-    use crate::config::{Config, TransportConfig};
+    use crate::config::{TransportConfig, UnshadeConfig};
     use crate::model::samples::SampleSpace;
     use crate::testing;
-    use crate::transport::{Beside, Sky};
+    use crate::transport::Sky;
 
     const NEARNESS: f32 = 0.7;
 
     /// A dome under a coloured light 1.4 metres away, seen by two cameras.
     fn scene() -> (Transport, Vec<f32>, Samples) {
-        let (mesh, config) = (testing::dome(16), Config::default());
+        let (mesh, config) = (testing::dome(16), UnshadeConfig::default());
         let t = TransportConfig { texture_size: 32, rows: 6, ..config.transport.clone() };
         let sky = Sky::even(t.rows).at(NEARNESS);
-        let transport = Transport::new(&mesh, &sky, &t, 3, Beside::Open);
+        let transport = Transport::new(&mesh, &sky, &t, 3);
         let light = (0..CHANNELS * transport.cells()).map(|i| 1.0 + (i as f32 * 1.7).sin());
         let shade = |_| (Vec3::ONE, 1);
         let views: Vec<_> =
             testing::rig(2, 40).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
-        let space = SampleSpace::new(&mesh, &config);
-        let samples = space.training(&views, &gbuffers, &config.view_weights, 64);
+        let space = SampleSpace::new(&mesh, 1.0);
+        let samples = space.training(&views, &gbuffers, None, 64);
         (transport, light.collect(), samples)
     }
 
@@ -207,9 +205,9 @@ mod tests {
     fn highlights_are_what_the_light_is_solved_for_with() {
         let (transport, light, samples) = scene();
         let terms = terms(samples.len());
-        let (skin, peak) = (Config::default().skin, transport.peak(&light));
-        let rows = transport.reflection(&skin, &samples, &terms, peak, NEARNESS).unwrap();
-        let highlights = transport.skin_highlights(&skin, &light).unwrap();
+        let (skin, peak) = (UnshadeConfig::default().skin, transport.peak(&light));
+        let rows = transport.reflection(&skin, &samples, &terms, peak, NEARNESS);
+        let highlights = transport.skin_highlights(&skin, &light);
         let found = highlights.on(&samples, &samples.normal, &terms);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
@@ -223,9 +221,9 @@ mod tests {
     #[test]
     fn slopes_are_those_of_finite_differences() {
         let (transport, light, samples) = scene();
-        let skin = Config::default().skin;
+        let skin = UnshadeConfig::default().skin;
         const STEP: f32 = 2e-3;
-        let highlights = transport.skin_highlights(&skin, &light).unwrap();
+        let highlights = transport.skin_highlights(&skin, &light);
         let terms = terms(samples.len());
         let along = |axis: Vec3, step: f32| {
             let normal = |i: usize| {

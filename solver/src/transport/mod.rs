@@ -39,16 +39,16 @@ pub use reflection::Reflection;
 pub use sky::{Sky, SkyRay, contrast};
 pub use specular_term::SpecularTerm;
 
-/// Parts of a transport beside the shading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Beside {
-    /// The shading alone.
-    Nothing,
-    /// Visibility, for highlights and for how the shading changes with the normals.
-    Open,
-    /// Visibility, and the change of the shading with the nearness of the sky.
-    Nearness,
-}
+/// Distance of a ray's start from the surface over the mesh's longest side: clear of the facets next to its own.
+pub(crate) const RAY_OFFSET: f32 = 1.6e-3;
+/// The change of the shading with the nearness is taken between a sphere of this radius and one at infinity, in halves
+/// of the mesh's longest side: about a metre around a head.
+const NEAR_RADIUS: f32 = 6.0;
+/// Least radius of the sphere of the light, in the same unit.
+const LEAST_RADIUS: f32 = 2.5;
+/// Exponent of the cosine lobe through which highlights see the light: 10 degrees, about a cell, which is as sharp as
+/// the cells describe a light.
+pub(crate) const LIGHT_EXPONENT: i32 = 64;
 
 /// The transport of the texels of a chart.
 #[derive(Clone, Debug)]
@@ -59,13 +59,9 @@ pub struct Transport {
     /// The gain of `matrix` when the sky comes nearer by [`Self::near`].
     gain: Option<Matrix>,
     /// Visible solid angle over pi.
-    open: Option<Matrix>,
+    open: Matrix,
     /// Nearness that `gain` stands for, per metre.
     near: f32,
-    /// The most that the sky may come nearer, in units of `near`.
-    nearest: f32,
-    /// Exponent of the cosine lobe that highlights see the light through.
-    light_exponent: i32,
     /// From the sky's centre, of every row.
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
@@ -75,14 +71,23 @@ pub struct Transport {
 }
 
 impl Transport {
-    /// Casts all rays; memory is texels inside the chart x cells x 4 bytes, three times that while
-    /// bounces are added, and the same again for each thing that is asked beside.
-    pub fn new(
+    /// Casts all rays under a sky that stays where it is. Memory is texels inside the chart x cells x 8 bytes, three
+    /// times that while bounces are added.
+    pub fn new(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64) -> Self {
+        Self::cast(mesh, sky, config, seed, false)
+    }
+
+    /// Likewise, with the change of the shading as the sky comes nearer: half as much memory again.
+    pub fn with_nearness(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64) -> Self {
+        Self::cast(mesh, sky, config, seed, true)
+    }
+
+    fn cast(
         mesh: &Mesh,
         sky: &Sky,
         config: &TransportConfig,
         seed: u64,
-        beside: Beside,
+        has_nearness: bool,
     ) -> Self {
         let size = config.texture_size;
         let atlas = Atlas::new(mesh, size);
@@ -94,7 +99,7 @@ impl Transport {
 
         let (low, high) = mesh.bounds();
         let longest = (high - low).max_element();
-        let near = 2.0 / (config.near_radius * longest);
+        let near = 2.0 / (NEAR_RADIUS * longest);
         let rays = sky.rays(config.rays_per_cell_side, seed);
         let caster = Caster {
             occluder: Occluder::new(mesh),
@@ -106,12 +111,12 @@ impl Transport {
             row: &row,
             size,
         };
-        let lift = config.ray_offset * longest;
+        let lift = RAY_OFFSET * longest;
         let cells = sky.len();
-        let asked = |least| if beside >= least { texels.len() * cells } else { 0 };
-        let mut direct = vec![0.0; texels.len() * cells];
-        let mut open = vec![0.0; asked(Beside::Open)];
-        let mut gain = vec![0.0; asked(Beside::Nearness)];
+        let entries = texels.len() * cells;
+        let mut direct = vec![0.0; entries];
+        let mut open = vec![0.0; entries];
+        let mut gain = vec![0.0; if has_nearness { entries } else { 0 }];
         let mut parts = [&mut direct, &mut open, &mut gain].map(|rows| rows.chunks_mut(cells));
         let seen: Vec<Seen> = (0..texels.len())
             .map(|_| parts.each_mut().map(|rows| rows.next().unwrap_or_default()))
@@ -124,15 +129,13 @@ impl Transport {
         };
         let bounces: Vec<Bounces> = texels.par_iter().zip(seen).map(cast).collect();
         let matrix = Matrix::with_bounces(direct, &bounces, cells, config);
-        let open = (!open.is_empty()).then_some(Matrix { rows: open, cells });
+        let open = Matrix { rows: open, cells };
         let with_bounces = |rows| Matrix::with_bounces(rows, &bounces, cells, config);
         let gain = (!gain.is_empty()).then(|| with_bounces(gain));
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
-        let (nearest, light_exponent) =
-            (config.near_radius / config.minimum_radius, config.light_exponent);
         let sky = sky.clone();
-        Self { size, matrix, gain, open, near, nearest, light_exponent, places, normals, sky, row }
+        Self { size, matrix, gain, open, near, places, normals, sky, row }
     }
 
     /// Side of the chart's texture.
@@ -157,12 +160,7 @@ impl Transport {
 
     /// The matrices, for a device that multiplies with them.
     pub(crate) fn parts(&self) -> Parts<'_> {
-        Parts {
-            matrix: &self.matrix.rows,
-            gain: self.gain.as_ref().map(|gain| gain.rows.as_slice()),
-            cells: self.cells(),
-            row: &self.row,
-        }
+        Parts { matrix: &self.matrix.rows, cells: self.cells(), row: &self.row }
     }
 
     /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
@@ -172,7 +170,7 @@ impl Transport {
 
     /// The most that a sky at infinity may come nearer, in the same unit.
     pub fn nearest(&self) -> f32 {
-        self.nearest
+        NEAR_RADIUS / LEAST_RADIUS
     }
 
     /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;
@@ -218,8 +216,7 @@ impl Transport {
     /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
     /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
     /// the texel's horizon nothing.
-    pub fn shading_by_normal(&self, light: &[f32]) -> Option<Vec<f32>> {
-        let open = self.open.as_ref()?;
+    pub fn shading_by_normal(&self, light: &[f32]) -> Vec<f32> {
         let centres = self.sky.centres();
         let (light, _) = light.as_chunks::<CHANNELS>();
         let row = |(row, place): (&[f32], &Vec3)| {
@@ -234,8 +231,9 @@ impl Transport {
             (0..CHANNELS).for_each(|c| flat[3 * c..3 * c + 3].copy_from_slice(&sum[c].to_array()));
             flat
         };
-        let rows: Vec<_> = open.rows.par_chunks(self.cells()).zip(&self.places).map(row).collect();
-        Some(self.spread(&rows))
+        let rows: Vec<_> =
+            self.open.rows.par_chunks(self.cells()).zip(&self.places).map(row).collect();
+        self.spread(&rows)
     }
 
     /// The largest S_d that a texel in front (normal towards +Z) would have if nothing stood in the
@@ -275,7 +273,6 @@ pub(crate) fn luminances(light: &[f32]) -> Vec<f32> {
 pub(crate) struct Parts<'a> {
     /// Rows of `cells` weights.
     pub matrix: &'a [f32],
-    pub gain: Option<&'a [f32]>,
     pub cells: usize,
     /// The row of every texel of the square.
     pub row: &'a [u32],
@@ -306,7 +303,7 @@ struct Caster<'a> {
 impl Caster<'_> {
     /// Adds up in `seen`, and returns the texel's row of B.
     fn texel(&self, origin: Vec3, normal: Vec3, seen: Seen) -> Bounces {
-        let [some, nearness] = [&seen.open, &seen.gain].map(|rows| !rows.is_empty());
+        let nearness = !seen.gain.is_empty();
         let mut bounces = Bounces::new();
         let place = origin - self.centre;
         for ray in self.rays {
@@ -324,9 +321,7 @@ impl Caster<'_> {
                     if nearness {
                         seen.gain[cell] += nearer - weight;
                     }
-                    if some {
-                        seen.open[cell] += open(ray, place, self.nearness);
-                    }
+                    seen.open[cell] += open(ray, place, self.nearness);
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
                 // The back of a surface is inside the head: dark.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::matrix::{Matrix, add_scaled};
 use super::skin::reflected;
-use super::{CHANNELS, SkyRay, SpecularTerm, Transport};
+use super::{CHANNELS, LIGHT_EXPONENT, SkyRay, SpecularTerm, Transport};
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
@@ -44,7 +44,7 @@ impl Reflection {
 impl Transport {
     /// The highlights of samples with these [`SpecularTerm`] terms, in colour, for lights of the scale that has
     /// this `peak`, at a nearness per metre that may be another than what the rays were
-    /// cast for. Takes samples x cells x 4 bytes. `None` as in [`Self::skin_highlights`].
+    /// cast for. Takes samples x cells x 4 bytes.
     pub fn reflection(
         &self,
         skin: &SkinConfig,
@@ -52,9 +52,9 @@ impl Transport {
         specular: &Planes,
         peak: f32,
         nearness: f32,
-    ) -> Option<Reflection> {
-        let (open, centres) = (self.open.as_ref()?, self.sky.centres());
-        let (cells, lobes) = (self.cells(), self.lobes(self.light_exponent));
+    ) -> Reflection {
+        let (open, centres) = (&self.open, self.sky.centres());
+        let (cells, lobes) = (self.cells(), self.lobes(LIGHT_EXPONENT));
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
             cancel::check();
@@ -65,7 +65,7 @@ impl Transport {
                 add_scaled(row, &lobes[cell * cells..][..cells], scale * weight);
             }
         });
-        Some(Reflection(Matrix { rows, cells }))
+        Reflection(Matrix { rows, cells })
     }
 
     /// Cells that a sample sees, each with the part of its light that the sample reflects towards its

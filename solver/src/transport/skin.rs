@@ -60,10 +60,10 @@ mod tests {
     use std::f32::consts::PI;
 
     use super::*;
-    use crate::Config;
+    use crate::config::UnshadeConfig;
 
     fn skin() -> SkinConfig {
-        Config::default().skin
+        UnshadeConfig::default().skin
     }
 
     /// Share of an even light of radiance 1 that is reflected to a view.

@@ -1,13 +1,12 @@
 use super::*;
-use crate::config::Config;
 use crate::testing;
 
 fn config(size: usize) -> TransportConfig {
-    TransportConfig { texture_size: size, ..Config::unshade().transport }
+    TransportConfig { texture_size: size, ..TransportConfig::default() }
 }
 
 fn plain(mesh: &Mesh, config: &TransportConfig, seed: u64) -> Transport {
-    Transport::new(mesh, &Sky::even(config.rows), config, seed, Beside::Nothing)
+    Transport::new(mesh, &Sky::even(config.rows), config, seed)
 }
 
 #[test]
@@ -104,7 +103,7 @@ fn a_near_lamp_follows_the_inverse_square() {
     let mesh = testing::dome(16);
     let config = TransportConfig { rays_per_cell_side: 8, ..config(32) };
     let sky = Sky::even(8).at(0.5);
-    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Nothing);
+    let transport = Transport::new(&mesh, &sky, &config, 0);
     let centres = sky.centres();
     let front = |a: &usize, b: &usize| centres[*a].z.total_cmp(&centres[*b].z);
     let lamp = (0..sky.len()).max_by(front).unwrap();
@@ -142,9 +141,9 @@ fn a_near_lamp_follows_the_inverse_square() {
 #[test]
 fn what_nearness_gains_is_what_a_nearer_sky_gives() {
     let mesh = testing::dome(16);
-    let far = Transport::new(&mesh, &Sky::even(8), &config(32), 0, Beside::Nearness);
+    let far = Transport::with_nearness(&mesh, &Sky::even(8), &config(32), 0);
     let near = Sky::even(8).at(far.near());
-    let near = Transport::new(&mesh, &near, &config(32), 0, Beside::Nothing);
+    let near = Transport::new(&mesh, &near, &config(32), 0);
     let light: Vec<f32> = (0..CHANNELS * far.cells()).map(|i| 1.0 + (i as f32).sin()).collect();
     let gain = far.gain(&light).unwrap();
     let sums = far.shading(&light).into_iter().zip(gain).map(|(s, gain)| s + gain);
@@ -160,11 +159,11 @@ fn shading_by_normal_is_the_change_of_shading_with_the_normal() {
     let mesh = testing::dome(16);
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
     let sky = Sky::even(8);
-    let transport = Transport::new(&mesh, &sky, &config, 0, Beside::Open);
+    let transport = Transport::new(&mesh, &sky, &config, 0);
     // A lamp overhead in front, far above the horizon of the texels that are looked at.
     let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
     let light: Vec<f32> = sky.centres().iter().flat_map(|d| [lit(*d); CHANNELS]).collect();
-    let slopes = transport.shading_by_normal(&light).unwrap();
+    let slopes = transport.shading_by_normal(&light);
     let shading = transport.shading(&light);
     let atlas = Atlas::new(&mesh, 32);
     let front = |texel: &usize| atlas.inside[*texel] && atlas.normals[*texel].z > 0.8;

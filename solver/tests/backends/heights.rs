@@ -1,9 +1,9 @@
 //! The height solve's conjugate gradients, against the same written out with the processor's operators.
 
 use capture::gbuffer::Atlas;
-use solver::Config;
 use solver::backend::Backend;
 use solver::backend::resident::NormalEquations;
+use solver::config::PaperConfig;
 use solver::model::blur::Blur;
 use solver::model::height::HeightField;
 use solver::model::planes::Planes;
@@ -16,7 +16,7 @@ const SIDE: usize = 32;
 const TEXELS: usize = SIDE * SIDE;
 const STEPS: usize = 12;
 /// Share of the part in the diffuse layer's colour that counts for nothing.
-const DOUBT: f32 = 0.6;
+const DIFFUSE_SHARE: f32 = 0.6;
 /// Weights of flatness, smoothness, heights, albedo.
 const WEIGHTS: [f32; 4] = [30.0, 60.0, 1e-3, 30.0];
 
@@ -50,7 +50,8 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
             std::array::from_fn(|c| (0..9).map(|k| row(c, k) * q[k]).sum::<f32>());
         let diffuse = glam::Vec3::from_slice(&s[12..]).normalize();
         let colour = glam::Vec3::from_array(colour);
-        let z = equations.weight.get(0, i) * (colour - DOUBT * diffuse.dot(colour) * diffuse);
+        let z =
+            equations.weight.get(0, i) * (colour - DIFFUSE_SHARE * diffuse.dot(colour) * diffuse);
         let by: [f32; 9] = std::array::from_fn(|k| (0..3).map(|c| row(c, k) * z[c]).sum());
         by
     });
@@ -80,7 +81,7 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
 }
 
 pub fn conjugate_gradients(backend: &dyn Backend) {
-    let config = Config::default();
+    let config = PaperConfig::default();
     let (samples, _) = problem(&config);
     let len = samples.len();
     let field = HeightField::new(&Atlas::new(&testing::dome(24), SIDE), 6.0);
@@ -102,7 +103,7 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
         smoothness,
         rest,
         damping,
-        doubt: DOUBT,
+        diffuse_share: DIFFUSE_SHARE,
         enough: 1e-12,
     };
     let mut descent = backend.descent(&equations).unwrap();

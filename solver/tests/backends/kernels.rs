@@ -1,9 +1,9 @@
 //! Every kernel against the model written out in f64, value by value, and its derivatives by central
 //! differences in f64.
 
-use solver::Config;
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::{Backend, DIRECTION_ROWS};
+use solver::config::PaperConfig;
 use solver::model::networks::{Network, Networks};
 use solver::model::normals::DIRECTIONS;
 
@@ -21,7 +21,7 @@ fn assert_close(got: f32, expected: f64, scale: f64, what: &str) {
 
 /// Two shapes: the published one, and one with other numbers of layers and neurons.
 pub fn joint_gradients(backend: &dyn Backend) {
-    let mut narrow = Config::default().networks;
+    let mut narrow = PaperConfig::default().networks;
     (narrow.width, narrow.hidden_layers, narrow.outputs) = (20, 3, 4);
     check_joint(backend, &networks());
     check_joint(backend, &Networks::new(&narrow, 2));

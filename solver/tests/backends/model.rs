@@ -1,6 +1,6 @@
 //! The pixel model written out in f64, and inputs to try it on.
 
-use solver::Config;
+use solver::config::PaperConfig;
 use solver::model::networks::{Network, Networks};
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
@@ -40,7 +40,7 @@ pub fn samples(weighted: &[usize]) -> Samples {
 
 pub fn networks() -> Networks {
     // Seed 2 closes some of the ReLUs and leaves others open.
-    Networks::new(&Config::default().networks, 2)
+    Networks::new(&PaperConfig::default().networks, 2)
 }
 
 /// The outputs of one network in f64.

@@ -6,10 +6,11 @@ use capture::gbuffer::GBuffer;
 use capture::{Capture, View};
 use glam::Vec3;
 use solver::Config;
-use solver::config::TextureSize;
+use solver::config::{PaperConfig, TextureSize, UnshadeConfig};
 use solver::model::networks::Networks;
-use solver::model::samples::{SampleSpace, Samples};
-use solver::optimise::stage::State;
+use solver::model::samples::Samples;
+use solver::paper::fields::ShadingFields;
+use solver::paper::sample_space;
 
 use super::testing;
 
@@ -31,22 +32,22 @@ fn views(count: usize, size: usize) -> Vec<View> {
 
 /// Samples of some views, and a state to start from; a few thousand samples, and no whole number of
 /// blocks.
-pub fn problem(config: &Config) -> (Samples, State) {
+pub fn problem(config: &PaperConfig) -> (Samples, ShadingFields) {
     let mesh = testing::dome(24);
     let views = views(3, 64);
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    let space = SampleSpace::new(&mesh, config);
-    let samples = space.training(&views, &gbuffers, &config.view_weights, SIDE);
+    let space = sample_space(&mesh, config);
+    let samples = space.training(&views, &gbuffers, config.depth_weights(), SIDE);
     assert!(samples.len() > 4000 && !samples.len().is_multiple_of(256), "{}", samples.len());
     let texels = SIDE * SIDE;
-    let state = State {
+    let fields = ShadingFields {
         networks: Networks::new(&config.networks, 2),
         size: SIDE,
         diffuse: (0..3 * texels).map(|i| 0.3 + 0.1 * (i as f32 * 12.9898).sin()).collect(),
         specular: (0..texels).map(|i| 0.03 + 0.01 * (i as f32 * 78.233).sin()).collect(),
         deviation: vec![0.0; 3 * texels],
     };
-    (samples, state)
+    (samples, fields)
 }
 
 /// A capture folder with five training views and one withheld.
@@ -57,21 +58,28 @@ pub fn capture(folder: &Path) -> Capture {
 
 /// Every kind of stage, in seconds.
 pub fn short() -> Config {
-    let mut config = Config::default();
-    config.initialisation.starts = 2;
-    config.initialisation.start_iterations = 30;
-    config.warm_up.iterations = 300;
+    let mut config = UnshadeConfig::default();
+    config.maps.texture_size = TextureSize::Side(64);
+    config.regions.texture_size = 32;
+    config.transport.texture_size = 32;
+    config.transport.rows = 8;
+    config.light.steps = 120;
+    config.joint.grey_steps = 60;
+    config.joint.steps = 60;
+    config.albedo.steps = 40;
+    config.relief.linearisations = 1;
+    config.relief.steps = 80;
+    Config::Unshade(config)
+}
+
+/// The published method with few steps.
+pub fn short_paper() -> PaperConfig {
+    let mut config = PaperConfig::default();
+    config.rendering.positive_albedo = true;
+    config.warm_up.iterations = 60;
     config.warm_up.texture_size = 64;
     config.fine_tuning.iterations = 40;
     config.fine_tuning.rounds = 1;
     config.fine_tuning.texture_size = TextureSize::Side(64);
-    config.transport.texture_size = 32;
-    config.transport.rows = 8;
-    config.transport.probe = 60;
-    config.transport.iterations = 100;
-    config.transport.albedo_frozen_steps = 30;
-    config.transport.refinement = 40;
-    config.height.linearisations = 1;
-    config.height.steps = 80;
     config
 }

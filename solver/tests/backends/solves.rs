@@ -8,7 +8,7 @@ use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::{Config, Options, Solution, solve_into, solve_on};
 
-use super::scene::{capture, short};
+use super::scene::{capture, short, short_paper};
 
 fn solve(backend: &dyn Backend, config: &Config) -> Solution {
     let folder = tempfile::tempdir().unwrap();
@@ -31,11 +31,18 @@ fn distance(a: &Solution, b: &Solution) -> f64 {
 }
 
 pub fn whole(backend: &dyn Backend) {
-    let config = short();
-    let reference = solve(&Cpu::new(), &config);
-    let other = |seed: u64| solve(&Cpu::new(), &Config { seed, ..config.clone() });
+    near_the_processor(backend, &short());
+    near_the_processor(backend, &Config::Paper(short_paper()));
+}
+
+fn near_the_processor(backend: &dyn Backend, config: &Config) {
+    let reference = solve(&Cpu::new(), config);
+    let other = |seed: u64| {
+        let text = format!("seed = {seed}\n{}", config.to_toml().replacen("seed = 0\n", "", 1));
+        solve(&Cpu::new(), &Config::from_toml(&text).unwrap())
+    };
     let spreads = [7, 14, 21, 28].map(|seed| distance(&other(seed), &reference));
-    let found = solve(backend, &config);
+    let found = solve(backend, config);
     assert_eq!(found.record.backend, backend.name());
     let (off, spread) = (distance(&found, &reference), spreads.into_iter().fold(0.0, f64::max));
     println!("albedo: {off:.6} from the processor's, which moves by {spreads:.6?} with the seed");
@@ -71,8 +78,8 @@ pub fn resumed(backend: &dyn Backend) {
         (solution.record.interrupted, first)
     };
     assert_eq!(solve(&whole, usize::MAX).0, None);
-    // In the second start, the warm-up, and both stages of the transport.
-    for stop in [40, 150, 400, 500] {
+    // In both rounds of the light, the joint fit and the relief.
+    for stop in [40, 90, 200, 250] {
         let (place, first) = solve(&maps, stop);
         assert!(place.is_some(), "{stop}");
         assert!(first > Some(1) || stop == 40, "{stop}: begun anew at {first:?}");

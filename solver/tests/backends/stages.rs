@@ -3,20 +3,18 @@
 use std::time::Duration;
 
 use glam::Vec3;
-use solver::Config;
 use solver::backend::Backend;
 use solver::backend::cpu::Cpu;
 use solver::backend::gpu::{Adapter, Gpu};
+use solver::config::{PaperConfig, UnshadeConfig};
+use solver::fit::Fit;
 use solver::model::deviation::Deviation;
 use solver::model::planes::Planes;
-use solver::optimise::diffuse::Diffuse;
-use solver::optimise::highlights::{Found, Highlights};
-use solver::optimise::normals::Normals;
-use solver::optimise::specular::Specular;
-use solver::optimise::stage::{Stage, State};
-use solver::optimise::transported::Transported;
-use solver::optimise::warm_up::WarmUp;
-use solver::transport::{Beside, HIGHLIGHT_ROWS, Sky, SpecularTerm, Transport};
+use solver::paper::diffuse::diffuse as diffuse_fit;
+use solver::paper::normals::Normals;
+use solver::paper::warm_up::WarmUp;
+use solver::transport::{HIGHLIGHT_ROWS, Sky, SpecularTerm, Transport};
+use solver::unshade::explicit::{ExplicitModel, JointFit};
 
 use super::scene::problem;
 use super::testing;
@@ -29,94 +27,66 @@ const TOLERANCE: f64 = 1e-4;
 /// makes a whole step of the faintest gradient, whose sign is rounding.
 const WAY: f64 = 0.01;
 
-/// The losses of [`STEPS`] steps, the last ones by a share of the rates, and where they lead: the state,
-/// and what is the stage's own.
-fn steps(backend: &dyn Backend, stage: &mut dyn Stage, mut state: State) -> (Vec<f64>, End) {
+/// The losses of the steps, and the variables after them.
+fn steps(backend: &dyn Backend, fit: &mut dyn Fit) -> (Vec<f64>, Vec<Vec<f32>>) {
     let rate_factors: Vec<f32> = (0..STEPS).map(|step| if step < 40 { 1.0 } else { 0.5 }).collect();
-    let Some(mut program) = backend.resident(&stage.job().unwrap()) else {
-        let losses =
-            rate_factors.iter().map(|factor| stage.step(&mut state, backend, *factor)).collect();
-        return (losses, End::of(state, stage));
+    let Some(mut program) = backend.resident(&fit.job().unwrap()) else {
+        let losses = rate_factors.iter().map(|factor| fit.step(backend, *factor)).collect();
+        return (losses, values(fit));
     };
-    program.upload(&stage.variables(&mut state)).unwrap();
+    program.upload(&fit.variables()).unwrap();
     let mut losses = vec![];
-    // By way of the host in the middle, as a checkpoint would have it.
     for part in
         [&rate_factors[..1], &rate_factors[1..20], &rate_factors[20..27], &rate_factors[27..]]
     {
         losses.extend(program.steps(part).unwrap());
-        program.download(&mut stage.variables(&mut state)).unwrap();
-        program.upload(&stage.variables(&mut state)).unwrap();
+        program.download(&mut fit.variables()).unwrap();
+        program.upload(&fit.variables()).unwrap();
     }
-    (losses, End::of(state, stage))
+    (losses, values(fit))
 }
 
-struct End {
-    state: State,
-    own: Vec<Vec<f32>>,
+fn values(fit: &mut dyn Fit) -> Vec<Vec<f32>> {
+    fit.variables().iter().map(|variable| variable.values.clone()).collect()
 }
 
-impl End {
-    fn of(state: State, stage: &mut dyn Stage) -> Self {
-        let own = stage.memory().own.iter().map(|own| own.to_vec()).collect();
-        Self { state, own }
-    }
-}
-
-/// `new` makes the stage with the help of a backend.
-fn compare<S: Stage>(backend: &dyn Backend, start: &State, new: impl Fn(&dyn Backend) -> S) {
+/// Compares a fit on a device with the processor's, over all steps.
+fn compare<F: Fit>(backend: &dyn Backend, new: impl Fn(&dyn Backend) -> F) {
     let cpu = Cpu::new();
     assert!(backend.resident(&new(backend).job().unwrap()).is_some(), "{}", backend.name());
-    let first = End::of(start.clone(), &mut new(backend));
-    let (losses, found) = steps(backend, &mut new(backend), start.clone());
-    let (expected, reference) = steps(&cpu, &mut new(&cpu), start.clone());
+    let start = values(&mut new(backend));
+    let (losses, found) = steps(backend, &mut new(backend));
+    let (expected, reference) = steps(&cpu, &mut new(&cpu));
     for (step, (loss, expected)) in losses.iter().zip(&expected).enumerate() {
         let off = loss / expected - 1.0;
         assert!(off.abs() < TOLERANCE, "step {step}: {loss} instead of {expected}");
     }
     assert!(expected[STEPS - 1] < 0.995 * expected[0], "nothing was learnt: {expected:?}");
-    let mut moved = 0;
-    for (what, field) in FIELDS {
-        let [start, found, reference] = [&first, &found, &reference].map(field);
+    for (what, start) in start.iter().enumerate() {
         let distance = |a: &[f32], b: &[f32]| -> f64 {
             a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>().sqrt()
         };
-        let way = distance(reference, start);
-        let off = distance(found, reference);
-        assert!(off <= WAY * way, "{what}: {off} of {way}");
-        moved += usize::from(way > 0.0);
+        let way = distance(&reference[what], start);
+        let off = distance(&found[what], &reference[what]);
+        assert!(way > 0.0 && off <= WAY * way, "variable {what}: {off} of {way}");
     }
-    assert!(moved > 0);
 }
 
-type Field = fn(&End) -> &[f32];
-
-const FIELDS: [(&str, Field); 6] = [
-    ("networks", |end| &end.state.networks.parameters),
-    ("diffuse", |end| &end.state.diffuse),
-    ("specular", |end| &end.state.specular),
-    ("deviation", |end| &end.state.deviation),
-    ("light", |end| end.own.first().map_or(&[], |own| own)),
-    ("nearness", |end| end.own.get(1).map_or(&[], |own| own)),
-];
-
 pub fn warm_up(backend: &dyn Backend) {
-    let config = Config::default();
+    let config = PaperConfig::default();
     let (samples, state) = problem(&config);
-    compare(backend, &state, |_| WarmUp::new(&config, &samples, &state));
+    compare(backend, |_| WarmUp::new(&config, &samples, state.clone()));
 }
 
 pub fn diffuse(backend: &dyn Backend) {
-    let config = Config::default();
+    let config = PaperConfig::default();
     let (samples, state) = problem(&config);
     let deviation = Deviation::new(&config, state.size);
-    compare(backend, &state, |backend| {
-        Diffuse::new(&config, &samples, &deviation, &state, backend, 1)
-    });
+    compare(backend, |backend| diffuse_fit(&config, &samples, &deviation, &state, backend));
 }
 
 pub fn normals(backend: &dyn Backend) {
-    let mut config = Config::preset("paper").unwrap();
+    let mut config = PaperConfig::default();
     // Convolved on the texture, on a coarser one, and on the next.
     for blur in [0.03, 0.14, 0.27] {
         config.fine_tuning.deviation_blur = blur;
@@ -127,75 +97,41 @@ pub fn normals(backend: &dyn Backend) {
     check_normals(backend, &config);
 }
 
-fn check_normals(backend: &dyn Backend, config: &Config) {
+fn check_normals(backend: &dyn Backend, config: &PaperConfig) {
     let (samples, mut state) = problem(config);
     state.deviation.iter_mut().enumerate().for_each(|(i, t)| *t = 0.1 * (i as f32 * 0.37).sin());
     let deviation = Deviation::new(config, state.size);
-    compare(backend, &state, |backend| {
-        Normals::new(config, &samples, &deviation, &state, backend, 1)
-    });
-}
-
-pub fn specular(backend: &dyn Backend) {
-    let mut config = Config::default();
-    config.fine_tuning.specular_rate = 1e-3;
-    let (samples, state) = problem(&config);
-    let deviation = Deviation::new(&config, state.size);
-    compare(backend, &state, |backend| {
-        Specular::new(&config, &samples, &deviation, &state, backend, 1)
-    });
-}
-
-pub fn transported(backend: &dyn Backend) {
-    let mut config = Config::default();
-    config.transport.texture_size = 32;
-    config.transport.rows = 6;
-    config.transport.light_colour = 0.3;
-    config.transport.albedo_frozen_steps = 22;
-    config.transport.grey_texel = 0.1;
-    let (samples, state) = problem(&config);
-    let mesh = testing::dome(24);
-    for beside in [Beside::Nearness, Beside::Nothing] {
-        let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
-        let light: Vec<f32> =
-            (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
-        compare(backend, &state, |_| {
-            Transported::new(&config, &transport, &samples, &state, light.clone())
-        });
-    }
+    compare(backend, |backend| Normals::new(config, &samples, &deviation, &state, backend));
 }
 
 pub fn highlights(backend: &dyn Backend) {
-    let mut config = Config::default();
+    let mut config = UnshadeConfig::default();
     config.transport.texture_size = 32;
     config.transport.rows = 6;
-    config.transport.light_colour = 0.3;
-    config.transport.albedo_frozen_steps = 22;
-    let (samples, state) = problem(&config);
-    let mesh = testing::dome(24);
-    let skin_specular = SpecularTerm::usual(0.04).channels().repeat(state.specular.len());
-    for beside in [Beside::Nearness, Beside::Open] {
-        let transport = Transport::new(&mesh, &Sky::even(6), &config.transport, 0, beside);
-        let light: Vec<f32> =
-            (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
-        let nearness = 0.4 * transport.near();
-        let found = Found { log_light: &light, nearness, skin_specular: &skin_specular };
-        compare(backend, &state, |_| {
-            Highlights::new(&config, &transport, &samples, &state, found).unwrap()
-        });
-    }
+    config.light.colour = 0.3;
+    let (samples, state) = problem(&PaperConfig::default());
+    let terms = SpecularTerm::usual(0.04).channels().repeat(state.specular.len());
+    let transport = Transport::new(&testing::dome(24), &Sky::even(6), &config.transport, 0);
+    let log_light: Vec<f32> =
+        (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
+    let light: Vec<f32> = log_light.iter().map(|log| log.exp()).collect();
+    let nearness = 0.4 * transport.near();
+    compare(backend, |_| {
+        let model = ExplicitModel::new(&config, &transport, &samples, &terms, &light, nearness);
+        JointFit::new(&config, model, STEPS, log_light.clone(), state.diffuse.clone())
+    });
 }
 
 pub fn skin_highlights(backend: &dyn Backend) {
-    let mut config = Config::default();
+    let mut config = UnshadeConfig::default();
     config.transport.texture_size = 32;
-    let (samples, _) = problem(&config);
+    let (samples, _) = problem(&PaperConfig::default());
     let mesh = testing::dome(24);
     let sky = Sky::even(6).at(0.3);
-    let transport = Transport::new(&mesh, &sky, &config.transport, 0, Beside::Open);
+    let transport = Transport::new(&mesh, &sky, &config.transport, 0);
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
-    let skin_highlights = transport.skin_highlights(&config.skin, &light).unwrap();
+    let skin_highlights = transport.skin_highlights(&config.skin, &light);
     let tilted = |i: usize| {
         let tilt = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(tilt)).normalize()
@@ -218,13 +154,13 @@ pub fn skin_highlights(backend: &dyn Backend) {
 
 /// Without a clock of the adapter's there is nothing to compare.
 pub fn timed(adapter: &Adapter) {
-    let config = Config::default();
+    let config = PaperConfig::default();
     let (samples, state) = problem(&config);
     let gpu = Gpu::open(adapter).unwrap();
     let run = || {
-        let (mut stage, mut state) = (WarmUp::new(&config, &samples, &state), state.clone());
-        let mut program = gpu.resident(&stage.job().unwrap()).unwrap();
-        program.upload(&stage.variables(&mut state)).unwrap();
+        let mut fit = WarmUp::new(&config, &samples, state.clone());
+        let mut program = gpu.resident(&fit.job().unwrap()).unwrap();
+        program.upload(&fit.variables()).unwrap();
         program.steps(&[1.0; 3]).unwrap()
     };
     let (losses, timings) = gpu.timed(run);

@@ -1,8 +1,9 @@
 //! Passes through textures, against planes between their parts.
 
-use solver::Config;
 use solver::backend::cpu::Cpu;
 use solver::backend::{Backend, JointGradient, TexturedNormals};
+use solver::config::PaperConfig;
+use solver::fit::Fit;
 use solver::model::deviation::Deviation;
 use solver::model::deviation_textures::ROWS;
 use solver::model::networks::Networks;
@@ -10,8 +11,8 @@ use solver::model::normals::DirectionScale;
 use solver::model::planes::Planes;
 use solver::model::samples::Samples;
 use solver::model::texture::interleave;
-use solver::optimise::normals::Normals;
-use solver::optimise::stage::{Stage, State};
+use solver::paper::fields::ShadingFields;
+use solver::paper::normals::Normals;
 
 use super::scene::problem;
 use super::testing;
@@ -50,8 +51,8 @@ impl Backend for ByPlanes<'_> {
 
 /// Loss and gradients of the warm-up.
 pub fn joint(backend: &dyn Backend) {
-    let config = Config::preset("paper").unwrap();
-    let (samples, State { networks, diffuse, specular, .. }) = problem(&config);
+    let config = PaperConfig::default();
+    let (samples, ShadingFields { networks, diffuse, specular, .. }) = problem(&config);
     let directions = DirectionScale::from(&config.networks).directions(&samples, None);
     let albedo = interleave::<4>(&[(&diffuse, 3), (&specular, 1)]);
     let [fused, split] = [backend, &ByPlanes(backend)]
@@ -69,7 +70,7 @@ pub fn joint(backend: &dyn Backend) {
 /// Loss and gradients of a bent dome; the texels that nothing sees have none. With a narrow blur and a wide one.
 pub fn normals(backend: &dyn Backend) {
     for blur in [0.05, 0.14] {
-        let mut config = Config::preset("paper").unwrap();
+        let mut config = PaperConfig::default();
         config.fine_tuning.deviation_blur = blur;
         let (samples, state) = problem(&config);
         let deviation = Deviation::new(&config, state.size);
@@ -107,23 +108,23 @@ pub fn normals(backend: &dyn Backend) {
 /// Steps of the normals on any number of threads, and after a stop, to the same bits.
 pub fn steps() {
     for blur in [0.05, 0.14, 0.27] {
-        let mut config = Config::preset("paper").unwrap();
+        let mut config = PaperConfig::default();
         config.fine_tuning.deviation_blur = blur;
         let (samples, start) = problem(&config);
         let deviation = Deviation::new(&config, start.size);
         let run = |stop: usize| {
-            let (cpu, mut state) = (Cpu::new(), start.clone());
-            let stage = || Normals::new(&config, &samples, &deviation, &start, &cpu, 1);
+            let cpu = Cpu::new();
+            let stage = || Normals::new(&config, &samples, &deviation, &start, &cpu);
             let mut first = stage();
-            let mut losses: Vec<_> = (0..stop).map(|_| first.step(&mut state, &cpu, 1.0)).collect();
+            let mut losses: Vec<_> = (0..stop).map(|_| first.step(&cpu, 1.0)).collect();
             // What another process would read.
             let mut second = stage();
-            for (to, from) in second.memory().optimisers.into_iter().zip(first.memory().optimisers)
-            {
-                to.clone_from(from);
+            for (to, from) in second.variables().into_iter().zip(first.variables()) {
+                to.values.clone_from(from.values);
+                to.adam.clone_from(from.adam);
             }
-            losses.extend((stop..6).map(|_| second.step(&mut state, &cpu, 1.0)));
-            (losses, state)
+            losses.extend((stop..6).map(|_| second.step(&cpu, 1.0)));
+            (losses, second.relief)
         };
         let once = testing::on_threads(1, || run(6));
         assert!(once.0[5] < once.0[0]);

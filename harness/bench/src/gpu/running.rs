@@ -7,10 +7,6 @@ use solver::backend::Backend;
 use solver::backend::gpu::Gpu;
 use solver::backend::resident::{BATCH, DeviceError, Resident};
 use solver::model::deviation::Deviation;
-use solver::optimise::diffuse::Diffuse;
-use solver::optimise::normals::Normals;
-use solver::optimise::stage::Stage;
-use solver::optimise::warm_up::WarmUp;
 
 use super::rows::{GpuStep, PassRow};
 use crate::steps::{Kind, Reach};
@@ -36,20 +32,14 @@ impl<'a> Running<'a> {
         kind: Kind,
         problem: &Problem,
     ) -> Result<Self, BackendError> {
-        let Problem { config, samples, state } = problem;
-        let mut state = state.clone();
-        let deviation = Deviation::new(config, state.size);
-        let mut stage: Box<dyn Stage> = match kind {
-            Kind::WarmUp => Box::new(WarmUp::new(config, samples, &state)),
-            Kind::Normals => Box::new(Normals::new(config, samples, &deviation, &state, gpu, 1)),
-            Kind::Diffuse => Box::new(Diffuse::new(config, samples, &deviation, &state, gpu, 1)),
-        };
+        let deviation = Deviation::new(&problem.config, problem.state.size);
+        let mut fit = problem.fit(kind, &deviation, gpu);
         let no_program = || failed(gpu, &DeviceError("it has no program for the stage".to_owned()));
-        let job = stage.job().ok_or_else(no_program)?;
+        let job = fit.job().ok_or_else(no_program)?;
         let mut program = gpu.resident(&job).ok_or_else(no_program)?;
         drop(job);
-        program.upload(&stage.variables(&mut state)).map_err(|error| failed(gpu, &error))?;
-        let (pixels, texture) = (samples.len(), state.size);
+        program.upload(&fit.variables()).map_err(|error| failed(gpu, &error))?;
+        let (pixels, texture) = (problem.samples.len(), problem.state.size);
         Ok(Self { gpu, reach, program, kind, pixels, texture })
     }
 

@@ -133,12 +133,12 @@ fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
     assert!(
         near.starts_with("--case: the suite has no case \"ada-kee\"; did you mean \"ada-key\"?")
     );
-    let ours = "name = \"fast\"\nsweep.fine_tuning.texture_size = [256, 512]";
+    let ours = "name = \"fast\"\nsweep.maps.texture_size = [256, 512]";
     let ours = open(ours).unwrap().methods;
     let MethodKind::Fields { config, .. } = &ours[1].kind else { panic!() };
     let config = config.parse::<Table>().unwrap();
     assert_eq!(ours[1].id, "fast-texture_size512");
-    assert_eq!(config["fine_tuning"]["texture_size"].as_integer(), Some(512));
+    assert_eq!(config["maps"]["texture_size"].as_integer(), Some(512));
     for (lines, words) in [
         ("sweep = { lr = 0.1 }", "suite.toml:9: sweep: lr must be a list of values"),
         ("sweep = { layers = [1, 2] }", "sweep: set has layers too; remove one"),
@@ -354,7 +354,7 @@ fn errors_name_the_file_the_key_and_the_fix() {
         ),
         (
             &*format!("{head}[[method]]\nname = \"paper\"\ntexture_size = 512\n"),
-            "does not support texture_size; write [method.set.fine_tuning] texture_size",
+            "does not support texture_size; write [method.set.maps] texture_size, or [method.set.fine_tuning] texture_size for `paper`",
         ),
         (
             &*format!("{head}[[method]]\nname = \"mean_texture\"\ntexture_size = 4\n"),

@@ -136,7 +136,7 @@ fn image(
     }
     let kernel = device.kernel("normal equations", include_str!("wgsl/normal.wgsl"), &[], "urw");
     for (at, piece) in pieces.0.iter().enumerate() {
-        let parameters = device.uniform(&[piece.len() as u32, problem.doubt.to_bits()]);
+        let parameters = device.uniform(&[piece.len() as u32, problem.diffuse_share.to_bits()]);
         let buffers = [&parameters, &slopes[at], &unknowns[at]];
         passes.push(Pass::over(device, &kernel, &buffers, piece.len()));
     }

@@ -1,14 +1,14 @@
-//! Light, its nearness and diffuse albedo with the highlights that the light itself makes.
+//! Light and diffuse albedo with the highlights of the same light.
 
 use super::computing::Gpu;
 use super::matrix::{Matrix, Shading, by_light};
 use super::pass::{Pass, THREADS};
 use super::pieces::{DeviceTaps, Pieces};
-use super::program::{Moved, Program, light_colour, prior, total};
+use super::program::{Moved, Program, light_colour, prior};
 use crate::backend::resident::HighlightsJob;
 use crate::transport::CHANNELS;
 
-/// The stages of the distance and of the highlights.
+/// The fit of light and albedo together.
 pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let device = &gpu.device;
     let samples = job.samples;
@@ -18,7 +18,6 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let cells = parts.cells;
     let shading = Shading::new(device, &parts);
     let log_light = Moved::new(device, "light", CHANNELS * cells);
-    let nearness = Moved::new(device, "nearness", 1);
     let diffuse = Moved::new(device, "diffuse albedo", texels);
     let layer = device.floats("diffuse layer", texels);
 
@@ -27,7 +26,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let taps = DeviceTaps::new(device, &pieces, &samples.taps);
     let rows = job.reflection.rows();
     let reflection = |piece: &std::ops::Range<usize>| {
-        Matrix::new(device, cells, &rows[cells * piece.start..cells * piece.end], None)
+        Matrix::new(device, cells, &rows[cells * piece.start..cells * piece.end])
     };
     let reflections: Vec<Matrix> = pieces.0.iter().map(reflection).collect();
     let values = |name, piece: &std::ops::Range<usize>| device.floats(name, CHANNELS * piece.len());
@@ -37,8 +36,8 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let groups: Vec<usize> = pieces.0.iter().map(|piece| piece.len().div_ceil(THREADS)).collect();
     let losses = device.floats("partial losses", groups.iter().sum());
 
-    let light = [&shading.light, &nearness.values];
-    let mut passes = shading.passes(device, &log_light.values, &nearness.values);
+    let light = &shading.light;
+    let mut passes = shading.passes(device, &log_light.values);
     passes.push(shading.lit(device, &diffuse.values, &layer, false));
     passes.extend(taps.sample(device, &layer, CHANNELS, &sampled, [0, CHANNELS]));
     let source = include_str!("wgsl/highlights.wgsl");
@@ -46,8 +45,7 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let scale = 1.0 / (CHANNELS * samples.len()) as f32;
     let mut first = 0;
     for (at, (piece, groups)) in pieces.0.iter().zip(&groups).enumerate() {
-        let gains = values("no gains", piece);
-        passes.push(reflections[at].product(device, light, [&highlights[at], &gains]));
+        passes.push(reflections[at].product(device, light, &highlights[at]));
         let parameters = device.uniform(&[piece.len() as u32, first as u32, scale.to_bits()]);
         let buffers = [&parameters, &pixels[at], &sampled[at], &highlights[at], &losses];
         let pass = Pass::new(device, &kernel, &buffers, *groups);
@@ -60,17 +58,15 @@ pub(super) fn program<'a>(gpu: &'a Gpu, job: &HighlightsJob) -> Program<'a> {
     let add = prior_pass.is_some();
     passes.extend(prior_pass);
     passes.push(shading.lit(device, by_layer, &diffuse.gradient, add));
-    passes.extend(shading.by_shading(device, [by_layer, &diffuse.values], [0.0; 2]));
+    passes.push(shading.by_shading(device, [by_layer, &diffuse.values]));
     let mut matrices = vec![(&shading.matrix, &shading.by_row)];
     matrices.extend(reflections.iter().zip(&highlights));
     passes.extend(by_light(device, &matrices, light, &log_light.gradient));
     let (colour_pass, colour_sums) = light_colour(device, &log_light, job.light_colour).unzip();
     passes.extend(colour_pass);
-    let by_nearness = [shading.groups(); 2];
-    passes.extend(total(device, &shading.partial, by_nearness, &nearness.gradient, false, false));
 
     let mut losses = vec![(losses, first)];
     losses.extend(prior_sums);
     losses.extend(colour_sums);
-    Program::new(gpu, passes, &losses, vec![log_light, nearness, diffuse])
+    Program::new(gpu, passes, &losses, vec![log_light, diffuse])
 }

@@ -34,7 +34,6 @@ pub(super) struct Joint {
     pub losses: wgpu::Buffer,
     /// Workgroups of each piece.
     pub groups: Vec<usize>,
-    layered: bool,
 }
 
 impl Joint {
@@ -54,14 +53,8 @@ impl Joint {
             partial: device.floats("partial sums", all * layout.partial_floats()),
             losses: device.floats("partial losses", all),
             groups,
-            layered: false,
             pieces,
         }
-    }
-
-    /// The first three albedos are the whole diffuse layer, and no network explains it.
-    pub fn layered(self) -> Self {
-        Self { layered: true, ..self }
     }
 
     /// The passes that leave the gradients of the networks in `gradient`, and those of the sampled
@@ -85,8 +78,7 @@ impl Joint {
         let mut passes = vec![];
         for (at, (piece, groups)) in self.pieces.0.iter().zip(&self.groups).enumerate() {
             let tiles = (padded(piece) / TILE) as u32;
-            let layered = u32::from(self.layered);
-            let words = [tiles, *groups as u32, first as u32, layered, scale.to_bits(), 0];
+            let words = [tiles, *groups as u32, first as u32, scale.to_bits(), 0];
             let parameters = device.uniform(&words);
             let buffers = [
                 &parameters,

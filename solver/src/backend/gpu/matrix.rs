@@ -12,43 +12,27 @@ pub(super) struct Matrix {
     pub rows: usize,
     cells: usize,
     weights: wgpu::Buffer,
-    /// Change of the weights with the nearness of the sky.
-    gain: Option<wgpu::Buffer>,
 }
 
 impl Matrix {
-    pub fn new(device: &Device, cells: usize, weights: &[f32], gain: Option<&[f32]>) -> Self {
+    pub fn new(device: &Device, cells: usize, weights: &[f32]) -> Self {
         Self {
             rows: weights.len() / cells.max(1),
             cells,
             weights: device.filled("matrix", weights),
-            gain: gain.map(|gain| device.filled("gain", gain)),
         }
     }
 
-    fn gained(&self) -> (&'static str, u32) {
-        ("GAINED", u32::from(self.gain.is_some()))
-    }
-
-    fn gain(&self) -> &wgpu::Buffer {
-        self.gain.as_ref().unwrap_or(&self.weights)
-    }
-
     fn size(&self) -> usize {
-        self.rows * self.cells * if self.gain.is_some() { 2 } else { 1 }
+        self.rows * self.cells
     }
 
-    /// R, G, B of every row in a light, and what they gain of its nearness.
-    pub fn product(
-        &self,
-        device: &Device,
-        [light, nearness]: [&wgpu::Buffer; 2],
-        [out, gains]: [&wgpu::Buffer; 2],
-    ) -> Pass {
+    /// R, G, B of every row in a light.
+    pub fn product(&self, device: &Device, light: &wgpu::Buffer, out: &wgpu::Buffer) -> Pass {
         let source = include_str!("wgsl/transport.wgsl");
-        let kernel = device.kernel("transport", source, &[self.gained()], "urrrrww");
+        let kernel = device.kernel("transport", source, &[], "urrw");
         let parameters = device.uniform(&[self.rows as u32, self.cells as u32]);
-        let buffers = [&parameters, &self.weights, self.gain(), light, nearness, out, gains];
+        let buffers = [&parameters, &self.weights, light, out];
         Pass::new(device, &kernel, &buffers, self.rows).doing(self.size(), 2 * CHANNELS, 1)
     }
 
@@ -61,14 +45,14 @@ impl Matrix {
     fn adjoint(
         &self,
         device: &Device,
-        [nearness, by_row, partial]: [&wgpu::Buffer; 3],
+        [by_row, partial]: [&wgpu::Buffer; 2],
         first: usize,
     ) -> Pass {
-        let constants = [self.gained(), ("ROWS", CHUNK as u32)];
+        let constants = [("ROWS", CHUNK as u32)];
         let source = include_str!("wgsl/adjoint.wgsl");
-        let kernel = device.kernel("adjoint", source, &constants, "urrrrw");
+        let kernel = device.kernel("adjoint", source, &constants, "urrw");
         let parameters = device.uniform(&[self.rows, self.cells, first].map(|word| word as u32));
-        let buffers = [&parameters, &self.weights, self.gain(), nearness, by_row, partial];
+        let buffers = [&parameters, &self.weights, by_row, partial];
         let groups = self.chunks() * self.cells.div_ceil(THREADS);
         Pass::new(device, &kernel, &buffers, groups).doing(self.size(), 2 * CHANNELS, 1)
     }
@@ -78,7 +62,7 @@ impl Matrix {
 pub(super) fn by_light(
     device: &Device,
     matrices: &[(&Matrix, &wgpu::Buffer)],
-    [light, nearness]: [&wgpu::Buffer; 2],
+    light: &wgpu::Buffer,
     gradient: &wgpu::Buffer,
 ) -> Vec<Pass> {
     let count = CHANNELS * matrices.first().map_or(0, |(matrix, _)| matrix.cells);
@@ -87,7 +71,7 @@ pub(super) fn by_light(
     let mut passes = vec![];
     let mut first = 0;
     for (matrix, by_row) in matrices {
-        passes.push(matrix.adjoint(device, [nearness, by_row, &partial], first));
+        passes.push(matrix.adjoint(device, [by_row, &partial], first));
         first += matrix.chunks();
     }
     let kernel = device.kernel("by light", include_str!("wgsl/by_light.wgsl"), &[], "urrw");
@@ -106,16 +90,12 @@ pub(super) struct Shading {
     texel: wgpu::Buffer,
     pub light: wgpu::Buffer,
     shading: wgpu::Buffer,
-    /// Gains of the shading, then the result of `grey.wgsl`.
-    gains: wgpu::Buffer,
     pub by_row: wgpu::Buffer,
-    /// Partial sums of `rows.wgsl`.
-    pub partial: wgpu::Buffer,
 }
 
 impl Shading {
     pub fn new(device: &Device, parts: &Parts) -> Self {
-        let matrix = Matrix::new(device, parts.cells, parts.matrix, parts.gain);
+        let matrix = Matrix::new(device, parts.cells, parts.matrix);
         let rows = matrix.rows;
         let mut start = vec![0u32; rows + 1];
         parts.row.iter().for_each(|row| start[*row as usize + 1] += 1);
@@ -129,31 +109,18 @@ impl Shading {
             texel: device.filled("texels", &texel),
             light: device.floats("light", CHANNELS * parts.cells),
             shading: device.floats("shading", CHANNELS * rows),
-            gains: device.floats("gains", CHANNELS * rows + 4),
             by_row: device.floats("by shading", CHANNELS * rows),
-            partial: device.floats("penalties", 2 * rows.div_ceil(THREADS)),
             matrix,
         }
     }
 
-    /// Workgroups of `rows.wgsl`: partial sums of the penalties, and of the gradient by the nearness.
-    pub fn groups(&self) -> usize {
-        self.matrix.rows.div_ceil(THREADS)
-    }
-
     /// The light, and the shading of every row.
-    pub fn passes(
-        &self,
-        device: &Device,
-        log: &wgpu::Buffer,
-        nearness: &wgpu::Buffer,
-    ) -> Vec<Pass> {
+    pub fn passes(&self, device: &Device, log: &wgpu::Buffer) -> Vec<Pass> {
         let count = CHANNELS * self.matrix.cells;
         let kernel = device.kernel("light", include_str!("wgsl/light.wgsl"), &[], "urw");
         let parameters = device.uniform(&[count as u32]);
         let light = Pass::over(device, &kernel, &[&parameters, log, &self.light], count);
-        let out = [&self.shading, &self.gains];
-        vec![light, self.matrix.product(device, [&self.light, nearness], out)]
+        vec![light, self.matrix.product(device, &self.light, &self.shading)]
     }
 
     /// A texture times the shading.
@@ -166,33 +133,13 @@ impl Shading {
         Pass::over(device, &kernel, &buffers, count)
     }
 
-    /// The gradient by the shading of every row; `textures` are that by the diffuse layer, and the
-    /// albedo. With weights of a coloured mean shading, and of every texel's.
-    pub fn by_shading(
-        &self,
-        device: &Device,
-        textures: [&wgpu::Buffer; 2],
-        [mean_weight, texel_weight]: [f32; 2],
-    ) -> Vec<Pass> {
-        let rows = self.matrix.rows as u32;
-        let kernel = device.kernel("grey", include_str!("wgsl/grey.wgsl"), &[], "urrw");
-        let texels = self.texels as f32;
-        let parameters = device.uniform(&[rows, texels.to_bits(), mean_weight.to_bits()]);
-        let buffers = [&parameters, &self.start, &self.shading, &self.gains];
-        let grey = Pass::new(device, &kernel, &buffers, 1);
-        let kernel = device.kernel("by shading", include_str!("wgsl/rows.wgsl"), &[], "urrrrrrww");
-        let scale = texel_weight / (CHANNELS as f32 * texels);
-        let buffers = [
-            &device.uniform(&[rows, scale.to_bits()]),
-            &self.start,
-            &self.texel,
-            textures[0],
-            textures[1],
-            &self.shading,
-            &self.gains,
-            &self.by_row,
-            &self.partial,
-        ];
-        vec![grey, Pass::new(device, &kernel, &buffers, self.groups())]
+    /// The gradient by the shading of every row; `textures` are that by the diffuse layer, and the albedo.
+    pub fn by_shading(&self, device: &Device, textures: [&wgpu::Buffer; 2]) -> Pass {
+        let rows = self.matrix.rows;
+        let kernel = device.kernel("by shading", include_str!("wgsl/rows.wgsl"), &[], "urrrrw");
+        let parameters = device.uniform(&[rows as u32]);
+        let [by_layer, albedo] = textures;
+        let buffers = [&parameters, &self.start, &self.texel, by_layer, albedo, &self.by_row];
+        Pass::over(device, &kernel, &buffers, rows)
     }
 }

@@ -48,7 +48,6 @@ mod program;
 mod skin_highlights;
 mod submission;
 mod timings;
-mod transported;
 mod unroll;
 
 pub use super::error::VARIABLE;
@@ -164,13 +163,6 @@ impl Backend for Gpu {
             }
             Job::Layer { taps, known, prior } => {
                 Some(Box::new(layer::program(self, taps, known, *prior)))
-            }
-            Job::Transported(job) => {
-                let layout = Layout::new(job.shape);
-                if !self.fits(&layout) {
-                    return None;
-                }
-                Some(Box::new(transported::program(self, layout, job)))
             }
             Job::Highlights(job) => Some(Box::new(highlights::program(self, job))),
             Job::Normals(job) => Some(Box::new(normals::program(self, job))),

@@ -122,14 +122,10 @@ impl Chart<'_> {
 
     fn value_by_value(&self, what: u32, inputs: [&wgpu::Buffer; 3], out: &wgpu::Buffer) -> Pass {
         let parts = self.deviation.parts();
-        let constants = [
-            ("WHAT", what),
-            ("RANGED", u32::from(parts.range.is_some())),
-            ("BAND", u32::from(parts.wide.is_some())),
-        ];
+        let constants = [("WHAT", what), ("BAND", u32::from(parts.wide.is_some()))];
         let source = include_str!("wgsl/deviation.wgsl");
         let kernel = self.device.kernel("deviation", source, &constants, "urrrw");
-        let range = parts.range.unwrap_or(1.0).to_bits();
+        let range = parts.range.to_bits();
         let parameters = self.device.uniform(&[self.count as u32, range]);
         let [a, b, d] = inputs;
         let pass = Pass::over(self.device, &kernel, &[&parameters, a, b, d, out], self.count);

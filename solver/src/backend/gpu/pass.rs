@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::device::Device;
 use super::kernel::{Kernel, slot_layout};
 use crate::backend::resident::Variable;
-use crate::optimise::adam::Adam;
+use crate::fit::adam::Adam;
 
 /// Threads of a workgroup of the kernels that have one thread per value.
 pub(super) const THREADS: usize = 256;

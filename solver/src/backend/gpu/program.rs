@@ -16,8 +16,6 @@ pub(super) struct Moved {
     /// The packed order of networks' parameters on the device.
     layout: Option<Layout>,
     factors: Option<AdamFactors>,
-    /// Steps of the stage before this moves.
-    frozen_steps: usize,
 }
 
 impl Moved {
@@ -29,7 +27,6 @@ impl Moved {
             count,
             layout: None,
             factors: None,
-            frozen_steps: 0,
         }
     }
 
@@ -172,7 +169,6 @@ pub(super) fn light_colour(
 impl Resident for Program<'_> {
     fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError> {
         let queue = &self.gpu.device.queue;
-        // The first one is never held.
         self.done = variables.first().map_or(0, |variable| variable.adam.steps());
         for (moved, variable) in self.moved.iter_mut().zip(variables) {
             let [first, second] = variable.adam.moments();
@@ -180,7 +176,6 @@ impl Resident for Program<'_> {
             for (place, content) in places.into_iter().zip([variable.values, first, second]) {
                 queue.write_buffer(place, 0, &moved.to_device(content));
             }
-            moved.frozen_steps = variable.frozen_steps;
             moved.factors = Some(AdamFactors::of(variable));
         }
         self.check(self.gpu.device.check())
@@ -194,9 +189,7 @@ impl Resident for Program<'_> {
             .flat_map(|(step, decay)| {
                 let number = self.done + step + 1;
                 self.moved.iter().map(move |moved| match &moved.factors {
-                    Some(factors) if number > moved.frozen_steps => {
-                        Factors::adam(factors, number - moved.frozen_steps, *decay, step)
-                    }
+                    Some(factors) => Factors::adam(factors, number, *decay, step),
                     _ => Factors::still(step),
                 })
             })
@@ -219,7 +212,7 @@ impl Resident for Program<'_> {
             let mut next = || moved.to_host(contents.next().unwrap_or_default());
             *variable.values = next();
             let (first, second) = (next(), next());
-            variable.adam.restore(self.done.saturating_sub(moved.frozen_steps), first, second);
+            variable.adam.restore(self.done, first, second);
         }
         Ok(())
     }

@@ -1,5 +1,5 @@
 // A matrix's adjoint, summed over chunks of ROWS rows: one cell a thread, a chunk a workgroup and 256
-// cells. GAINED as in transport.wgsl.
+// cells.
 
 struct Parameters {
     rows: u32,
@@ -10,10 +10,8 @@ struct Parameters {
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 @group(0) @binding(1) var<storage, read> transport: array<f32>;
-@group(0) @binding(2) var<storage, read> gain: array<f32>;
-@group(0) @binding(3) var<storage, read> nearness: array<f32>;
-@group(0) @binding(4) var<storage, read> by_row: array<f32>;
-@group(0) @binding(5) var<storage, read_write> partial_sums: array<f32>;
+@group(0) @binding(2) var<storage, read> by_row: array<f32>;
+@group(0) @binding(3) var<storage, read_write> partial_sums: array<f32>;
 
 @compute @workgroup_size(256)
 fn main(
@@ -31,10 +29,7 @@ fn main(
     var sum = vec3(0.0);
     for (var row = first; row < min(first + ROWS, parameters.rows); row++) {
         let at = row * parameters.cells + cell;
-        var weight = transport[at];
-        if GAINED == 1u {
-            weight += nearness[0] * gain[at];
-        }
+        let weight = transport[at];
         sum += weight * vec3(by_row[3u * row], by_row[3u * row + 1u], by_row[3u * row + 2u]);
     }
     let out = 3u * ((parameters.first + first / ROWS) * parameters.cells + cell);

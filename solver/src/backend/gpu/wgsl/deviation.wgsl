@@ -1,7 +1,6 @@
 // The steps between the deviation texture and its blurs, value by value; see model/deviation.rs.
 // WHAT: 0 the deviation d of what its band is made of, 1 the gradient by that, 2 the difference of the two
-// blurs' adjoints. RANGED: 0 if d is the texture itself, else d = range x tanh. BAND: 0 if no second blur
-// is subtracted.
+// blurs' adjoints. d = range x tanh. BAND: 0 if no second blur is subtracted.
 
 struct Parameters {
     count: u32,
@@ -29,14 +28,12 @@ fn main(
     let range = parameters.range;
     if WHAT == 1u {
         value += b[at];
-        if RANGED == 1u {
-            value *= range - d[at] * d[at] / range;
-        }
+        value *= range - d[at] * d[at] / range;
     } else {
         if BAND == 1u {
             value -= b[at];
         }
-        if WHAT == 0u && RANGED == 1u {
+        if WHAT == 0u {
             value = range * (1.0 - 2.0 / (exp(min(2.0 * value, 80.0)) + 1.0));
         }
     }

@@ -10,8 +10,6 @@ struct Parameters {
     // Workgroups of this dispatch, and of all before it.
     groups: u32,
     first_group: u32,
-    // 1: the first three albedos are the whole diffuse layer, and no network explains it.
-    layered: u32,
     scale: f32,
     // 0, unknown to the compiler: else it might see that the second evaluation is the first, and keep all
     // hidden layers in between.
@@ -89,13 +87,12 @@ fn main(
         let specular = softpluses(outputs[2]);
         let albedos = vec4(albedo[place(i, 0u, 4u)], albedo[place(i, 1u, 4u)],
             albedo[place(i, 2u, 4u)], albedo[place(i, 3u, 4u)]);
-        let shading = select(product(light, diffuse), 1.0, parameters.layered == 1u);
-        let pixel = shaded(i, albedos, shading, product(light, specular), parameters.scale);
+        let pixel = shaded(i, albedos, product(light, diffuse), product(light, specular), parameters.scale);
         loss += pixel.loss;
         #for row in 0..4
             by_albedo[place(i, row, 4u)] = pixel.by_albedo[row];
         #end
-        let by_diffuse = select(pixel.by_diffuse, 0.0, parameters.layered == 1u);
+        let by_diffuse = pixel.by_diffuse;
         #for j in 0..O
             let by_light = by_diffuse * diffuse[j] + pixel.by_specular * specular[j];
             outputs[1][j] = by_diffuse * light[j] * logistic(outputs[1][j]);

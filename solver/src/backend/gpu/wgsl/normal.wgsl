@@ -4,7 +4,7 @@
 struct Parameters {
     samples: u32,
     // Share of a colour's part along that of the diffuse layer that counts for nothing.
-    doubt: f32,
+    diffuse_share: f32,
 }
 
 // Least square of a diffuse layer's colour that has a direction.
@@ -42,7 +42,7 @@ fn main(
     let shading = slope(i, 12u);
     let explained = unknown(i, 3u) * diffuse + dot(specular, unknown(i, 0u)) + shading * unknown(i, 6u);
     let along = dot(shading, explained) / max(dot(shading, shading), LEAST_SQUARE);
-    let z = slopes[place(i, 15u, 16u)] * (explained - parameters.doubt * along * shading);
+    let z = slopes[place(i, 15u, 16u)] * (explained - parameters.diffuse_share * along * shading);
     let by_specular = specular * (z.x + z.y + z.z);
     let by_diffuse = diffuse * z;
     let by_albedo = shading * z;

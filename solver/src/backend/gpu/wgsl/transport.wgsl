@@ -1,5 +1,4 @@
-// Shading of every row of the transport's matrix in the light, and what it gains as the light comes nearer:
-// a workgroup a row. GAINED: 0 if there is no matrix of gains. See transport/mod.rs.
+// Shading of every row of the transport's matrix in the light: a workgroup a row. See transport/mod.rs.
 
 struct Parameters {
     rows: u32,
@@ -8,14 +7,11 @@ struct Parameters {
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 @group(0) @binding(1) var<storage, read> transport: array<f32>;
-@group(0) @binding(2) var<storage, read> gain: array<f32>;
-@group(0) @binding(3) var<storage, read> light: array<f32>;
-@group(0) @binding(4) var<storage, read> nearness: array<f32>;
+@group(0) @binding(2) var<storage, read> light: array<f32>;
 // R, G, B of every row.
-@group(0) @binding(5) var<storage, read_write> shading: array<f32>;
-@group(0) @binding(6) var<storage, read_write> gains: array<f32>;
+@group(0) @binding(3) var<storage, read_write> shading: array<f32>;
 
-var<workgroup> sums: array<array<vec3<f32>, 2>, 64>;
+var<workgroup> sums: array<vec3<f32>, 64>;
 
 @compute @workgroup_size(64)
 fn main(
@@ -28,27 +24,19 @@ fn main(
         return;
     }
     var own = vec3(0.0);
-    var nearer = vec3(0.0);
     for (var cell = t; cell < parameters.cells; cell += 64u) {
         let l = vec3(light[3u * cell], light[3u * cell + 1u], light[3u * cell + 2u]);
-        let at = row * parameters.cells + cell;
-        own += transport[at] * l;
-        if GAINED == 1u {
-            nearer += gain[at] * l;
-        }
+        own += transport[row * parameters.cells + cell] * l;
     }
-    sums[t][0] = own;
-    sums[t][1] = nearer;
+    sums[t] = own;
     workgroupBarrier();
     for (var half = 32u; half > 0u; half /= 2u) {
         if t < half {
-            sums[t][0] += sums[t + half][0];
-            sums[t][1] += sums[t + half][1];
+            sums[t] += sums[t + half];
         }
         workgroupBarrier();
     }
     if t < 3u {
-        gains[3u * row + t] = sums[0][1][t];
-        shading[3u * row + t] = sums[0][0][t] + nearness[0] * sums[0][1][t];
+        shading[3u * row + t] = sums[0][t];
     }
 }

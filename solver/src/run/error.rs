@@ -1,0 +1,44 @@
+//! Errors of a solve.
+
+use capture::CaptureError;
+use formats::maps::MapsError;
+
+use crate::config::ConfigError;
+use crate::memory::NotEnoughMemory;
+
+/// A solve that did not end.
+#[derive(Debug, thiserror::Error)]
+pub enum SolveError {
+    /// The configuration is out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The capture shows nothing of the mesh.
+    #[error(transparent)]
+    Capture(#[from] CaptureError),
+    /// The loss became NaN or infinite.
+    #[error(
+        "the loss of stage {stage} is {loss} at iteration {iteration}; {}",
+        if *iteration > 1 {
+            "lower that stage's rates"
+        } else {
+            "no rate has acted yet, so check the capture: cameras, masks and pictures"
+        }
+    )]
+    NotFinite {
+        /// The stage's name.
+        stage: String,
+        /// Iteration within the stage, from 1.
+        iteration: usize,
+        /// NaN or infinity.
+        loss: f64,
+    },
+    /// A step's report was answered by an interrupt; the solve as a whole then ends with what it has.
+    #[error("interrupted")]
+    Interrupted,
+    /// Not enough memory.
+    #[error(transparent)]
+    Memory(#[from] NotEnoughMemory),
+    /// The maps cannot be written.
+    #[error(transparent)]
+    Maps(#[from] MapsError),
+}

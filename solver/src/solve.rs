@@ -1,0 +1,127 @@
+//! A solve of either method, with its checkpoint, its record and its files.
+
+use std::path::Path;
+
+use capture::{Camera, Capture};
+use formats::atomic::{self, Folder};
+use formats::maps::MapsError;
+
+use crate::backend::Backend;
+use crate::config::{AdamConfig, Config};
+use crate::memory::{self, Estimate};
+use crate::run::checkpoint::Checkpoint;
+use crate::run::error::SolveError;
+use crate::run::progress::{Callback, Options};
+use crate::run::{Extent, Run, Work};
+use crate::solution::{Record, Solution, ViewLayers};
+use crate::{paper, unshade};
+
+/// [`solve_on`] into the folder `maps`, with a checkpoint beside it (`<maps>.checkpoint`) from which the same call
+/// continues after an interrupt, to the same bytes. `program` identifies the program: a checkpoint of another one is
+/// not used, nor of another backend.
+pub fn solve_into(
+    backend: &dyn Backend,
+    maps: &Path,
+    program: &str,
+    capture: &Capture,
+    config: &Config,
+    progress: &mut Callback,
+) -> Result<Solution, SolveError> {
+    // Now, so that what cannot be written is known before the work.
+    atomic::refuse_overlap(maps, &[&capture.folder]).map_err(MapsError::from)?;
+    atomic::require_space(maps, bytes_on_disk(capture, config)).map_err(MapsError::from)?;
+    let folder = Folder::begin(maps).map_err(MapsError::from)?;
+    let checkpoint = Checkpoint::beside(maps, program);
+    let kept = checkpoint.folder().to_path_buf();
+    let mut layers = |view: &ViewLayers| view.write_layers(folder.path());
+    let options = Options { checkpoint: Some(checkpoint), layers: Some(&mut layers) };
+    let solution = match solve_on(backend, capture, config, options, progress) {
+        Ok(solution) => solution,
+        Err(error) => {
+            folder.abandon();
+            return Err(error);
+        }
+    };
+    solution.write_into(folder.path())?;
+    folder.commit().map_err(MapsError::from)?;
+    if solution.record.interrupted.is_none() {
+        Checkpoint::remove(&kept);
+    }
+    Ok(solution)
+}
+
+/// Returns the seconds that a solve of this extent takes on two cores with AVX-512, where the costs of its stages were
+/// measured.
+pub fn seconds_on_two_cores(config: &Config, extent: &Extent) -> f64 {
+    plan(config, extent).iter().map(Work::seconds).sum()
+}
+
+/// The steps and costs of the stages.
+fn plan(config: &Config, extent: &Extent) -> Vec<Work> {
+    match config {
+        Config::Unshade(config) => unshade::plan(config, extent),
+        Config::Paper(config) => paper::plan(config, extent),
+    }
+}
+
+/// The approximate size of a maps folder on the disk, uncompressed: maps of 11 channels, and nine for every withheld
+/// view; of every training view as well, in halves, if its layers are written.
+fn bytes_on_disk(capture: &Capture, config: &Config) -> u64 {
+    let pixels = |camera: &Camera| (camera.width * camera.height) as u64;
+    let withheld: u64 = capture.withheld.iter().map(pixels).sum();
+    let train: u64 = capture.train.iter().map(|view| pixels(&view.camera)).sum();
+    let size = config.texture_size();
+    let side = size.maps(size.solved(capture)) as u64;
+    let layers = if config.records().layers { train * 9 * 2 } else { 0 };
+    side * side * 11 * 4 + withheld * 9 * 4 + layers
+}
+
+/// Decomposes a capture into maps. `progress` is called after every step (a device that takes over whole fits: every
+/// submission) and may stop the solve, which then makes maps of what it has and states so in
+/// [`crate::Record::interrupted`].
+///
+/// Equal capture, configuration and backend give equal solutions for any number of threads.
+pub fn solve_on(
+    backend: &dyn Backend,
+    capture: &Capture,
+    config: &Config,
+    options: Options<'_>,
+    progress: &mut Callback,
+) -> Result<Solution, SolveError> {
+    config.validate()?;
+    let estimate = Estimate::new(capture, config);
+    estimate.fits(memory::available())?;
+    let _kept = memory::KeepFreedMemory::begin();
+    let Estimate { views, pixels, texture_size, .. } = estimate;
+    let plan = plan(config, &Extent { views, pixels, texture_size });
+    let adam = match config {
+        Config::Unshade(_) => AdamConfig::default(),
+        Config::Paper(config) => config.adam.clone(),
+    };
+    let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
+    let mut run = Run::new(plan, adam.final_decay, backend, checkpoint, progress);
+    let results = match config {
+        Config::Unshade(config) => unshade::solve(capture, config, &mut run, options.layers)?,
+        Config::Paper(config) => paper::solve(capture, config, &mut run, options.layers)?,
+    };
+    run.record_time("maps and views");
+    let interrupted = run.interrupted();
+    let (stages, timing) = run.into_log();
+    let record = Record {
+        solver: "unshade".to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: config.seed(),
+        config: config.clone(),
+        backend: backend.name(),
+        input: capture.hash().to_owned(),
+        interrupted,
+        light_distance: results.light.as_ref().and_then(|light| light.distance),
+        texture_size: results.texture_size,
+        samples: results.samples,
+        diffuse_scale: results.scales.diffuse,
+        specular_scale: results.scales.specular,
+        stages,
+    };
+    let crate::solution::Results { maps, light, views, stages, .. } = results;
+    Ok(Solution { maps, light, views, stages, record, timing })
+}

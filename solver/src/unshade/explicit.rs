@@ -1,0 +1,288 @@
+//! The explicit model of the pictures: diffuse shading and highlights by one light.
+//!
+//! A pixel is A_d S_d + A_s H l. H is the reflection of two GGX lobes over the cells that a sample sees, and the same
+//! light l makes shading and highlights. The position of a highlight constrains the direction of its lamp, its colour
+//! the lamp's colour.
+
+use super::grey::grey_prior;
+use super::regression::Regression;
+use crate::backend::Backend;
+use crate::backend::resident::{HighlightsJob, Job, Variable};
+use crate::config::{AdamConfig, LightConfig, ModelErrorConfig, UnshadeConfig};
+use crate::fit::Fit;
+use crate::fit::adam::Adam;
+use crate::model::planes::Planes;
+use crate::model::prior::prior;
+use crate::model::samples::Samples;
+use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, light_colour};
+
+/// The channel by which samples are weighed.
+const GREEN: usize = 1;
+/// Least error of the model, radiance.
+const LEAST_ERROR: f32 = 1e-5;
+
+/// The model on the transport's texture.
+pub struct ExplicitModel<'a> {
+    config: &'a LightConfig,
+    prior: f32,
+    has_grey_prior: bool,
+    transport: &'a Transport,
+    samples: Samples,
+    reflection: Reflection,
+}
+
+/// Loss and gradients of an [`ExplicitModel`].
+pub(super) struct Gradient {
+    pub loss: f64,
+    /// By the light's logarithm.
+    pub light: Vec<f32>,
+    /// By the nearness, in the transport's unit; 0 of a transport without it.
+    pub nearness: f32,
+    pub albedo: Vec<f32>,
+}
+
+impl<'a> ExplicitModel<'a> {
+    /// Highlights are scaled by the [peak](Transport::peak) of `light`, R, G, B per cell, of which `terms`
+    /// ([`SpecularTerm`] per texel) are then reflectances; they come from a sphere of `nearness` per metre. The
+    /// samples' taps and the terms are of the transport's size.
+    pub fn new(
+        config: &'a UnshadeConfig,
+        transport: &'a Transport,
+        samples: &Samples,
+        terms: &[f32],
+        light: &[f32],
+        nearness: f32,
+    ) -> Self {
+        let samples = samples.thinned(config.light.samples);
+        let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(terms);
+        let peak = transport.peak(light);
+        let reflection = transport.reflection(&config.skin, &samples, &specular, peak, nearness);
+        let (config, prior) = (&config.light, config.joint.prior);
+        Self { config, prior, has_grey_prior: false, transport, samples, reflection }
+    }
+
+    /// With or without the prior on coloured shading.
+    #[must_use]
+    pub(super) fn with_grey_prior(self, has_grey_prior: bool) -> Self {
+        Self { has_grey_prior, ..self }
+    }
+
+    /// Weight and softness of the light's colours.
+    fn light_colour(&self) -> [f32; 2] {
+        [self.config.colour, self.config.colour_softness]
+    }
+
+    /// The diffuse layer of every sample.
+    fn layer(&self, albedo: &[f32], shading: &[f32]) -> Planes {
+        let layer: Vec<f32> = albedo.iter().zip(shading).map(|(a, s)| a * s).collect();
+        self.samples.taps.sample::<CHANNELS>(&layer)
+    }
+
+    /// The factor on each channel that gives the light the colour of its highlights, at the same
+    /// [peak](Transport::peak); the albedo is to be divided by it.
+    pub(super) fn tint(&self, light: &[f32], nearness: f32, albedo: &[f32]) -> [f32; CHANNELS] {
+        let weight = &self.samples.weight;
+        let tint = self.regression(light, nearness, albedo, weight, None).tint();
+        let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
+        let [before, after] = [light, &tinted].map(|light| self.transport.peak(light));
+        if before == 0.0 { [1.0; CHANNELS] } else { tint.map(|t| t * before / after) }
+    }
+
+    /// The regression of the pictures without the diffuse layer on the highlights. With `errors` a sample weighs by
+    /// the inverse variance of the model there: a strong highlight counts no more than a weak one, of which there are
+    /// many. `weight` is that of the model's samples.
+    pub(super) fn regression(
+        &self,
+        light: &[f32],
+        nearness: f32,
+        albedo: &[f32],
+        weight: &Planes,
+        errors: Option<&ModelErrorConfig>,
+    ) -> Regression {
+        let (shading, _) = self.transport.shading_nearer(light, nearness);
+        let layer = self.layer(albedo, &shading);
+        let observed =
+            |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
+        let predicted = self.reflection.radiance(light);
+        let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
+        let Some(errors) = errors else {
+            return Regression::new(&self.samples, weight, rows, observed);
+        };
+        let mean = shading.iter().sum::<f32>() / shading.len() as f32;
+        let albedo = self.samples.taps.sample::<CHANNELS>(albedo);
+        let weight = Planes::from_fn(self.samples.len(), |i| {
+            let diffuse = errors.shadow * mean * albedo.get(GREEN, i);
+            let error = diffuse.hypot(errors.highlights * predicted[i][GREEN]);
+            [weight.get(0, i) / error.max(LEAST_ERROR).powi(2)]
+        });
+        Regression::new(&self.samples, &weight, rows, observed)
+    }
+
+    /// Loss and its gradients; `nearness` is in the transport's unit.
+    pub(super) fn gradient(&self, log_light: &[f32], nearness: f32, albedo: &[f32]) -> Gradient {
+        let (light, samples) = (exp(log_light), &self.samples);
+        let (shading, gain) = self.transport.shading_nearer(&light, nearness);
+        let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
+        let sampled = self.layer(albedo, &shading);
+        let scale = 1.0 / (CHANNELS * samples.len()) as f32;
+        let residual = |i: usize, highlight: [f32; CHANNELS]| {
+            let weight = scale * samples.weight.get(0, i);
+            let mut loss = 0.0;
+            let by = std::array::from_fn(|c| {
+                let residual = sampled.get(c, i) + highlight[c] - samples.target.get(c, i);
+                loss += f64::from(weight * residual.abs());
+                if residual == 0.0 { 0.0 } else { weight.copysign(residual) }
+            });
+            (by, (by, loss))
+        };
+        let (more, by_sample) = self.reflection.exchange(&light, residual);
+        let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i].0);
+        let by_layer = samples.taps.gather::<CHANNELS>(&by_layer, 0);
+        let mut by_albedo: Vec<f32> = product(&by_layer, &shading);
+        let mut by_shading: Vec<f32> = product(&by_layer, albedo);
+        let grey = if self.has_grey_prior { grey_prior(&shading, &mut by_shading) } else { 0.0 };
+        let smooth = prior(albedo, self.transport.size(), self.prior, &mut by_albedo);
+        let mut by_light = self.transport.adjoint_nearer(&by_shading, nearness);
+        by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
+        let [weight, softness] = self.light_colour();
+        let colour = light_colour(log_light, weight, softness, &mut by_light);
+        let along = |gain: Vec<f32>| {
+            let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
+            products.sum::<f64>() as f32
+        };
+        Gradient {
+            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smooth + colour + grey,
+            light: by_light,
+            nearness: gain.map_or(0.0, along),
+            albedo: by_albedo,
+        }
+    }
+}
+
+/// The exponentials of a light's logarithm.
+pub(super) fn exp(log_light: &[f32]) -> Vec<f32> {
+    log_light.iter().map(|log| log.exp()).collect()
+}
+
+/// The light and its distance under an albedo that stays.
+pub(super) struct LightFit<'a> {
+    pub model: ExplicitModel<'a>,
+    /// Logarithm of the light, R, G, B per cell.
+    pub log_light: Vec<f32>,
+    /// Nearness in the transport's unit; one value.
+    pub nearness: Vec<f32>,
+    albedo: &'a [f32],
+    by_light: Adam,
+    by_nearness: Adam,
+}
+
+impl<'a> LightFit<'a> {
+    /// From the logarithm of a light, and a nearness in the transport's unit.
+    pub fn new(
+        model: ExplicitModel<'a>,
+        albedo: &'a [f32],
+        log_light: Vec<f32>,
+        nearness: f32,
+    ) -> Self {
+        let (adam, config) = (AdamConfig::default(), model.config);
+        Self {
+            by_light: Adam::new(&adam, config.rate, log_light.len()),
+            by_nearness: Adam::new(&adam, config.nearness_rate, 1),
+            model,
+            albedo,
+            log_light,
+            nearness: vec![nearness],
+        }
+    }
+
+    /// Steps taken.
+    pub fn steps(&self) -> usize {
+        self.by_light.steps()
+    }
+
+    /// The loss of another light.
+    pub fn loss_of(&self, other: &Self) -> f64 {
+        self.model.gradient(&other.log_light, other.nearness[0], self.albedo).loss
+    }
+}
+
+impl Fit for LightFit<'_> {
+    fn iterations(&self) -> usize {
+        self.model.config.steps
+    }
+
+    fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
+        let gradient = self.model.gradient(&self.log_light, self.nearness[0], self.albedo);
+        (gradient.loss, vec![gradient.light, vec![gradient.nearness]])
+    }
+
+    fn variables(&mut self) -> Vec<Variable<'_>> {
+        let nearness = Variable::new(&mut self.nearness, &mut self.by_nearness, 0.0);
+        vec![
+            Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
+            Variable { maximum: self.model.transport.nearest(), ..nearness },
+        ]
+    }
+}
+
+/// Light and diffuse albedo together, the distance of the light as it is.
+pub struct JointFit<'a> {
+    /// Logarithm of the light, R, G, B per cell.
+    pub log_light: Vec<f32>,
+    /// The diffuse albedo, R, G, B per texel of the transport.
+    pub albedo: Vec<f32>,
+    model: ExplicitModel<'a>,
+    iterations: usize,
+    by_light: Adam,
+    by_albedo: Adam,
+}
+
+impl<'a> JointFit<'a> {
+    /// From a light and an albedo.
+    pub fn new(
+        config: &UnshadeConfig,
+        model: ExplicitModel<'a>,
+        iterations: usize,
+        log_light: Vec<f32>,
+        albedo: Vec<f32>,
+    ) -> Self {
+        let (joint, adam) = (&config.joint, AdamConfig::default());
+        Self {
+            iterations,
+            by_light: Adam::new(&adam, joint.light_rate, log_light.len()),
+            by_albedo: Adam::new(&adam, joint.albedo_rate, albedo.len()),
+            log_light,
+            albedo,
+            model,
+        }
+    }
+}
+
+impl Fit for JointFit<'_> {
+    fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
+        let gradient = self.model.gradient(&self.log_light, 0.0, &self.albedo);
+        (gradient.loss, vec![gradient.light, gradient.albedo])
+    }
+
+    fn job(&self) -> Option<Job<'_>> {
+        // Devices have no program for the prior on coloured shading.
+        (!self.model.has_grey_prior).then_some(Job::Highlights(HighlightsJob {
+            samples: &self.model.samples,
+            transport: self.model.transport,
+            reflection: &self.model.reflection,
+            prior: self.model.prior,
+            light_colour: self.model.light_colour(),
+        }))
+    }
+
+    fn variables(&mut self) -> Vec<Variable<'_>> {
+        vec![
+            Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
+            Variable::new(&mut self.albedo, &mut self.by_albedo, 0.0),
+        ]
+    }
+}

@@ -1,0 +1,63 @@
+//! The agreement of relief with views from which it was not found.
+
+use super::{HeightSolve, RESIDUAL_FLOOR};
+use crate::model::planes::Planes;
+use crate::unshade::linear_colour::UNKNOWNS;
+
+/// Sums over samples, by texel: both highlights of R, G, B, and the weight.
+const MEANS: usize = 7;
+
+impl HeightSolve<'_> {
+    /// The agreement of the samples with the relief `x`, which other views found: the product of its highlights and of
+    /// the pictures' residual without them, and the square of its highlights, both weighed and summed. Each is less
+    /// its mean over the views of a texel: paint is in all of them, highlights move.
+    pub(in crate::unshade) fn agreement(&self, x: &[f32]) -> [f64; 2] {
+        let light = &self.highlights;
+        let samples = self.samples;
+        let (slopes, _) = self.linearise(x);
+        let unknowns = self.sampled(x);
+        let flat = light.at(samples, &Planes::new(UNKNOWNS, samples.len()));
+        let bent = light.at(samples, &unknowns);
+        let relief = Planes::from_fn(samples.len(), |i| {
+            std::array::from_fn::<f32, 3, _>(|c| bent.get(c, i) - flat.get(c, i))
+        });
+        let picture = Planes::from_fn(samples.len(), |i| {
+            std::array::from_fn::<f32, 3, _>(|c| {
+                let diffuse = slopes.get(12 + c, i) * (1.0 + unknowns.get(6 + c, i));
+                samples.target.get(c, i) - diffuse - flat.get(c, i)
+            })
+        });
+        drop((flat, bent, unknowns));
+        let (relief, picture) = (
+            self.neighbourhood.without_coarse(&relief),
+            self.neighbourhood.without_coarse(&picture),
+        );
+        let left = Planes::from_fn(samples.len(), |i| {
+            std::array::from_fn::<f32, 3, _>(|c| picture.get(c, i) - relief.get(c, i))
+        });
+        let trust = self.neighbourhood.trust(&slopes, &left);
+        let weight = |i: usize| trust.get(0, i) * samples.weight.get(0, i);
+        let rows = Planes::from_fn(samples.len(), |i| {
+            let (relief, picture): ([f32; 3], [f32; 3]) =
+                (relief.sample(i, 0), picture.sample(i, 0));
+            let [a, b, c] = relief.map(|value| weight(i) * value);
+            let [d, e, f] = picture.map(|value| weight(i) * value);
+            [a, b, c, d, e, f, weight(i)]
+        });
+        let taps = &samples.taps;
+        let means = taps.sample::<MEANS>(&taps.gather::<MEANS>(&rows, 0));
+        let mut sums = [0.0; 2];
+        for i in 0..samples.len() {
+            let means: [f32; MEANS] = means.sample(i, 0);
+            let mean = |row: usize| means[row] / means[6].max(f32::MIN_POSITIVE);
+            let left = left.sample::<3>(i, 0).iter().map(|z| z.abs()).sum::<f32>() / 3.0;
+            let weight = weight(i) / left.max(RESIDUAL_FLOOR);
+            for c in 0..3 {
+                let relief = relief.get(c, i) - mean(c);
+                sums[0] += f64::from(weight * relief * (picture.get(c, i) - mean(3 + c)));
+                sums[1] += f64::from(weight * relief * relief);
+            }
+        }
+        sums
+    }
+}

@@ -1,0 +1,129 @@
+//! The relief of pictures whose relief is known.
+
+use capture::gbuffer::Atlas;
+
+use super::*;
+use crate::config::ReliefConfig;
+use crate::model::height::HeightField;
+use crate::model::planes::Planes;
+use crate::transport::{CHANNELS, LIGHT_EXPONENT};
+use crate::unshade::height_solve::HeightSolve;
+use crate::unshade::light::JointEstimate;
+use crate::unshade::lighting::bent_shading;
+use crate::unshade::relief::Relief;
+
+const SIDE: usize = 64;
+const TEXELS: usize = SIDE * SIDE;
+
+/// Faults of the pictures.
+#[derive(Clone, Copy)]
+enum Fault {
+    None,
+    /// Where the mesh ends, they see half of what is behind it.
+    Mixed,
+}
+
+/// Squares of the missed part of the relief, and of the relief, over the seen texels.
+struct Missed {
+    missed: f32,
+    energy: f32,
+    residuals: Vec<f64>,
+}
+
+/// A solve of pictures that the model itself made from a known height, under a lamp before a dome.
+fn missed(fault: Fault) -> Missed {
+    let mut config = UnshadeConfig::default();
+    config.transport.texture_size = SIDE;
+    config.transport.rows = 8;
+    config.transport.bounces = 0;
+    let relief = &mut config.relief;
+    (relief.diffuse_share, relief.smoothness, relief.flatness) = (0.0, 0.0, 0.0);
+    (relief.albedo_damping, relief.steps) = (1e6, 600);
+    let mesh = testing::dome(24);
+    let views = views(5, 64);
+    let gbuffers = GBuffer::of_views(&mesh, &views);
+    let mut samples = SampleSpace::new(&mesh, 1.0).training(&views, &gbuffers, None, SIDE);
+    let transport = Transport::new(&mesh, &Sky::even(8), &config.transport, 0);
+    let towards = |centre: &Vec3| centre.dot(Vec3::new(0.3, 0.4, 0.87)).max(0.0).powi(8);
+    let cells = Sky::even(8).centres();
+    let lamp = cells.iter().flat_map(|centre| [(0.1 + 4.0 * towards(centre)).ln(); CHANNELS]);
+    let joint = JointEstimate { log_light: lamp.collect(), albedo: vec![0.5; 3 * TEXELS] };
+    let terms = RegionTerms::expected(0.05, &[1], &[1]);
+    let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
+    let regions = vec![1; TEXELS];
+    let lighting = Lighting::new(&config, &transport, &regions, &estimate, joint);
+    let backend = Cpu::new();
+    let highlights =
+        |samples: &Samples| lighting.highlights(&backend, &terms, samples, LIGHT_EXPONENT);
+
+    let atlas = Atlas::new(&mesh, SIDE);
+    let wave = |at: usize| {
+        let (x, y) = ((at % SIDE) as f32, (at / SIDE) as f32);
+        0.3 * (0.9 * x).sin() * (0.7 * y).cos()
+    };
+    let heights: Vec<f32> = (0..TEXELS).map(wave).collect();
+    let truth = Relief { size: SIDE, deviation: HeightField::new(&atlas, 6.0).deviation(&heights) };
+    let sharp = samples.taps.sample::<3>(&truth.deviation);
+    let soft = samples.taps.sample::<3>(&truth.blurred());
+    let (specular, sampled) =
+        (highlights(&samples).at(&samples, &sharp), lighting.sampled(&samples));
+    samples.target = Planes::from_fn(samples.len(), |i| {
+        let normal = Vec3::from_array(samples.normal.sample(i, 0));
+        let bent = (normal + Vec3::from_array(soft.sample(i, 0))).normalize();
+        let shading = bent_shading(&sampled.sample(i, 0), normal, bent);
+        let factor = match fault {
+            Fault::Mixed if beside_nothing(&gbuffers, &samples, i) => 0.5,
+            _ => 1.0,
+        };
+        std::array::from_fn::<f32, CHANNELS, _>(|c| {
+            factor * (0.5 * shading[c] + specular.get(c, i))
+        })
+    });
+    let config: &ReliefConfig = &config.relief;
+    let highlights = highlights(&samples);
+    let solve =
+        HeightSolve::new(config, &backend, &samples, &gbuffers, &atlas, &lighting, highlights);
+    let (mut unknowns, mut residuals) = (vec![0.0; solve.unknowns()], vec![]);
+    for _ in 0..3 {
+        let mut step = |residual| {
+            residuals.push(residual);
+            Ok(())
+        };
+        solve.solve(&mut unknowns, &mut step).unwrap();
+    }
+    let found = solve.deviation(&unknowns);
+    let ones = Planes::from_fn(samples.len(), |_| [1.0]);
+    let seen = samples.taps.gather::<1>(&ones, 0);
+    let (mut missed, mut energy) = (0.0, 0.0);
+    for at in (0..TEXELS).filter(|at| seen[*at] > 0.5 && atlas.inside[*at]) {
+        let [found, truth] = [&found, &truth.deviation]
+            .map(|deviation| Vec3::from_slice(&deviation[3 * at..3 * at + 3]));
+        missed += found.distance_squared(truth);
+        energy += truth.length_squared();
+    }
+    Missed { missed, energy, residuals }
+}
+
+/// Whether one of the four pixels beside a sample's shows nothing.
+fn beside_nothing(gbuffers: &[GBuffer], samples: &Samples, i: usize) -> bool {
+    let gbuffer = &gbuffers[samples.view_index[i] as usize];
+    let (pixel, width) = (samples.pixel[i], gbuffer.width as u32);
+    let beside = [pixel - 1, pixel + 1, pixel - width, pixel + width];
+    beside.iter().any(|pixel| gbuffer.pixels.binary_search(pixel).is_err())
+}
+
+#[test]
+fn a_known_relief_is_found() {
+    let Missed { missed, energy, residuals } = missed(Fault::None);
+    assert!(energy > 1.0, "{energy}");
+    assert!(missed < 0.5 * energy, "{} of the relief is missed", missed / energy);
+    let (first, last) = (residuals[0], residuals[residuals.len() - 1]);
+    assert!(last < 0.5 * first, "{first} {last}");
+}
+
+/// Pixels that see two surfaces become no relief.
+#[test]
+fn a_rim_that_sees_two_surfaces_is_left_out() {
+    let [clean, mixed] = [Fault::None, Fault::Mixed].map(|fault| missed(fault).missed);
+    assert!(mixed < 1.1 * clean, "{mixed} {clean}");
+}

@@ -1,0 +1,65 @@
+//! Colours of regions other than skin under a known light.
+
+use capture::gbuffer::Atlas;
+
+use super::*;
+use crate::test_scene::REGIONS;
+use crate::unshade::recolour::recoloured;
+
+/// Light that falls off to one side: on an unoccluded surface its irradiance is pi (1 + 2/3 a n).
+const FALL: Vec3 = Vec3::new(0.9, 0.0, 0.0);
+
+#[test]
+fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let shade = |p: Vec3| {
+        let (label, albedo) = region(p);
+        (albedo * (1.0 + 2.0 / 3.0 * FALL.dot(p.normalize())), label)
+    };
+    let mesh = testing::dome(24);
+    let views: Vec<View> =
+        testing::rig(6, 128).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
+    testing::write_capture(folder.path(), &mesh, &views, 1);
+    let capture = Capture::open(folder.path()).unwrap();
+    let mut config = small();
+    config.transport.bounces = 0;
+    config.transport.texture_size = 128;
+    config.regions.hair_in_skin = false;
+    let (size, rows) = (config.transport.texture_size, config.transport.rows);
+    let space = SampleSpace::new(&mesh, 1.0);
+    let exposure = Some(config.rendering.exposure);
+    let scene = Scene::new(&capture, space, exposure, config.maps.texture_size).unwrap();
+    let face = FaceRegions::new(&scene, &config);
+    let (regions, before) = (face.on(&scene, size), face.mean_albedo(&scene, size));
+    let transport = Transport::new(&mesh, &Sky::even(rows), &config.transport, 0);
+    let light: Vec<f32> =
+        Sky::even(rows).centres().iter().flat_map(|w| [1.0 + FALL.dot(*w); 3]).collect();
+    let terms = RegionTerms::expected(0.0, &face.skin, &regions);
+    let colours = FirstColours {
+        samples: &scene.half_samples(None, size),
+        regions: &regions,
+        labelled_skin: &face.labelled_skin,
+        skin: &face.skin,
+        albedo: &before,
+    };
+    let (backend, skin) = (Cpu::new(), &config.skin);
+    let after = recoloured(&backend, skin, &transport, &colours, &light, &terms, before.clone());
+    let atlas = Atlas::new(&mesh, size);
+    let of = |albedo: &[f32], label: u8| -> Vec<Vec3> {
+        let inside = (0..atlas.positions.len()).filter(|at| {
+            let p = atlas.positions[*at];
+            let around = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y].map(|d| p + 0.1 * d);
+            atlas.inside[*at] && p.z > 0.3 && around.iter().all(|p| region(*p).0 == label)
+        });
+        inside.map(|at| Vec3::from_slice(&albedo[3 * at..])).collect()
+    };
+    let [(skin, _), _, (shaded, albedo)] = REGIONS;
+    let error = |texels: &[Vec3]| {
+        let of_texel = |a: &Vec3| (*a / (scene.gain * albedo) - 1.0).abs().max_element();
+        texels.iter().map(of_texel).fold(0.0, f32::max)
+    };
+    let [first, last] = [&before, &after].map(|albedo| error(&of(albedo, shaded)));
+    assert!(first > 0.2 && last < 0.05, "error {first}, then {last}");
+    assert!(of(&before, skin).len() > 50);
+    assert!(of(&before, skin) == of(&after, skin), "skin has changed");
+}
