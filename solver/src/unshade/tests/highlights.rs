@@ -3,11 +3,14 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use super::*;
+use crate::config::RoughnessConfig;
 use crate::fit::Fit;
 use crate::model::planes::Planes;
 use crate::transport::skin::schlick;
 use crate::transport::{CHANNELS, SpecularTerm, contrast};
 use crate::unshade::explicit::{ExplicitModel, LightFit, exp};
+use crate::unshade::light::JointEstimate;
+use crate::unshade::relief::Relief;
 use crate::unshade::two_fold::{TwoFoldLightFit, mean};
 
 /// Specular reflectance of skin at normal incidence.
@@ -250,4 +253,32 @@ fn strong_highlights_count_no_more_than_weak_ones() {
     let lost = |errors| slope(&wrong, errors) / slope(&lamp.samples, errors);
     let (alike, by_error) = (lost(None), lost(Some(&lamp.config.model_error)));
     assert!(alike < 0.8 && 1.0 - by_error < 0.75 * (1.0 - alike), "{alike} {by_error}");
+}
+
+/// The cell that stands for the lamp is larger than the lamp, which makes skin seem sharper.
+#[test]
+fn highlights_show_the_roughness_of_skin() {
+    for truth in [0.6f32, 1.6] {
+        let lamp = lamp(truth);
+        let fit = lamp.found(&lamp.albedo, SPECULAR, SLOW);
+        let nearness = fit.nearness[0] * lamp.transport.near();
+        let side = lamp.transport.size();
+        let regions = vec![1; side * side];
+        let terms = RegionTerms::expected(SPECULAR, &[1], &regions);
+        let sky = Sky::even(lamp.config.transport.rows).at(nearness);
+        let transport = Transport::new(&testing::dome(24), &sky, &lamp.config.transport, 0);
+        let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
+        let estimate = LightEstimate { nearness, ..estimate };
+        let joint =
+            JointEstimate { log_light: fit.log_light.clone(), albedo: lamp.albedo.clone() };
+        let lighting = Lighting::new(&lamp.config, &transport, &regions, &estimate, joint);
+        let config = RoughnessConfig { rounds: 3, error: 0.0, ..lamp.config.roughness.clone() };
+        let (flat, backend) = (Relief::none(side), Cpu::new());
+        let samples = &lamp.samples;
+        let measured =
+            measure_roughness(&backend, &config, &lighting, samples, &regions, &flat, &terms);
+        let found = measured.of(1).roughness;
+        let error = |roughness: f32| (roughness / truth).ln().abs();
+        assert!(error(found) < 0.7 * error(1.0) && found < truth, "{found} instead of {truth}");
+    }
 }
