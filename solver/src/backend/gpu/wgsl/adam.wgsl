@@ -1,4 +1,4 @@
-// A step of Adam, one value a thread; see optimise/adam.rs.
+// A step of Adam, one value a thread; see fit/adam.rs.
 
 struct Factors {
     // The learning rate and the second moment's root, with their corrections.

@@ -1,5 +1,5 @@
 // Product of one sample's unknowns with the normal equations' matrix, in place: the colour that they explain,
-// weighted and carried back to the unknowns. See optimise/height_solve.rs.
+// weighted and carried back to the unknowns. See unshade/height_solve.rs.
 
 struct Parameters {
     samples: u32,

@@ -1,5 +1,5 @@
 // The gradient by the deviation: of the pictures, directly and by its blur, and of the penalties on the
-// deviation and on its differences. See optimise/height_solve.rs.
+// deviation and on its differences. See unshade/height_solve.rs.
 
 struct Parameters {
     size: u32,
