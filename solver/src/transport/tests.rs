@@ -205,7 +205,8 @@ fn what_is_open_to_grazing_light_is_finite() {
         size: 2,
     };
     let origin = Vec3::new(0.3, -0.2, 2.0);
-    for ray in &rays {
+    // A cell has 16 rays, so that every cell, and every place in a cell, is among these.
+    for ray in rays.iter().step_by(15) {
         let towards = ray.direction - sky.nearness * origin;
         let (across, up) = towards.normalize().any_orthonormal_pair();
         for normal in [across, up, (across + up).normalize(), (across - up).normalize()] {

@@ -1,6 +1,7 @@
 //! Light, distance and albedo with the highlights of the same light.
 
 use std::f32::consts::{FRAC_1_PI, PI};
+use std::sync::LazyLock;
 
 use super::*;
 use crate::config::RoughnessConfig;
@@ -149,17 +150,24 @@ impl Lamp {
 /// Share of the configured learning rate.
 const SLOW: f32 = 0.25;
 
+/// The lamp before skin of the usual roughness.
+static LAMP: LazyLock<Lamp> = LazyLock::new(|| lamp(1.0));
+/// The logarithm of its light and its nearness in the transport's unit, by an albedo and highlights that are right.
+static FOUND: LazyLock<(Vec<f32>, f32)> = LazyLock::new(|| {
+    let fit = LAMP.found(&LAMP.albedo, SPECULAR, SLOW);
+    (fit.log_light.clone(), fit.nearness[0])
+});
+
 #[test]
 fn highlights_locate_the_lamp() {
-    let lamp = lamp(1.0);
-    let found = |skin_specular: f32| {
-        let stage = lamp.found(&lamp.albedo, skin_specular, SLOW);
-        let luminance = |cell: &usize| (1e6 * stage.log_light[CHANNELS * cell + 1]) as i64;
-        let brightest = (0..lamp.sky.len()).max_by_key(luminance).unwrap();
-        let angle = lamp.sky.centres()[brightest].angle_between(lamp.direction).to_degrees();
-        (1.0 / (stage.nearness[0] * lamp.transport.near()), angle)
+    let place = |log_light: &[f32], nearness: f32| {
+        let luminance = |cell: &usize| (1e6 * log_light[CHANNELS * cell + 1]) as i64;
+        let brightest = (0..LAMP.sky.len()).max_by_key(luminance).unwrap();
+        let angle = LAMP.sky.centres()[brightest].angle_between(LAMP.direction).to_degrees();
+        (1.0 / (nearness * LAMP.transport.near()), angle)
     };
-    let (with, without) = (found(SPECULAR), found(0.0));
+    let matt = LAMP.found(&LAMP.albedo, 0.0, SLOW);
+    let (with, without) = (place(&FOUND.0, FOUND.1), place(&matt.log_light, matt.nearness[0]));
     // A cell is 11 degrees wide, and shading is taken as linear in the inverse distance.
     assert!(with.1 < 12.0 && (with.0 - RADIUS).abs() < 0.35 * RADIUS, "{with:?}");
     assert!(without.1 > 45.0 && without.0 < 0.6 * RADIUS, "shading alone would do: {without:?}");
@@ -168,7 +176,7 @@ fn highlights_locate_the_lamp() {
 /// A light of that many cells explains both on the whole face.
 #[test]
 fn cross_validation_keeps_mottled_skin_out_of_the_light() {
-    let lamp = lamp(1.0);
+    let lamp = &*LAMP;
     let even = vec![1.0; CHANNELS * lamp.sky.len()];
     let (shading, _) = lamp.transport.shading_nearer(&even, 0.0);
     let layer: Vec<f32> = shading.iter().zip(&lamp.albedo).map(|(s, a)| s * a).collect();
@@ -213,7 +221,7 @@ fn cross_validation_keeps_mottled_skin_out_of_the_light() {
 /// The albedo is less red and more blue than skin, and so the light comes out too red.
 #[test]
 fn highlights_correct_the_colour_of_the_light() {
-    let lamp = lamp(1.0);
+    let lamp = &*LAMP;
     let wrong = [0.9f32, 1.0, 1.15];
     let albedo: Vec<f32> =
         lamp.albedo.iter().zip(wrong.iter().cycle()).map(|(a, wrong)| a * wrong).collect();
@@ -236,9 +244,8 @@ fn highlights_correct_the_colour_of_the_light() {
 /// The brightest highlights are half of the prediction, the many others match it.
 #[test]
 fn strong_highlights_count_no_more_than_weak_ones() {
-    let lamp = lamp(1.0);
-    let fit = lamp.found(&lamp.albedo, SPECULAR, SLOW);
-    let (light, nearness) = (exp(&fit.log_light), fit.nearness[0]);
+    let (lamp, (log_light, nearness)) = (&*LAMP, &*FOUND);
+    let (light, nearness) = (exp(log_light), *nearness);
     let weight = lamp.samples.thinned(lamp.config.light.samples).weight;
     let slope = |samples: &Samples, errors| {
         let model = lamp.model(SPECULAR, samples, &light);
