@@ -25,7 +25,7 @@ mod test_scene;
 #[path = "../capture/src/testing.rs"]
 mod testing;
 pub mod transport;
-pub mod unshade;
+mod unshade;
 mod view_weights;
 
 pub use backend::{Backend, BackendError, Choice};

@@ -14,7 +14,6 @@ use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
-use crate::transport::{Reflection, Transport};
 
 /// A stage as a device may take it in: all that stays as it is while the stage runs.
 pub enum Job<'a> {
@@ -41,8 +40,6 @@ pub enum Job<'a> {
     },
     /// Moves deviation and specular albedo under frozen networks.
     Normals(NormalsJob<'a>),
-    /// Moves the light's logarithm and the diffuse albedo.
-    Highlights(HighlightsJob<'a>),
 }
 
 /// See [`Job::Normals`].
@@ -58,21 +55,6 @@ pub struct NormalsJob<'a> {
     pub light: &'a Planes,
     /// Sampled albedos, of which the diffuse one stays.
     pub albedo: &'a Planes,
-}
-
-/// See [`Job::Highlights`]. The samples' taps are of the transport's size.
-#[derive(Clone, Copy)]
-pub struct HighlightsJob<'a> {
-    /// The pixels.
-    pub samples: &'a Samples,
-    /// From light to diffuse shading.
-    pub transport: &'a Transport,
-    /// From light to the highlights of the pixels.
-    pub reflection: &'a Reflection,
-    /// Weight of the albedo prior.
-    pub prior: f32,
-    /// Weight and softness of [`crate::transport::light_colour`].
-    pub light_colour: [f32; 2],
 }
 
 /// Something that a stage moves, with its optimiser.

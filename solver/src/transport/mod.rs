@@ -158,11 +158,6 @@ impl Transport {
         self.matrix.rows.is_empty()
     }
 
-    /// The matrices, for a device that multiplies with them.
-    pub(crate) fn parts(&self) -> Parts<'_> {
-        Parts { matrix: &self.matrix.rows, cells: self.cells(), row: &self.row }
-    }
-
     /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
     pub fn near(&self) -> f32 {
         self.near
@@ -267,15 +262,6 @@ impl Transport {
 pub(crate) fn luminances(light: &[f32]) -> Vec<f32> {
     let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
     light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
-}
-
-/// See [`Transport::parts`].
-pub(crate) struct Parts<'a> {
-    /// Rows of `cells` weights.
-    pub matrix: &'a [f32],
-    pub cells: usize,
-    /// The row of every texel of the square.
-    pub row: &'a [u32],
 }
 
 /// The visibility of every cell from a texel.

@@ -20,11 +20,6 @@ const FAINT: f32 = 1e-16;
 pub struct Reflection(Matrix);
 
 impl Reflection {
-    /// For every sample a weight for every cell, for a device that multiplies with them.
-    pub(crate) fn rows(&self) -> &[f32] {
-        &self.0.rows
-    }
-
     /// Radiance of every sample in a light of R, G, B per cell.
     pub fn radiance(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
         self.0.product(light)

@@ -7,7 +7,7 @@
 use super::grey::grey_prior;
 use super::regression::Regression;
 use crate::backend::Backend;
-use crate::backend::resident::{HighlightsJob, Job, Variable};
+use crate::backend::resident::Variable;
 use crate::config::{AdamConfig, LightConfig, ModelErrorConfig, UnshadeConfig};
 use crate::fit::Fit;
 use crate::fit::adam::Adam;
@@ -22,7 +22,7 @@ const GREEN: usize = 1;
 const LEAST_ERROR: f32 = 1e-5;
 
 /// The model on the transport's texture.
-pub struct ExplicitModel<'a> {
+pub(super) struct ExplicitModel<'a> {
     config: &'a LightConfig,
     prior: f32,
     has_grey_prior: bool,
@@ -65,11 +65,6 @@ impl<'a> ExplicitModel<'a> {
     #[must_use]
     pub(super) fn with_grey_prior(self, has_grey_prior: bool) -> Self {
         Self { has_grey_prior, ..self }
-    }
-
-    /// Weight and softness of the light's colours.
-    fn light_colour(&self) -> [f32; 2] {
-        [self.config.colour, self.config.colour_softness]
     }
 
     /// The diffuse layer of every sample.
@@ -144,8 +139,8 @@ impl<'a> ExplicitModel<'a> {
         let smooth = prior(albedo, self.transport.size(), self.prior, &mut by_albedo);
         let mut by_light = self.transport.adjoint_nearer(&by_shading, nearness);
         by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
-        let [weight, softness] = self.light_colour();
-        let colour = light_colour(log_light, weight, softness, &mut by_light);
+        let LightConfig { colour, colour_softness, .. } = *self.config;
+        let colour = light_colour(log_light, colour, colour_softness, &mut by_light);
         let along = |gain: Vec<f32>| {
             let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
             products.sum::<f64>() as f32
@@ -226,7 +221,7 @@ impl Fit for LightFit<'_> {
 }
 
 /// Light and diffuse albedo together, the distance of the light as it is.
-pub struct JointFit<'a> {
+pub(super) struct JointFit<'a> {
     /// Logarithm of the light, R, G, B per cell.
     pub log_light: Vec<f32>,
     /// The diffuse albedo, R, G, B per texel of the transport.
@@ -266,17 +261,6 @@ impl Fit for JointFit<'_> {
     fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
         let gradient = self.model.gradient(&self.log_light, 0.0, &self.albedo);
         (gradient.loss, vec![gradient.light, gradient.albedo])
-    }
-
-    fn job(&self) -> Option<Job<'_>> {
-        // Devices have no program for the prior on coloured shading.
-        (!self.model.has_grey_prior).then_some(Job::Highlights(HighlightsJob {
-            samples: &self.model.samples,
-            transport: self.model.transport,
-            reflection: &self.model.reflection,
-            prior: self.model.prior,
-            light_colour: self.model.light_colour(),
-        }))
     }
 
     fn variables(&mut self) -> Vec<Variable<'_>> {

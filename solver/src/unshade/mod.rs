@@ -4,7 +4,7 @@ mod albedo;
 mod assemble;
 mod confidence;
 mod deviation_penalty;
-pub mod explicit;
+mod explicit;
 mod grey;
 mod height_solve;
 mod inpainting;

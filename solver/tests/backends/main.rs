@@ -42,11 +42,10 @@ const SHARED: [(&str, Body); 6] = [
 ];
 
 /// Tests of backends that take in whole stages.
-const RESIDENT: [(&str, Body); 8] = [
+const RESIDENT: [(&str, Body); 7] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
     ("50 steps of normals and specular albedo are the processor's", stages::normals),
-    ("50 steps with the light's own highlights are the processor's", stages::highlights),
     ("highlights on bent normals are the processor's", stages::skin_highlights),
     ("12 steps of the height solve are those written out", heights::conjugate_gradients),
     ("a solve is as near to the processor's as another seed's", solves::whole),

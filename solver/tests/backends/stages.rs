@@ -14,7 +14,6 @@ use solver::paper::diffuse::diffuse as diffuse_fit;
 use solver::paper::normals::Normals;
 use solver::paper::warm_up::WarmUp;
 use solver::transport::{HIGHLIGHT_ROWS, Sky, SpecularTerm, Transport};
-use solver::unshade::explicit::{ExplicitModel, JointFit};
 
 use super::scene::problem;
 use super::testing;
@@ -102,24 +101,6 @@ fn check_normals(backend: &dyn Backend, config: &PaperConfig) {
     state.deviation.iter_mut().enumerate().for_each(|(i, t)| *t = 0.1 * (i as f32 * 0.37).sin());
     let deviation = Deviation::new(config, state.size);
     compare(backend, |backend| Normals::new(config, &samples, &deviation, &state, backend));
-}
-
-pub fn highlights(backend: &dyn Backend) {
-    let mut config = UnshadeConfig::default();
-    config.transport.texture_size = 32;
-    config.transport.rows = 6;
-    config.light.colour = 0.3;
-    let (samples, state) = problem(&PaperConfig::default());
-    let terms = SpecularTerm::usual(0.04).channels().repeat(state.specular.len());
-    let transport = Transport::new(&testing::dome(24), &Sky::even(6), &config.transport, 0);
-    let log_light: Vec<f32> =
-        (0..3 * transport.cells()).map(|i| 0.3 * (i as f32 * 0.37).sin()).collect();
-    let light: Vec<f32> = log_light.iter().map(|log| log.exp()).collect();
-    let nearness = 0.4 * transport.near();
-    compare(backend, |_| {
-        let model = ExplicitModel::new(&config, &transport, &samples, &terms, &light, nearness);
-        JointFit::new(&config, model, STEPS, log_light.clone(), state.diffuse.clone())
-    });
 }
 
 pub fn skin_highlights(backend: &dyn Backend) {

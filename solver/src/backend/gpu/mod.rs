@@ -1,8 +1,8 @@
 //! Graphics processors, through wgpu's compute shaders (Vulkan, Metal, DirectX 12).
 //!
-//! All stages of gradient steps and the height solve's conjugate gradients run on the device from end to
-//! end, see [`super::resident`]. The processor does what happens once: G-buffers, rays, linearisations of
-//! the height solve (with highlights, and shading and gradients of the networks, from here), maps and views.
+//! The fits of the published method, the last albedo of the default method, and the conjugate gradients of its relief
+//! run on the device from end to end, see [`super::resident`]. The processor fits the light, and does what happens
+//! once: G-buffers, rays, linearisations of the relief (their highlights come from the device), maps and views.
 //!
 //! Layouts are the processor's: planes of blocks of 256 samples, gradients of textures by gather in texel
 //! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
@@ -35,12 +35,10 @@ mod computing;
 mod device;
 mod direction_gradient;
 mod heights;
-mod highlights;
 mod joint;
 mod kernel;
 mod layer;
 mod layout;
-mod matrix;
 mod normals;
 mod pass;
 mod pieces;
@@ -164,7 +162,6 @@ impl Backend for Gpu {
             Job::Layer { taps, known, prior } => {
                 Some(Box::new(layer::program(self, taps, known, *prior)))
             }
-            Job::Highlights(job) => Some(Box::new(highlights::program(self, job))),
             Job::Normals(job) => Some(Box::new(normals::program(self, job))),
         }
     }

@@ -5,7 +5,6 @@ use super::device::Device;
 use super::layout::Layout;
 use super::pass::{AdamFactors, Factors, Pass, Slots, THREADS};
 use crate::backend::resident::{BATCH, DeviceError, Resident, Variable};
-use crate::transport::CHANNELS;
 
 /// Values on the device, with their gradient and moments.
 pub(super) struct Moved {
@@ -142,27 +141,6 @@ pub(super) fn prior(
     let sums = device.floats("prior", groups);
     let buffers = [&parameters, &albedo.values, &albedo.gradient, &sums];
     let pass = Pass::new(device, &kernel, &buffers, groups).doing(albedo.count, 40, 2);
-    Some((pass, (sums, groups)))
-}
-
-/// The pass of the light's colours, which adds to its gradient; nothing without a weight.
-pub(super) fn light_colour(
-    device: &Device,
-    log_light: &Moved,
-    [weight, softness]: [f32; 2],
-) -> Option<(Pass, LossPart)> {
-    if weight == 0.0 {
-        return None;
-    }
-    let cells = log_light.count / CHANNELS;
-    let kernel = device.kernel("light colour", include_str!("wgsl/light_colour.wgsl"), &[], "urww");
-    let rows = (cells / 2).isqrt() as u32;
-    let words = [rows, (weight / cells as f32).to_bits(), softness.to_bits()];
-    let parameters = device.uniform(&words);
-    let groups = cells.div_ceil(THREADS);
-    let sums = device.floats("light colour", groups);
-    let buffers = [&parameters, &log_light.values, &log_light.gradient, &sums];
-    let pass = Pass::new(device, &kernel, &buffers, groups).doing(cells, 120, 6 * CHANNELS);
     Some((pass, (sums, groups)))
 }
 
