@@ -114,7 +114,8 @@ pub(super) fn fit_light(
     let evenness = evenness(contrast(config.transport.rows, &light));
     let errors = Some(&config.model_error);
     let regression = model.regression(&light, nearer, colours.albedo, &weight, errors);
-    let terms = estimate.terms.with_reflectance(
+    let factor = relative_peak(far, &light, &exp(&estimate.log_light));
+    let terms = estimate.terms.relative_to(factor).with_reflectance(
         &config.reflectance,
         evenness,
         &regression,
@@ -149,6 +150,12 @@ fn bounce_albedo(transport: &Transport, light: &[f32], albedo: &[f32]) -> f32 {
     (*median * transport.peak(light)).min(1.0)
 }
 
+/// The peak of a light over that of another; 1 if either is black.
+fn relative_peak(transport: &Transport, light: &[f32], other: &[f32]) -> f32 {
+    let [peak, other] = [light, other].map(|light| transport.peak(light));
+    if peak > 0.0 && other > 0.0 { peak / other } else { 1.0 }
+}
+
 /// Light and diffuse albedo together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct JointEstimate {
@@ -156,6 +163,8 @@ pub(super) struct JointEstimate {
     pub log_light: Vec<f32>,
     /// R, G, B per texel of the transport.
     pub albedo: Vec<f32>,
+    /// The specular terms relative to this light.
+    pub terms: RegionTerms,
 }
 
 /// Light and diffuse albedo under the transport from the light's distance, with a prior on grey light: a tint of the
@@ -171,7 +180,8 @@ pub(super) fn fit_light_and_albedo(
     let tint = estimate.tint.iter().cycle();
     let albedo: Vec<f32> = colours.albedo.iter().zip(tint).map(|(a, tint)| a / tint).collect();
     if run.is_interrupted() {
-        return Ok(JointEstimate { log_light: estimate.log_light.clone(), albedo });
+        let (log_light, terms) = (estimate.log_light.clone(), estimate.terms.clone());
+        return Ok(JointEstimate { log_light, albedo, terms });
     }
     let albedo =
         recoloured(run.backend, &config.skin, near, colours, &light, &estimate.terms, albedo);
@@ -182,7 +192,7 @@ pub(super) fn fit_light_and_albedo(
     let (steps, log_light) = (config.joint.grey_steps, estimate.log_light.clone());
     let mut fit = JointFit::new(config, model, steps, log_light, albedo);
     run.fit("joint, grey light", &mut fit)?;
-    Ok(JointEstimate { log_light: fit.log_light, albedo: fit.albedo })
+    Ok(joint_estimate(near, fit, &light, &estimate.terms))
 }
 
 /// Light and diffuse albedo from an estimate of both, without a prior on the light's colour.
@@ -197,11 +207,23 @@ pub(super) fn refit_light_and_albedo(
     if run.is_interrupted() {
         return Ok(joint.clone());
     }
-    let (light, terms) = (exp(&joint.log_light), estimate.terms.texture(colours.regions));
+    let (light, terms) = (exp(&joint.log_light), joint.terms.texture(colours.regions));
     let model =
         ExplicitModel::new(config, near, colours.samples, &terms, &light, estimate.nearness);
     let (log_light, albedo) = (joint.log_light.clone(), joint.albedo.clone());
     let mut fit = JointFit::new(config, model, config.joint.steps, log_light, albedo);
     run.fit("joint", &mut fit)?;
-    Ok(JointEstimate { log_light: fit.log_light, albedo: fit.albedo })
+    Ok(joint_estimate(near, fit, &light, &joint.terms))
+}
+
+/// The estimate of a fit from a `light` with these terms.
+fn joint_estimate(
+    near: &Transport,
+    fit: JointFit,
+    light: &[f32],
+    terms: &RegionTerms,
+) -> JointEstimate {
+    let JointFit { log_light, albedo, .. } = fit;
+    let terms = terms.relative_to(relative_peak(near, &exp(&log_light), light));
+    JointEstimate { log_light, albedo, terms }
 }

@@ -85,8 +85,8 @@ pub(crate) fn solve(
         refit_light_and_albedo(run, config, &near, &colours, &light, &joint)
     })?;
     drop(samples);
+    let terms = &joint.terms.clone();
     let lighting = Lighting::new(config, &near, &regions, &light, joint);
-    let terms = &light.terms;
 
     let relief =
         run.stage("relief", |run| fit_relief(run, &config.relief, &scene, &lighting, terms))?;

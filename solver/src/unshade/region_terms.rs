@@ -43,6 +43,15 @@ impl RegionTerms {
         regions.iter().flat_map(|region| self.of(*region).channels()).collect()
     }
 
+    /// The terms relative to the [peak](crate::transport::Transport::peak) of another light, by its peak over that of
+    /// this one: highlights are as strong as before. The expected term does not change.
+    #[must_use]
+    pub fn relative_to(&self, factor: f32) -> Self {
+        let scaled =
+            |term: &SpecularTerm| SpecularTerm { reflectance: factor * term.reflectance, ..*term };
+        Self { regions: self.regions.iter().map(scaled).collect(), ..self.clone() }
+    }
+
     fn of_skin(&self) -> SpecularTerm {
         self.of(self.skin[0])
     }

@@ -58,8 +58,12 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let towards = |centre: &Vec3| centre.dot(Vec3::new(0.3, 0.4, 0.87)).max(0.0).powi(8);
     let cells = Sky::even(8).centres();
     let lamp = cells.iter().flat_map(|centre| [(0.1 + 4.0 * towards(centre)).ln(); CHANNELS]);
-    let joint = JointEstimate { log_light: lamp.collect(), albedo: vec![0.5; 3 * TEXELS] };
     let terms = RegionTerms::expected(0.05, &[1], &[1]);
+    let joint = JointEstimate {
+        log_light: lamp.collect(),
+        albedo: vec![0.5; 3 * TEXELS],
+        terms: terms.clone(),
+    };
     let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
     let regions = vec![1; TEXELS];
     let lighting = Lighting::new(&config, &transport, &regions, &estimate, joint);

@@ -276,7 +276,11 @@ fn highlights_show_the_roughness_of_skin() {
         let transport = Transport::new(&testing::dome(24), &sky, &lamp.config.transport, 0);
         let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
         let estimate = LightEstimate { nearness, ..estimate };
-        let joint = JointEstimate { log_light: fit.log_light.clone(), albedo: lamp.albedo.clone() };
+        let joint = JointEstimate {
+            log_light: fit.log_light.clone(),
+            albedo: lamp.albedo.clone(),
+            terms: terms.clone(),
+        };
         let lighting = Lighting::new(&lamp.config, &transport, &regions, &estimate, joint);
         let config = RoughnessConfig { rounds: 3, error: 0.0, ..lamp.config.roughness.clone() };
         let (flat, backend) = (Relief::none(side), Cpu::new());
