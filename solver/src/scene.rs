@@ -33,7 +33,7 @@ impl<'a> Scene<'a> {
         texture_size: TextureSize,
     ) -> Result<Self, CaptureError> {
         let gbuffers = GBuffer::of_views(&capture.mesh, &capture.train);
-        if gbuffers.iter().all(|gbuffer| gbuffer.len() == 0) {
+        if gbuffers.iter().all(GBuffer::is_empty) {
             return Err(CaptureError::NothingVisible(capture.folder.clone()));
         }
         let gain = exposure.map_or(1.0, |exposure| gain(capture, &gbuffers, exposure));
