@@ -14,6 +14,7 @@ use super::link::WayToRun;
 use super::methods::{self as made, MethodRow};
 use super::reference::Reference;
 use super::run::{Case, Frames, Timing};
+use super::save::write_file;
 use super::solve::Solve;
 use super::table::{self, Column, Table};
 
@@ -43,7 +44,7 @@ pub(super) struct CaseView {
     scene_toml: Option<String>,
 }
 
-/// How much of the truth a region holds.
+/// The part of the truth that a region holds.
 #[derive(Serialize)]
 struct Region {
     name: String,
@@ -195,8 +196,5 @@ impl Hashes {
 
 fn copy(from: &Path, to: &Path) -> Result<(), ReportError> {
     let bytes = fs::read(from).map_err(|error| ReportError::read(from, error))?;
-    if let Some(parent) = to.parent() {
-        fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;
-    }
-    fs::write(to, bytes).map_err(|error| ReportError::write(to, error))
+    write_file(to, bytes)
 }

@@ -2,20 +2,20 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use formats::atomic::{self, Folder};
+use formats::atomic;
 use formats::picture::{Content, GrayImage, Picture};
 use scoring::compare::Finding;
-use scoring::metrics::black_outside;
+use scoring::metrics::{black_outside, resample};
 
 use super::comparison_figures::{Show, read_if_present, read_mask_if_present};
-use super::difference::{Measure, field, resample};
+use super::difference::{Measure, field};
 use super::error::ReportError;
 use super::maps::MAPS;
 use super::reference::Reference;
 use super::run::{Case, Frames, Method, RunFile};
+use super::save::{write_file, write_folder};
 use super::tone::{self, Field};
 use super::views::Layer;
 
@@ -43,17 +43,7 @@ pub fn write_changes(
 ) -> Result<usize, ReportError> {
     let inputs: Vec<&Path> = [Some(new), old].into_iter().flatten().collect();
     atomic::refuse_overlap(out, &inputs)?;
-    let folder = Folder::begin(out)?;
-    match fill(findings, new, old, folder.path()) {
-        Ok(count) => {
-            folder.commit()?;
-            Ok(count)
-        }
-        Err(error) => {
-            folder.abandon();
-            Err(error)
-        }
-    }
+    write_folder(out, |folder| fill(findings, new, old, folder))
 }
 
 fn fill(
@@ -115,8 +105,7 @@ fn fill(
             break;
         }
     }
-    let index = root.join("index.md");
-    fs::write(&index, page).map_err(|error| ReportError::write(&index, error))?;
+    write_file(&root.join("index.md"), page)?;
     Ok(count)
 }
 

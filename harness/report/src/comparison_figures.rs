@@ -1,6 +1,5 @@
 //! Turns pictures into tiles: input, truth, what each method made of it, and its error.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use formats::picture::{self, Content, ExrFile, GrayImage, Picture};
@@ -15,6 +14,7 @@ use super::float_picture;
 use super::link::WayToRun;
 use super::reference::Reference;
 use super::run::{Frame, Frames};
+use super::save::create_parent;
 use super::table::{self, Column};
 use super::tone::{self, Raster};
 
@@ -31,15 +31,15 @@ pub(super) struct Tile {
     pub src: String,
     pub width: usize,
     pub height: usize,
-    /// Its values as a script for the viewer, of key pictures.
+    /// A script with the values for the viewer, of key pictures.
     pub values: Option<String>,
-    /// How the viewer shows them.
+    /// The viewer's tone of these values.
     pub tone: Option<Tone>,
     /// The file in the run that it was made from.
     pub exr: Option<String>,
 }
 
-/// How a picture's values become visible, for the viewer.
+/// The tone in which the viewer shows a picture's values.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Tone {
     pub kind: &'static str,
@@ -60,7 +60,7 @@ pub(super) struct Entry {
 #[derive(Debug, Serialize)]
 pub(super) struct Strip {
     pub title: String,
-    /// Which of the case's inputs lies nearest to the view.
+    /// The index of the case's input that lies nearest to the view.
     pub input: Option<usize>,
     pub truth: Tile,
     /// Quantity of each line of error pictures.
@@ -112,7 +112,7 @@ impl ComparisonFigure {
     }
 }
 
-/// How a picture becomes visible.
+/// The tone of a picture.
 #[derive(Clone, Copy)]
 pub(super) enum Show {
     /// Linear colour through the sRGB curve.
@@ -161,7 +161,7 @@ pub(super) struct Subject {
     /// Names its files.
     pub name: String,
     pub title: String,
-    /// Which training view to show beside it.
+    /// The index of the training view to show beside it.
     pub input: Option<usize>,
     pub truth: Picture,
     /// The file that the truth was read from.
@@ -284,9 +284,7 @@ impl Studio<'_> {
     pub fn save(&self, group: &str, name: &str, raster: &Raster) -> Result<Tile, ReportError> {
         let src = format!("{}/{group}/{}.png", self.folder, file_name(name));
         let path = self.root.join(&src);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(|error| ReportError::write(parent, error))?;
-        }
+        create_parent(&path)?;
         raster.save(&path)?;
         let (width, height) = (raster.width, raster.height);
         Ok(Tile { src, width, height, values: None, tone: None, exr: None })

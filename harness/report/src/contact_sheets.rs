@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use formats::picture::{Content, Picture};
-use scoring::metrics::Metric;
+use scoring::metrics::{Metric, resample};
 use serde::Serialize;
 
 use super::comparison_figures::{self, MethodFolders, Studio, Tile};
@@ -187,7 +187,7 @@ impl Studio<'_> {
         let read =
             |folder: &Path| read_colour(&folder.join("diffuse_albedo.exr"), Layer::ALL.channels);
         let (Some(albedo), Some(truth)) = (read(maps)?, read(&folder)?) else { return Ok(None) };
-        let albedo = difference::resample(&albedo, truth.width, truth.height);
+        let albedo = resample(&albedo, truth.width, truth.height);
         let mask = comparison_figures::read_mask_if_present(&folder.join("coverage.png"))?;
         let (measure, factor) = (Measure::ColourDifference, method.column.factor().unwrap_or(1.0));
         let field = difference::field(&albedo, &truth, mask.as_ref(), measure, factor);

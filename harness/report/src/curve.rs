@@ -119,7 +119,7 @@ pub(super) fn svg(stages: &[Stage]) -> Option<String> {
     Some(svg)
 }
 
-/// Where a stage's name stands: from `x` to the right, `row` rows above the lowest.
+/// The place of a stage's name: from `x` to the right, `row` rows above the lowest.
 struct Name {
     x: f64,
     row: usize,

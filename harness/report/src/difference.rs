@@ -5,7 +5,7 @@ use scoring::metrics::{Metric, Pair, Region};
 
 use super::tone::Field;
 
-/// How two pixels are compared.
+/// The comparison of two pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
     /// Root mean square over the channels of the difference of sRGB values in [0, 1].
@@ -86,33 +86,6 @@ pub(super) fn field(
     Some(Field { width, height, values })
 }
 
-/// Samples a map bilinearly at the texel centres of another size, clamped at the border.
-pub(super) fn resample(map: &Picture, width: usize, height: usize) -> Picture {
-    if (map.width, map.height) == (width, height) {
-        return map.clone();
-    }
-    let mut target = Picture::new(width, height, map.channels);
-    let place = |i: usize, from: usize, to: usize| {
-        let x = ((i as f32 + 0.5) * from as f32 / to as f32 - 0.5).clamp(0.0, (from - 1) as f32);
-        let low = x as usize;
-        (low, (low + 1).min(from - 1), x - low as f32)
-    };
-    for y in 0..height {
-        let (top, bottom, down) = place(y, map.height, height);
-        for x in 0..width {
-            let (left, right, along) = place(x, map.width, width);
-            for c in 0..map.channels {
-                let mix = |y| {
-                    let (a, b) = (map.pixel(left, y)[c], map.pixel(right, y)[c]);
-                    a + (b - a) * along
-                };
-                target.pixel_mut(x, y)[c] = mix(top) + (mix(bottom) - mix(top)) * down;
-            }
-        }
-    }
-    target
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,13 +129,5 @@ mod tests {
         let mask = GrayImage { width: 2, height: 1, data: vec![255, 0] };
         let values = field(&wide, &wide, Some(&mask), Measure::Display, 1.0).unwrap().values;
         assert!(values[0] == 0.0 && values[1].is_nan());
-    }
-
-    #[test]
-    fn resampling_a_ramp_keeps_it_a_ramp_inside() {
-        let ramp = Picture { width: 4, height: 1, channels: 1, data: vec![0.0, 1.0, 2.0, 3.0] };
-        let fine = resample(&ramp, 8, 1);
-        let expected = [0.0, 0.25, 0.75, 1.25, 1.75, 2.25, 2.75, 3.0];
-        assert!(fine.data.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{fine:?}");
     }
 }

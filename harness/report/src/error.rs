@@ -7,10 +7,8 @@ use formats::atomic::FolderError;
 use formats::picture::PictureError;
 
 use scoring::compare::CompareError;
+use scoring::run::RunFileError;
 use scoring::score::ScoreError;
-
-/// The version of `run.json` that is read.
-pub(super) const FORMAT: u32 = 1;
 
 /// Reasons why a report cannot be written; each message is one line.
 #[derive(Debug, thiserror::Error)]
@@ -31,14 +29,9 @@ pub enum ReportError {
         /// The parser's error.
         reason: String,
     },
-    /// The run was written by another version.
-    #[error("{path}: has format {found}, this program reads {}; run the suite again", FORMAT)]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// The format it states.
-        found: u32,
-    },
+    /// The run's manifest cannot be used.
+    #[error(transparent)]
+    Run(#[from] RunFileError),
     /// The scores of a method cannot be read.
     #[error(transparent)]
     Scores(#[from] ScoreError),
@@ -85,7 +78,7 @@ pub enum ReportError {
     NoFigure {
         /// The runs' folders.
         runs: String,
-        /// What the figure is made of.
+        /// The data that the figure needs.
         wanted: String,
         /// The cases with their lights, and the methods.
         has: String,

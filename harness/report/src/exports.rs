@@ -1,12 +1,13 @@
 //! Each table of the page as files: CSV, JSON and LaTeX (booktabs).
 
-use std::fs;
 use std::path::Path;
 
+use scoring::tables::csv_line;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::error::ReportError;
+use super::save::write_file;
 use super::table::Table;
 
 /// A table without its looks. A cell is a number or text; null where there is nothing.
@@ -19,7 +20,7 @@ pub(super) struct Export {
     pub shown: Vec<Vec<String>>,
 }
 
-/// Where the files lie below the report.
+/// The places of the files below the report.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Links {
     pub csv: String,
@@ -76,10 +77,7 @@ impl Export {
     pub fn write(&self, root: &Path, folder: &str, name: &str) -> Result<Links, ReportError> {
         let save = |end: &str, text: String| {
             let below = format!("{folder}/{name}.{end}");
-            let path = root.join(&below);
-            fs::create_dir_all(root.join(folder))
-                .and_then(|()| fs::write(&path, text))
-                .map_err(|error| ReportError::write(&path, error))?;
+            write_file(&root.join(&below), text)?;
             Ok::<_, ReportError>(below)
         };
         Ok(Links {
@@ -89,12 +87,11 @@ impl Export {
         })
     }
 
-    /// RFC 4180, with a heading; numbers in full.
+    /// The table as CSV (RFC 4180) with a heading; numbers in full.
     pub fn csv(&self) -> String {
-        let line = |cells: Vec<String>| cells.join(",") + "\r\n";
-        let mut text = line(self.keys.iter().map(|key| csv_text(key)).collect());
+        let mut text = csv_line(&self.keys) + "\r\n";
         for row in &self.rows {
-            text += &line(row.iter().map(csv_cell).collect());
+            text += &(csv_line(row.iter().map(csv_cell)) + "\r\n");
         }
         text
     }
@@ -107,21 +104,27 @@ impl Export {
         format!("{:#}\n", json!(rows))
     }
 
-    /// A `tabular` of the package booktabs.
+    /// The table as a `tabular` of the package booktabs.
     pub fn latex(&self) -> String {
         let text = self.headings.iter().zip(self.shown.first().into_iter().flatten());
         let kinds: String =
             text.map(|(_, cell)| if starts_as_number(cell) { 'r' } else { 'l' }).collect();
-        let line = |cells: &Vec<String>| {
-            let cells: Vec<String> = cells.iter().map(|cell| latex_text(cell)).collect();
-            cells.join(" & ") + " \\\\\n"
-        };
+        let line = |cells: &Vec<String>| latex_line(cells.iter().map(|cell| latex_text(cell)));
         let body: String = self.shown.iter().map(line).collect();
-        format!(
-            "% \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{kinds}}}\n\\toprule\n{}\\midrule\n{body}\\bottomrule\n\\end{{tabular}}\n",
-            line(&self.headings)
-        )
+        format!("% \\usepackage{{booktabs}}\n{}", tabular(&kinds, &line(&self.headings), &body))
     }
+}
+
+/// A line of a LaTeX table; the cells are LaTeX.
+pub(super) fn latex_line(cells: impl IntoIterator<Item = String>) -> String {
+    cells.into_iter().collect::<Vec<_>>().join(" & ") + " \\\\\n"
+}
+
+/// A `tabular` with the rules of the package booktabs; `kinds` has a letter for each column.
+pub(super) fn tabular(kinds: &str, head: &str, body: &str) -> String {
+    format!(
+        "\\begin{{tabular}}{{{kinds}}}\n\\toprule\n{head}\\midrule\n{body}\\bottomrule\n\\end{{tabular}}\n"
+    )
 }
 
 fn starts_as_number(cell: &str) -> bool {
@@ -132,16 +135,8 @@ fn starts_as_number(cell: &str) -> bool {
 fn csv_cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
-        Value::String(text) => csv_text(text),
+        Value::String(text) => text.clone(),
         other => other.to_string(),
-    }
-}
-
-pub(super) fn csv_text(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 

@@ -1,7 +1,6 @@
 //! Float pictures for the page's viewer: a page from disk may load a script, but neither fetch a file nor read
 //! the pixels of a picture, so the values stand in a script of their own that is loaded when asked for.
 
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -13,6 +12,7 @@ use formats::picture::Picture;
 use half::f16;
 
 use super::error::ReportError;
+use super::save::write_file;
 use super::tone;
 
 /// The longest side of a float picture, pixels; larger ones are averaged down.
@@ -28,10 +28,7 @@ pub(super) fn write(path: &Path, name: &str, picture: &Picture) -> Result<(), Re
     let values = STANDARD.encode(encoder.finish().map_err(failed)?);
     let Picture { width, height, channels, .. } = small;
     let script = format!("unshadeFloat(\"{name}\",{width},{height},{channels},\"{values}\");\n");
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;
-    }
-    fs::write(path, script).map_err(failed)
+    write_file(path, script)
 }
 
 /// Channel by channel the low bytes, then the high bytes, of half floats, each less its left neighbour: what

@@ -1,4 +1,4 @@
-//! Whether a picture holds the whole head, by its mask.
+//! A test of whether a picture holds the whole head, by its mask.
 
 use formats::picture::GrayImage;
 
@@ -8,7 +8,7 @@ const TOUCHED: f32 = 0.01;
 /// Width of a neck that the picture cuts, over that of the head.
 const NECK: f32 = 0.8;
 
-/// Whether the mask touches no side of the picture, but for a neck at one of them; false for an empty mask.
+/// Returns whether the mask touches no side of the picture, but for a neck at one of them; false for an empty mask.
 pub(super) fn shows_whole_head(mask: &GrayImage) -> bool {
     let (width, height) = (mask.width, mask.height);
     let inside = |x: usize, y: usize| mask.data[y * width + x] > 127;

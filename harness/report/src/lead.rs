@@ -1,4 +1,4 @@
-//! The figure that tells a case: the input, the reference, what each method made of it, and its error.
+//! The figure at the head of a case: the input, the reference, what each method made of it, and its error.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use super::table::Table;
 #[derive(Debug, Serialize)]
 pub(super) struct Lead {
     pub rows: Vec<LeadRow>,
-    /// Whether maps are compared too.
+    /// True if maps are compared too.
     has_maps: bool,
 }
 

@@ -27,6 +27,8 @@ mod page;
 mod reference;
 mod results;
 mod run;
+mod save;
+mod score_key;
 mod site;
 mod solve;
 mod summary;
@@ -39,10 +41,9 @@ mod sample_run;
 #[cfg(test)]
 mod tests;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use formats::atomic::{self, Folder, FolderError};
+use formats::atomic::{self, FolderError};
 
 pub use changed::write_changes;
 pub use error::ReportError;
@@ -81,15 +82,8 @@ pub fn write(
     let manifest = RunFile::open(run)?;
     check_place(run, out)?;
     let way = WayToRun::new(run, out).map_err(|error| ReportError::read(run, error))?;
-    let folder = Folder::begin(out)?;
-    let page = match fill(run, &manifest, folder.path(), &way, progress) {
-        Ok(page) => page,
-        Err(error) => {
-            folder.abandon();
-            return Err(error);
-        }
-    };
-    folder.commit()?;
+    let page: Page =
+        save::write_folder(out, |folder| fill(run, &manifest, folder, &way, progress))?;
     Ok(ReportSummary {
         index: out.join("index.html"),
         cases: manifest.cases.len(),
@@ -109,8 +103,7 @@ fn fill(
     if page.has_every_score() {
         Baseline::of_run(run)?.write(&root.join(BASELINE))?;
     }
-    let index = root.join("index.html");
-    fs::write(&index, page.html()?).map_err(|error| ReportError::write(&index, error))?;
+    save::write_file(&root.join("index.html"), page.html()?)?;
     Ok(page)
 }
 

@@ -1,4 +1,4 @@
-//! Where a file of the run lies as seen from the report: a relative link.
+//! Relative links from the report to files of the run.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -9,21 +9,36 @@ pub(super) struct WayToRun(PathBuf);
 impl WayToRun {
     /// Both as the user names them; they need not exist.
     pub fn new(run: &Path, report: &Path) -> std::io::Result<Self> {
-        let (run, report) = (plain(run)?, plain(report)?);
-        let shared = run.components().zip(report.components()).take_while(|(a, b)| a == b).count();
-        let up = report.components().skip(shared).map(|_| Component::ParentDir);
-        Ok(Self(up.chain(run.components().skip(shared)).collect()))
+        Ok(Self(way(&plain(run)?, &plain(report)?)))
     }
 
     /// A link to a path below the run, encoded as an address.
     pub fn to(&self, below: &Path) -> String {
-        let path = self.0.join(below);
-        let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_./~".contains(&byte);
-        let bytes = path.to_string_lossy().replace('\\', "/").into_bytes().into_iter();
-        bytes
-            .map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") })
-            .collect()
+        encoded(&self.0.join(below))
     }
+}
+
+/// A link from a folder to a file, encoded as an address; symbolic links are followed.
+pub(super) fn link(file: &Path, folder: &Path) -> String {
+    let real = |path: &Path| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        absolute.canonicalize().unwrap_or(absolute)
+    };
+    encoded(&way(&real(file), &real(folder)))
+}
+
+/// The relative path to `to` from the folder `from`; both are absolute.
+fn way(to: &Path, from: &Path) -> PathBuf {
+    let shared = to.components().zip(from.components()).take_while(|(a, b)| a == b).count();
+    let up = from.components().skip(shared).map(|_| Component::ParentDir);
+    up.chain(to.components().skip(shared)).collect()
+}
+
+/// A path as an address: bytes that it may not hold are written as % and hexadecimal digits.
+fn encoded(path: &Path) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_./~".contains(&byte);
+    let bytes = path.to_string_lossy().replace('\\', "/").into_bytes().into_iter();
+    bytes.map(|b| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") }).collect()
 }
 
 /// Absolute and without `..`.

@@ -2,9 +2,10 @@
 
 use formats::picture::Content;
 use rayon::prelude::*;
+use scoring::metrics::resample;
 
 use super::comparison_figures::{self, ComparisonFigure, Made, Show, Studio, Subject};
-use super::difference::{self, Measure};
+use super::difference::Measure;
 use super::error::ReportError;
 use super::reference::Reference;
 
@@ -56,7 +57,7 @@ pub(super) const MAPS: [MapKind; 4] = [
 ];
 
 impl MapKind {
-    /// Whether its numbers are colours.
+    /// Returns whether its numbers are colours.
     pub fn content(&self) -> Content {
         match self.show {
             Show::Colour { .. } => Content::Colour,
@@ -66,7 +67,7 @@ impl MapKind {
 }
 
 impl Studio<'_> {
-    /// One figure per map that the capture knows the truth of.
+    /// One figure per map whose truth the capture has.
     pub fn map_figures(&self) -> Result<Vec<ComparisonFigure>, ReportError> {
         MAPS.par_iter().filter_map(|kind| self.map_figure(kind).transpose()).collect()
     }
@@ -104,7 +105,7 @@ impl Studio<'_> {
             let score = score.or_else(|| find("none"));
             Ok(map.map(|map| {
                 let (width, height) = (subject.truth.width, subject.truth.height);
-                let picture = difference::resample(&map, width, height);
+                let picture = resample(&map, width, height);
                 let caption = comparison_figures::caption(score, None) + words;
                 Made { picture, path, caption }
             }))

@@ -39,7 +39,7 @@ pub(super) struct Matrix {
 pub(super) struct Block {
     pub light: String,
     pub input: Option<Tile>,
-    /// Who makes the pictures of each panel, and the truth they are compared with.
+    /// The source of the pictures of each panel, and the truth that they are compared with.
     pub panels: Vec<Panel>,
     /// One per method: pictures for the solvers, numbers for all.
     pub rows: Vec<MatrixRow>,

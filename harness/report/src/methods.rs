@@ -1,4 +1,4 @@
-//! How the maps of each method were made: when, by what, what it took, and why there are none.
+//! The origin of each method's maps: the time, the program, its cost, and the reason of a failure.
 
 use std::fs;
 use std::path::Path;
@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::comparison_figures;
 use super::error::ReportError;
 use super::run::{Case, Timing};
+use super::save::write_file;
 use super::table::{Column, EMPTY};
 
 /// Bytes of a log that are kept, from its end.
@@ -22,9 +23,9 @@ pub(super) struct MethodRow {
     made: String,
     seconds: String,
     memory: String,
-    /// Whether the kernel kept the program to its files; none for methods that are ours.
+    /// True if the kernel kept the program to its files; none for built-in methods.
     confined: Option<bool>,
-    /// What it could reach beyond the machine; none for methods that are ours.
+    /// The network that it could reach; none for built-in methods.
     network: Option<&'static str>,
     log: Option<String>,
 }
@@ -83,11 +84,6 @@ fn keep_log(
         comparison_figures::file_name(case),
         comparison_figures::file_name(method)
     );
-    let target = root.join(&name);
-    if let Some(folder) = target.parent() {
-        fs::create_dir_all(folder).map_err(|error| ReportError::write(folder, error))?;
-    }
-    let end = &text[text.len().saturating_sub(LOG)..];
-    fs::write(&target, end).map_err(|error| ReportError::write(&target, error))?;
+    write_file(&root.join(&name), &text[text.len().saturating_sub(LOG)..])?;
     Ok(Some(name))
 }

@@ -59,7 +59,7 @@ const VARIANTS: [&str; 11] = [
     "normal_below_30",
 ];
 
-/// Whether the table of a case has a line for a row, or only the full list has.
+/// Returns whether the table of a case has a line for a row, or only the full list has.
 pub(super) fn is_chosen(row: &Row) -> bool {
     is_whole(row)
         && !VARIANTS.contains(&row.metric.as_str())
@@ -67,7 +67,7 @@ pub(super) fn is_chosen(row: &Row) -> bool {
         && !TRIVIAL.iter().any(|(_, trivial)| *trivial == row.subject)
 }
 
-/// Whether a row covers its subject's whole region.
+/// Returns whether a row covers its subject's whole region.
 pub(super) fn is_whole(row: &Row) -> bool {
     row.label.is_none()
         && matches!(

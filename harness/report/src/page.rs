@@ -26,7 +26,7 @@ use super::tone;
 const MARK: &str = "<meta name=\"generator\" content=\"unshade report\">";
 
 /// Observer of the work: number of cases done, number of cases, name of the next one. Returns whether to
-/// go on.
+/// continue.
 pub type ProgressCallback<'a> = dyn FnMut(u64, u64, &str) -> bool + 'a;
 
 /// Every template by the name that others include it by.
@@ -53,7 +53,7 @@ pub(super) struct Page {
     mark: &'static str,
     summary: Summary,
     summary_export: Links,
-    /// Whether any case was rendered, and whether any was photographed.
+    /// True if any case was rendered, and whether any was photographed.
     has_truth: bool,
     has_photographs: bool,
     run: String,
@@ -88,7 +88,7 @@ struct Times {
 struct TimeRow {
     id: String,
     seconds: String,
-    /// Of the longest stage.
+    /// The share of the longest stage.
     percent: f64,
     cached: bool,
     /// A part of the stage above.
@@ -161,7 +161,7 @@ impl Page {
         })
     }
 
-    /// Whether every method was scored in every case, and any of them has a score.
+    /// Returns whether every method was scored in every case, and any of them has a score.
     pub fn has_every_score(&self) -> bool {
         self.has_every_score
     }

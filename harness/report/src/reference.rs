@@ -1,4 +1,4 @@
-//! What a method's pictures are compared with: the truth of a rendered capture, or withheld photographs.
+//! The reference of a method's pictures: the truth of a rendered capture, or withheld photographs.
 
 use std::path::Path;
 

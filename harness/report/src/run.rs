@@ -1,7 +1,6 @@
-//! A run folder, read leniently where a part is optional: a method may
+//! The files of a run's folder beside its manifest, read leniently where a part is optional: a method may
 //! leave out maps, views or relit pictures, and its cells of the table then stay empty.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -12,132 +11,10 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::error::{FORMAT, ReportError};
+use super::error::ReportError;
 use super::framing::shows_whole_head;
 use super::reference::Reference;
-
-/// `run.json`: what was compared.
-#[derive(Debug, Deserialize)]
-pub(super) struct RunFile {
-    pub format: u32,
-    pub suite: String,
-    pub title: Option<String>,
-    pub cases: Vec<Case>,
-    #[serde(default)]
-    pub versions: BTreeMap<String, Value>,
-    pub suite_toml: Option<String>,
-}
-
-impl RunFile {
-    /// Reads the manifest of a run folder.
-    pub fn open(run: &Path) -> Result<Self, ReportError> {
-        let path = run.join("run.json");
-        let manifest: Self = read_json(&path)?;
-        if manifest.format != FORMAT {
-            return Err(ReportError::Format { path, found: manifest.format });
-        }
-        Ok(manifest)
-    }
-}
-
-/// One capture and everything that was made from it.
-#[derive(Debug, Deserialize)]
-pub(super) struct Case {
-    pub id: String,
-    pub face: String,
-    pub light: String,
-    /// Name of the scene's variant; none in a suite without variants.
-    pub variant: Option<String>,
-    pub capture: PathBuf,
-    #[serde(rename = "solvers")]
-    pub methods: Vec<Method>,
-}
-
-/// A column of the table.
-#[derive(Debug, Deserialize)]
-pub(super) struct Method {
-    pub id: String,
-    pub kind: Kind,
-    #[serde(default)]
-    pub class: Class,
-    pub title: Option<String>,
-    pub author: Option<String>,
-    /// A hash of its settings and files.
-    pub content: Option<String>,
-    pub maps: Option<PathBuf>,
-    pub relit: Option<PathBuf>,
-    pub scores: Option<PathBuf>,
-    /// Why there is nothing of it.
-    pub failed: Option<String>,
-}
-
-impl Method {
-    pub fn title(&self) -> &str {
-        self.title.as_deref().unwrap_or(&self.id)
-    }
-}
-
-impl Method {
-    /// Whether it is marked where it is best: among those that are given what every solver gets.
-    pub fn is_ranked(&self) -> bool {
-        self.kind != Kind::Oracle && self.class == Class::Passive
-    }
-
-    /// Its title, with the class of its inputs if it is not ranked for them.
-    pub fn title_and_role(&self) -> String {
-        if self.is_ranked() || self.kind == Kind::Oracle {
-            return self.title().to_owned();
-        }
-        format!("{} ({})", self.title(), self.role())
-    }
-
-    /// Text below its title: the part it plays, or the class of its inputs.
-    pub fn role(&self) -> &'static str {
-        match (self.kind, self.class) {
-            (Kind::Oracle, _) | (_, Class::Passive) => self.kind.name(),
-            (_, Class::Controlled) => "controlled",
-            (_, Class::Privileged) => "privileged",
-        }
-    }
-}
-
-/// Class of a method's inputs; only passive methods are ranked.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Class {
-    /// The capture.
-    #[default]
-    Passive,
-    /// Photographs in light of its own choice.
-    Controlled,
-    /// The truth.
-    Privileged,
-}
-
-/// The part that a column plays.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, PartialOrd, Ord)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Kind {
-    /// A method under test.
-    Solver,
-    /// A method to beat.
-    Baseline,
-    /// Made from the truth, to say what a score is worth.
-    Privileged,
-    /// The true maps: the bound that noise and the pipeline set.
-    Oracle,
-}
-
-impl Kind {
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Solver => "solver",
-            Kind::Baseline => "baseline",
-            Kind::Privileged => "privileged",
-            Kind::Oracle => "oracle",
-        }
-    }
-}
+pub(super) use scoring::run::{Case, Class, Kind, Method, RunFile};
 
 /// `timing.json`: wall times, the only part of a report that changes between equal runs.
 #[derive(Debug, Default, Deserialize)]
@@ -156,7 +33,7 @@ pub(super) struct StageTime {
     pub made: Made,
 }
 
-/// How a stage's output came about.
+/// The origin of a stage's output.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Made {
     #[serde(default)]
@@ -165,9 +42,9 @@ pub(super) struct Made {
     pub from: String,
     /// Peak memory, bytes; none for methods that are ours.
     pub peak_bytes: Option<u64>,
-    /// Whether the kernel kept it to its own files.
+    /// True if the kernel kept it to its own files.
     pub confined: Option<bool>,
-    /// What it could reach beyond its machine: `open`, `tcp` closed, or `closed`.
+    /// The network that it could reach: `open`, `tcp` closed, or `closed`.
     pub network: Option<String>,
 }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::reference::Reference;
 use super::run::Case;
+use super::score_key::{ALBEDO, RELIT_OTHERS, RELIT_OWN, SPECULAR_NORMAL, ScoreKey, VIEW};
 use super::table::{self, Column};
 use super::{comparison_figures, metric};
 
@@ -17,7 +18,7 @@ pub(super) struct Summary {
 /// The heading of a column.
 #[derive(Clone, Serialize)]
 pub(super) struct Heading {
-    /// What was compared, on two lines.
+    /// The compared quantity, on two lines.
     lines: [&'static str; 2],
     metric: &'static str,
     /// All of it on one line, as in files.
@@ -31,7 +32,7 @@ pub(super) struct SummaryCase {
     pub id: String,
     anchor: String,
     pub rows: Vec<SummaryRow>,
-    /// Why methods have no figures beside photographs, one sentence each.
+    /// The reasons why methods have no figures beside photographs, one sentence each.
     missing: Vec<String>,
 }
 
@@ -44,81 +45,49 @@ pub(super) struct SummaryRow {
     pub cells: Vec<String>,
 }
 
-/// One entry of the key figures: heading, subject, metric, scale, and whether the light is
-/// absent, the capture's own or any other.
-struct KeyFigure {
-    heading: Heading,
-    subject: &'static str,
-    metric: &'static str,
-    scale: &'static str,
-    light: KeyLight,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum KeyLight {
-    None,
-    Own,
-    Other,
-}
-
 const DECIBELS: &str = "PSNR, sRGB, dB ↑";
 
-const KEY_FIGURES: [KeyFigure; 5] = [
-    KeyFigure {
-        heading: Heading {
+const KEY_FIGURES: [(Heading, ScoreKey); 5] = [
+    (
+        Heading {
             lines: ["diffuse albedo,", "after one factor"],
             metric: DECIBELS,
             name: "diffuse albedo, PSNR of sRGB after one factor, dB",
         },
-        subject: "diffuse_albedo",
-        metric: "psnr_srgb",
-        scale: "global",
-        light: KeyLight::None,
-    },
-    KeyFigure {
-        heading: Heading {
+        ALBEDO,
+    ),
+    (
+        Heading {
             lines: ["specular normal,", "mean angle / plain mesh"],
             metric: "degrees ↓",
             name: "specular normal, mean angle / plain mesh, °",
         },
-        subject: "specular_normal",
-        metric: "normal_mean_deg",
-        scale: "none",
-        light: KeyLight::None,
-    },
-    KeyFigure {
-        heading: Heading {
+        SPECULAR_NORMAL,
+    ),
+    (
+        Heading {
             lines: ["withheld view,", "by the method itself"],
             metric: DECIBELS,
             name: "withheld view, PSNR of sRGB, dB",
         },
-        subject: "view",
-        metric: "psnr_srgb",
-        scale: "none",
-        light: KeyLight::None,
-    },
-    KeyFigure {
-        heading: Heading {
+        VIEW,
+    ),
+    (
+        Heading {
             lines: ["maps relit,", "capture's light"],
             metric: DECIBELS,
             name: "relit, capture's light, PSNR of sRGB, dB",
         },
-        subject: "relit",
-        metric: "psnr_srgb",
-        scale: "global",
-        light: KeyLight::Own,
-    },
-    KeyFigure {
-        heading: Heading {
+        RELIT_OWN,
+    ),
+    (
+        Heading {
             lines: ["maps relit,", "other lights"],
             metric: DECIBELS,
             name: "relit, other lights, PSNR of sRGB, dB",
         },
-        subject: "relit",
-        metric: "psnr_srgb",
-        scale: "global",
-        light: KeyLight::Other,
-    },
+        RELIT_OTHERS,
+    ),
 ];
 
 impl Summary {
@@ -135,7 +104,7 @@ impl Summary {
         for row in cases.iter_mut().flat_map(|case| &mut case.rows) {
             row.cells = kept.iter().map(|at| row.cells[*at].clone()).collect();
         }
-        Self { headings: kept.iter().map(|at| KEY_FIGURES[*at].heading.clone()).collect(), cases }
+        Self { headings: kept.iter().map(|at| KEY_FIGURES[*at].0.clone()).collect(), cases }
     }
 }
 
@@ -146,7 +115,9 @@ fn summary(case: &Case, columns: &[Column], reference: Reference) -> SummaryCase
         findings: column.findings(),
         cells: match column.method.failed {
             Some(_) => vec![table::FAILED.to_owned(); KEY_FIGURES.len()],
-            None => KEY_FIGURES.iter().map(|key| key_figure(key, column, &case.light)).collect(),
+            None => {
+                KEY_FIGURES.iter().map(|(_, key)| key_figure(key, column, &case.light)).collect()
+            }
         },
     });
     let scored = columns.iter().filter(|column| column.scores.is_some());
@@ -159,7 +130,7 @@ fn summary(case: &Case, columns: &[Column], reference: Reference) -> SummaryCase
     }
 }
 
-/// Why a method lacks scores against photographs; none if it has all.
+/// The reason why a method lacks scores against photographs; `None` if it has all.
 fn missing(column: &Column) -> Option<String> {
     let has = |subject: &str| column.rows().iter().any(|row| row.subject == subject);
     let title = column.method.title();
@@ -177,30 +148,10 @@ fn missing(column: &Column) -> Option<String> {
 }
 
 /// One value (for normals beside that of the plain mesh), or the range over the other lights.
-fn key_figure(key: &KeyFigure, column: &Column, own: &str) -> String {
-    let lights: Vec<Option<&str>> = match key.light {
-        KeyLight::None => vec![None],
-        KeyLight::Own => vec![Some(own)],
-        KeyLight::Other => {
-            let mut lights: Vec<Option<&str>> =
-                column.rows().iter().map(|row| row.light.as_deref()).collect();
-            lights.sort();
-            lights.dedup();
-            lights.retain(|light| light.is_some_and(|light| light != own));
-            lights
-        }
-    };
-    let find = |subject: &str, light: Option<&str>, scale: &str| {
-        column.find(subject, light, key.metric, scale)?.value
-    };
-    // Scores against photographs have no factor.
-    let value = |subject: &str, light| {
-        find(subject, light, key.scale)
-            .or_else(|| find(subject, light, "none").filter(|_| column.factor().is_none()))
-    };
-    let values: Vec<f64> =
-        lights.into_iter().filter_map(|light| value(key.subject, light)).collect();
-    let trivial = metric::trivial(key.subject).and_then(|trivial| value(trivial, None));
+fn key_figure(key: &ScoreKey, column: &Column, own: &str) -> String {
+    let values: Vec<f64> = key.rows(column, own).iter().filter_map(|row| row.value).collect();
+    let trivial = metric::trivial(key.subject)
+        .and_then(|trivial| column.find(trivial, None, key.metric, key.scale)?.value);
     let low = values.iter().copied().min_by(f64::total_cmp);
     let high = values.iter().copied().max_by(f64::total_cmp);
     match (low, high) {
@@ -220,7 +171,7 @@ mod tests {
 
     #[test]
     fn every_key_figure_is_a_metric_of_a_subject() {
-        for key in KEY_FIGURES {
+        for (_, key) in KEY_FIGURES {
             assert!(Metric::find(key.metric).is_ok(), "{}", key.metric);
             assert_ne!(metric::subject(key.subject), key.subject);
         }

@@ -73,7 +73,7 @@ impl<'a> Column<'a> {
 pub(super) struct Table {
     pub columns: Vec<Heading>,
     pub groups: Vec<Group>,
-    /// Whether any row has a trivial answer or a noise floor; photographs have neither.
+    /// True if any row has a trivial answer or a noise floor; photographs have neither.
     pub has_bounds: bool,
 }
 

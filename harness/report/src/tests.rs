@@ -32,7 +32,7 @@ fn shared() -> &'static Made {
     MADE.get_or_init(report)
 }
 
-/// Writes a report that nobody interrupts.
+/// Writes a report without an interrupt.
 fn whole(run: &Path, out: &Path) -> Result<ReportSummary, ReportError> {
     write(run, out, &mut |_, _, _| true)
 }
@@ -343,14 +343,14 @@ fn broken_runs_are_refused_in_one_line_and_leave_the_earlier_report() {
 fn an_interrupt_leaves_the_earlier_report() {
     let made = report();
     let (root, run) = (made.folder.path(), made.folder.path().join("run"));
-    let mut heard = vec![];
+    let mut seen = vec![];
     let result = write(&run, &root.join("report"), &mut |done, total, case| {
-        heard.push((done, total, case.to_owned()));
+        seen.push((done, total, case.to_owned()));
         done == 0
     });
     assert!(matches!(result, Err(ReportError::Interrupted)), "{result:?}");
-    assert_eq!(heard.len(), 2, "{heard:?}");
-    assert_eq!(heard[0].0, 0);
+    assert_eq!(seen.len(), 2, "{seen:?}");
+    assert_eq!(seen[0].0, 0);
     assert!(!root.join("report.partial").exists());
     assert_eq!(fs::read_to_string(root.join("report/index.html")).unwrap(), made.html);
 }

@@ -48,7 +48,7 @@ impl Layer {
     }
 }
 
-/// Who made a picture of a withheld view.
+/// The source of a picture of a withheld view.
 enum Source {
     /// The method's own view synthesis.
     View,
@@ -151,7 +151,7 @@ impl Studio<'_> {
         Ok(Some(ComparisonFigure::new(subject, reference, title, show, Measure::Display, strips)))
     }
 
-    /// Whether the figure at the head of the case is of such pictures: another light than the capture's, if there
+    /// Returns whether the figure at the head of the case is of such pictures: another light than the capture's, if there
     /// is one.
     fn is_key(&self, source: &Source) -> Result<bool, ReportError> {
         let lights = self.lights()?;

@@ -127,7 +127,8 @@ fn a_run_folder_becomes_a_baseline() {
     assert!(missing.contains("run.json"), "{missing}");
     let manifest = serde_json::json!({
         "format": 1, "suite": "demo", "versions": {"unshade": "0.1.0"},
-        "cases": [{"id": "ada-studio", "solvers": [{"id": "unshade", "scores": "scores/a.json"}]}],
+        "cases": [{"id": "ada-studio", "face": "ada", "light": "studio", "capture": "c",
+                   "solvers": [{"id": "unshade", "kind": "solver", "scores": "scores/a.json"}]}],
     });
     fs::write(run.path().join("run.json"), manifest.to_string()).unwrap();
     let scores = serde_json::json!({
@@ -280,7 +281,7 @@ fn few_runs_and_broken_calibrations_are_refused() {
 }
 
 #[test]
-fn what_the_runs_cannot_tell_is_neither_the_same_nor_a_failure() {
+fn undecided_rows_are_neither_the_same_nor_a_failure() {
     let rules = Tolerances::built_in().unwrap();
     let noisy: Vec<Baseline> = [27.0, 28.0, 29.0, 28.5, 27.5]
         .iter()

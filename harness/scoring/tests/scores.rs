@@ -258,7 +258,7 @@ fn the_energy_of_highlights_is_scored_only_where_the_truth_has_several() {
 }
 
 #[test]
-fn what_a_solver_did_not_write_has_no_rows_and_what_is_broken_is_named() {
+fn missing_files_have_no_rows_and_broken_ones_are_named() {
     let bench = Bench::new(1e-5);
     let maps = bench.albedo_maps(SIDE, albedo);
     let scores = score(&bench.capture(), &maps, None).unwrap();

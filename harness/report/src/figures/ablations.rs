@@ -4,7 +4,7 @@
 use serde_json::json;
 
 use super::drawing::{Bar, Bars, Block, Drawing};
-use super::quantity::Quantity;
+use super::quantity::{QUANTITIES, Quantity};
 use super::source::{CaseSource, Sources};
 use super::statistics::{Mean, over_faces};
 use crate::error::ReportError;
@@ -22,20 +22,6 @@ struct Setting {
 type Found = (String, String, f64);
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "setting",
-        "variant",
-        "method",
-        "quantity",
-        "faces",
-        "mean",
-        "low",
-        "high",
-        "reference",
-        "difference",
-        "difference low",
-        "difference high",
-    ]);
     let cases: Vec<CaseSource> = sources.cases().collect();
     let settings = settings(sources, &cases);
     let Some(reference) = settings.first().filter(|_| settings.len() > 1) else {
@@ -43,7 +29,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     };
     let names = names(&settings);
     let mut shown: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
-    for quantity in Quantity::ALL {
+    for quantity in &QUANTITIES {
         let base = values(&cases, reference, quantity);
         let mut bars = Vec::new();
         for ((setting, name), row) in settings.iter().zip(&names).zip(&mut shown) {
@@ -71,26 +57,19 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                 mean.and_then(|mean| mean.interval).map_or([None; 2], |e| e.map(Some))
             };
             let ([low, high], [less, more]) = (ends(mean), ends(difference));
-            drawing.rows.push(vec![
-                json!(name),
-                json!(setting.variant),
-                json!(setting.method),
-                json!(quantity.name()),
-                json!(mean.map_or(0, |mean| mean.faces)),
-                json!(mean.map(|mean| mean.value)),
-                json!(low),
-                json!(high),
-                json!(names[0]),
-                json!(difference.map(|mean| mean.value)),
-                json!(less),
-                json!(more),
-            ]);
+            drawing.row(json!({
+                "setting": name, "variant": setting.variant, "method": setting.method,
+                "quantity": quantity.name, "faces": mean.map_or(0, |mean| mean.faces),
+                "mean": mean.map(|mean| mean.value), "low": low, "high": high,
+                "reference": names[0], "difference": difference.map(|mean| mean.value),
+                "difference low": less, "difference high": more,
+            }));
         }
         let mean = in_words(over_faces(
             &base.into_iter().map(|(face, _, v)| (face, v)).collect::<Vec<_>>(),
         ));
         drawing.blocks.push(Block::Bars(Bars {
-            title: format!("{} ({}: {mean})", quantity.label(), names[0]),
+            title: format!("{} ({}: {mean})", quantity.label, names[0]),
             label: "difference".to_owned(),
             steps: false,
             bars,
@@ -98,7 +77,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         }));
     }
     let mut headings = vec!["setting".to_owned()];
-    headings.extend(Quantity::ALL.map(|quantity| quantity.label().to_owned()));
+    headings.extend(QUANTITIES.iter().map(|quantity| quantity.label.to_owned()));
     drawing.table = Some(Export { keys: vec![], rows: vec![], headings, shown });
     drawing.caption = format!(
         "Ablations: the difference to {} on the same cases, mean over faces with the 95 % interval of Student's t over \
@@ -125,7 +104,7 @@ fn settings(sources: &Sources, cases: &[CaseSource]) -> Vec<Setting> {
     found
 }
 
-/// As short as tells them apart.
+/// The shortest names that differ.
 fn names(settings: &[Setting]) -> Vec<String> {
     let one_method = settings.iter().all(|setting| setting.method == settings[0].method);
     let name = |setting: &Setting| match &setting.variant {
@@ -136,12 +115,12 @@ fn names(settings: &[Setting]) -> Vec<String> {
     settings.iter().map(name).collect()
 }
 
-fn values(cases: &[CaseSource], setting: &Setting, quantity: Quantity) -> Vec<Found> {
+fn values(cases: &[CaseSource], setting: &Setting, quantity: &Quantity) -> Vec<Found> {
     let of_variant = cases.iter().filter(|source| source.case.variant == setting.variant);
     of_variant
         .filter_map(|source| {
             let column = source.columns.iter().find(|column| column.method.id == setting.method)?;
-            let value = quantity.find(column, &source.case.light)?;
+            let value = quantity.key.value(column, &source.case.light)?;
             Some((source.case.face.clone(), source.case.light.clone(), value))
         })
         .collect()

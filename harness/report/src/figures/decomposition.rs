@@ -17,7 +17,6 @@ use crate::views::Layer;
 const SHOWN: [&str; 3] = ["diffuse_albedo", "specular_albedo", "specular_normal"];
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&["case", "light", "method", "subject", "metric", "scale", "value"]);
     let mut panels = Panels { columns: vec!["input".to_owned()], ..Panels::default() };
     panels.columns.extend(
         MAPS.iter().filter(|map| SHOWN.contains(&map.subject)).map(|map| map.title.to_lowercase()),
@@ -53,15 +52,11 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     && (SHOWN.contains(&row.subject.as_str()) || row.subject.ends_with("_layer"))
             };
             for row in column.rows().iter().filter(scored) {
-                drawing.rows.push(vec![
-                    json!(source.case.id),
-                    json!(source.case.light),
-                    json!(column.method.id),
-                    json!(row.subject),
-                    json!(row.metric),
-                    json!(row.scale),
-                    json!(row.value),
-                ]);
+                drawing.row(json!({
+                    "case": source.case.id, "light": source.case.light,
+                    "method": column.method.id, "subject": row.subject, "metric": row.metric,
+                    "scale": row.scale, "value": row.value,
+                }));
             }
         }
     }

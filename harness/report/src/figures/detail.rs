@@ -7,16 +7,16 @@
 mod bands;
 
 use formats::picture::{Content, GrayImage, Picture};
+use scoring::metrics::resample;
 use serde_json::json;
 
 use self::bands::{Band, Bands};
-use super::drawing::{Block, Drawing, Line, Lines, PanelRow, Panels};
+use super::drawing::{Block, Drawing, Lines, PanelRow, Panels};
 use super::mesh_scale::texel_millimetres;
 use super::panels::brightness;
 use super::source::{CaseSource, Sources};
-use super::statistics::over_faces;
+use super::statistics::curve;
 use crate::comparison_figures::{read_if_present, read_mask_if_present};
-use crate::difference;
 use crate::error::ReportError;
 use crate::tone;
 
@@ -25,7 +25,7 @@ const RGB: &[&str] = &["R", "G", "B"];
 /// A crop's share of the map's side.
 const CROP: usize = 5;
 
-/// What one method recovers in one band of one case.
+/// The detail that one method recovers in one band of one case.
 struct Transfer {
     method: usize,
     face: String,
@@ -35,16 +35,6 @@ struct Transfer {
 }
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "case",
-        "face",
-        "method",
-        "cycles per mm",
-        "blur, texels",
-        "gain",
-        "amplitude",
-        "correlation",
-    ]);
     let mut methods: Vec<(String, String)> = Vec::new();
     let mut found: Vec<Transfer> = Vec::new();
     let mut crops: Option<Panels> = None;
@@ -63,7 +53,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         for column in source.columns.iter().filter(|column| sources.lists(column)) {
             let Some(path) = source.map(column, ALBEDO) else { continue };
             let Some(map) = read_if_present(&path, RGB, Content::Colour)? else { continue };
-            let mut map = difference::resample(&map, truth.width, truth.height);
+            let mut map = resample(&map, truth.width, truth.height);
             let factor = column.factor().unwrap_or(1.0);
             map.data.iter_mut().for_each(|value| *value *= factor as f32);
             let known = methods.iter().position(|(id, _)| *id == column.method.id);
@@ -75,16 +65,11 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             for (band, (made, exact)) in made.iter().zip(&exact).enumerate() {
                 let Some(ratio) = compare(made, exact, &inside) else { continue };
                 let frequency = exact.cycles_per_texel() / texel;
-                drawing.rows.push(vec![
-                    json!(source.case.id),
-                    json!(source.case.face),
-                    json!(column.method.id),
-                    json!(frequency),
-                    json!(exact.blur),
-                    json!(ratio.gain),
-                    json!(ratio.amplitude),
-                    json!(ratio.correlation),
-                ]);
+                drawing.row(json!({
+                    "case": source.case.id, "face": source.case.face, "method": column.method.id,
+                    "cycles per mm": frequency, "blur, texels": exact.blur, "gain": ratio.gain,
+                    "amplitude": ratio.amplitude, "correlation": ratio.correlation,
+                }));
                 let face = source.case.face.clone();
                 found.push(Transfer { method, face, band, frequency, ratio });
             }
@@ -102,9 +87,16 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         ("recovered amplitude", |transfer| transfer.ratio.gain),
         ("correlation with the truth", |transfer| transfer.ratio.correlation),
     ];
+    let count = found.iter().map(|transfer| transfer.band + 1).max().unwrap_or(0);
     for (title, quantity) in plots {
-        let lines = methods.iter().enumerate();
-        let lines = lines.map(|(at, (_, title))| line(title, &found, at, quantity)).collect();
+        let line = |(method, (_, title)): (usize, &(String, String))| {
+            // From coarse to fine.
+            curve(title, (0..count).rev(), |band| {
+                let here = found.iter().filter(|t| t.method == method && t.band == band);
+                here.map(|t| (t.face.clone(), t.frequency, quantity(t))).collect()
+            })
+        };
+        let lines = methods.iter().enumerate().map(line).collect();
         drawing.blocks.push(Block::Lines(Lines {
             title: title.to_owned(),
             x_label: "spatial frequency, cycles per mm".to_owned(),
@@ -141,27 +133,6 @@ fn within_one_region(mut mask: GrayImage, labels: Option<&GrayImage>) -> GrayIma
     mask
 }
 
-/// The mean over faces in every band.
-fn line(title: &str, found: &[Transfer], method: usize, quantity: fn(&Transfer) -> f64) -> Line {
-    let mut line = Line { name: title.to_owned(), x: vec![], y: vec![], interval: vec![] };
-    let count = found.iter().map(|transfer| transfer.band + 1).max().unwrap_or(0);
-    // From coarse to fine.
-    for band in (0..count).rev() {
-        let here = || found.iter().filter(|t| t.method == method && t.band == band);
-        let values = |of: fn(&Transfer) -> f64| -> Vec<(String, f64)> {
-            here().map(|transfer| (transfer.face.clone(), of(transfer))).collect()
-        };
-        if let (Some(x), Some(y)) =
-            (over_faces(&values(|t| t.frequency)), over_faces(&values(quantity)))
-        {
-            line.x.push(x.value);
-            line.y.push(y.value);
-            line.interval.push(y.interval);
-        }
-    }
-    line
-}
-
 /// A band of a map against that of the truth.
 struct Ratio {
     gain: f64,
@@ -169,7 +140,7 @@ struct Ratio {
     correlation: f64,
 }
 
-/// None where the truth has nothing in the band.
+/// Compares a band with that of the truth; `None` where the truth has nothing in the band.
 fn compare(made: &Band, exact: &Band, inside: &[bool]) -> Option<Ratio> {
     let (mut pp, mut pg, mut gg) = (0.0, 0.0, 0.0);
     for ((p, g), inside) in made.values.iter().zip(&exact.values).zip(inside) {

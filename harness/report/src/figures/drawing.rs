@@ -1,13 +1,13 @@
 //! A figure as data: blocks of panels and of plots, and the table behind them.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::ReportError;
-use crate::exports::{Export, latex_text};
+use crate::exports::{Export, latex_line, latex_text};
+use crate::save::create_parent;
 use crate::tone::Raster;
 
 /// A figure under construction.
@@ -17,11 +17,9 @@ pub(super) struct Drawing {
     root: PathBuf,
     pub caption: String,
     pub blocks: Vec<Block>,
-    /// Keys and rows of the CSV.
+    /// Rows of the CSV: objects of the same keys.
     #[serde(skip)]
-    pub keys: Vec<String>,
-    #[serde(skip)]
-    pub rows: Vec<Vec<Value>>,
+    pub rows: Vec<Value>,
     /// A table for LaTeX in the panels' place.
     #[serde(skip)]
     pub table: Option<Export>,
@@ -116,7 +114,7 @@ impl Drawing {
     pub fn new(root: &Path) -> Self {
         let root = root.to_path_buf();
         let caption = String::new();
-        Self { root, caption, blocks: vec![], keys: vec![], rows: vec![], table: None }
+        Self { root, caption, blocks: vec![], rows: vec![], table: None }
     }
 
     /// Saves a panel's picture under its number and what it shows.
@@ -128,19 +126,20 @@ impl Drawing {
     ) -> Result<Panel, ReportError> {
         let file = format!("panels/{}.png", crate::comparison_figures::file_name(name));
         let path = self.root.join(&file);
-        let folder = self.root.join("panels");
-        fs::create_dir_all(&folder).map_err(|error| ReportError::write(&folder, error))?;
+        create_parent(&path)?;
         raster.save(&path)?;
         Ok(Panel { file, caption })
     }
 
-    /// Names the columns of the CSV.
-    pub fn set_keys(&mut self, keys: &[&str]) {
-        self.keys = keys.iter().map(|key| (*key).to_owned()).collect();
+    /// Adds a row of the CSV: an object with the names of the columns as its keys.
+    pub fn row(&mut self, row: Value) {
+        self.rows.push(row);
     }
 
     pub fn csv(&self) -> String {
-        let (keys, rows) = (self.keys.clone(), self.rows.clone());
+        let fields = || self.rows.iter().filter_map(Value::as_object);
+        let keys = fields().next().map_or(vec![], |row| row.keys().cloned().collect());
+        let rows = fields().map(|row| row.values().cloned().collect()).collect();
         Export { keys, rows, headings: vec![], shown: vec![] }.csv()
     }
 
@@ -181,7 +180,6 @@ impl Panels {
     fn latex(&self) -> String {
         let count = self.columns.len();
         let width = 0.94 / count.max(1) as f64;
-        let line = |cells: Vec<String>| cells.join(" & ") + " \\\\\n";
         let mut text = format!(
             "\\setlength{{\\tabcolsep}}{{1pt}}\\footnotesize\n\\begin{{tabular}}{{c{}}}\n",
             "c".repeat(count)
@@ -194,7 +192,7 @@ impl Panels {
             );
         }
         let headings = self.columns.iter().map(|column| latex_text(column));
-        text += &line(std::iter::once(String::new()).chain(headings).collect());
+        text += &latex_line(std::iter::once(String::new()).chain(headings));
         for row in &self.rows {
             let picture = |cell: &Option<Panel>| match cell {
                 Some(panel) => {
@@ -203,13 +201,13 @@ impl Panels {
                 None => String::new(),
             };
             let title = format!("\\rotatebox{{90}}{{{}}}", latex_text(&row.title));
-            text += &line(std::iter::once(title).chain(row.cells.iter().map(picture)).collect());
+            text += &latex_line(std::iter::once(title).chain(row.cells.iter().map(picture)));
             let caption = |cell: &Option<Panel>| {
                 cell.as_ref().map_or(String::new(), |panel| latex_text(&panel.caption))
             };
             let captions: Vec<String> = row.cells.iter().map(caption).collect();
             if captions.iter().any(|caption| !caption.is_empty()) {
-                text += &line(std::iter::once(String::new()).chain(captions).collect());
+                text += &latex_line(std::iter::once(String::new()).chain(captions));
             }
         }
         text + "\\end{tabular}\n"

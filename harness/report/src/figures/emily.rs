@@ -11,16 +11,6 @@ use crate::error::ReportError;
 use crate::views::Layer;
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "face",
-        "input light",
-        "method",
-        "comparison",
-        "light",
-        "psnr_srgb",
-        "ssim",
-        "flip_mean",
-    ]);
     let mut faces: Vec<(String, Vec<CaseSource>)> = Vec::new();
     for source in sources.cases() {
         let face = source.face();
@@ -102,16 +92,10 @@ fn matrix_rows(
                 frame,
             )?);
             let [psnr, ssim, flip] = scores.values();
-            drawing.rows.push(vec![
-                json!(source.face()),
-                json!(own),
-                json!(method),
-                json!(part),
-                json!(light.unwrap_or(own)),
-                json!(psnr),
-                json!(ssim),
-                json!(flip),
-            ]);
+            drawing.row(json!({
+                "face": source.face(), "input light": own, "method": method, "comparison": part,
+                "light": light.unwrap_or(own), "psnr_srgb": psnr, "ssim": ssim, "flip_mean": flip,
+            }));
         }
         rows.push(PanelRow { title: format!("{own}: {}", column.method.title()), cells });
     }

@@ -1,4 +1,4 @@
-//! How large a texel is on a face.
+//! The size of a texel on a face.
 
 use std::fs;
 use std::path::Path;

@@ -20,12 +20,12 @@ mod statistics;
 mod tests;
 mod waterfall;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use formats::atomic::{self, Folder};
+use formats::atomic;
 
 use super::error::ReportError;
+use super::save::{write_file, write_folder};
 use drawing::Drawing;
 pub use request::{FigureKind, FigureRequest};
 use source::Sources;
@@ -37,17 +37,13 @@ pub fn write_figure<E: From<ReportError>>(
     out: &Path,
     draw: impl FnOnce(&Path) -> Result<(), E>,
 ) -> Result<(), E> {
-    let report = |error: atomic::FolderError| E::from(ReportError::from(error));
     let runs: Vec<&Path> = request.runs.iter().map(PathBuf::as_path).collect();
-    atomic::refuse_overlap(out, &runs).map_err(report)?;
+    atomic::refuse_overlap(out, &runs).map_err(ReportError::from)?;
     let sources = Sources::read(request)?;
-    let folder = Folder::begin(out).map_err(report)?;
-    let made = fill(request, &sources, folder.path()).map_err(E::from);
-    if let Err(error) = made.and_then(|()| draw(folder.path())) {
-        folder.abandon();
-        return Err(error);
-    }
-    folder.commit().map_err(report)
+    write_folder(out, |folder| {
+        fill(request, &sources, folder)?;
+        draw(folder)
+    })
 }
 
 fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), ReportError> {
@@ -63,11 +59,7 @@ fn fill(request: &FigureRequest, sources: &Sources, root: &Path) -> Result<(), R
         FigureKind::Detail => detail::draw(sources, &mut drawing),
         FigureKind::Observability => observability::draw(sources, &mut drawing),
     }?;
-    let save = |name: &str, text: String| {
-        let path = root.join(name);
-        fs::write(&path, text).map_err(|error| ReportError::write(&path, error))
-    };
-    save("figure.csv", drawing.csv())?;
-    save("figure.tex", drawing.latex(&request.command))?;
-    save("figure.json", drawing.json()?)
+    write_file(&root.join("figure.csv"), drawing.csv())?;
+    write_file(&root.join("figure.tex"), drawing.latex(&request.command))?;
+    write_file(&root.join("figure.json"), drawing.json()?)
 }

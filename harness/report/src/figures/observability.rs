@@ -1,6 +1,5 @@
-//! Error against what the capture could determine: of the texels that few views see, that all views see obliquely,
-//! that get little light, that lie in a cast shadow or are clipped, and of those that the method itself is sure of.
-//! Where a method is wrong and yet sure, its confidence warns nobody.
+//! The error against the observability of texels: the number of views that see them, the least obliqueness of these,
+//! the light, cast shadows, clipping, and the method's own confidence; and texels that are wrong with a high confidence.
 
 mod errors;
 mod factors;
@@ -13,10 +12,10 @@ use serde_json::{Value, json};
 use self::errors::Errors;
 use self::factors::{Factor, factors, of_confidence};
 use self::wrong_and_sure::WrongAndSure;
-use super::drawing::{Block, Drawing, Line, Lines, Panel, PanelRow, Panels};
+use super::drawing::{Block, Drawing, Lines, Panel, PanelRow, Panels};
 use super::panels::ERROR;
 use super::source::{CaseSource, Sources};
-use super::statistics::over_faces;
+use super::statistics::curve;
 use crate::error::ReportError;
 use crate::tone::{self, Field};
 
@@ -31,18 +30,6 @@ struct Point {
 }
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "case",
-        "face",
-        "method",
-        "factor",
-        "from",
-        "to",
-        "mean",
-        "share of texels",
-        "albedo, dB",
-        "normal, °",
-    ]);
     let mut methods: Vec<(String, String)> = Vec::new();
     let mut points: Vec<Point> = Vec::new();
     let mut labels: Vec<(&'static str, &'static str, bool)> = Vec::new();
@@ -71,7 +58,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     labels.push((factor.name, factor.label, factor.logarithmic));
                 }
                 for bin in factor.bins(&found.albedo, found.normal.as_ref()) {
-                    drawing.rows.push(row(&source, found, factor.name, bin.values()));
+                    drawing.row(row(&source, found, factor.name, bin.values()));
                     points.push(Point {
                         method,
                         face: source.case.face.clone(),
@@ -84,7 +71,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             }
             if let Some(wrong) = WrongAndSure::of(found) {
                 let share = [None, None, None, Some(wrong.share), None, None];
-                drawing.rows.push(row(&source, found, "sure half of the worst tenth", share));
+                drawing.row(row(&source, found, "sure half of the worst tenth", share));
             }
         }
         if panels.is_none() && !found.is_empty() {
@@ -95,9 +82,15 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         return Err(sources.nothing("the albedo map of a rendered face"));
     }
     drawing.blocks.extend(panels.into_iter().flatten().map(Block::Panels));
+    let count = points.iter().map(|point| point.bin + 1).max().unwrap_or(0);
     for (factor, label, logarithmic) in labels {
-        let lines = methods.iter().enumerate();
-        let lines = lines.map(|(at, (_, title))| line(title, &points, at, factor));
+        let lines = methods.iter().enumerate().map(|(method, (_, title))| {
+            curve(title, 0..count, |bin| {
+                let same = |p: &&Point| p.method == method && p.factor == factor && p.bin == bin;
+                let here = points.iter().filter(same);
+                here.map(|p| (p.face.clone(), p.x, p.decibels)).collect()
+            })
+        });
         drawing.blocks.push(Block::Lines(Lines {
             title: factor.to_owned(),
             x_label: label.to_owned(),
@@ -119,33 +112,16 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
 }
 
 /// A row of the CSV.
-fn row(source: &CaseSource, found: &Errors, factor: &str, values: [Option<f64>; 6]) -> Vec<Value> {
-    let names = [&source.case.id, &source.case.face, &found.name].map(|name| json!(name));
-    names.into_iter().chain([json!(factor)]).chain(values.map(|value| json!(value))).collect()
+fn row(source: &CaseSource, found: &Errors, factor: &str, values: [Option<f64>; 6]) -> Value {
+    let [from, to, mean, share, decibels, degrees] = values;
+    json!({
+        "case": source.case.id, "face": source.case.face, "method": found.name, "factor": factor,
+        "from": from, "to": to, "mean": mean, "share of texels": share, "albedo, dB": decibels,
+        "normal, °": degrees,
+    })
 }
 
-/// The mean over faces in every bin.
-fn line(title: &str, points: &[Point], method: usize, factor: &str) -> Line {
-    let mut line = Line { name: title.to_owned(), x: vec![], y: vec![], interval: vec![] };
-    let count = points.iter().map(|point| point.bin + 1).max().unwrap_or(0);
-    for bin in 0..count {
-        let here =
-            || points.iter().filter(|p| p.method == method && p.factor == factor && p.bin == bin);
-        let values = |of: fn(&Point) -> f64| -> Vec<(String, f64)> {
-            here().map(|point| (point.face.clone(), of(point))).collect()
-        };
-        if let (Some(x), Some(y)) =
-            (over_faces(&values(|p| p.x)), over_faces(&values(|p| p.decibels)))
-        {
-            line.x.push(x.value);
-            line.y.push(y.value);
-            line.interval.push(y.interval);
-        }
-    }
-    line
-}
-
-/// What is known of every texel, and below it where each method errs.
+/// Panels of the observability of every texel, and below them of the error of each method.
 fn maps(
     drawing: &Drawing,
     source: &CaseSource,
@@ -199,13 +175,13 @@ fn maps(
         else {
             continue;
         };
-        let said = format!("{:.0} % of the worst tenth are sure", 100.0 * wrong.share);
+        let caption = format!("{:.0} % of the worst tenth are sure", 100.0 * wrong.share);
         columns
             .extend(["confidence", "wrong and sure"].map(|of| format!("{}: {of}", method.title)));
         let name = format!("{}-confidence", method.name);
         cells.push(save(name, &within(confidence), 1.0, "0 to 1".to_owned())?);
         let name = format!("{}-wrong-and-sure", method.name);
-        cells.push(save(name, &wrong.field, 1.0, said)?);
+        cells.push(save(name, &wrong.field, 1.0, caption)?);
     }
     let sure = Panels { title: String::new(), columns, rows: row(cells), error: None };
     let shown = [above, below, sure].into_iter().filter(|panels| !panels.columns.is_empty());

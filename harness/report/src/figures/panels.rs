@@ -15,7 +15,7 @@ use crate::table::Column;
 use crate::tone;
 use crate::views::Layer;
 
-/// Where the colours of error pictures end: difference of sRGB values, as in the report.
+/// The measure of the error pictures: the difference of sRGB values, as in the report.
 pub(super) const ERROR: Measure = Measure::Display;
 
 impl Drawing {
@@ -102,12 +102,12 @@ impl PictureScores {
     }
 
     pub fn in_words(&self) -> String {
-        let said = [
+        let parts = [
             self.psnr.map(|value| format!("{value:.2} dB")),
             self.ssim.map(|value| format!("{value:.3}")),
             self.flip.map(|value| format!("{value:.3}")),
         ];
-        said.into_iter().flatten().collect::<Vec<_>>().join(" / ")
+        parts.into_iter().flatten().collect::<Vec<_>>().join(" / ")
     }
 
     pub fn values(&self) -> [Option<f64>; 3] {

@@ -15,9 +15,6 @@ use crate::views::Layer;
 const SHOWN: [&str; 3] = ["diffuse_albedo", "specular_albedo", "specular_normal"];
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "case", "method", "subject", "light", "metric", "scale", "value", "low", "high",
-    ]);
     let maps: Vec<_> = MAPS.iter().filter(|map| SHOWN.contains(&map.subject)).collect();
     for source in sources.cases() {
         let frames = source.frames()?;
@@ -80,17 +77,11 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             rows.push(PanelRow { title: column.method.title().to_owned(), cells });
             for row in column.rows().iter().filter(|row| crate::metric::is_chosen(row)) {
                 let ends = row.ci95.map_or([None; 2], |ends| ends.map(Some));
-                drawing.rows.push(vec![
-                    json!(id),
-                    json!(method),
-                    json!(row.subject),
-                    json!(row.light),
-                    json!(row.metric),
-                    json!(row.scale),
-                    json!(row.value),
-                    json!(ends[0]),
-                    json!(ends[1]),
-                ]);
+                drawing.row(json!({
+                    "case": id, "method": method, "subject": row.subject, "light": row.light,
+                    "metric": row.metric, "scale": row.scale, "value": row.value, "low": ends[0],
+                    "high": ends[1],
+                }));
             }
         }
         if rows.len() > 1 {

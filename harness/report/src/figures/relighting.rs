@@ -8,6 +8,7 @@ use super::panels::PictureScores;
 use super::source::{CaseSource, Sources};
 use crate::error::ReportError;
 use crate::reference::Reference;
+use crate::run::Frames;
 use crate::table::Column;
 use crate::views::Layer;
 
@@ -15,17 +16,6 @@ use crate::views::Layer;
 const LIGHTS: usize = 4;
 
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "case",
-        "face",
-        "capture light",
-        "method",
-        "light",
-        "view",
-        "psnr_srgb",
-        "ssim",
-        "flip_mean",
-    ]);
     let cases: Vec<CaseSource> = sources.cases().collect();
     // The columns are the same for every case.
     let mut lights: Vec<String> = cases.iter().flat_map(CaseSource::lights).collect();
@@ -80,9 +70,9 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             }
         }
         let scored = source.columns.iter().filter(|column| sources.shows(column));
-        let rows: Vec<_> =
-            scored.flat_map(|column| rows(source, column, &lights, &frames)).collect();
-        drawing.rows.extend(rows);
+        for column in scored {
+            add_rows(drawing, source, column, &lights, &frames);
+        }
         let title = format!("{}, {}", source.face(), source.case.light);
         panels.rows.push(PanelRow { title, cells });
     }
@@ -109,32 +99,25 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     Ok(())
 }
 
-fn rows(
+fn add_rows(
+    drawing: &mut Drawing,
     source: &CaseSource,
     column: &Column,
     lights: &[String],
-    frames: &crate::run::Frames,
-) -> Vec<Vec<serde_json::Value>> {
-    let mut rows = Vec::new();
+    frames: &Frames,
+) {
+    let case = source.case;
     for light in lights {
         for frame in &frames.test {
-            let [psnr, ssim, flip] =
-                PictureScores::find(column, Some(light), Some(&frame.name)).values();
+            let scores = PictureScores::find(column, Some(light), Some(&frame.name));
+            let [psnr, ssim, flip] = scores.values();
             if psnr.is_some() {
-                let case = source.case;
-                rows.push(vec![
-                    json!(case.id),
-                    json!(source.face()),
-                    json!(case.light),
-                    json!(column.method.id),
-                    json!(light),
-                    json!(frame.name),
-                    json!(psnr),
-                    json!(ssim),
-                    json!(flip),
-                ]);
+                drawing.row(json!({
+                    "case": case.id, "face": source.face(), "capture light": case.light,
+                    "method": column.method.id, "light": light, "view": frame.name,
+                    "psnr_srgb": psnr, "ssim": ssim, "flip_mean": flip,
+                }));
             }
         }
     }
-    rows
 }

@@ -19,7 +19,7 @@ pub enum FigureKind {
     Robustness,
     /// From one method to the next, with what bounds them.
     Waterfall,
-    /// How much of the albedo's detail is recovered, by its size.
+    /// The recovered share of the albedo's detail, by its size.
     Detail,
     /// The error against what the capture could determine, and where a method is wrong and sure.
     Observability,
@@ -28,7 +28,7 @@ pub enum FigureKind {
 /// The figure to draw, its runs and its selection.
 #[derive(Clone, Debug)]
 pub struct FigureRequest {
-    /// Which of the figures.
+    /// The kind of the figure.
     pub kind: FigureKind,
     /// Folders of finished runs.
     pub runs: Vec<PathBuf>,

@@ -4,12 +4,12 @@
 use serde_json::json;
 
 use super::drawing::{Block, Drawing, Heat};
-use super::quantity::Quantity;
+use super::quantity::QUANTITIES;
 use super::source::{CaseSource, Sources};
 use super::statistics::over_faces;
 use crate::error::ReportError;
 
-/// Where a case lies.
+/// The place of a case in the map.
 struct Place {
     skin: String,
     exposure: f64,
@@ -25,39 +25,20 @@ struct Found {
     values: [Option<f64>; 2],
 }
 
-const QUANTITIES: [Quantity; 2] = [Quantity::Albedo, Quantity::Relit];
-
 pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), ReportError> {
-    drawing.set_keys(&[
-        "case",
-        "face",
-        "skin",
-        "exposure",
-        "specular_scale",
-        "roughness_scale",
-        "method",
-        "albedo",
-        "relit",
-    ]);
     let mut found = Vec::new();
     let mut titles: Vec<(String, String)> = Vec::new();
     for source in sources.cases() {
         let place = place(&source)?;
         for column in source.columns.iter().filter(|column| sources.shows(column)) {
             let id = column.method.id.clone();
-            let values = QUANTITIES.map(|quantity| quantity.find(column, &source.case.light));
+            let values = [0, 1].map(|at| QUANTITIES[at].key.value(column, &source.case.light));
             let Place { skin, exposure, specular, roughness } = &place;
-            drawing.rows.push(vec![
-                json!(source.case.id),
-                json!(source.case.face),
-                json!(skin),
-                json!(exposure),
-                json!(specular),
-                json!(roughness),
-                json!(id),
-                json!(values[0]),
-                json!(values[1]),
-            ]);
+            drawing.row(json!({
+                "case": source.case.id, "face": source.case.face, "skin": skin,
+                "exposure": exposure, "specular_scale": specular, "roughness_scale": roughness,
+                "method": id, "albedo": values[0], "relit": values[1],
+            }));
             if !titles.iter().any(|(known, _)| *known == id) {
                 titles.push((id.clone(), column.method.title().to_owned()));
             }
@@ -80,7 +61,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
     skins.sort();
     skins.dedup();
     for (method, title) in &titles {
-        for (at, quantity) in QUANTITIES.into_iter().enumerate() {
+        for (at, quantity) in QUANTITIES[..2].iter().enumerate() {
             // Types of skin beside each other.
             for rough in &roughness {
                 for skin in &skins {
@@ -101,9 +82,9 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                     drawing.blocks.push(Block::Heat(Heat {
                         title: format!(
                             "{title}, {}\nskin {skin}, roughness × {rough}",
-                            quantity.name()
+                            quantity.name
                         ),
-                        label: quantity.label().to_owned(),
+                        label: quantity.label.to_owned(),
                         x_label: "exposure ×".to_owned(),
                         y_label: "specular ×".to_owned(),
                         x: x.clone(),

@@ -72,7 +72,7 @@ impl Sources {
         })
     }
 
-    /// Whether a figure of solvers shows this column: one that was named, or else every solver of what all are
+    /// Returns whether a figure of solvers shows this column: one that was named, or else every solver of what all are
     /// given.
     pub fn shows(&self, column: &Column) -> bool {
         if self.methods.is_empty() {
@@ -82,7 +82,7 @@ impl Sources {
         }
     }
 
-    /// Whether a figure of all methods shows this column.
+    /// Returns whether a figure of all methods shows this column.
     pub fn lists(&self, column: &Column) -> bool {
         self.methods.is_empty() || self.is_named(column)
     }
@@ -160,7 +160,7 @@ impl CaseSource<'_> {
         self.run.join(&self.case.capture).join("truth").join(file)
     }
 
-    /// What its pictures are compared with.
+    /// The reference of its pictures.
     pub fn reference(&self) -> Reference {
         Reference::of(&self.run.join(&self.case.capture))
     }

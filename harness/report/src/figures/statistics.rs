@@ -2,6 +2,8 @@
 
 use scoring::study::interval;
 
+use super::drawing::Line;
+
 /// Mean and 95 % interval of values, one per face. Faces are the unit: what one face's cases give is averaged
 /// first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +33,26 @@ pub(super) fn over_faces(values: &[(String, f64)]) -> Option<Mean> {
     }
     let value = means.iter().sum::<f64>() / count as f64;
     Some(Mean { value, interval: interval(&means), faces: count })
+}
+
+/// A curve of the means over faces in each of the `bins`; `points` gives the face, x and y of the points of a bin.
+pub(super) fn curve(
+    name: &str,
+    bins: impl Iterator<Item = usize>,
+    points: impl Fn(usize) -> Vec<(String, f64, f64)>,
+) -> Line {
+    let mut line = Line { name: name.to_owned(), x: vec![], y: vec![], interval: vec![] };
+    for bin in bins {
+        let points = points(bin).into_iter();
+        let pairs = points.map(|(face, x, y)| ((face.clone(), x), (face, y)));
+        let (x, y): (Vec<_>, Vec<_>) = pairs.unzip();
+        if let (Some(x), Some(y)) = (over_faces(&x), over_faces(&y)) {
+            line.x.push(x.value);
+            line.y.push(y.value);
+            line.interval.push(y.interval);
+        }
+    }
+    line
 }
 
 #[cfg(test)]

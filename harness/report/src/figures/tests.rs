@@ -72,7 +72,7 @@ fn detail_is_recovered_by_the_oracle_and_less_of_it_by_the_others() {
 }
 
 #[test]
-fn what_a_run_does_not_hold_is_said_in_one_line_and_leaves_the_earlier_figure() {
+fn missing_data_is_an_error_of_one_line_and_leaves_the_earlier_figure() {
     let (folder, run) = sample();
     let out = folder.path().join("figure");
     write(&request(&run, FigureKind::Relighting), &out).unwrap();
@@ -88,7 +88,7 @@ fn what_a_run_does_not_hold_is_said_in_one_line_and_leaves_the_earlier_figure() 
         cases: cases.iter().map(|name| (*name).to_owned()).collect(),
         ..request(&run, FigureKind::Emily)
     };
-    refused(named(&["nobody"], &[]), "method \"nobody\": not in");
+    refused(named(&["other"], &[]), "method \"other\": not in");
     refused(named(&[], &["nowhere"]), "name one of demo-flash, demo-uniform");
     refused(
         named(&[], &["demo-flash"]),

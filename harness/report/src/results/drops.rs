@@ -1,12 +1,14 @@
 //! Change of each variant of a suite against its first one: the drop of every method, subtracted face
 //! by face and then averaged.
 
-use super::figures::{Figure, TABLES, mean};
+use scoring::tables::{markdown_head, markdown_row, markdown_text};
+
+use super::figures::{Figure, TABLES};
 use super::finished::Finished;
-use super::markdown::{escape, head, row};
 use super::tables::Group;
 use crate::page;
 use crate::run::Case;
+use crate::score_key::mean;
 use crate::table;
 
 /// Headings of the figures that are shown.
@@ -36,7 +38,7 @@ pub(super) fn drops(run: &Finished, groups: &[Group]) -> String {
         let Some(matched) = first.variant.as_deref().filter(|_| !others.is_empty()) else {
             continue;
         };
-        let (light, matched) = (escape(light), escape(matched));
+        let (light, matched) = (markdown_text(light), markdown_text(matched));
         text.push_str(&format!(
             "\n### {light} light: change against \"{matched}\"\n\n\
              Means over the faces of this variant's figure less that of \"{matched}\".\n\n"
@@ -49,15 +51,15 @@ pub(super) fn drops(run: &Finished, groups: &[Group]) -> String {
 fn changes(run: &Finished, first: &Group, others: &[&Group]) -> String {
     let figures = || TABLES.iter().flat_map(|(_, figures)| *figures);
     let figures: Vec<&Figure> = figures().filter(|figure| SHOWN.contains(&figure.short)).collect();
-    let headings = figures.iter().map(|figure| figure.short.to_owned());
-    let mut text = head(&["variant", "method"], headings);
+    let headings = figures.iter().map(|figure| figure.short);
+    let mut text = markdown_head(["variant", "method"].into_iter().chain(headings));
     let titles = |case: &Case| -> Vec<(String, String)> {
         let ids = case.methods.iter().map(|method| method.id.clone());
-        ids.zip(case.methods.iter().map(|method| escape(method.title()))).collect()
+        ids.zip(case.methods.iter().map(|method| markdown_text(method.title()))).collect()
     };
     let methods = first.cases.first().map_or(Vec::new(), |case| titles(&run.manifest.cases[*case]));
     for group in others {
-        let name = escape(group.variant.as_deref().unwrap_or_default());
+        let name = markdown_text(group.variant.as_deref().unwrap_or_default());
         for (id, title) in &methods {
             let cells = figures.iter().map(|figure| {
                 let pairs = first.cases.iter().filter_map(|before| {
@@ -76,7 +78,7 @@ fn changes(run: &Finished, first: &Group, others: &[&Group]) -> String {
                     None => table::EMPTY.to_owned(),
                 }
             });
-            text.push_str(&row([name.clone(), title.clone()].into_iter().chain(cells)));
+            text.push_str(&markdown_row([name.clone(), title.clone()].into_iter().chain(cells)));
         }
     }
     text

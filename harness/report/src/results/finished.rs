@@ -30,7 +30,7 @@ impl Finished {
         Ok(Self { folder, manifest, scores })
     }
 
-    /// What the cases are compared with.
+    /// The references of the cases.
     pub fn references(&self) -> impl Iterator<Item = Reference> {
         self.manifest.cases.iter().map(|case| Reference::of(&self.folder.join(&case.capture)))
     }

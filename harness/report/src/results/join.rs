@@ -18,7 +18,7 @@ pub(super) fn joined(runs: Vec<Finished>) -> Vec<Finished> {
     kept
 }
 
-/// Whether both ran one suite, case for case on captures of the same scene, with other methods.
+/// Returns whether both ran one suite, case for case on captures of the same scene, with other methods.
 fn same_captures(a: &Finished, b: &Finished) -> bool {
     let scene = |run: &Finished, case: &Case| scene(&run.folder.join(&case.capture));
     let methods = |case: &Case| -> Vec<String> {

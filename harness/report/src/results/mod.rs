@@ -6,7 +6,6 @@ mod figures;
 mod files;
 mod finished;
 mod join;
-mod markdown;
 mod setting;
 mod tables;
 
@@ -17,11 +16,11 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic;
 use scoring::score::{Protocol, Scores};
+use scoring::tables::markdown_text;
 
 use super::error::ReportError;
 use super::reference::Reference;
 use finished::Finished;
-use markdown::escape;
 
 /// Writes the results of `runs` to the file `out`: by its ending a page of Markdown (`.md`), or the tables of means
 /// as LaTeX (`.tex`) or CSV (`.csv`). `command` is what the file says it was made by.
@@ -56,7 +55,7 @@ fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {
         compared_with(&references)
     );
     for run in runs {
-        text.push_str(&format!("\n## {}\n\n", escape(run.title())));
+        text.push_str(&format!("\n## {}\n\n", markdown_text(run.title())));
         text.push_str(&setting::describe(run)?);
         let groups = tables::groups(run);
         text.push_str(&drops::drops(run, &groups));
@@ -70,7 +69,7 @@ fn page(runs: &[Finished], command: &str) -> Result<String, ReportError> {
     Ok(text)
 }
 
-/// What the scores are of, for each kind of reference that the runs have.
+/// The meaning of the scores, for each kind of reference that the runs have.
 fn compared_with(references: &[Reference]) -> String {
     let mut text = String::new();
     if references.contains(&Reference::Truth) {
@@ -101,7 +100,7 @@ fn protocols(runs: &[Finished]) -> String {
     for protocol in seen {
         text.push_str(&format!("\n`{}`:\n\n", protocol.id));
         for statement in &protocol.statements {
-            text.push_str(&format!("- {}\n", escape(statement)));
+            text.push_str(&format!("- {}\n", markdown_text(statement)));
         }
     }
     text

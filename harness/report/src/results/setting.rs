@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use scoring::tables::markdown_text;
 use serde_json::Value;
 
 use super::finished::Finished;
-use super::markdown::escape;
 use crate::ReportError;
 use crate::run::{self, Case, Frames};
 use crate::solve::{interrupted, plain};
@@ -42,7 +42,7 @@ pub(super) fn describe(run: &Finished) -> Result<String, ReportError> {
         ("Versions", versions),
     ] {
         if !items.is_empty() {
-            text.push_str(&format!("- {name}: {}.\n", escape(&items.join("; "))));
+            text.push_str(&format!("- {name}: {}.\n", markdown_text(&items.join("; "))));
         }
     }
     Ok(text)
@@ -57,14 +57,17 @@ pub(super) fn scene(capture: &Path) -> toml::Table {
 /// A face with its type, age and seed.
 pub(super) fn face(case: &Case, scene: &toml::Table) -> String {
     let value = |key: &str| scene.get("face").and_then(|face| face.get(key));
-    let mut said = Vec::new();
+    let mut parts = Vec::new();
     if let Some(skin) = value("fitzpatrick").and_then(toml::Value::as_str) {
-        said.push(format!("type {skin}"));
+        parts.push(format!("type {skin}"));
     }
     if let Some(seed) = value("seed") {
-        said.push(format!("seed {seed}"));
+        parts.push(format!("seed {seed}"));
     }
-    if said.is_empty() { case.face.clone() } else { format!("{} ({})", case.face, said.join(", ")) }
+    match parts.is_empty() {
+        true => case.face.clone(),
+        false => format!("{} ({})", case.face, parts.join(", ")),
+    }
 }
 
 fn picture(capture: &Path, scene: &toml::Table) -> Result<String, ReportError> {
@@ -104,7 +107,7 @@ fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
             }
         }
     }
-    let mut said: Vec<String> = keys
+    let mut parts: Vec<String> = keys
         .iter()
         .zip(&found)
         .filter(|(_, values)| !values.is_empty())
@@ -118,7 +121,7 @@ fn maker(run: &Finished, id: &str) -> Result<Option<String>, ReportError> {
         })
         .collect();
     if cut > 0 {
-        said.push(format!("interrupted in {cut} of {} cases", run.manifest.cases.len()));
+        parts.push(format!("interrupted in {cut} of {} cases", run.manifest.cases.len()));
     }
-    Ok(title.filter(|_| !said.is_empty()).map(|title| format!("{title}: {}", said.join(", "))))
+    Ok(title.filter(|_| !parts.is_empty()).map(|title| format!("{title}: {}", parts.join(", "))))
 }

@@ -5,14 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use scoring::metrics::Metric;
 use scoring::score::FOUND_LIGHT;
 use scoring::study::interval;
+use scoring::tables::{markdown_head, markdown_row, markdown_text};
 
-use super::figures::{Figure, Found, RelitIn, TABLES, mean, others};
+use super::figures::{Figure, Found, TABLES};
 use super::finished::Finished;
-use super::markdown::{escape, head, row};
 use super::setting;
 use crate::ReportError;
 use crate::page;
 use crate::run::Kind;
+use crate::score_key::{Lights, mean, other_lights};
 use crate::table::{self, Column};
 
 /// The cases of one light and variant.
@@ -58,7 +59,7 @@ pub(super) fn groups(run: &Finished) -> Vec<Group> {
 struct Line<'a> {
     title: String,
     kind: Kind,
-    /// Whether it is marked where it is best.
+    /// True if it is marked where it is best.
     ranked: bool,
     columns: Vec<Column<'a>>,
     /// The face of each.
@@ -109,9 +110,9 @@ pub(super) struct Cell {
     /// Mean, half of its 95 % interval, and range over the faces; beside a trivial answer also that, and the ratio
     /// of the two.
     pub text: String,
-    /// Whether the mean, the text's first word, is the best.
+    /// True if the mean, the text's first word, is the best.
     pub best: bool,
-    /// Of each face that has it.
+    /// The values of the faces that have one.
     pub values: Vec<f64>,
 }
 
@@ -121,7 +122,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> Vec<MeansTable> {
     let faces = group.cases.iter().map(|index| &run.manifest.cases[*index].face);
     let faces = faces.collect::<BTreeSet<_>>().len();
     let table = |(title, figures): &(&'static str, &'static [Figure])| {
-        // A figure that no method has (confidence of a baseline's run) is no column.
+        // A figure that no method has (confidence of a baseline's run) gets no column.
         let found = |figure: &Figure, line: &Line| by_face(figure, line, &group.light);
         let figures: Vec<&Figure> = figures
             .iter()
@@ -136,7 +137,7 @@ pub(super) fn means(run: &Finished, group: &Group) -> Vec<MeansTable> {
         let headings = figures.iter().map(|figure| heading(figure, &lines, group)).collect();
         let rows = lines.iter().zip(&values).map(|(line, values)| {
             let cells = figures.iter().zip(values).zip(&best).map(|((figure, values), best)| {
-                cell(figure, values, faces, best.as_deref().filter(|_| line.ranked))
+                cell(figure.decimals, values, faces, best.as_deref().filter(|_| line.ranked))
             });
             MeansRow { title: line.title.clone(), cells: cells.collect() }
         });
@@ -148,10 +149,11 @@ pub(super) fn means(run: &Finished, group: &Group) -> Vec<MeansTable> {
 
 /// The tables of a light as Markdown.
 pub(super) fn markdown(group: &Group, tables: &[MeansTable]) -> String {
-    let mut text = format!("\n### {}\n", escape(&group.title()));
+    let mut text = format!("\n### {}\n", markdown_text(&group.title()));
     for table in tables {
-        let headings = table.headings.iter().map(|heading| escape(heading));
-        text.push_str(&format!("\n{}\n\n{}", table.title, head(&["method"], headings)));
+        let headings = table.headings.iter().map(|heading| markdown_text(heading));
+        let head = markdown_head(std::iter::once("method".to_owned()).chain(headings));
+        text.push_str(&format!("\n{}\n\n{head}", table.title));
         for line in &table.rows {
             let shown = |cell: &Cell| match cell.text.split_once(' ') {
                 _ if !cell.best => cell.text.clone(),
@@ -159,7 +161,7 @@ pub(super) fn markdown(group: &Group, tables: &[MeansTable]) -> String {
                 None => format!("**{}**", cell.text),
             };
             let cells = line.cells.iter().map(shown);
-            text.push_str(&row(std::iter::once(escape(&line.title)).chain(cells)));
+            text.push_str(&markdown_row(std::iter::once(markdown_text(&line.title)).chain(cells)));
         }
     }
     text
@@ -182,13 +184,13 @@ fn by_face(figure: &Figure, line: &Line, light: &str) -> Vec<Found> {
 
 /// The name of a column; that of the other lights says which they are.
 fn heading(figure: &Figure, lines: &[Line], group: &Group) -> String {
-    if figure.relit_in != RelitIn::Others {
+    if figure.key.lights != Lights::Others {
         return figure.name.to_owned();
     }
     let mut lights: Vec<&str> = lines
         .iter()
         .flat_map(|line| &line.columns)
-        .flat_map(|column| others(column, &group.light))
+        .flat_map(|column| other_lights(column, &group.light))
         .collect();
     lights.sort_unstable();
     lights.dedup();
@@ -204,37 +206,36 @@ fn best<'a>(
     let contenders = lines.iter().enumerate().filter(|(_, line)| line.ranked);
     let means: Vec<f64> =
         contenders.filter_map(|(i, _)| mean(values(i).iter().map(|found| found.value))).collect();
-    let better = |a: f64, b: f64| if figure.better.gain(a, b) > 0.0 { b } else { a };
+    let better = |a: f64, b: f64| if figure.key.direction().gain(a, b) > 0.0 { b } else { a };
     let best = means.iter().copied().reduce(better)?;
     (means.len() > 1).then(|| table::shown(Some(best), figure.decimals))
 }
 
-fn cell(figure: &Figure, values: &[Found], faces: usize, best: Option<&str>) -> Cell {
+fn cell(decimals: usize, values: &[Found], faces: usize, best: Option<&str>) -> Cell {
     let Some(value) = mean(values.iter().map(|found| found.value)) else {
         return Cell { text: table::EMPTY.to_owned(), ..Cell::default() };
     };
-    let decimals = figure.decimals;
     let mut text = table::shown(Some(value), decimals);
     // Equal as they are shown is equally good.
     let best = best == Some(text.as_str());
     let missing = faces - values.len();
     let pairs: Option<Vec<(f64, f64)>> =
         values.iter().map(|found| Some((found.value, found.against?))).collect();
-    let ranged: Vec<f64> = match (&pairs, figure.against) {
-        (Some(pairs), Some(_)) => {
+    let ranged: Vec<f64> = match &pairs {
+        Some(pairs) => {
             let against = mean(pairs.iter().map(|pair| pair.1)).unwrap_or_default();
             let percent = 100.0 * value / against;
             text.push_str(&format!(" / {against:.decimals$} = {percent:.0} %"));
             pairs.iter().map(|(value, against)| 100.0 * value / against).collect()
         }
-        _ => values.iter().map(|found| found.value).collect(),
+        None => values.iter().map(|found| found.value).collect(),
     };
     if let (true, Some(low), Some(high)) = (
         ranged.len() > 1,
         ranged.iter().copied().min_by(f64::total_cmp),
         ranged.iter().copied().max_by(f64::total_cmp),
     ) {
-        let decimals = if figure.against.is_some() && pairs.is_some() { 0 } else { decimals };
+        let decimals = if pairs.is_some() { 0 } else { decimals };
         if let Some([below, above]) = interval(&ranged) {
             text.push_str(&format!(" ± {:.decimals$}", 0.5 * (above - below)));
         }
@@ -264,8 +265,7 @@ fn floor(
                 .collect()
         });
         let floors = floors.into_iter().find(|floors| !floors.is_empty()).unwrap_or_default();
-        let plain = Figure { against: None, ..**figure };
-        cell(&plain, &floors, faces.max(floors.len()), None)
+        cell(figure.decimals, &floors, faces.max(floors.len()), None)
     };
     let cells: Vec<Cell> = shown.iter().enumerate().map(cell_of).collect();
     let any = cells.iter().any(|cell| !cell.values.is_empty());
@@ -295,12 +295,9 @@ pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
                 })
             })
             .collect();
-        let headings = figures.iter().map(|figure| figure.short.to_owned());
-        text.push_str(&format!(
-            "\n### {}\n\n{}",
-            escape(&about),
-            head(&["light", "method"], headings)
-        ));
+        let headings = figures.iter().map(|figure| figure.short);
+        let head = markdown_head(["light", "method"].into_iter().chain(headings));
+        text.push_str(&format!("\n### {}\n\n{head}", markdown_text(&about)));
         for (index, case) in cases() {
             let light = match &case.variant {
                 Some(variant) => format!("{}, {variant}", case.light),
@@ -310,8 +307,8 @@ pub(super) fn faces(run: &Finished) -> Result<String, ReportError> {
                 let cells = figures
                     .iter()
                     .map(|figure| cell_of_face(figure, figure.find(&column, &case.light)));
-                let names = [escape(&light), escape(&column.method.title_and_role())];
-                text.push_str(&row(names.into_iter().chain(cells)));
+                let names = [markdown_text(&light), markdown_text(&column.method.title_and_role())];
+                text.push_str(&markdown_row(names.into_iter().chain(cells)));
             }
         }
     }
@@ -333,16 +330,16 @@ pub(super) fn legend() -> String {
         "\n## Figures\n\nA figure is a row of the scores: subject, metric, region, scale. \
                     Percentages are of the trivial answer's error beside it.\n\n"
             .to_owned();
-    text.push_str(&head(&["figure"], ["row", "better", "metric"].map(str::to_owned).into_iter()));
+    text.push_str(&markdown_head(["figure", "row", "better", "metric"]));
     for figure in TABLES.iter().flat_map(|(_, figures)| *figures) {
-        let definition = Metric::find(figure.metric).map_or("", |metric| metric.definition);
+        let definition = Metric::find(figure.key.metric).map_or("", |metric| metric.definition);
         let against =
-            figure.against.map_or(String::new(), |subject| format!("; against `{subject}`"));
-        text.push_str(&row([
+            figure.against().map_or(String::new(), |subject| format!("; against `{subject}`"));
+        text.push_str(&markdown_row([
             figure.short.to_owned(),
-            format!("`{}`{against}", figure.row_id()),
-            figure.better.symbol().to_owned(),
-            escape(definition),
+            format!("`{}`{against}", figure.key.row_id()),
+            figure.key.direction().symbol().to_owned(),
+            markdown_text(definition),
         ]));
     }
     text

@@ -1,11 +1,13 @@
 //! The leaderboard's data: compact for the page, and as a table for others.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
+use scoring::tables::{csv_line, csv_number};
 use serde_json::{Value, json};
 
 use super::figures::FIGURES;
 use super::gather::{Board, Cell};
+use crate::link::link;
 
 /// All of it. Values are whole numbers in the figure's last decimal, by entry and figure, in the order of
 /// the captures; null where there is none.
@@ -13,15 +15,14 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
     let figures: Vec<Value> = FIGURES
         .iter()
         .map(
-            |f| json!({"name": f.name, "unit": f.unit, "higher": f.higher, "decimals": f.decimals}),
+            |f| json!({"name": f.name, "unit": f.unit, "higher": f.higher(), "decimals": f.decimals}),
         )
         .collect();
     let runs: Vec<Value> = board
         .runs
         .iter()
         .map(|run| {
-            let report =
-                run.has_report.then(|| relative(&run.folder.join("report/index.html"), out));
+            let report = run.has_report.then(|| link(&run.folder.join("report/index.html"), out));
             json!({"name": run.name, "suite": run.suite, "scoring": run.scoring, "report": report})
         })
         .collect();
@@ -30,7 +31,7 @@ pub(super) fn data(board: &Board, out: &Path) -> Value {
     };
     let picture = |capture: &super::gather::Capture| {
         let place = capture.picture.as_ref().map(|(run, path)| board.runs[*run].folder.join(path));
-        json!(place.map(|place| relative(&place, out)))
+        json!(place.map(|place| link(&place, out)))
     };
     let entries: Vec<Value> = board
         .entries
@@ -77,47 +78,9 @@ pub(super) fn csv(board: &Board) -> String {
             let texts = [&c.hash, &c.case, &c.face, &c.light, &c.variant, &entry.name];
             let mut line: Vec<String> = texts.map(Clone::clone).into();
             line.extend([entry.role.to_owned(), board.runs[cell.run].name.clone()]);
-            let number =
-                |value: &Option<f64>| value.map_or(String::new(), |value| value.to_string());
-            line.extend(cell.values.iter().map(number));
+            line.extend(cell.values.iter().copied().map(csv_number));
             lines.push(line);
         }
     }
-    let quoted = |text: &String| match text.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.clone(),
-    };
-    lines
-        .iter()
-        .map(|line| line.iter().map(quoted).collect::<Vec<_>>().join(",") + "\r\n")
-        .collect()
-}
-
-/// The way from a folder to a file, as a URL has it.
-fn relative(file: &Path, folder: &Path) -> String {
-    let real = |path: &Path| {
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-        absolute.canonicalize().unwrap_or(absolute)
-    };
-    let (file, folder) = (real(file), real(folder));
-    let parts = |path: &Path| path.components().map(|c| PathBuf::from(&c)).collect::<Vec<_>>();
-    let (to, from) = (parts(&file), parts(&folder));
-    let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    let up = std::iter::repeat_n("..".to_owned(), from.len() - shared);
-    let down =
-        Path::new("").components().chain(file.components().skip(shared)).filter_map(|part| {
-            match part {
-                Component::Normal(name) => Some(encoded(&name.to_string_lossy())),
-                _ => None,
-            }
-        });
-    up.chain(down).collect::<Vec<_>>().join("/")
-}
-
-/// A name for a URL: bytes that it may not hold are written as % and hexadecimal digits.
-fn encoded(name: &str) -> String {
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte);
-    name.bytes()
-        .map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
-        .collect()
+    lines.iter().map(|line| csv_line(line) + "\r\n").collect()
 }

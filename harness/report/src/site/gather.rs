@@ -5,14 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use scoring::score::FOUND_LIGHT;
-use serde::Deserialize;
+use scoring::score::{FOUND_LIGHT, Inputs, Scores};
 
-use super::figures::{FIGURES, Row};
+use super::figures::FIGURES;
 use crate::error::ReportError;
-use crate::run::{Case, Class, Kind, Method, RunFile, read_json};
+use crate::run::{Case, Class, Kind, Method, RunFile};
+use crate::table::Column;
 
-/// Digits of a hash that tell methods apart.
+/// Digits of a hash that distinguish methods.
 const HASH: usize = 6;
 
 /// A capture of any of the runs.
@@ -30,11 +30,11 @@ pub(super) struct Capture {
 /// A method as one of the runs has it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    /// The method's id, with what tells it from others of this id.
+    /// The method's id, with a mark that distinguishes it from others of this id.
     pub name: String,
     pub title: String,
     pub role: &'static str,
-    /// Whether it takes part in ranks.
+    /// True if it takes part in ranks.
     pub ranked: bool,
     /// The first run that has it.
     pub run: usize,
@@ -70,19 +70,6 @@ pub(super) struct Board {
     pub runs: Vec<Run>,
     pub captures: Vec<Capture>,
     pub entries: Vec<Entry>,
-}
-
-#[derive(Deserialize)]
-struct ScoresFile {
-    light: String,
-    inputs: Inputs,
-    rows: Vec<Row>,
-}
-
-#[derive(Deserialize)]
-struct Inputs {
-    capture: String,
-    maps: String,
 }
 
 /// Scores of a method on a case.
@@ -149,7 +136,7 @@ impl Board {
         }
     }
 
-    /// Adds to the names of methods of the same id what tells them apart: authors, hashes, else their runs.
+    /// Adds distinguishing marks to the names of methods of the same id: authors, hashes, else their runs.
     fn name_apart(&mut self) {
         let mut of_id: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (at, entry) in self.entries.iter().enumerate() {
@@ -159,13 +146,13 @@ impl Board {
             let of_all = |mark: &dyn Fn(&Entry) -> Option<String>| -> Vec<Option<String>> {
                 at.iter().map(|at| mark(&self.entries[*at])).collect()
             };
-            let tells = [
+            let candidates = [
                 of_all(&|entry| entry.author.clone()),
                 of_all(&|entry| entry.content.as_ref().map(|hash| format!("#{hash:.HASH$}"))),
                 of_all(&|entry| Some(self.runs[entry.run].name.clone())),
             ];
             let mut marks = vec![Vec::new(); at.len()];
-            for values in tells {
+            for values in candidates {
                 if distinct(&marks) < at.len() && distinct(&values) > 1 {
                     marks.iter_mut().zip(values).for_each(|(marks, value)| marks.extend(value));
                 }
@@ -199,7 +186,7 @@ impl Entry {
         }
     }
 
-    /// Whether both are one method: of one name, author and content, and of the same maps wherever both have some. A
+    /// Returns whether both are one method: of one name, author and content, and of the same maps wherever both have some. A
     /// run that does not say the content needs equal maps, or an author, as evidence.
     fn is_same(&self, other: &Self) -> bool {
         let shared =
@@ -220,9 +207,10 @@ fn scored<'r>(
     if !path.is_file() {
         return Ok(None);
     }
-    let file: ScoresFile = read_json(&path)?;
-    let values = std::array::from_fn(|at| FIGURES[at].value(&file.rows, &file.light));
-    Ok(Some(Scored { case, method, inputs: file.inputs, values }))
+    let scores = Scores::read(&path)?;
+    let column = Column { method, scores: Some(&scores) };
+    let values = std::array::from_fn(|at| FIGURES[at].key.value(&column, &scores.light));
+    Ok(Some(Scored { case, method, inputs: scores.inputs, values }))
 }
 
 fn capture(folder: &Path, run: usize, scored: &Scored) -> Capture {

@@ -7,12 +7,12 @@ mod figures;
 mod files;
 mod gather;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use formats::atomic::{self, Folder};
+use formats::atomic;
 
 use crate::error::ReportError;
+use crate::save::{write_file, write_folder};
 use gather::Board;
 
 const PAGE: &str = include_str!("site.html");
@@ -35,11 +35,6 @@ pub struct SiteSummary {
 pub fn write_site(runs: &[PathBuf], out: &Path) -> Result<SiteSummary, ReportError> {
     atomic::refuse_overlap(out, &runs.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
     let board = Board::of(runs)?;
-    let folder = Folder::begin(out)?;
-    let write = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).map_err(|error| ReportError::write(&path, error))
-    };
     let data = files::data(&board, out);
     // No text of a run ends the script that holds it.
     let embedded = data.to_string().replace("</", "<\\/");
@@ -48,14 +43,11 @@ pub fn write_site(runs: &[PathBuf], out: &Path) -> Result<SiteSummary, ReportErr
         .replace("{{statistics}}", STATISTICS)
         .replace("{{script}}", SCRIPT)
         .replace("{{data}}", &embedded);
-    let written = write("index.html", &page)
-        .and_then(|()| write("leaderboard.json", &data.to_string()))
-        .and_then(|()| write("leaderboard.csv", &files::csv(&board)));
-    if let Err(error) = written {
-        folder.abandon();
-        return Err(error);
-    }
-    folder.commit()?;
+    write_folder::<_, ReportError>(out, |folder| {
+        write_file(&folder.join("index.html"), &page)?;
+        write_file(&folder.join("leaderboard.json"), data.to_string())?;
+        write_file(&folder.join("leaderboard.csv"), files::csv(&board))
+    })?;
     Ok(SiteSummary {
         index: out.join("index.html"),
         entries: board.entries.len(),

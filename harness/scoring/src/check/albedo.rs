@@ -18,7 +18,7 @@ const CONSTANT: f64 = 1e-4;
 /// No skin is brighter or darker (luminance of the diffuse albedo).
 const BRIGHTEST_SKIN: f64 = 0.85;
 const DARKEST_SKIN: f64 = 0.004;
-/// Skin beyond which a factor to the pictures tells of an exposure.
+/// The factor to the pictures beyond which the exposure of skin is unlikely.
 const BRIGHT_SKIN: f64 = 0.5;
 const DARK_SKIN: f64 = 0.05;
 /// Factors to the mean projected texture that right albedos keep to with well-exposed pictures:
@@ -152,7 +152,7 @@ impl Colours {
         }
     }
 
-    /// Whether one colour could be the face's: not grey, and near that of the photographs.
+    /// Returns whether one colour could be the face's: not grey, and near that of the photographs.
     fn is_plausible(&self) -> bool {
         let near = |photographs: &Photographs| {
             let Photographs { factor, redness, redness_of_map, .. } = *photographs;
@@ -244,7 +244,7 @@ impl Colours {
 }
 
 impl Photographs {
-    /// None where too little is lit.
+    /// Returns `None` where too little is lit.
     fn of(map: &Reduced, witness: &Witness) -> Option<Self> {
         let Witness { texture, lit, .. } = witness;
         let texels: Vec<usize> =

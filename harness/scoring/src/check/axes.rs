@@ -133,7 +133,7 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
-    /// How normals are written by mistake, the fault's id, and words that name it.
+    /// Wrong conventions of normals, the fault's id, and words that name it.
     type Case<'a> = (&'a dyn Fn(Vec3) -> Vec3, &'a str, &'a str);
 
     /// Normals all around the front, more of them upwards than downwards.

@@ -46,7 +46,7 @@ impl Bands {
                     .collect();
                 let count = texels().count().max(1) as f64;
                 let deviation = (band.iter().map(|v| v * v).sum::<f64>() / count).sqrt();
-                // A constant is no pattern, whatever rounding leaves of it.
+                // A constant has no pattern, whatever rounding leaves of it.
                 let scale = if deviation > 1e-5 { deviation.recip() } else { 0.0 };
                 band.iter_mut().for_each(|v| *v = (*v * scale).clamp(-CLIP, CLIP));
                 planes.push(band);

@@ -85,7 +85,7 @@ pub(super) fn check(map: &GrayImage, witness: Option<&Witness>, findings: &mut V
 pub(super) fn reduced(map: &GrayImage) -> Vec<bool> {
     let data = map.data.iter().map(|value| f32::from(*value)).collect();
     let picture = Picture { width: map.width, height: map.height, channels: 1, data };
-    // Empty texels are no values of the mean, so that a cell is as bright as its covered part;
+    // Empty texels do not count in the mean, so that a cell is as bright as its covered part;
     // half of a cell decides on whether it is covered.
     let reduced = Reduced::of(&Picture {
         data: picture.data.iter().map(|value| value + 1.0).collect(),

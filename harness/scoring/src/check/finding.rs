@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How bad a fault is.
+/// The severity of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
@@ -30,7 +30,7 @@ impl Level {
 pub struct Finding {
     /// The fault, as a program reads it: `flipped-v`.
     pub id: String,
-    /// How bad it is.
+    /// The severity.
     pub level: Level,
     /// The file, or what was found in its place.
     pub map: String,

@@ -27,7 +27,7 @@ pub(super) struct MapFolder {
     pub roughness: Option<Picture>,
     pub confidence: Option<Picture>,
     pub coverage: Option<GrayImage>,
-    /// Whether our solver wrote the folder.
+    /// True if our solver wrote the folder.
     pub own: bool,
 }
 
@@ -88,7 +88,7 @@ fn read_map(path: &Path, channels: &[&str]) -> Result<Picture, PictureError> {
     picture::read_exr_unchecked(path, channels, content)
 }
 
-/// Whether `solve.json` is the record of our solver, with its configuration.
+/// Returns whether `solve.json` is the record of our solver, with its configuration.
 fn is_own(folder: &Path) -> bool {
     let bytes = std::fs::read(folder.join("solve.json")).unwrap_or_default();
     let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();

@@ -31,7 +31,7 @@ use normals::Reference;
 use reduced::Reduced;
 use witness::Witness;
 
-/// Why maps cannot be checked; each message is one line.
+/// An error of a check; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     /// There is no folder of this name.

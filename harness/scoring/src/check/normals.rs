@@ -11,7 +11,7 @@ use super::witness::Witness;
 
 /// Length below which a vector has no direction.
 const ZERO: f32 = 1e-3;
-/// How far the length of a unit vector may be off, and the fraction of texels that may be worse:
+/// The tolerated error of the length of a unit vector, and the fraction of texels that may be worse:
 /// halves and bilinear resizing stay within.
 const LENGTH_OFF: f32 = 0.1;
 const WORSE_FRACTION: f64 = 0.01;
@@ -37,7 +37,7 @@ pub(super) enum Reference<'a> {
     Coverage(Option<&'a [bool]>),
 }
 
-/// How a map holds its vectors.
+/// The encoding of a map's vectors.
 #[derive(Clone, Copy, PartialEq)]
 enum Coding {
     Plain,

@@ -1,4 +1,4 @@
-//! Whether maps lie as they should: the albedo against the photographs, the coverage against the
+//! The orientation of maps: the albedo against the photographs, the coverage against the
 //! chart, and without a capture the maps against their own coverage.
 
 use formats::picture::Picture;
@@ -10,9 +10,9 @@ use super::reduced::{Reduced, SIDE};
 use super::symmetry::Symmetry;
 use super::witness::Witness;
 
-/// A pattern below this correlation is no evidence; right albedos reach .25 to .8.
+/// The least correlation that counts as evidence; right albedos reach 0.25 to 0.8.
 const MIN_CORRELATION: f64 = 0.15;
-/// How much better another way must fit; wrong ways of right albedos reach .1.
+/// The least advantage of another orientation; wrong orientations of right albedos reach 0.1.
 const MIN_GAIN: f64 = 0.12;
 /// By how much more the asymmetric part must correlate when mirrored: right maps lose by .15 to 1,
 /// so that mirrored ones gain that. The whole pattern may then fit worse only by a tie.

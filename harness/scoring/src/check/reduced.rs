@@ -10,7 +10,7 @@ pub(super) struct Reduced {
     pub channels: usize,
     /// Finite wherever `valid`.
     pub data: Vec<f32>,
-    /// Whether the map has a value there: finite, and not zero in all channels.
+    /// True if the map has a value there: finite, and not zero in all channels.
     pub valid: Vec<bool>,
 }
 

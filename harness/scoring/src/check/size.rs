@@ -1,4 +1,4 @@
-//! Sizes of the maps, and values that are no numbers.
+//! Sizes of the maps, and values that are not finite.
 
 use formats::picture::Picture;
 

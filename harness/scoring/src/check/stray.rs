@@ -1,4 +1,4 @@
-//! Files that look like maps under names that nobody reads.
+//! Files that look like maps under names that no program reads.
 
 use std::fs;
 use std::path::Path;
@@ -74,7 +74,7 @@ pub(super) fn stray_files(folder: &Path, findings: &mut Vec<Finding>) {
     files.sort();
     for file in &files {
         let Some(map) = looks_like(file) else { continue };
-        // A preview beside its map harms nobody.
+        // A preview beside its map is harmless.
         if files.iter().any(|other| other == map) {
             continue;
         }

@@ -1,6 +1,6 @@
 //! The eight ways in which a square map can lie.
 
-/// How a map lies against how it should.
+/// The orientation of a map relative to the right one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Symmetry {
     Identity,
@@ -25,7 +25,7 @@ impl Symmetry {
         Self::CounterClockwise,
     ];
 
-    /// Where the map has, as column and row, what belongs to column `x` and row `y`.
+    /// The column and row of the map that hold the value of column `x` and row `y`.
     pub fn source(self, x: usize, y: usize, side: usize) -> (usize, usize) {
         let (far_x, far_y) = (side - 1 - x, side - 1 - y);
         match self {

@@ -29,7 +29,7 @@ pub struct Acceptances {
 pub struct Acceptance {
     /// Pattern of row ids, as on the command line; `*` stands for any text.
     pub rows: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
     /// The last day that it holds, `YYYY-MM-DD`; for good without one.
     #[serde(default)]
@@ -76,7 +76,7 @@ impl Acceptances {
     }
 }
 
-/// Whether a text has the form `YYYY-MM-DD`.
+/// Returns whether a text has the form `YYYY-MM-DD`.
 pub fn is_day(text: &str) -> bool {
     let form =
         |(at, c): (usize, char)| if at == 4 || at == 7 { c == '-' } else { c.is_ascii_digit() };

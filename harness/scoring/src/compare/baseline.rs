@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::CompareError;
+use crate::run::RunFile;
 use crate::score::Scores;
 
 const FORMAT: u32 = 1;
@@ -36,7 +37,7 @@ pub struct Baseline {
     /// Devices that the solver computed on.
     #[serde(default)]
     pub devices: BTreeSet<String>,
-    /// How many runs the values are means of.
+    /// The number of runs that the values are means of.
     #[serde(default = "one")]
     pub runs: u64,
     /// The scores.
@@ -57,7 +58,7 @@ pub struct Captured {
 /// One score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
-    /// None where the metric is not defined.
+    /// The value; none where the metric is not defined.
     pub value: Option<f64>,
     /// 95 % confidence interval.
     pub ci95: Option<[f64; 2]>,
@@ -75,31 +76,6 @@ struct Head<'a> {
     cases: &'a BTreeMap<String, Captured>,
     devices: &'a BTreeSet<String>,
     runs: u64,
-}
-
-/// The part of `run.json` that says where the scores are.
-#[derive(Deserialize)]
-struct Run {
-    suite: String,
-    #[serde(default)]
-    versions: BTreeMap<String, Value>,
-    suite_toml: Option<String>,
-    cases: Vec<Case>,
-}
-
-#[derive(Deserialize)]
-struct Case {
-    id: String,
-    #[serde(rename = "solvers")]
-    methods: Vec<Method>,
-}
-
-#[derive(Deserialize)]
-struct Method {
-    id: String,
-    /// None of a method that failed.
-    scores: Option<String>,
-    maps: Option<String>,
 }
 
 /// The part of a maps folder's `solve.json` that says what computed.
@@ -125,14 +101,13 @@ impl Baseline {
 
     /// Collects the scores of a finished run folder.
     pub fn of_run(run: &Path) -> Result<Self, CompareError> {
-        let path = run.join("run.json");
-        let Run { suite, versions, suite_toml, cases } = parse(&path)?;
+        let RunFile { suite, versions, suite_toml, cases, .. } = RunFile::open(run)?;
         let suite_hash = suite_toml.map(|text| hash_parts(&["suite", &text]));
         let mut baseline = Self { suite_hash, versions, ..Self::new(&suite) };
         for case in &cases {
             for method in &case.methods {
                 let Some(scores) = &method.scores else { continue };
-                let scores = Scores::of_run(run, Path::new(scores))?;
+                let scores = Scores::of_run(run, scores)?;
                 let Scores { face, light, .. } = scores.clone();
                 let captured =
                     Captured { face, light, capture: Some(scores.inputs.capture.clone()) };
@@ -145,7 +120,7 @@ impl Baseline {
                 baseline.add(&format!("{}/{}", case.id, method.id), &scores);
             }
         }
-        baseline.checked(&path)
+        baseline.checked(&run.join("run.json"))
     }
 
     /// The means of runs that differ in their seeds alone, of the rows that have a value in each.

@@ -1,4 +1,4 @@
-//! How far scores move when nothing but seeds, or the last digits, differ, measured on runs: what a change is
+//! The measured spread of scores between runs that differ in their seeds, or in the last digits, alone: a change is
 //! held against.
 
 use std::collections::BTreeMap;
@@ -21,8 +21,8 @@ const POWER: f64 = 0.9;
 /// Confidence with which "same" excludes a change that matters.
 const SAME: f64 = 0.95;
 
-/// A standard deviation below this share of the change that matters is not believed: other processors
-/// round differently.
+/// The lower limit of a standard deviation, as a share of the change that matters: other processors round
+/// differently.
 pub(super) const MIN_RELATIVE_SD: f64 = 0.02;
 
 /// The measured spread of a suite's scores.
@@ -44,7 +44,7 @@ pub struct Calibration {
     pub runs: usize,
     /// Probability that a comparison of two such runs calls any row better or worse.
     pub false_alarms: f64,
-    /// How many standard deviations of a difference are a change; absent if nothing moves.
+    /// The critical value of a difference, in standard deviations; absent if nothing moves.
     #[serde(default)]
     pub critical: Option<f64>,
     /// By row id.
@@ -55,7 +55,7 @@ pub struct Calibration {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
-    /// Whether the other three are of the logarithm: shares of the value, for errors, which chance
+    /// True if the other three are of the logarithm: shares of the value, for errors, which chance
     /// multiplies; else they are in the metric's unit.
     #[serde(default)]
     pub relative: bool,
@@ -84,7 +84,7 @@ impl Calibration {
     pub(super) fn spread(&self, relative: bool, sd: f64, matters: f64) -> Spread {
         let row = Spread { relative, sd, matters, sees: 0.0, power: 0.0 };
         let change = self.limits(&row, 1).change;
-        let of_two = row.believed() * std::f64::consts::SQRT_2;
+        let of_two = row.limited_sd() * std::f64::consts::SQRT_2;
         let normal = Normal::standard();
         let sees = change + normal.inverse_cdf(POWER) * of_two;
         let beyond = |edge: f64| if of_two > 0.0 { normal.sf(edge / of_two) } else { 0.0 };
@@ -93,7 +93,7 @@ impl Calibration {
 
     /// Limits for a run's value against a baseline that is the mean of `baseline_runs` runs.
     pub fn limits(&self, row: &Spread, baseline_runs: u64) -> Limits {
-        let of_difference = row.believed() * (1.0 + 1.0 / baseline_runs.max(1) as f64).sqrt();
+        let of_difference = row.limited_sd() * (1.0 + 1.0 / baseline_runs.max(1) as f64).sqrt();
         // A row that never moved has the critical value of those that did.
         let change = self.critical.unwrap_or(0.0).max(self.student(SAME)) * of_difference;
         Limits { change, same: (row.matters - self.student(SAME) * of_difference).min(change) }
@@ -163,7 +163,7 @@ impl Calibration {
             .map_err(|error| CompareError::io(path, error))
     }
 
-    /// Why the file cannot be used, if so.
+    /// The reason why the file cannot be used, if there is one.
     pub(super) fn fault(&self) -> Option<String> {
         let amount = |value: f64| value.is_finite() && value >= 0.0;
         if self.runs < MIN_RUNS {
@@ -181,7 +181,7 @@ impl Calibration {
 }
 
 impl Spread {
-    /// How far two values are from one another, as the other numbers are.
+    /// The distance of two values, in the unit of the other numbers.
     pub fn distance(&self, old: f64, new: f64) -> f64 {
         match self.relative {
             _ if old == new => 0.0,
@@ -197,7 +197,7 @@ impl Spread {
         if self.relative { old.abs() * distance.exp_m1() } else { distance }
     }
 
-    fn believed(&self) -> f64 {
+    fn limited_sd(&self) -> f64 {
         self.sd.max(MIN_RELATIVE_SD * self.matters)
     }
 }

@@ -23,11 +23,11 @@ const ORACLE: &str = "oracle";
 /// A group of rows that changed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// Whether it is a regression.
+    /// True if it is a regression.
     pub worse: bool,
     /// The change, in one sentence.
     pub sentence: String,
-    /// Whose scores they are.
+    /// The method of the scores.
     pub method: String,
     /// Subject of the scores.
     pub subject: String,
@@ -141,7 +141,7 @@ impl Comparison {
     }
 }
 
-/// Whether a group says something of the pipeline rather than of a method.
+/// Returns whether a group says something of the pipeline rather than of a method.
 fn is_pipeline((method, subject): &(&str, &str)) -> bool {
     *method == ORACLE || subject.starts_with("mesh_") || subject.starts_with("constant_")
 }

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use super::baseline::Baseline;
 use super::tolerance::Tolerances;
 
-/// How many names are spelt out.
+/// The number of names that are spelt out.
 const NAMED: usize = 3;
 
-/// Each difference in words; what a baseline of an earlier version does not say is no difference.
+/// Each difference in words; values that a baseline of an earlier version lacks are not compared.
 pub(super) fn differences(
     current: &Baseline,
     baseline: &Baseline,

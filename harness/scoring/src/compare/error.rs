@@ -4,9 +4,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::metrics::MetricError;
+use crate::run::RunFileError;
 use crate::score::ScoreError;
 
-/// Why there is no verdict; each message is one line.
+/// An error of a comparison; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
     /// A file cannot be read or written.
@@ -46,7 +47,7 @@ pub enum CompareError {
     NothingInCommon {
         /// The file of scores.
         scores: PathBuf,
-        /// What it has and what the other side has, in words.
+        /// The contents of both sides, in words.
         clash: String,
     },
     /// Nothing of the two is the same.
@@ -65,9 +66,9 @@ pub enum CompareError {
         "{runs} runs are too few to measure a spread; give at least {minimum} that differ in their seeds"
     )]
     FewRuns {
-        /// How many there are.
+        /// The number of runs.
         runs: usize,
-        /// How many it takes.
+        /// The number that is needed.
         minimum: usize,
     },
     /// The spread on kept captures says nothing of others.
@@ -88,7 +89,7 @@ pub enum CompareError {
         reason: String,
     },
     /// A date that is none.
-    #[error("--until {0}: is no day; write YYYY-MM-DD")]
+    #[error("--until {0}: is not a date; write YYYY-MM-DD")]
     Day(String),
     /// An acceptance of nothing.
     #[error("--accept {0}: no row that is worse or missing matches; * stands for any text")]
@@ -101,9 +102,12 @@ pub enum CompareError {
     Metric {
         /// The row.
         id: String,
-        /// Which metric.
+        /// The error of the metric.
         source: MetricError,
     },
+    /// The run's manifest cannot be used.
+    #[error(transparent)]
+    Run(#[from] RunFileError),
     /// A scores file of the run is broken.
     #[error(transparent)]
     Scores(#[from] ScoreError),

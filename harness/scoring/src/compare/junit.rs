@@ -7,7 +7,7 @@ use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use super::CompareError;
 use super::verdict::{Comparison, Judged, Verdict};
 
-/// Where the suite states a case: a file, and its line from 1.
+/// The places at which the suite states its cases: a file, and its line from 1.
 pub type Places = BTreeMap<String, (String, usize)>;
 
 impl Comparison {
@@ -28,11 +28,11 @@ impl Comparison {
                 Verdict::CannotTell => TestCaseStatus::skipped(),
                 _ => TestCaseStatus::success(),
             };
-            let said = row.explained();
+            let text = row.explained();
             let success = matches!(status, TestCaseStatus::Success { .. });
             if !success {
                 status.set_type(row.verdict.word());
-                status.set_message(said.clone());
+                status.set_message(text.clone());
             }
             let mut case = TestCase::new(name, status);
             case.set_classname(method);
@@ -41,7 +41,7 @@ impl Comparison {
                 case.extra.insert("line".into(), line.to_string().into());
             }
             if success {
-                case.set_system_out(format!("{}: {said}", row.verdict.word()));
+                case.set_system_out(format!("{}: {text}", row.verdict.word()));
             }
             if suites.last().is_none_or(|suite| suite.name.as_str() != method) {
                 suites.push(TestSuite::new(method));

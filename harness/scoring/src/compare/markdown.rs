@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::verdict::{Comparison, Judged, VERDICTS, Verdict};
+use crate::tables::markdown_text;
 
 /// Rows that are spelt out; a comment of GitHub holds 65536 characters.
 const SHOWN: usize = 150;
@@ -10,13 +11,13 @@ const SHOWN: usize = 150;
 impl Comparison {
     /// The page. Its first line is a comment by which a script finds it again.
     pub fn markdown(&self) -> String {
-        let suite = escaped(&self.suite);
+        let suite = markdown_text(&self.suite);
         let mut text = format!("<!-- unshade compare: {suite} -->\n");
         let mark = if self.passed() { "✅" } else { "❌" };
         // Writing to a string cannot fail.
         let _ = writeln!(text, "### {mark} unshade, {suite}: {}\n", self.outcome());
         if let Some(line) = self.unlike() {
-            let _ = writeln!(text, "**{}**\n", escaped(&line));
+            let _ = writeln!(text, "**{}**\n", markdown_text(&line));
         }
         for finding in self.findings() {
             let word = if finding.worse { "**worse:**" } else { "better:" };
@@ -47,7 +48,7 @@ impl Comparison {
                     value(row.baseline),
                     value(row.current),
                     row.allowed,
-                    escaped(&row.reason)
+                    markdown_text(&row.reason)
                 );
             }
             if let Some(more) = moved.len().checked_sub(SHOWN).filter(|more| *more > 0) {
@@ -55,7 +56,7 @@ impl Comparison {
             }
             text.push_str("\n</details>\n\n");
         }
-        let _ = writeln!(text, "<sub>{}</sub>", escaped(&self.tolerances));
+        let _ = writeln!(text, "<sub>{}</sub>", markdown_text(&self.tolerances));
         text
     }
 
@@ -71,17 +72,4 @@ impl Comparison {
             "findings": self.findings(), "rows": self.rows,
         })
     }
-}
-
-/// A text in which nothing is markup or the end of a cell.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for c in text.chars() {
-        match c {
-            '\n' | '\r' => escaped.push(' '),
-            '|' | '*' | '_' | '`' | '<' | '>' | '[' | ']' | '\\' => escaped.extend(['\\', c]),
-            _ => escaped.push(c),
-        }
-    }
-    escaped
 }

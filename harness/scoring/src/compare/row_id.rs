@@ -8,13 +8,13 @@ use crate::metrics::Metric;
 pub struct RowId<'a> {
     /// A face in a light in a variant.
     pub case: &'a str,
-    /// Who made the maps.
+    /// The method that made the maps.
     pub method: &'a str,
     /// Subject, such as `diffuse_albedo` or `relit`.
     pub subject: &'a str,
     /// The light that it is relit in.
     pub light: Option<&'a str>,
-    /// How it is measured.
+    /// The metric.
     pub metric: &'static Metric,
     /// `<region>[.<label>]:<scale>`.
     pub place: &'a str,
@@ -33,12 +33,12 @@ impl<'a> RowId<'a> {
         Ok(Self { case, method, subject, light: parts.next(), metric, place })
     }
 
-    /// Whether the score has no factor on the albedo, or has none to have.
+    /// Returns whether the score has no factor on the albedo, or has none to have.
     pub fn is_unscaled(&self) -> bool {
         self.place.ends_with(":none")
     }
 
-    /// Whether it is of the whole region and not of a part of the face.
+    /// Returns whether it is of the whole region and not of a part of the face.
     pub fn is_whole(&self) -> bool {
         !self.place.contains('.')
     }

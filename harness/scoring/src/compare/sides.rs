@@ -92,7 +92,7 @@ fn captured(scores: &Scores) -> Captured {
     Captured { face, light, capture: Some(scores.inputs.capture.clone()) }
 }
 
-/// What a run has of the method and capture of `scores`; paths are those of the scores and of the run.
+/// Reduces a run to the method and capture of `scores`; the paths are those of the scores and of the run.
 fn part(
     whole: Baseline,
     scores: &Scores,

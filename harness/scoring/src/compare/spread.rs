@@ -1,7 +1,7 @@
-//! How far the largest of many scores strays by chance: the critical value of a comparison.
+//! The critical value of a comparison: the distance that the largest of many scores strays by chance.
 //!
 //! The scores of a run hang together (an albedo that is off moves its PSNR, its colour difference and
-//! every relit picture), so that one hundred rows are no hundred independent chances of a false alarm.
+//! every relit picture), so that one hundred rows are not a hundred independent chances of a false alarm.
 //! The distribution of the largest studentised difference is simulated from the runs themselves: normal
 //! runs with the correlation that the seeds showed, shrunk towards independence (Schäfer and Strimmer
 //! 2005) because few runs show too much of it. Some runs are further off than a normal one in all that
@@ -29,7 +29,7 @@ const CHUNK: usize = 250;
 pub(super) struct Column {
     /// Deviations from their mean over their standard deviation.
     standard: Vec<f64>,
-    /// The least standard deviation that is believed, in standard deviations of the row.
+    /// The lower limit of the standard deviation, in standard deviations of the row.
     floor: f64,
 }
 
@@ -106,7 +106,7 @@ fn largest(columns: &[Column], tails: Option<usize>, shrinkage: f64, normal: &mu
     largest
 }
 
-/// How much of the correlation is taken for chance: the sum over pairs of rows of a correlation's
+/// The shrinkage of the correlation towards zero: the sum over pairs of rows of a correlation's
 /// variance, (1 - r²)² / (runs - 1) of normal values, over that of its square.
 fn shrinkage(columns: &[Column]) -> f64 {
     let degrees = columns.first().map_or(1, |column| column.standard.len() - 1) as f64;

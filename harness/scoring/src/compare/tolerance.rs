@@ -1,4 +1,4 @@
-//! How far a score may move before it counts.
+//! The tolerances of scores.
 
 use std::fs;
 use std::path::Path;
@@ -41,10 +41,10 @@ pub struct Rule {
     /// Allowed change as a share of the baseline's value; both allowances add.
     #[serde(default)]
     pub relative: f64,
-    /// Whether a change for the better is a regression too (calibration constants).
+    /// True if a change for the better is a regression too (calibration constants).
     #[serde(default)]
     pub either_way: bool,
-    /// Why this much.
+    /// The reason of the tolerance.
     pub reason: String,
 }
 
@@ -107,13 +107,13 @@ impl Tolerances {
 }
 
 impl Rule {
-    /// How far a value may be from the baseline's.
+    /// The largest distance of a value from the baseline's that is tolerated.
     pub fn allowed(&self, baseline: f64) -> f64 {
         self.absolute + self.relative * baseline.abs()
     }
 }
 
-/// Whether `text` has the form of `pattern`, in which `*` stands for any text.
+/// Returns whether `text` has the form of `pattern`, in which `*` stands for any text.
 pub(super) fn matches(pattern: &str, text: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == text,

@@ -42,7 +42,7 @@ pub const VERDICTS: [Verdict; 7] = [
 ];
 
 impl Verdict {
-    /// Whether it fails the comparison.
+    /// Returns whether it fails the comparison.
     pub fn is_regression(self) -> bool {
         matches!(self, Self::Worse | Self::Missing)
     }
@@ -72,13 +72,13 @@ pub struct Judged {
     pub baseline: Option<f64>,
     /// The run's value.
     pub current: Option<f64>,
-    /// How far it may move.
+    /// The largest change that is tolerated.
     pub allowed: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// Why it may move so far, or why the change was accepted.
+    /// The reason of the tolerance, or of the acceptance.
     pub reason: String,
-    /// Whether `allowed` is from a measured spread and not from a reasoned tolerance.
+    /// True if `allowed` is from a measured spread and not from a default tolerance.
     pub measured: bool,
 }
 
@@ -163,7 +163,7 @@ struct RowLimits<'a> {
     /// A smaller one is none.
     same: f64,
     either_way: bool,
-    /// None where the limits are reasoned.
+    /// The measured spread; none where the limits are default tolerances.
     measured: Option<&'a Spread>,
 }
 
@@ -191,7 +191,7 @@ fn limits<'a>(
 impl RowLimits<'_> {
     fn weigh(&self, metric: &Metric, old: f64, new: f64) -> Verdict {
         let gain = metric.direction.gain(old, new);
-        // A reasoned tolerance judges the gain, a measured one whether the number moved at all.
+        // A default tolerance judges the gain, a measured one whether the number moved at all.
         let moved = match self.measured {
             Some(row) => row.distance(old, new),
             None if self.either_way => (new - old).abs(),
@@ -207,7 +207,7 @@ impl RowLimits<'_> {
         }
     }
 
-    /// How far the metric may move, in its unit.
+    /// The largest change of the metric that is tolerated, in its unit.
     fn allowed(&self, baseline: Option<f64>) -> f64 {
         match (self.measured, baseline) {
             (Some(row), Some(old)) => row.in_unit(self.change, old),
@@ -250,7 +250,7 @@ impl Judged {
         }
     }
 
-    /// How many times the allowance it moved.
+    /// The change as a multiple of the tolerance.
     pub(super) fn severity(&self) -> f64 {
         match (self.baseline, self.current) {
             (Some(old), Some(new)) if self.allowed > 0.0 => (new - old).abs() / self.allowed,
@@ -261,12 +261,12 @@ impl Judged {
 }
 
 impl Comparison {
-    /// Whether nothing is worse or missing.
+    /// Returns whether nothing is worse or missing.
     pub fn passed(&self) -> bool {
         !self.rows.iter().any(|row| row.verdict.is_regression())
     }
 
-    /// How many scores have a verdict.
+    /// The number of scores with a verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.rows.iter().filter(|row| row.verdict == verdict).count()
     }

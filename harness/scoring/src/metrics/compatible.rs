@@ -6,7 +6,7 @@ use super::Pair;
 use super::colour::{luminance, srgb};
 use super::pair::triple;
 
-/// Whose protocol.
+/// The publication whose protocol is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Protocol {
     /// Stanford-ORB's PSNR-H: one factor per channel, linear values up to 4, the exposure that makes
@@ -137,7 +137,7 @@ fn absolute_error(p: &[f64], g: &[f64], factor: f64) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
-/// Where a function has its minimum: the best of a scan, then a golden-section search around it.
+/// Minimises a function: the best of a scan, then a golden-section search around it.
 fn argmin(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const STEPS: usize = 32;
     let at = |step: usize| low + (high - low) * step as f64 / STEPS as f64;

@@ -1,4 +1,4 @@
-//! How far errors of neighbouring pixels belong together, which decides the blocks of the bootstrap.
+//! The correlation length of errors of neighbouring pixels, from which the blocks of the bootstrap follow.
 
 use super::Region;
 

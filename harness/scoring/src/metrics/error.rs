@@ -1,6 +1,6 @@
 //! Reasons why a metric has no value.
 
-/// Why a metric has no value; each message is one line.
+/// An error of a metric; each message is one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MetricError {
     /// There is nothing to average over.
@@ -14,11 +14,11 @@ pub enum MetricError {
         "{what} is {found_width}x{found_height}, the truth {width}x{height}; resample it first"
     )]
     Size {
-        /// Which picture differs.
+        /// The picture that differs.
         what: &'static str,
-        /// Its columns.
+        /// The columns.
         found_width: usize,
-        /// Its rows.
+        /// The rows.
         found_height: usize,
         /// The truth's columns.
         width: usize,
@@ -40,7 +40,7 @@ pub enum MetricError {
         "the {what} is {value} at column {x}, row {y}, channel {channel}; fix or mask the pixel"
     )]
     NotFinite {
-        /// Which picture.
+        /// The picture.
         what: &'static str,
         /// NaN, inf or -inf.
         value: f32,
@@ -76,7 +76,7 @@ pub enum MetricError {
     /// A metric that a user wrote is stated wrongly.
     #[error("metric {id:?}: {reason}")]
     Own {
-        /// Its id.
+        /// The id.
         id: String,
         /// The fault and its fix.
         reason: String,

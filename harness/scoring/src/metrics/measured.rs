@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::{Metric, Quantity};
 
-/// What `measure` makes of the quantity of every metric, on all cores. Metrics of one quantity (FLIP's mean and
+/// Applies `measure` to the quantity of every metric, on all cores. Metrics of one quantity (FLIP's mean and
 /// percentile, all of the angle) share it.
 pub fn measured<T: Send, E: Send>(
     metrics: &[&'static Metric],

@@ -22,7 +22,7 @@ pub struct OwnMetric {
     pub direction: String,
     /// The formula in words.
     pub definition: String,
-    /// Where it is defined, or empty.
+    /// A link to its definition, or empty.
     pub link: String,
     /// Subjects that it is scored of: `view`, `relit`, or maps.
     pub of: Vec<String>,

@@ -77,14 +77,14 @@ impl<'a> Pair<'a> {
         Ok(self)
     }
 
-    /// How far the method trusts each pixel of its prediction, one channel, larger for more.
+    /// The method's confidence in each pixel of its prediction, one channel, larger for more.
     pub fn with_confidence(mut self, confidence: &'a Picture) -> Result<Self, MetricError> {
         self.check_values("confidence", confidence)?;
         self.confidence = Some(confidence);
         Ok(self)
     }
 
-    /// How much surface lies in each texel, one channel, any unit.
+    /// The surface area of each texel, one channel, any unit.
     pub fn with_area(mut self, area: &'a Picture) -> Result<Self, MetricError> {
         self.check_values("area", area)?;
         self.area = Some(area);

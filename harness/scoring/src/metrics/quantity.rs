@@ -58,7 +58,7 @@ pub enum Quantity {
     ColourAngle,
     /// Difference of the log luminances.
     LogError,
-    /// Its square.
+    /// The square of the preceding quantity.
     SquaredLogError,
     /// (Log luminance of p, of g), of what lies between Gaussians of so many texels and of twice that.
     Band(u8),
@@ -70,13 +70,13 @@ pub enum Quantity {
     AreaAngle,
     /// The squared error of another benchmark's protocol.
     Compatible(Protocol),
-    /// What a network sees in both, which is computed elsewhere.
+    /// A network's distance of the pictures, which is computed elsewhere.
     Perceptual,
     /// A user's function, which is called elsewhere.
     Own,
 }
 
-/// Where the truth is flat: within this of the mesh's normal, degrees.
+/// The truth is flat within this angle of the mesh's normal, degrees.
 const FLAT_DEGREES: f64 = 0.5;
 
 impl Quantity {
@@ -332,7 +332,7 @@ fn signed_log_errors(pair: &Pair) -> impl Iterator<Item = f64> {
     x.iter().zip(y).map(|(x, y)| x - y)
 }
 
-/// None without halves. The other half of a picture is what its mean has beside the first.
+/// The two halves of a picture's samples; `None` without them. The second half is the mean less the first.
 fn cross_products(pair: &Pair, curve: fn(f64) -> f64) -> Option<Vec<f64>> {
     let [half_p, half_g] = pair.halves?;
     let channels = pair.truth.channels;

@@ -1,4 +1,4 @@
-//! Where a metric is evaluated.
+//! The pixels at which a metric is evaluated.
 
 use formats::picture::{GrayImage, Picture};
 
@@ -46,7 +46,7 @@ impl Region {
         })
     }
 
-    /// What erosion takes from a mask: the foreground within two pixels of its edge.
+    /// The rim that erosion takes from a mask: the foreground within two pixels of its edge.
     pub fn rim(name: &str, mask: &GrayImage) -> Result<Self, MetricError> {
         let kept = Self::eroded(name, mask)?.pixels;
         Self::new(name, mask.width, mask.height, |i| {
@@ -60,7 +60,7 @@ impl Region {
         Self::of_pixels(name, self.width, self.height, pixels)
     }
 
-    /// Its name, as a row of the scores carries it.
+    /// The name, as a row of the scores carries it.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -9,19 +9,19 @@ use super::quantity::Quantity as Q;
 use super::statistic::Statistic as S;
 use super::{MetricError, Pair};
 
-/// Which values are better.
+/// The direction in which values improve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Higher ones.
     Higher,
     /// Lower ones.
     Lower,
-    /// Those near one.
+    /// Values near one are better.
     One,
 }
 
 impl Direction {
-    /// How much better `new` is than `old`; negative if worse, in the metric's unit.
+    /// The gain of `new` over `old` in the metric's unit; negative if worse.
     pub fn gain(self, old: f64, new: f64) -> f64 {
         match self {
             Self::Higher => new - old,
@@ -49,11 +49,11 @@ pub struct Metric {
     pub name: &'static str,
     /// Empty for a pure number.
     pub unit: &'static str,
-    /// Which values are better.
+    /// The direction in which values improve.
     pub direction: Direction,
     /// Formula in full; p is the prediction, g the truth.
     pub definition: &'static str,
-    /// Where it is defined.
+    /// A link to its definition.
     pub link: &'static str,
     /// Per pixel.
     pub quantity: Q,
@@ -296,7 +296,7 @@ pub(crate) mod scored {
         ["psnr_srgb", "psnr_lin", "relmse", "ssim", "flip_mean", "flip_p95"];
     /// Metrics of a layer of it.
     pub(crate) const LAYER: [&str; 4] = ["psnr_srgb", "psnr_lin", "pearson", "energy_ratio"];
-    /// Of a specular layer whose true specular albedo is one number.
+    /// The metrics of a specular layer whose true specular albedo is constant.
     pub(crate) const LAYER_OF_ONE_ALBEDO: [&str; 3] = ["psnr_srgb", "psnr_lin", "pearson"];
 }
 

@@ -15,7 +15,7 @@ pub struct Scale {
     pub median: [f64; 3],
 }
 
-/// How a prediction is scaled before it is compared.
+/// The scaling of a prediction before it is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScaleMode {
     /// Not at all.

@@ -1,8 +1,8 @@
-//! What several metrics of a pair need, computed when the first of them asks.
+//! Values that several metrics of a pair need, computed on first use.
 
 use std::sync::OnceLock;
 
-/// Of prediction and truth.
+/// A value of the prediction and one of the truth.
 pub(super) type Both<T> = [Vec<T>; 2];
 
 /// Nothing that is made in here may wait for other threads: one that waits for a value could be handed its making.

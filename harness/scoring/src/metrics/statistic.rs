@@ -1,4 +1,4 @@
-//! How per-pixel values become one number, over any number of pictures, with its confidence
+//! Statistics that reduce per-pixel values of any number of pictures to one number, with its confidence
 //! interval.
 
 use std::ops::Range;
@@ -21,7 +21,7 @@ const BINS: usize = 1024;
 /// So many of them are added up together, until it is known which of these groups the quantile lies in.
 const GROUP: usize = 32;
 
-/// How the values of a region are summarised.
+/// The summary of the values of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Statistic {
     /// Mean of x.
@@ -49,7 +49,7 @@ pub enum Statistic {
     Ratio,
     /// Pearson correlation of x and y.
     Correlation,
-    /// Its square: the share of the variance of x that a line in y explains.
+    /// The squared correlation: the share of the variance of x that a line in y explains.
     Explained,
     /// Slope of the line in y that fits x best: covariance of both over the variance of y.
     Slope,
@@ -110,7 +110,7 @@ impl Statistic {
     /// The 95 % interval of a bootstrap over blocks of neighbouring pixels, pooled over the
     /// pictures; `None` with fewer than two blocks.
     ///
-    /// It covers which part of the face was seen, not other faces, lights or seeds.
+    /// The interval covers the choice of the visible part of the face, not other faces, lights or seeds.
     pub fn interval(self, samples: &[Sample]) -> Option<[f64; 2]> {
         if let Self::Quantile(fraction) = self {
             return quantile_interval(samples, fraction);

@@ -1,4 +1,4 @@
-//! How much of a light the mesh keeps from its own surface.
+//! Cast shadows: the share of a light that the mesh blocks from its own surface.
 
 use capture::Mesh;
 use capture::gbuffer::Atlas;
@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use super::light_cells::CellLight;
 use crate::metrics::luminance;
 
-/// What the darkest cells bring together, of all light, without a ray.
+/// The share of all light, of the darkest cells together, that gets no ray.
 const LEFT_OUT: f64 = 0.01;
-/// How far rays start above the surface, of the longest side of the mesh's box: what solvers take.
+/// The height above the surface at which rays start, as a share of the longest side of the mesh's box; as in solvers.
 const LIFT: f32 = 1.6e-3;
 
 /// Directions with their luminance, the brightest first, without those that together bring next to nothing.

@@ -1,4 +1,4 @@
-//! Whether a solver's own trust in its texels means something: a foreign solver may leave none.
+//! The correlation of a solver's confidence with its errors; another's solver may leave no confidence.
 
 use std::path::Path;
 

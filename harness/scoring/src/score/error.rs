@@ -8,7 +8,7 @@ use formats::picture::PictureError;
 
 use crate::metrics::MetricError;
 
-/// Why there are no scores; each message is one line.
+/// An error of scoring; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum ScoreError {
     /// The capture has neither a truth nor withheld photographs.
@@ -37,9 +37,9 @@ pub enum ScoreError {
     Size {
         /// The file.
         path: PathBuf,
-        /// Its columns.
+        /// The columns.
         found_width: usize,
-        /// Its rows.
+        /// The rows.
         found_height: usize,
         /// Columns expected.
         width: usize,
@@ -66,7 +66,7 @@ pub enum ScoreError {
     Metric {
         /// The subject, as in row ids.
         subject: String,
-        /// Why.
+        /// The reason.
         source: MetricError,
     },
     /// A method relit in a light that the capture does not have.
@@ -79,8 +79,8 @@ pub enum ScoreError {
         /// The lights that there are.
         known: String,
     },
-    /// A run was interrupted, or goes on elsewhere.
-    #[error("{run}: is not finished, {file} is missing; the same `unshade run` goes on from there")]
+    /// A run was interrupted, or is still running.
+    #[error("{run}: is not finished, {file} is missing; the same `unshade run` resumes it")]
     Unfinished {
         /// The run's folder.
         run: PathBuf,

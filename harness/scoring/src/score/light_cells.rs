@@ -24,7 +24,7 @@ pub(super) struct CellLight {
     moments: Vec<DVec3>,
 }
 
-/// Where the rows of a lat-long picture lie; d = (sin t sin p, cos t, -sin t cos p) for both.
+/// The places of the rows of a lat-long picture; d = (sin t sin p, cos t, -sin t cos p) for both.
 #[derive(Clone, Copy)]
 pub(super) enum RowsAt {
     /// The first and the last on the poles, as the truth's.
@@ -95,7 +95,7 @@ impl CellLight {
         row * COLUMNS + column.min(COLUMNS - 1)
     }
 
-    /// Its brightest directions, the brightest first: where the light within a cone is most, far
+    /// The brightest directions, the brightest first: the maxima of the light within a cone, far
     /// enough apart, each the mean direction of its cone's light.
     pub fn peaks(&self) -> Vec<DVec3> {
         let directions: Vec<DVec3> = (0..ROWS * COLUMNS).map(Self::direction).collect();

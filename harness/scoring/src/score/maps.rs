@@ -85,7 +85,7 @@ pub(super) fn fit(albedo: &Picture, truth: &Truth) -> Result<Scale, ScoreError> 
         .map_err(ScoreError::of("diffuse_albedo"))
 }
 
-/// How much of the truth the map regions are, and how much of it the solver claims.
+/// The sizes of the map regions, and the parts of them that the solver claims.
 pub(super) fn region_size(truth: &Truth, claimed: Option<&GrayImage>) -> RegionSize {
     let (width, height) = truth.region.size();
     let inside = truth.region.pixels();

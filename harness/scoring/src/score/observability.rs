@@ -1,4 +1,4 @@
-//! What a capture could determine of every texel: how many views see it and how obliquely, how much light it gets,
+//! The observability of every texel in a capture: how many views see it and how obliquely, how much light it gets,
 //! how much of that the face itself blocks, and how many of its pictures are clipped.
 
 use std::fs;
@@ -41,7 +41,7 @@ pub struct Observability {
 }
 
 impl Observability {
-    /// Of a capture that was rendered.
+    /// Computes the observability of a rendered capture.
     ///
     /// # Errors
     /// If the capture or its truth lacks a file, or one of them is broken.

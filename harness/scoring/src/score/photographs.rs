@@ -1,5 +1,5 @@
 //! Scores without a truth: of a capture that was photographed, its withheld photographs are what
-//! the networks' views and the relit maps are held against. Nothing is said of the maps alone.
+//! the networks' views and the relit maps are held against. The maps alone are not scored.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use crate::check::check;
 /// The light that a method found, in which its maps are relit to be held against photographs.
 pub const FOUND_LIGHT: &str = "found";
 
-/// Whether a capture is one without a truth.
+/// Returns whether a capture is one without a truth.
 pub fn is_photographed(capture: &Path) -> bool {
     !capture.join("truth").is_dir() && capture.join("transforms.json").is_file()
 }

@@ -48,7 +48,7 @@ impl Frame {
         self.region.pixels()
     }
 
-    /// How much of its mask is compared.
+    /// The compared part of its mask.
     pub fn region_size(&self) -> RegionSize {
         let name = format!("{}/{}", self.region.name(), self.name);
         RegionSize::new(&self.region, &name, &self.mask, None)

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 /// Renderer, in `relit.json`, of pictures that a method relit itself.
 pub(super) const OWN: &str = "own";
 
-/// How numbers were made; changes of meaning get another id.
+/// The protocol of the numbers; changes of meaning get another id.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Protocol {
-    /// Its name.
+    /// The name.
     pub id: String,
-    /// Its rules, in sentences.
+    /// The rules, in sentences.
     pub statements: Vec<String>,
 }
 

@@ -32,13 +32,13 @@ pub struct Scores {
     pub light: String,
     /// Name of the solver.
     pub solver: String,
-    /// How the numbers were made.
+    /// The protocol of the numbers.
     pub protocol: Protocol,
     /// Hashes of what was scored.
     pub inputs: Inputs,
     /// Factors that align the diffuse albedo; none without one.
     pub scale: Option<Scale>,
-    /// How much of the truth each region is.
+    /// The size of each region.
     pub regions: Vec<RegionSize>,
     /// Likely faults of the maps; absent of sound ones.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -61,14 +61,14 @@ pub struct Inputs {
     pub relit: Option<String>,
 }
 
-/// How much a region holds.
+/// The size of a region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegionSize {
     /// As in row ids; pictures name their frame: `mask-e5/010`.
     pub region: String,
-    /// Its pixels.
+    /// The pixels.
     pub pixels: usize,
-    /// Its share of the mask before the erosion.
+    /// The region's share of the mask before the erosion.
     pub share: f64,
     /// Share of it for which the solver says that it had data; none if it does not say.
     pub solved: Option<f64>,
@@ -100,7 +100,7 @@ pub struct Row {
     pub metric: String,
     /// `none`, `global`, `channel` or `median`.
     pub scale: String,
-    /// Where it is compared.
+    /// The region of the comparison.
     pub region: String,
     /// Part of the face; none for all of it.
     pub label: Option<String>,

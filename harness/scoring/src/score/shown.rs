@@ -22,15 +22,15 @@ pub struct Shown {
     pub light: Option<String>,
     /// `none` or `global`.
     pub scale: String,
-    /// Its name; empty for a map.
+    /// The name of the view; empty for a map.
     pub frame: String,
     /// The method's picture, a linear EXR.
     pub picture: PathBuf,
     /// The true one, or the photograph.
     pub truth: PathBuf,
-    /// What is compared, before the erosion.
+    /// The mask of the compared pixels, before the erosion.
     pub mask: PathBuf,
-    /// What the method's values are multiplied with first.
+    /// The factor that the method's values are multiplied with first.
     pub factor: f64,
 }
 

@@ -22,7 +22,7 @@ const LEAST_VARIATION: f64 = 0.01;
 /// The id of skin.
 pub(super) const SKIN: u8 = LABELS[0].0;
 
-/// Whether the true specular albedo differs from texel to texel. Where it does not, the energy of the specular layer
+/// The variation of the true specular albedo over texels. Where it is constant, the energy of the specular layer
 /// says no more than the one number that a method took for it over the true one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Highlights {
@@ -84,7 +84,7 @@ impl Truth {
         Ok(truth)
     }
 
-    /// Whether its specular albedo has a relative standard deviation of more than a hundredth.
+    /// Returns whether its specular albedo has a relative standard deviation of more than a hundredth.
     pub fn highlights(&self) -> Highlights {
         let values =
             || self.region.pixels().iter().map(|at| f64::from(self.specular_albedo.data[*at]));
@@ -124,7 +124,7 @@ pub(super) struct Identity {
     pub face: String,
     /// The light's name.
     pub light: String,
-    /// How it is to be scored.
+    /// The protocol of its scores.
     pub protocol: Protocol,
 }
 

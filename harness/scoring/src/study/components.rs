@@ -13,7 +13,7 @@ use super::figures::{Figure, faces};
 /// Each is that of what is seen, and so holds what lies below it: views and seeds too.
 #[derive(Clone, Debug, Serialize)]
 pub struct Components {
-    /// Which scores.
+    /// The figure.
     #[serde(flatten)]
     pub figure: Figure,
     /// The method.

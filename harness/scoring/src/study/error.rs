@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::FolderError;
 
+use crate::run::RunFileError;
 use crate::score::ScoreError;
 
-/// Why there is no study; each message is one line.
+/// An error of a study; each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A file cannot be read or written.
@@ -39,6 +40,9 @@ pub enum StudyError {
         /// The method.
         method: String,
     },
+    /// A run's manifest cannot be used.
+    #[error(transparent)]
+    Run(#[from] RunFileError),
     /// A scores file of a run is broken.
     #[error(transparent)]
     Scores(#[from] ScoreError),

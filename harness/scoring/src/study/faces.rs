@@ -20,7 +20,7 @@ pub struct Cell {
 /// A face with all of its scores of one figure and method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
-    /// Its name.
+    /// The name.
     pub name: String,
     /// At least one.
     pub cells: Vec<Cell>,
@@ -124,7 +124,7 @@ pub fn pooled_decibels(faces: &[Face]) -> (f64, Option<[f64; 2]>) {
     )
 }
 
-/// How far the mean of views drawn with replacement is from that of all.
+/// The difference between the mean of views drawn with replacement and that of all.
 fn shift(random: &mut Pcg64Mcg, views: &[f64]) -> f64 {
     if views.len() < 2 {
         return 0.0;

@@ -25,7 +25,7 @@ pub fn group_of(angle: f64) -> &'static str {
 /// A figure of a method by group of skin tone.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fairness {
-    /// Which scores.
+    /// The figure.
     #[serde(flatten)]
     pub figure: Figure,
     /// The method.
@@ -34,9 +34,9 @@ pub struct Fairness {
     pub groups: Vec<Group>,
     /// The group with the worst mean; none of a single group.
     pub worst: Option<&'static str>,
-    /// How much better the best group's mean is than the worst's; none of a single group.
+    /// The gain of the best group's mean over the worst's; none of a single group.
     pub gap: Option<f64>,
-    /// Its 95 % interval, of two faces or more in both. The two groups are chosen by what is seen,
+    /// The 95 % interval, of two faces or more in both. The two groups are chosen by what is seen,
     /// so that it is too hopeful of finding a gap.
     pub gap_ci95: Option<[f64; 2]>,
     /// Standard deviation of the groups' means (n): of `ita_error` the bias of the FAIR benchmark;
@@ -47,9 +47,9 @@ pub struct Fairness {
 /// The faces of a group.
 #[derive(Clone, Debug, Serialize)]
 pub struct Group {
-    /// Its name.
+    /// The name.
     pub group: &'static str,
-    /// How many.
+    /// The number of faces.
     pub faces: usize,
     /// Mean over faces.
     pub mean: f64,

@@ -19,11 +19,11 @@ pub struct Figure {
     pub relit_in: Option<&'static str>,
     /// Id of the metric.
     pub metric: String,
-    /// Where it is compared.
+    /// The region of the comparison.
     pub region: String,
     /// Part of the face; none for all of it.
     pub label: Option<String>,
-    /// How the prediction was scaled.
+    /// The scaling of the prediction.
     pub scale: String,
 }
 
@@ -45,12 +45,12 @@ const KEY: [(&str, Option<&str>, &str, &str); 14] = [
     ("light", None, "log_rmse", "global"),
 ];
 
-/// Those of photographs, which have no others.
+/// The figures that decide of photographs, which have no others.
 const OF_PHOTOGRAPHS: [(&str, Option<&str>, &str, &str); 2] =
     [("view", None, "psnr_srgb", "none"), ("relit", Some("own"), "psnr_srgb", "none")];
 
 impl Figure {
-    /// That of a score.
+    /// The figure of a score.
     pub(super) fn of(observation: &Observation) -> Self {
         let row = &observation.row;
         let own = row.light.as_ref().map(|light| *light == observation.light);
@@ -65,7 +65,7 @@ impl Figure {
         }
     }
 
-    /// Its place among the figures that decide.
+    /// The index among the figures that decide.
     pub(super) fn key(&self) -> Option<usize> {
         // The typology angle is that of skin, as the FAIR benchmark has it.
         let label = (self.metric == "ita_error").then_some("skin");
@@ -75,7 +75,7 @@ impl Figure {
         self.place_in(&KEY)
     }
 
-    /// Its place among the figures that decide where there are photographs alone.
+    /// The index among the figures that decide where there are photographs alone.
     pub(super) fn key_of_photographs(&self) -> Option<usize> {
         self.place_in(&OF_PHOTOGRAPHS).filter(|_| self.label.is_none())
     }
@@ -100,7 +100,7 @@ impl Figure {
         Metric::find(&self.metric).ok()
     }
 
-    /// Which values are better.
+    /// The direction in which values improve.
     pub(super) fn direction(&self) -> Direction {
         self.metric().map_or(Direction::Lower, |metric| metric.direction)
     }

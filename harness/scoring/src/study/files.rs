@@ -7,9 +7,9 @@ use formats::atomic::{self, Folder};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::observation::csv_line;
 use super::statistics::Study;
 use super::{Observation, StudyError, tidy_csv};
+use crate::tables::csv_line;
 
 /// Writes `out`, completely or not at all: `study.md`, `study.json`, `scores.csv` (every score, one a
 /// line) and a CSV of each table. Equal runs give equal bytes.
@@ -59,14 +59,13 @@ fn csv<T: Serialize>(records: &[T], out: &Path) -> Result<String, StudyError> {
     }
     // What is null in one record is a pair in another.
     columns.retain(|name| !rows.iter().flatten().any(|(other, _)| other == &format!("{name}_1")));
-    let mut text = csv_line(columns.iter().map(|name| (*name).to_owned()));
+    let mut text = csv_line(&columns) + "\n";
     for row in &rows {
         let cell = |name: &&str| {
-            row.iter()
-                .find(|(other, _)| other == name)
-                .map_or(String::new(), |(_, cell)| cell.clone())
+            row.iter().find(|(other, _)| other == name).map_or("", |(_, cell)| cell.as_str())
         };
-        text.push_str(&csv_line(columns.iter().map(cell)));
+        text += &csv_line(columns.iter().map(cell));
+        text.push('\n');
     }
     Ok(text)
 }

@@ -1,14 +1,14 @@
 //! Every score of finished runs with the case and the method it is of: the tidy table.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::io::ErrorKind;
 use std::path::PathBuf;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::StudyError;
+use crate::run::{Case, Method, RunFile};
 use crate::score::{Row, Scores};
+use crate::tables::{csv_line, csv_number};
 
 /// One score of one method on one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,54 +39,16 @@ pub struct Observation {
     pub row: Row,
 }
 
-/// The part of `run.json` that says where the scores are.
-#[derive(Deserialize)]
-struct Run {
-    suite: String,
-    cases: Vec<Case>,
-}
-
-#[derive(Deserialize)]
-struct Case {
-    id: String,
-    face: String,
-    light: String,
-    variant: Option<String>,
-    seed: Option<u64>,
-    #[serde(rename = "solvers")]
-    methods: Vec<Method>,
-}
-
-#[derive(Deserialize)]
-struct Method {
-    id: String,
-    kind: String,
-    #[serde(default = "passive")]
-    class: String,
-    /// Method that this is one seed of; none of a method without several seeds.
-    of: Option<String>,
-    seed: Option<u64>,
-    /// None of a method that failed.
-    scores: Option<PathBuf>,
-}
-
-fn passive() -> String {
-    "passive".to_owned()
-}
-
 /// Reads the scores of finished runs, in the order of the runs, cases and rows. A method's result
 /// on a case may be there once.
 pub fn observations(runs: &[PathBuf]) -> Result<Vec<Observation>, StudyError> {
     let mut all = Vec::new();
     let mut seen = BTreeSet::new();
     for folder in runs {
-        let path = folder.join("run.json");
-        let bytes = fs::read(&path).map_err(|error| match error.kind() {
-            ErrorKind::NotFound if folder.is_dir() => StudyError::Empty(folder.clone()),
-            _ => StudyError::io(&path, error),
-        })?;
-        let run: Run =
-            serde_json::from_slice(&bytes).map_err(|error| StudyError::text(&path, error))?;
+        if folder.is_dir() && !folder.join("run.json").exists() {
+            return Err(StudyError::Empty(folder.clone()));
+        }
+        let run = RunFile::open(folder)?;
         for case in &run.cases {
             for method in &case.methods {
                 let Some(scores) = &method.scores else { continue };
@@ -106,7 +68,7 @@ pub fn observations(runs: &[PathBuf]) -> Result<Vec<Observation>, StudyError> {
     if all.is_empty() { Err(StudyError::Empty(first())) } else { Ok(all) }
 }
 
-fn of_scores(run: &Run, case: &Case, method: &Method, scores: Scores) -> Vec<Observation> {
+fn of_scores(run: &RunFile, case: &Case, method: &Method, scores: Scores) -> Vec<Observation> {
     let skin_tone = scores.skin_tone;
     let of_row = |row| Observation {
         suite: run.suite.clone(),
@@ -118,8 +80,8 @@ fn of_scores(run: &Run, case: &Case, method: &Method, scores: Scores) -> Vec<Obs
         seed: case.seed,
         method: method.of.clone().unwrap_or_else(|| method.id.clone()),
         method_seed: method.seed,
-        kind: method.kind.clone(),
-        class: method.class.clone(),
+        kind: method.kind.name().to_owned(),
+        class: method.class.name().to_owned(),
         row,
     };
     scores.rows.into_iter().map(of_row).collect()
@@ -152,22 +114,20 @@ const COLUMNS: [&str; 22] = [
 
 /// The tidy table: one line per case, method, subject, metric, scale; empty where there is nothing.
 pub fn tidy_csv(observations: &[Observation]) -> String {
-    let mut text = csv_line(COLUMNS.map(str::to_owned));
+    let mut text = csv_line(COLUMNS) + "\n";
     for of in observations {
         let (row, ci95) = (&of.row, of.row.ci95);
-        let maybe = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-        let seed = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
         let word = |value: &Option<String>| value.clone().unwrap_or_default();
-        text.push_str(&csv_line([
+        text += &csv_line([
             of.suite.clone(),
             of.case.clone(),
             of.face.clone(),
-            maybe(of.skin_tone),
+            csv_number(of.skin_tone),
             of.light.clone(),
             word(&of.variant),
-            seed(of.seed),
+            csv_number(of.seed),
             of.method.clone(),
-            seed(of.method_seed),
+            csv_number(of.method_seed),
             of.kind.clone(),
             of.class.clone(),
             row.subject.clone(),
@@ -176,25 +136,13 @@ pub fn tidy_csv(observations: &[Observation]) -> String {
             row.scale.clone(),
             row.region.clone(),
             word(&row.label),
-            maybe(row.value),
-            maybe(ci95.map(|ci95| ci95[0])),
-            maybe(ci95.map(|ci95| ci95[1])),
+            csv_number(row.value),
+            csv_number(ci95.map(|ci95| ci95[0])),
+            csv_number(ci95.map(|ci95| ci95[1])),
             row.n.to_string(),
-            maybe(row.floor),
-        ]));
+            csv_number(row.floor),
+        ]);
+        text.push('\n');
     }
     text
-}
-
-/// A line of CSV (RFC 4180, but for the line's end).
-pub(super) fn csv_line(cells: impl IntoIterator<Item = String>) -> String {
-    let quoted = |cell: String| {
-        if cell.contains(['"', ',', '\n', '\r']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell
-        }
-    };
-    let cells: Vec<String> = cells.into_iter().map(quoted).collect();
-    format!("{}\n", cells.join(","))
 }

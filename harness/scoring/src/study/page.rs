@@ -5,6 +5,7 @@ use super::fairness::Fairness;
 use super::figures::Figure;
 use super::paired::faces_needed;
 use super::statistics::{Comparison, Study, Summary, Verdict};
+use crate::tables::{markdown_head, markdown_row, markdown_text};
 
 /// Gains whose price in faces is stated, in the metric's unit: decibels, for the most part.
 const STATED: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 3.0];
@@ -59,7 +60,7 @@ impl Study {
 
     fn title(&self, figure: &Figure) -> String {
         let variant =
-            figure.variant.as_ref().map_or(String::new(), |v| format!(" ({})", escape(v)));
+            figure.variant.as_ref().map_or(String::new(), |v| format!(" ({})", markdown_text(v)));
         let (name, unit) = figure.metric().map_or(("", ""), |metric| (metric.name, metric.unit));
         let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
         format!("{name}{unit}: `{}`{variant}", figure.id())
@@ -80,12 +81,12 @@ impl Study {
             };
             let role = if role == "passive" { String::new() } else { format!(" ({role})") };
             let mut cells = vec![
-                format!("{}{role}", escape(&row.method)),
+                format!("{}{role}", markdown_text(&row.method)),
                 row.faces.to_string(),
                 number(row.mean),
                 ends(row.ci95),
                 maybe(row.spread),
-                format!("{} ({})", number(row.worst.1), escape(&row.worst.0)),
+                format!("{} ({})", number(row.worst.1), markdown_text(&row.worst.0)),
             ];
             if pooled {
                 cells.extend([maybe(row.pooled), ends(row.pooled_ci95)]);
@@ -103,7 +104,7 @@ impl Study {
                 Verdict::CannotTell => "*cannot tell*",
             };
             vec![
-                format!("{} against {}", escape(&row.method), escape(&row.against)),
+                format!("{} against {}", markdown_text(&row.method), markdown_text(&row.against)),
                 row.faces.to_string(),
                 number(row.gain),
                 ends(row.ci95),
@@ -132,14 +133,15 @@ impl Study {
         )
     }
 
-    /// How many faces a study needs to find a stated gain, from how much the gain differs by face.
+    /// The number of faces that a study needs to find a stated gain, from the gain's spread over faces.
     fn power_table(&self, figure: &Figure) -> String {
         let head: Vec<String> = std::iter::once("faces needed to find, by pair".to_owned())
             .chain(STATED.iter().map(|gain| format!("a gain of {gain}")))
             .collect();
         let line = |row: &Comparison| {
             let spread = row.spread.filter(|spread| *spread > 0.0)?;
-            let pair = format!("{} against {}", escape(&row.method), escape(&row.against));
+            let pair =
+                format!("{} against {}", markdown_text(&row.method), markdown_text(&row.against));
             let needed = STATED.iter().map(|gain| {
                 faces_needed(gain / spread)
                     .map_or("over 10000".to_owned(), |faces| faces.to_string())
@@ -154,7 +156,7 @@ impl Study {
     fn component_table(&self, figure: &Figure) -> String {
         let line = |row: &Components| {
             let parts = [row.faces, row.lights, row.views, row.render_seeds, row.solver_seeds];
-            let cells = std::iter::once(escape(&row.method)).chain(parts.map(maybe));
+            let cells = std::iter::once(markdown_text(&row.method)).chain(parts.map(maybe));
             parts.iter().any(Option::is_some).then(|| cells.collect())
         };
         table(
@@ -182,7 +184,7 @@ impl Study {
                 )
             });
             vec![
-                escape(&row.method),
+                markdown_text(&row.method),
                 groups.collect::<Vec<_>>().join("; "),
                 row.worst.unwrap_or("–").to_owned(),
                 maybe(row.gap),
@@ -209,11 +211,8 @@ impl Study {
 }
 
 fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let rows: Vec<String> = rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect();
-    if rows.is_empty() {
-        return String::new();
-    }
-    format!("\n| {} |\n|{}\n{}", head.join(" | "), "---|".repeat(head.len()), rows.concat())
+    let rows: String = rows.map(markdown_row).collect();
+    if rows.is_empty() { rows } else { format!("\n{}{rows}", markdown_head(head)) }
 }
 
 fn number(value: f64) -> String {
@@ -233,16 +232,4 @@ fn maybe(value: Option<f64>) -> String {
 
 fn ends(ends: Option<[f64; 2]>) -> String {
     ends.map_or("–".to_owned(), |[low, high]| format!("{} … {}", number(low), number(high)))
-}
-
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for c in text.chars() {
-        match c {
-            '|' | '*' | '_' | '[' | ']' | '<' | '>' | '&' | '`' => escaped.extend(['\\', c]),
-            '\n' => escaped.push(' '),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -82,7 +82,7 @@ pub fn faces_needed(effect: f64) -> Option<usize> {
     Some(high)
 }
 
-/// How often a paired t test at 5 % of `faces` faces finds a difference of `effect` standard
+/// The power of a paired t test at 5 % over `faces` faces to find a difference of `effect` standard
 /// deviations: P(|T| > t), T not central. Given the sample's variance T is normal, and that is
 /// integrated over by quantiles.
 pub fn power(effect: f64, faces: usize) -> Option<f64> {

@@ -33,7 +33,7 @@ pub struct Study {
 /// A figure of a method over the faces.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Which scores.
+    /// The figure.
     #[serde(flatten)]
     pub figure: Figure,
     /// The method.
@@ -42,7 +42,7 @@ pub struct Summary {
     pub kind: String,
     /// `passive`, `controlled`, `privileged`.
     pub class: String,
-    /// How many faces have the figure.
+    /// The number of faces that have the figure.
     pub faces: usize,
     /// Mean over faces of their means over lights and seeds.
     pub mean: f64,
@@ -54,7 +54,7 @@ pub struct Summary {
     pub worst: (String, f64),
     /// PSNR of the mean squared error over all faces; none of other metrics.
     pub pooled: Option<f64>,
-    /// Its 95 % interval, of four faces or more.
+    /// The 95 % interval, of four faces or more.
     pub pooled_ci95: Option<[f64; 2]>,
 }
 
@@ -73,7 +73,7 @@ pub enum Verdict {
 /// Two methods on the same faces, lights and seeds.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Which scores.
+    /// The figure.
     #[serde(flatten)]
     pub figure: Figure,
     /// The first method.
@@ -84,7 +84,7 @@ pub struct Comparison {
     pub faces: usize,
     /// Mean over faces of how much better the first is, in the metric's unit.
     pub gain: f64,
-    /// Its 95 % interval over faces.
+    /// The 95 % interval over faces.
     pub ci95: Option<[f64; 2]>,
     /// Gain over its standard deviation, Hedges' correction.
     pub effect: Option<f64>,

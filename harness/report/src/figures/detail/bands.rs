@@ -19,7 +19,7 @@ pub(super) struct Band {
 }
 
 impl Band {
-    /// Where the band passes most: of exp(-2 π² σ² f²) - exp(-8 π² σ² f²) the maximum lies at
+    /// The peak of the band: the maximum of exp(-2 π² σ² f²) - exp(-8 π² σ² f²) lies at
     /// f² = ln 4 / (6 π² σ²).
     pub fn cycles_per_texel(&self) -> f64 {
         (4f64.ln() / 6.0).sqrt() / (PI * self.blur)
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_outside_changes_nothing_and_a_constant_has_no_bands() {
+    fn texels_outside_change_nothing_and_a_constant_has_no_bands() {
         let inside: Vec<bool> = (0..SIDE * SIDE).map(|i| i % SIDE < 70).collect();
         let mut values = vec![0.4; SIDE * SIDE];
         for (value, inside) in values.iter_mut().zip(&inside) {

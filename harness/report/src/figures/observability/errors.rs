@@ -1,8 +1,9 @@
-//! What methods err by, of every texel that scores compare.
+//! The errors of methods at every texel that scores compare.
 
 use std::path::Path;
 
 use formats::picture::{Content, GrayImage, Picture};
+use scoring::metrics::resample;
 
 use super::super::panels::ERROR;
 use super::super::source::CaseSource;
@@ -16,7 +17,7 @@ const ALBEDO: &str = "diffuse_albedo.exr";
 const NORMAL: &str = "specular_normal.exr";
 const RGB: &[&str] = &["R", "G", "B"];
 
-/// What one method gives of one case: errors of every texel, NaN where none is compared.
+/// The errors of one method in one case at every texel; NaN outside the scored region.
 pub(super) struct Errors {
     pub name: String,
     pub title: String,
@@ -24,7 +25,7 @@ pub(super) struct Errors {
     pub albedo: Field,
     /// Angle of the specular normal, degrees.
     pub normal: Option<Field>,
-    /// Its own trust in its texels, 0 to 1.
+    /// The method's confidence in its texels, 0 to 1.
     pub confidence: Option<Picture>,
 }
 
@@ -43,7 +44,7 @@ impl Errors {
             else {
                 return Ok::<_, ReportError>(None);
             };
-            let map = difference::resample(&map, truth.width, truth.height);
+            let map = resample(&map, truth.width, truth.height);
             Ok(difference::field(&map, &truth, Some(compared), measure, factor))
         };
         let factor = column.factor().unwrap_or(1.0);
@@ -53,8 +54,7 @@ impl Errors {
             Some(path) => read(&path, &["Y"], Content::Data)?,
             None => None,
         };
-        let confidence =
-            confidence.map(|map| difference::resample(&map, albedo.width, albedo.height));
+        let confidence = confidence.map(|map| resample(&map, albedo.width, albedo.height));
         let (name, title) = (column.method.id.clone(), column.method.title().to_owned());
         Ok(Some(Self { name, title, albedo, normal, confidence }))
     }

@@ -16,9 +16,9 @@ pub(super) struct Factor<'a> {
     /// With its unit.
     pub label: &'static str,
     pub map: &'a Picture,
-    /// Where the colours of its panel end.
+    /// The value at which the colours of its panel end.
     pub top: f32,
-    /// Its axis.
+    /// True if the axis is logarithmic.
     pub logarithmic: bool,
     /// Bins begin at these and end below the next; the last one has no end.
     starts: &'static [f64],
@@ -26,14 +26,14 @@ pub(super) struct Factor<'a> {
 
 /// Texels of like observation.
 pub(super) struct Bin {
-    /// Its number.
+    /// The number of the bin.
     pub at: usize,
     pub from: f64,
-    /// None of the last.
+    /// The end of the bin; none of the last bin.
     pub to: Option<f64>,
     /// The mean of the quantity.
     pub mean: f64,
-    /// Of all texels compared.
+    /// The share of all compared texels.
     pub share: f64,
     /// PSNR of the albedo.
     pub decibels: f64,
@@ -49,7 +49,7 @@ impl Bin {
     }
 }
 
-/// Those of a capture.
+/// The factors of a capture.
 pub(super) fn factors(seen: &Observability) -> Vec<Factor<'_>> {
     let shadow = seen.cast_shadow.as_ref().map(|map| Factor {
         name: "cast shadow",
@@ -96,7 +96,7 @@ pub(super) fn factors(seen: &Observability) -> Vec<Factor<'_>> {
     always.into_iter().chain(shadow).chain(saturation).collect()
 }
 
-/// A method's own trust in its texels.
+/// The method's own confidence in its texels.
 pub(super) fn of_confidence(map: &Picture) -> Factor<'_> {
     Factor {
         name: "confidence",

@@ -1,4 +1,4 @@
-//! Where a method errs most and yet trusts itself.
+//! Texels with the largest errors and yet a high confidence.
 
 use scoring::metrics::upper_half;
 
@@ -7,7 +7,7 @@ use crate::tone::Field;
 
 /// The share of the texels with the greatest error that count as wrong.
 const WRONG: f64 = 0.1;
-/// What the field says of a texel that is wrong, if its confidence is in the lower half.
+/// The field's value at a wrong texel whose confidence is in the lower half.
 const UNSURE: f32 = 0.4;
 
 pub(super) struct WrongAndSure {
@@ -18,7 +18,7 @@ pub(super) struct WrongAndSure {
 }
 
 impl WrongAndSure {
-    /// None without a confidence.
+    /// Finds the wrong and confident texels; `None` without a confidence map.
     pub fn of(found: &Errors) -> Option<Self> {
         let confidence = found.confidence.as_ref()?;
         let errors = &found.albedo.values;
