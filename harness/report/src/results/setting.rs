@@ -33,14 +33,10 @@ pub(super) fn describe(run: &Finished) -> Result<String, ReportError> {
         .filter(|(name, _)| *name != "renderer")
         .map(|(name, version)| format!("{name} {}", plain(version)))
         .collect();
-    let mut text = String::new();
-    for (name, items) in [
-        ("Suite", vec![format!("`{}`", run.manifest.suite)]),
-        ("Faces", faces),
-        ("Pictures", pictures),
-        ("Solvers", makers),
-        ("Versions", versions),
-    ] {
+    let mut text = format!("- Suite: `{}`.\n", run.manifest.suite);
+    for (name, items) in
+        [("Faces", faces), ("Pictures", pictures), ("Solvers", makers), ("Versions", versions)]
+    {
         if !items.is_empty() {
             text.push_str(&format!("- {name}: {}.\n", markdown_text(&items.join("; "))));
         }
