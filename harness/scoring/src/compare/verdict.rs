@@ -218,7 +218,7 @@ impl RowLimits<'_> {
 
 fn in_words(tolerances: &Tolerances, rows: &[Judged]) -> String {
     let Some(calibration) = tolerances.calibration() else {
-        return "default tolerances, false-alarm rate unknown; run unshade calibrate".to_owned();
+        return "default tolerances (false-alarm rate unknown; run `unshade calibrate`)".to_owned();
     };
     let rate = 100.0 * calibration.false_alarms;
     let runs = calibration.runs;
