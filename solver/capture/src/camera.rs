@@ -25,7 +25,7 @@ impl Camera {
         self.camera_to_world.inverse()
     }
 
-    /// Where the camera stands, metres in world space.
+    /// The position of the camera, metres in world space.
     pub fn position(&self) -> Vec3 {
         self.camera_to_world.w_axis.truncate()
     }

@@ -9,7 +9,7 @@ use super::Camera;
 use super::lens::Distortion;
 use super::paths::{inside, plain};
 
-/// How far `transform_matrix` may be from a rotation, per entry of RᵀR - 1: single precision and
+/// The tolerated distance of `transform_matrix` from a rotation, per entry of RᵀR - 1: single precision and
 /// six printed digits pass, a scale or a shear does not.
 const RIGID_TOLERANCE: f32 = 1e-3;
 /// Pixels along an edge, at most: no sensor has more, and larger numbers are mistakes.
@@ -29,7 +29,7 @@ pub(super) struct Frame {
 /// Purpose of a frame.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
-    /// Its files are opened.
+    /// Opens the files of the frame.
     Train,
     /// Only its camera counts.
     Withhold,

@@ -33,7 +33,7 @@ pub(super) struct Layers {
 }
 
 impl Distortion {
-    /// Where the lens sends what a pinhole sends to `[x, y]`.
+    /// The distorted position of the pinhole position `[x, y]`.
     pub fn distort(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let Self { k1, k2, p1, p2 } = *self;
         let r2 = x * x + y * y;

@@ -1,4 +1,4 @@
-//! Which side of the mesh is its outside. Exporters turn normals and triangles round, wholly or
+//! The outside of a mesh. Exporters turn normals and triangles round, wholly or
 //! here and there; the cameras know better, since a face is photographed from outside.
 
 use glam::Vec3;
@@ -57,7 +57,7 @@ pub fn orient(mesh: &mut Mesh, eyes: &[Vec3]) -> Flipped {
     flipped
 }
 
-/// Which normals point to the other side of their surface than most of its normals do.
+/// The normals that point to the other side of their surface than most of its normals do.
 fn minority(mesh: &Mesh, place: &[usize], winding: &Winding) -> Vec<bool> {
     let sides = winding.sides(&mesh.positions, place, &mesh.triangles);
     let mut surface = vec![usize::MAX; place.len()];
@@ -94,7 +94,7 @@ fn around(mesh: &Mesh) -> Vec<Vec3> {
     place.into_iter().map(|place| sums[place]).collect()
 }
 
-/// Whether the surface turns its back on the cameras.
+/// Returns whether the surface faces away from the cameras.
 fn inside_out(mesh: &Mesh, eyes: &[Vec3]) -> bool {
     let (mut towards, mut either) = (0.0, 0.0);
     for corners in &mesh.triangles {

@@ -1,4 +1,4 @@
-//! Which way a head's surfaces face, without photographs.
+//! The orientation of a head's surfaces, without photographs.
 
 use glam::Vec3;
 

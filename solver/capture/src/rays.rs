@@ -20,7 +20,7 @@ pub struct Occluder {
     index: Vec<u32>,
 }
 
-/// Where a ray ends.
+/// The end of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Index of the triangle.

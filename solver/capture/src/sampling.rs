@@ -1,4 +1,4 @@
-//! How finely pictures sample the surface, in the chart's measure.
+//! The sampling density of pictures on the surface, in the chart's measure.
 
 use glam::{Vec2, Vec3};
 
@@ -31,7 +31,7 @@ pub fn finest_sampling(mesh: &Mesh, views: &[View]) -> f64 {
     if chart > 0.0 { pixels / chart } else { 0.0 }
 }
 
-/// Whether a view's mask has the mesh at a pixel (column, row).
+/// Returns whether a view's mask has the mesh at a pixel (column, row).
 fn shows(view: &View, pixel: Vec3) -> bool {
     let (column, row) = (pixel.x.floor(), pixel.y.floor());
     let inside = column >= 0.0

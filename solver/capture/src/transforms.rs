@@ -19,7 +19,7 @@ pub(super) struct Transforms {
     pub train: Vec<Frame>,
     pub withheld: Vec<Frame>,
     pub label_names: BTreeMap<u8, String>,
-    /// How the writer of the file moved all cameras, if it says so.
+    /// The transform that the writer of the file applied to all cameras, if it states one.
     pub applied: Option<Mat4>,
 }
 

@@ -1,4 +1,4 @@
-//! Whether a mesh's UV layout can carry maps: every texel stands for one place, and seams are few.
+//! A check of a mesh's UV layout: every texel stands for one place, and seams are few.
 //! The one check for captures, imports, and heads from files.
 
 mod claims;
@@ -53,7 +53,7 @@ pub enum LayoutFault {
     /// Some of the surface has no texels.
     #[error("{:.1} % of the surface has no area in UV; unwrap it", percent(.share))]
     Collapsed {
-        /// Of the surface's area.
+        /// The share of the surface's area.
         share: f64,
     },
     /// Several texture pages lie in one unit square.
@@ -62,9 +62,9 @@ pub enum LayoutFault {
          in use; unwrap the mesh again to one page, or leave out what is not the face", percent(.share)
     )]
     Pages {
-        /// Of the texels in use.
+        /// The share of the texels in use.
         share: f64,
-        /// Of the two parts that share most texels.
+        /// The two parts that share most texels.
         first: String,
         /// The other one.
         second: String,
@@ -75,11 +75,11 @@ pub enum LayoutFault {
          that every texel has one place", halves(.mirrored), percent(.share)
     )]
     Overlap {
-        /// Of the texels in use.
+        /// The share of the texels in use.
         share: f64,
         /// The part that most of them belong to.
         part: String,
-        /// Whether the triangles are mirror images.
+        /// True if the triangles are mirror images.
         mirrored: bool,
     },
 }
@@ -121,7 +121,7 @@ pub fn examine(layout: &Layout) -> Result<usize, LayoutFault> {
     Ok(islands::most(positions, uvs, triangles))
 }
 
-/// What is worth a warning of a layout with so many islands.
+/// The warning of a layout with so many islands, if it deserves one.
 pub fn islands_warning(islands: usize) -> Option<String> {
     (islands >= MANY_ISLANDS).then(|| {
         format!(

@@ -64,12 +64,12 @@ impl View {
         self.labels.as_ref().map_or(0, |labels| labels.data[pixel])
     }
 
-    /// Whether any pixel shows the mesh.
+    /// Returns whether any pixel shows the mesh.
     pub(super) fn has_foreground(&self) -> bool {
         self.mask.data.contains(&255)
     }
 
-    /// Whether no pixel that shows the mesh has any light.
+    /// Returns whether no pixel that shows the mesh has any light.
     pub(super) fn is_black(&self) -> bool {
         let pixels = self.image.data.chunks_exact(self.image.channels).zip(&self.mask.data);
         pixels.filter(|(_, mask)| **mask == 255).all(|(rgb, _)| rgb.iter().all(|v| *v <= 0.0))

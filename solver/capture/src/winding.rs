@@ -1,4 +1,4 @@
-//! Which triangles of a mesh are wound against their neighbours.
+//! Triangles of a mesh that are wound against their neighbours.
 
 use std::collections::HashMap;
 

@@ -18,7 +18,7 @@ thread_local! {
     static FLAG: RefCell<Option<Flag>> = const { RefCell::new(None) };
 }
 
-/// What [`check`] unwinds with.
+/// The payload with which [`check`] unwinds.
 struct Cancelled;
 
 /// A pool of `threads` threads (0: one for each processor) that know `flag`.
@@ -51,7 +51,7 @@ pub fn catch<T>(work: impl FnOnce() -> T) -> Option<T> {
     }
 }
 
-/// Whether a panic is that of [`check`].
+/// Returns whether a panic is that of [`check`].
 pub fn is_cancelled(payload: &(dyn Any + Send)) -> bool {
     payload.is::<Cancelled>()
 }

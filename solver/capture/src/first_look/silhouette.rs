@@ -27,7 +27,7 @@ pub(super) struct Comparison {
     pub mask: usize,
     /// Number of pixels in both.
     pub both: usize,
-    /// Whether the mask is the whole picture: then only that the mesh is seen can be told.
+    /// True if the mask is the whole picture: it then tells only that the mesh is visible.
     pub unmasked: bool,
 }
 

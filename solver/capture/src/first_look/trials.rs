@@ -79,7 +79,7 @@ fn focal(mesh: &Mesh, views: &[&View]) -> Option<Trial> {
     Some(Trial { fix, union })
 }
 
-/// How much larger the masks are than the silhouettes with focal lengths times `factor`, along
+/// The ratio of the masks to the silhouettes with focal lengths times `factor`, along
 /// an edge; `None` where the mesh is seen in no view.
 fn growth(mesh: &Mesh, views: &[&View], factor: f64) -> Option<f64> {
     let sizes = views.iter().filter_map(|view| {

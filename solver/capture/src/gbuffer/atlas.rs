@@ -49,7 +49,7 @@ impl Atlas {
     }
 }
 
-/// How much surface lies in every texel of a square map, square millimetres, one channel; 0 outside the chart.
+/// The surface area in every texel of a square map, square millimetres, one channel; 0 outside the chart.
 pub fn texel_area_map(mesh: &Mesh, size: usize) -> Picture {
     let area_of = |hit: &Hit| {
         let corners = mesh.triangles[hit.triangle as usize].map(|corner| corner as usize);

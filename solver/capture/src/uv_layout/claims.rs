@@ -18,11 +18,11 @@ const NONE: u32 = u32::MAX;
 
 /// Texels that stand for several places.
 pub(super) struct Shared {
-    /// Of the texels that any triangle claims.
+    /// The number of texels that any triangle claims.
     pub share: f64,
     /// The two parts that share most of them.
     pub parts: [u32; 2],
-    /// Whether most of those are claimed by triangles that are mirror images in UV.
+    /// True if most of those are claimed by triangles that are mirror images in UV.
     pub mirrored: bool,
 }
 
@@ -113,7 +113,7 @@ fn texels(low: f64, high: f64) -> std::ops::Range<usize> {
     first as usize..(last + 1.0) as usize
 }
 
-/// Whether a point lies left of an edge; of the edge and its reverse exactly one says so.
+/// Returns whether a point lies left of an edge; of the edge and its reverse exactly one says so.
 fn lies_left(from: DVec2, to: DVec2, point: DVec2) -> bool {
     let forwards = (from.x, from.y) < (to.x, to.y);
     let (start, end) = if forwards { (from, to) } else { (to, from) };

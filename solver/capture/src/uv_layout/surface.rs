@@ -14,7 +14,7 @@ pub struct Layout<'a> {
     pub uvs: &'a [DVec2],
     /// Vertex indices.
     pub triangles: &'a [[u32; 3]],
-    /// What the triangles belong to.
+    /// The owners of the triangles.
     pub parts: &'a Parts,
 }
 

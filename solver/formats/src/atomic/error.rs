@@ -1,4 +1,4 @@
-//! Why a folder is not written.
+//! Errors of writing a folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ pub enum FolderError {
          folder"
     )]
     Space {
-        /// Where.
+        /// The path.
         path: PathBuf,
         /// Megabytes that the output takes.
         needed: u64,

@@ -68,7 +68,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Where to write.
+    /// The folder to write to.
     pub fn path(&self) -> &Path {
         &self.partial
     }

@@ -22,7 +22,7 @@ const GROWING: &str = "unshade folder 1: a run\n";
 pub(super) enum Owner {
     /// There is no such folder.
     Absent,
-    /// It is empty, so nobody loses anything.
+    /// An empty folder: no data can be lost.
     Nobody,
     /// Under construction, with this key.
     Started(String),

@@ -1,4 +1,4 @@
-//! Whether an output may lie where the user wants it.
+//! Checks of the place of an output.
 
 use std::path::{Path, PathBuf};
 

@@ -168,7 +168,7 @@ fn area(points: &[[f64; 2]]) -> f64 {
     points.iter().enumerate().map(|(i, p)| cross(points[0], *p, next(i))).sum::<f64>() / 2.0
 }
 
-/// Whether the triangles have the polygon's area, so that none is turned over or overlaps.
+/// Returns whether the triangles have the polygon's area, so that none is turned over or overlaps.
 fn covers(triangles: &[[usize; 3]], flat: &[[f64; 2]]) -> bool {
     let polygon = area(flat);
     let sum: f64 =

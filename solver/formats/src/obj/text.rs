@@ -17,7 +17,7 @@ pub(super) struct Lines<'a> {
     lines: std::iter::Enumerate<std::slice::Split<'a, u8, IsEnd>>,
 }
 
-/// Whether a byte ends a line.
+/// True if a byte ends a line.
 type IsEnd = fn(&u8) -> bool;
 
 impl<'a> Lines<'a> {

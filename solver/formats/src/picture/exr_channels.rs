@@ -1,11 +1,11 @@
-//! Which part and which channels of an EXR file are meant.
+//! The choice of the part and the channels of an EXR file.
 
 use exr::meta::header::Header;
 
 /// A channel: its part and its number in the part.
 pub(super) type Place = (usize, usize);
 
-/// Why a channel has no one place.
+/// The reason why a channel has no unique place.
 #[derive(Debug, PartialEq)]
 pub(super) enum NoPlace {
     /// There is none of the name.
@@ -17,7 +17,7 @@ pub(super) enum NoPlace {
 /// Names in a message; a file may have hundreds.
 const SHOWN: usize = 24;
 
-/// Where the channels `names` are. R, G and B together may also be the one colour layer or part
+/// Locates the channels `names`. R, G and B together may also be the one colour layer or part
 /// of the file; another channel is named as it is, or as `part.channel`.
 pub(super) fn locate(headers: &[Header], names: &[&str]) -> Result<Vec<Place>, NoPlace> {
     let rgb = ["R", "G", "B"];

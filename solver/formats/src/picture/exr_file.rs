@@ -67,7 +67,7 @@ impl ExrFile {
         exr_channels::names(&self.meta.headers)
     }
 
-    /// Whether the header says that the picture is the six sides of a cube.
+    /// Returns whether the header says that the picture is the six sides of a cube.
     pub fn is_cube_map(&self) -> bool {
         let cube = Some(EnvironmentMap::Cube);
         self.meta.headers.iter().any(|header| header.own_attributes.environment_map == cube)
@@ -235,7 +235,7 @@ fn fill<'a, const N: usize>(
     }
 }
 
-/// Whether `layer.R` is a colour: the picture's own, or a layer's.
+/// Returns whether `layer.R` is a colour: the picture's own, or a layer's.
 fn is_colour(layer: &str) -> bool {
     layer.is_empty() || layer.ends_with('.') && layer != VARIANCE
 }

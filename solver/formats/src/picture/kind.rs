@@ -7,7 +7,7 @@ use std::path::Path;
 use super::PictureError;
 use super::limits::MAX_BYTES;
 
-/// How to come from what a camera or a viewer wrote to a picture.
+/// The way from a file of a camera or a viewer to a picture.
 const LINEAR: &str = "pictures are linear float EXR with channels R, G, B: develop the raw file \
                       without tone curve or sRGB coding (darktable or dcraw -4 -T, then oiiotool) \
                       and save it as EXR";
@@ -25,17 +25,17 @@ const OTHERS: [(&[u8], usize, &str); 10] = [
     (b"BM", 0, "a BMP"),
 ];
 
-/// Whether the bytes begin as an EXR file.
+/// Returns whether the bytes begin as an EXR file.
 pub(super) fn is_exr(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01])
 }
 
-/// Whether the bytes begin as a Radiance file.
+/// Returns whether the bytes begin as a Radiance file.
 pub(super) fn is_radiance(bytes: &[u8]) -> bool {
     bytes.starts_with(b"#?")
 }
 
-/// Why bytes that are no float picture are not read; none for those of no known kind.
+/// The reason why bytes of another kind are not read; `None` for those of no known kind.
 pub(super) fn why_not(bytes: &[u8]) -> Option<String> {
     let is = |(mark, at, _): &&(&[u8], usize, &str)| {
         bytes.get(*at..).is_some_and(|rest| rest.starts_with(mark))

@@ -1,4 +1,4 @@
-//! How much a file may ask for: what a header says is checked before memory is taken for it.
+//! Limits on the size of a file: a header is checked before memory is allocated for it.
 
 /// Values that any file may hold: 22 million pixels of three channels, 256 MB.
 const FREE_VALUES: u64 = 1 << 26;

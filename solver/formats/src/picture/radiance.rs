@@ -19,7 +19,7 @@ struct Header {
     space: Option<Chromaticities>,
     /// The two axes of the resolution line, slow one first.
     axes: [Axis; 2],
-    /// Where the pixels begin.
+    /// The offset of the pixels.
     pixels: usize,
 }
 
