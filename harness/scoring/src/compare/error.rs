@@ -85,7 +85,7 @@ pub enum CompareError {
     Branch {
         /// As it was named.
         branch: String,
-        /// Why, and the fix.
+        /// The reason and the fix.
         reason: String,
     },
     /// A date that is none.
