@@ -233,7 +233,7 @@ def test_check_prints_its_findings(tiny_run: Path, capture: Path, tmp_path: Path
     sound = tiny_run / "maps" / CASE / "oracle"
     done = command("check", sound, "--capture", capture)
     assert done.stdout.strip() == f"{sound}: no faults found"
-    assert "with --capture" in command("check", sound).stdout
+    assert "--capture also compares" in command("check", sound).stdout
     plant(sound, "albedo flipped in v", tmp_path / "maps")
     done = command("check", tmp_path / "maps", "--capture", capture, check=False)
     assert done.returncode == 1

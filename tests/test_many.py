@@ -136,9 +136,9 @@ def test_clean_removes_reproducible_outputs_only(tiny_run: Path, tmp_path: Path)
     (run / "store" / "keys").mkdir(parents=True)
     (run / "store" / "keys" / f"{'a' * 64}.json").write_text("{}")
     before = digest(run)
-    assert "stay" in unshade("clean", run).stdout and digest(run) == before
+    assert "kept" in unshade("clean", run).stdout and digest(run) == before
     done = unshade("clean", run, "--keep", "scores,report")
-    assert "was not written by unshade" in done.stderr and "thesis" in done.stderr and "oracle" in done.stderr
+    assert "unshade did not write all files" in done.stderr and "thesis" in done.stderr and "oracle" in done.stderr
     assert (run / "captures" / "thesis" / "a.tex").read_text() == "years"
     assert (run / "maps" / CASE / "oracle" / "notes.txt").read_text() == "mine"
     assert (run / "report" / "index.html").is_file() and not (run / "relit").exists()

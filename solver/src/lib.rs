@@ -30,11 +30,12 @@ mod view_weights;
 
 pub use backend::{Backend, BackendError, Choice};
 pub use config::{Config, ConfigError};
+pub use maps::StageMaps;
 pub use run::Extent;
 pub use run::checkpoint::Checkpoint;
 pub use run::error::SolveError;
 pub use run::progress::{LayerSink, Options, Progress};
-pub use solution::{Record, Solution, StageMaps, Timing, ViewLayers};
+pub use solution::{Record, Solution, Timing, ViewLayers};
 pub use solve::{seconds_on_two_cores, solve_into, solve_on};
 
 /// The instruction set that the processor backend uses on this machine.

@@ -10,7 +10,15 @@ use glam::Vec3;
 
 use crate::model::texture::resample;
 use crate::scene::Scene;
-use crate::solution::StageMaps;
+
+/// The maps that a stage changed, at most 256 texels a side, normalised like the final ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageMaps {
+    /// The stage's name.
+    pub stage: String,
+    /// Absent are the maps that it did not change.
+    pub maps: Maps,
+}
 
 /// Gives texels that no view sees the values of the nearest one that is seen.
 pub(crate) fn fill_unseen(texture: Vec<f32>, channels: usize, seen: &[bool]) -> Vec<f32> {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::config::Config;
-use crate::maps::Scales;
+use crate::maps::{Scales, StageMaps};
 
 /// The result of [`crate::solve`].
 #[derive(Clone, Debug)]
@@ -39,15 +39,6 @@ pub(crate) struct Results {
     pub texture_size: usize,
     /// The number of samples of the full pictures.
     pub samples: usize,
-}
-
-/// The maps that a stage changed, at most 256 texels a side, normalised like the final ones.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StageMaps {
-    /// The stage's name.
-    pub stage: String,
-    /// Absent are the maps that it did not change.
-    pub maps: Maps,
 }
 
 /// A synthesised view: linear radiance in the pictures' exposure, black where there is no mesh.

@@ -1,6 +1,6 @@
 //! The size of the paper's capture.
 
-use super::steps::Kind;
+use super::kind::Kind;
 
 /// Textures of the warm-up.
 pub(super) const COARSE: usize = 128;

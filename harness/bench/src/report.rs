@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::gpu::GpuReport;
 use super::kernels::Kernel;
+use super::kind::Kind;
 use super::machine::Machine;
 use super::solves::Solved;
-use super::steps::{Kind, Reach, Step};
+use super::steps::{Reach, Step};
 use super::torch::TorchStep;
 
 /// All that was measured.

@@ -10,41 +10,16 @@ use solver::model::deviation::Deviation;
 
 use super::clock::{best, forget_peak, peak_memory};
 use super::cost::{self, Cost};
+use super::kind::Kind;
 use super::machine::peak_now;
 use super::synthetic::{Problem, paper};
 
-/// A kind of step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// Networks and albedos together.
-    WarmUp,
-    /// Normals and specular albedo.
-    Normals,
-    /// Diffuse albedo.
-    Diffuse,
-}
-
-impl Kind {
-    /// All of them, in the order of a solve.
-    pub const ALL: [Self; 3] = [Self::WarmUp, Self::Normals, Self::Diffuse];
-
-    /// In a table.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::WarmUp => "warm-up",
-            Self::Normals => "normals and specular",
-            Self::Diffuse => "diffuse",
-        }
-    }
-
-    /// The least work.
-    pub fn cost(self, pixels: usize, size: usize) -> Cost {
-        match self {
-            Self::WarmUp => cost::warm_up(&paper(), pixels, size),
-            Self::Normals => cost::normals(&paper(), pixels, size),
-            Self::Diffuse => cost::diffuse(pixels, size),
-        }
+/// The least work of a step.
+pub fn least_work(kind: Kind, pixels: usize, size: usize) -> Cost {
+    match kind {
+        Kind::WarmUp => cost::warm_up(&paper(), pixels, size),
+        Kind::Normals => cost::normals(&paper(), pixels, size),
+        Kind::Diffuse => cost::diffuse(pixels, size),
     }
 }
 
@@ -123,7 +98,7 @@ pub fn measure(
         fit.step(backend, 1.0);
         flops_after = flops_after.max(peak_now(backend));
     });
-    let cost = kind.cost(pixels, texture);
+    let cost = least_work(kind, pixels, texture);
     Step {
         kind,
         backend: backend.name(),

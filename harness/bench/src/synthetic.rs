@@ -18,7 +18,7 @@ use solver::paper::normals::Normals;
 use solver::paper::warm_up::WarmUp;
 use solver::transport::skin::schlick;
 
-use super::steps::Kind;
+use super::kind::Kind;
 
 /// Views of every problem.
 pub const VIEWS: usize = 10;

@@ -9,7 +9,7 @@ use std::process::Command;
 use serde::{Deserialize, Serialize};
 use solver::model::planes::Planes;
 
-use super::steps::Kind;
+use super::kind::Kind;
 use super::synthetic::Problem;
 
 /// Steps whose losses are compared with PyTorch's.

@@ -2,6 +2,7 @@
 //! which every key has a comment that states its meaning and its unit.
 
 mod error;
+mod method;
 mod paper;
 mod ranges;
 mod renamed;
@@ -12,6 +13,7 @@ use serde::Serialize;
 use toml::{Table, Value};
 
 pub use error::ConfigError;
+use method::Method;
 pub use paper::*;
 pub use shared::*;
 pub use unshade::*;
@@ -128,13 +130,6 @@ impl Default for Config {
     fn default() -> Self {
         Self::Unshade(UnshadeConfig::default())
     }
-}
-
-/// The method that a preset configures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Method {
-    Unshade,
-    Paper,
 }
 
 /// The method of a preset, and all its values.

@@ -2,8 +2,8 @@
 
 use toml::{Table, Value};
 
-use super::Method;
 use super::error::ConfigError;
+use super::method::Method;
 
 /// Old and new dotted keys of both methods.
 const RENAMED: &[(&str, &str)] =

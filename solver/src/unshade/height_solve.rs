@@ -13,7 +13,7 @@ use glam::Vec3;
 
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::linear_colour::{SLOPES, UNKNOWNS, explained, without_diffuse_share};
-use super::neighbourhood::Neighbourhood;
+use super::neighbourhood::{Neighbourhood, RESIDUAL_FLOOR};
 use super::relief_highlights::ReliefHighlights;
 use super::vectors::add;
 use crate::backend::Backend;
@@ -36,8 +36,6 @@ const DARKEST_ALBEDO: f32 = 1e-3;
 /// Texels in which a unit step of the height would turn the normal by more than this have no height: the chart is
 /// squeezed there.
 const STEEPEST: f32 = 6.0;
-/// Residuals below this radiance count squared.
-pub(super) const RESIDUAL_FLOOR: f32 = 0.002;
 /// Squared norm of the residual over that of the right-hand side at which a solve has converged.
 const TOLERANCE: f64 = 1e-5;
 /// Weight of squared heights, which pulls those to zero that no pixel sees.

@@ -3,12 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::explicit::{ExplicitModel, JointFit, exp};
-use super::lighting::evenness;
+use super::first_colours::FirstColours;
 use super::recolour::recoloured;
-use super::region_terms::RegionTerms;
+use super::region_terms::{RegionTerms, evenness};
 use super::two_fold::{TwoFoldLightFit, half_disagreement, mean};
 use crate::config::UnshadeConfig;
-use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::run::Run;
 use crate::run::error::SolveError;
@@ -47,33 +46,6 @@ impl LightEstimate {
             terms,
             tint: [1.0; CHANNELS],
         }
-    }
-}
-
-/// What the light is fitted to: pictures averaged over 2 x 2 pixels on the transport's texture, with the region and
-/// the first albedo of every texel.
-pub(super) struct FirstColours<'a> {
-    pub samples: &'a Samples,
-    pub regions: &'a [u8],
-    /// The labels that are skin by their names.
-    pub labelled_skin: &'a [u8],
-    /// The regions that are skin.
-    pub skin: &'a [u8],
-    /// R, G, B per texel.
-    pub albedo: &'a [f32],
-}
-
-impl FirstColours<'_> {
-    /// The samples of skin alone, if the capture names it: the rest has but the mean colours of the pictures.
-    fn of_skin(&self) -> Samples {
-        let mut samples = self.samples.clone();
-        if !self.labelled_skin.is_empty() {
-            let is_skin =
-                |i: usize| self.labelled_skin.contains(&self.regions[samples.taps.nearest(i)]);
-            let weight = |i: usize| if is_skin(i) { samples.weight.get(0, i) } else { 0.0 };
-            samples.weight = Planes::from_fn(samples.len(), |i| [weight(i)]);
-        }
-        samples
     }
 }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::explicit::exp;
 use super::light::{JointEstimate, LightEstimate};
-use super::region_terms::RegionTerms;
+use super::region_terms::{RegionTerms, evenness};
 use crate::backend::Backend;
 use crate::config::{SkinConfig, UnshadeConfig};
 use crate::model::planes::Planes;
@@ -14,9 +14,6 @@ use crate::solution::RecoveredLight;
 use crate::transport::{CHANNELS, SpecularTerm, Transport};
 
 use super::relief_highlights::ReliefHighlights;
-
-/// Contrast of a light that is half even.
-const HALF_EVEN_CONTRAST: f32 = 0.3;
 
 /// The light, with shading and albedo under it on the transport's texture.
 pub(super) struct Lighting<'a> {
@@ -35,11 +32,6 @@ pub(super) struct Lighting<'a> {
     pub half_disagreement: f32,
     /// The light for the record.
     pub light: RecoveredLight,
-}
-
-/// 1 of a light without contrast, 0 of lamps in the dark.
-pub(super) fn evenness(contrast: f32) -> f32 {
-    1.0 / (1.0 + (contrast / HALF_EVEN_CONTRAST).powi(2))
 }
 
 impl<'a> Lighting<'a> {

@@ -5,6 +5,7 @@ mod assemble;
 mod confidence;
 mod deviation_penalty;
 mod explicit;
+mod first_colours;
 mod grey;
 mod height_solve;
 mod inpainting;
@@ -28,9 +29,8 @@ use capture::Capture;
 
 use self::albedo::{FullPictures, fit_albedo};
 use self::assemble::{Estimates, assemble};
-use self::light::{
-    FirstColours, LightEstimate, fit_light, fit_light_and_albedo, refit_light_and_albedo,
-};
+use self::first_colours::FirstColours;
+use self::light::{LightEstimate, fit_light, fit_light_and_albedo, refit_light_and_albedo};
 use self::lighting::Lighting;
 use self::region_terms::RegionTerms;
 use self::relief::fit_relief;

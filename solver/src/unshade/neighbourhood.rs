@@ -3,7 +3,6 @@
 use capture::gbuffer::GBuffer;
 use glam::Vec3;
 
-use super::height_solve::RESIDUAL_FLOOR;
 use super::linear_colour::SLOPES;
 use crate::config::ReliefConfig;
 use crate::convolution::Shape;
@@ -11,6 +10,8 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::view_weights::blurred;
 
+/// Residuals below this radiance count squared.
+pub(super) const RESIDUAL_FLOOR: f32 = 0.002;
 /// Standard deviation of the neighbourhood in which residuals are compared, pixels.
 const NEIGHBOURHOOD: f32 = 3.0;
 /// Residuals coarser than this are no relief: a standard deviation, over the side of a square as large as the mesh in

@@ -1,7 +1,7 @@
 //! The colours of hair, brows and lips under the light that skin has shown. They begin as mean colours of the
 //! pictures, shadow and all; skin of every label begins in one colour.
 
-use super::light::FirstColours;
+use super::first_colours::FirstColours;
 use super::region_terms::RegionTerms;
 use crate::backend::Backend;
 use crate::config::SkinConfig;

@@ -8,6 +8,9 @@ use super::regression::{Fit, Regression};
 use crate::config::{ReflectanceConfig, RoughnessConfig};
 use crate::transport::{CHANNELS, SpecularTerm};
 
+/// Contrast of a light that is half even.
+const HALF_EVEN_CONTRAST: f32 = 0.3;
+
 /// The specular term per region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct RegionTerms {
@@ -134,6 +137,11 @@ impl RegionTerms {
         };
         Self { regions: (0..=u8::MAX).map(of).collect(), ..self.clone() }
     }
+}
+
+/// 1 of a light without contrast, 0 of lamps in the dark.
+pub(super) fn evenness(contrast: f32) -> f32 {
+    1.0 / (1.0 + (contrast / HALF_EVEN_CONTRAST).powi(2))
 }
 
 /// Factor on the errors of measurements by highlights under an even light.

@@ -121,8 +121,8 @@ def unwritten(path: Path, error: Exception) -> StorageError:
 def replace_file(path: Path, write: Callable[[str], object]) -> None:
     """Lets ``write`` make a file beside ``path``, and renames it. Raises `StorageError`."""
     partial = path.with_name(f"{path.name}.partial")
+    make_folder(path.parent)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         write(str(partial))
         os.replace(partial, path)
     except (OSError, RuntimeError) as error:

@@ -15,9 +15,10 @@ use solver::memory::available;
 
 use self::running::{Running, failed};
 use super::error::BenchError;
+use super::kind::Kind;
 use super::paper::{PAPER_STEPS, Paper};
 use super::solves::{self, Solved};
-use super::steps::{Kind, Reach};
+use super::steps::Reach;
 use super::synthetic::Problem;
 use super::torch::TORCH_STEPS;
 pub use page::{write_gpu, write_reach};

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use crate::kind::Kind;
 use crate::solves::Solved;
-use crate::steps::{Kind, Reach};
+use crate::steps::Reach;
 use crate::torch::TorchStep;
 
 /// A GPU's rows.

@@ -9,7 +9,8 @@ use solver::backend::resident::{BATCH, DeviceError, Resident};
 use solver::model::deviation::Deviation;
 
 use super::rows::{GpuStep, PassRow};
-use crate::steps::{Kind, Reach};
+use crate::kind::Kind;
+use crate::steps::{Reach, least_work};
 use crate::synthetic::Problem;
 
 /// Steps that every pass is timed in.
@@ -95,7 +96,7 @@ impl<'a> Running<'a> {
             })
             .collect();
         passes.sort_by(|a, b| b.milliseconds.total_cmp(&a.milliseconds));
-        let cost = self.kind.cost(self.pixels, self.texture);
+        let cost = least_work(self.kind, self.pixels, self.texture);
         Ok(GpuStep {
             kind: self.kind,
             pixels: self.pixels,

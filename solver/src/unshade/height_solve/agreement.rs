@@ -1,6 +1,7 @@
 //! The agreement of relief with views from which it was not found.
 
-use super::{HeightSolve, RESIDUAL_FLOOR};
+use super::super::neighbourhood::RESIDUAL_FLOOR;
+use super::HeightSolve;
 use crate::model::planes::Planes;
 use crate::unshade::linear_colour::UNKNOWNS;
 
