@@ -146,7 +146,10 @@ def test_calibrate_resumes_its_runs_and_reads_runs_of_others(tiny_run: Path, tmp
     suite.write_text(f'format = 1\nname = "tiny"\nscene = "{scene}"\n[[method]]\nname = "mean_texture"\n')
     finished = [copy_without(tiny_run, tmp_path / "tolerances-runs" / f"seed-{k:02d}") for k in range(1, 5)]
     first = unshade("calibrate", suite, "--seeds", 4, "--vary", "method", "-o", out)
-    assert "maps/tiny-studio/mean_texture: still valid" in first.stderr and "none of which depends on the seed" in first.stdout
+    assert (
+        "maps/tiny-studio/mean_texture: still valid" in first.stderr
+        and "none of which depends on the seed" in first.stdout
+    )
     text = out.read_text()
     assert "runs = 4" in text and "false_alarms = 0.01" in text and "[calibration.captures]" in text
     assert "still valid" in unshade("calibrate", suite, "--seeds", 4, "--vary", "method", "-o", out).stderr
