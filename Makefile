@@ -59,8 +59,8 @@ cycles: .venv-cycles/complete
 validators:
 	npm install --prefix .tools --no-save --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10
 
-# Twelve faces: seven hours on two cores; resumes. Needs Debian's blender-data for one of the lights. Writes all tables
-# into runs/, and the means of every method, light and figure into docs/results.csv.
+# Twelve faces: seven hours on two cores; resumes. Writes all tables into runs/, and the means of every method, light
+# and figure into docs/results.csv.
 results: build
 	$(BIN)/unshade run scenes/suites/held-out.toml -o runs/held-out
 	$(BIN)/unshade run scenes/suites/held-out-lights.toml -o runs/held-out-lights

@@ -1,6 +1,7 @@
 """Lights: exposure measured in pictures, lat-long conventions against Mitsuba's own."""
 
 import math
+from pathlib import Path
 
 import drjit as dr
 import mitsuba as mi
@@ -10,7 +11,7 @@ import render_toy
 
 from unshade.camera.camera import Camera, look_at
 from unshade.errors import PictureError, SceneError
-from unshade.files.pictures import write_exr
+from unshade.files.pictures import read_light, write_exr
 from unshade.render import lights
 from unshade.render.lights import envmap
 from unshade.render.lights.conventions import around, directions, solid_angles
@@ -20,6 +21,7 @@ from unshade.scene_file import LIGHT_KINDS, Light
 from unshade.scene_file.light import Gradient, KeyLight, Pattern, PointLight, Sun, TwoColours
 
 FACE = render_toy.toy_face()
+SCENES = Path(__file__).parents[2] / "scenes"
 
 
 def picture_of(tmp_path, height=16, width=32):
@@ -295,3 +297,15 @@ def test_small_sources_keep_their_energy_and_place_in_the_latlong():
     weights = picture[..., 0] * solid_angles(*lights.LATLONG)[:, None]
     mean = (towards * weights[..., None]).sum((0, 1))
     assert mean / np.linalg.norm(mean) @ around(-35, 25, 1.0) > np.cos(np.radians(0.2))
+
+
+SKIES = {"courtyard": 98, "interior": 33_126, "photo-studio": 435, "sunrise": 67_366}
+
+
+@pytest.mark.parametrize("name", SKIES)
+def test_photographed_skies_come_along_as_half_floats(name):
+    """Largest over mean luminance tells them apart; the sun of ``sunrise`` is sharp."""
+    picture = read_light(SCENES / "lights" / f"{name}.exr")
+    assert picture.shape == (512, 1024, 3) and (picture.astype(np.float16) == picture).all()
+    luminance = picture @ lights.LUMINANCE
+    assert luminance.max() / luminance.mean() == pytest.approx(SKIES[name], rel=0.01)

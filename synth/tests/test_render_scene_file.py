@@ -93,12 +93,8 @@ def test_the_files_of_scenes_are_read(path):
     kind = path.parent.name[:-1]
     given = tomllib.loads(path.read_text())
     base = table() | {"light": {"name": "l", "kind": "dome"}, "relight": []}
-    picture = Path(given.get("path", "."))
-    if picture.is_absolute() and not picture.is_file():
-        # It comes with another package, which this machine does not have.
-        with pytest.raises(SceneError, match=f"there is no picture .*{picture.name}"):
-            parse_scene(base | {kind: given}, "scene", path.parent)
-        given["path"] = "room.exr"
+    # A file that comes along, so that a fresh checkout or wheel renders every light.
+    assert not Path(given.get("path", "")).is_absolute()
     scene = parse_scene(base | {kind: given}, "scene", path.parent)
     assert getattr(scene, kind).name == path.stem
 
