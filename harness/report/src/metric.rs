@@ -88,6 +88,9 @@ pub fn subjects() -> impl Iterator<Item = &'static str> {
 
 /// A region in words.
 pub(super) fn region(id: &str, label: Option<&str>) -> String {
+    if let Some(side) = id.strip_prefix("coverage-e5-").and_then(|id| id.strip_suffix("mm")) {
+        return format!("seen texels, eroded 5×5, averaged over {side} mm");
+    }
     let words = match id {
         "coverage-e5" => "seen texels, eroded 5×5",
         "coverage-e5-views2" => "texels seen by two views, eroded 5×5",

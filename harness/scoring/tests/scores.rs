@@ -84,6 +84,27 @@ fn a_factor_is_found_by_its_scale_mode_and_undone() {
 }
 
 #[test]
+fn an_error_finer_than_a_cell_of_the_surface_goes_with_its_mean() {
+    let bench = Bench::new(1e-5);
+    // A texel is 2.1 mm wide: cells of .5 and 1 mm hold one, those of 4 mm two by two or fewer.
+    let checked = |fine: f64, coarse: f64| {
+        let scores = bench.score_albedo(|u, v| {
+            let texel = |at: f64| (at * SIDE as f64) as i64;
+            let odd = (texel(u) + texel(v)) % 2 == 1;
+            albedo(u, v).map(|a| a + coarse + if odd { fine } else { -fine })
+        });
+        ["", "-0.5mm", "-1mm", "-4mm"].map(|side| {
+            value(&scores, &format!("diffuse_albedo/psnr_srgb_area@coverage-e5{side}:none"))
+        })
+    };
+    let [texels, half, one, four] = checked(0.02, 0.0);
+    assert!((half - texels).abs() < 1e-9 && (one - texels).abs() < 1e-9, "{half} {one} {texels}");
+    assert!(four > texels + 6.0, "{four} {texels}");
+    let [texels, _, _, four] = checked(0.0, 0.02);
+    assert!((four - texels).abs() < 0.1, "{four} {texels}");
+}
+
+#[test]
 fn baked_shading_and_baked_highlights_are_told_apart() {
     let bench = Bench::new(1e-5);
     let leak = |scores: &Scores, cause: &str| {

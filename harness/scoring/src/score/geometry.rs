@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use capture::Capture;
-use capture::gbuffer::texel_area_map;
+use capture::gbuffer::{Atlas, texel_area_map};
 use capture::mean_texture::mean_texture;
 use formats::picture::Picture;
+use glam::Vec3;
 
 use super::ScoreError;
 use super::render::Render;
@@ -19,6 +20,8 @@ const DARKEST_ALBEDO: f32 = 1e-3;
 pub(super) struct Geometry {
     /// Plain normal of the mesh: unit vectors, object space.
     pub mesh_normal: Picture,
+    /// Place of every texel on the mesh: metres, object space.
+    pub positions: Vec<Vec3>,
     /// True diffuse shading: diffuse layer / true diffuse albedo.
     pub shading: Picture,
     /// True specular layer.
@@ -48,21 +51,20 @@ impl Geometry {
             capture.train.iter_mut().zip(layers).for_each(|(view, layer)| view.image = layer);
             let maps = mean_texture(&capture, side)?;
             let absent = || ScoreError::text(folder, "its layers cannot be reprojected");
-            Ok::<_, ScoreError>((
-                maps.diffuse_albedo.ok_or_else(absent)?,
-                maps.specular_normal.ok_or_else(absent)?,
-            ))
+            maps.diffuse_albedo.ok_or_else(absent)
         };
         let (diffuse, specular) = layers.into_iter().unzip();
-        let (mut shading, mesh_normal) = reproject(diffuse)?;
+        let mut shading = reproject(diffuse)?;
         for (value, albedo) in shading.data.iter_mut().zip(&truth.diffuse_albedo.data) {
             *value /= albedo.max(DARKEST_ALBEDO);
         }
-        let (specular, _) = reproject(specular)?;
+        let specular = reproject(specular)?;
+        let atlas = Atlas::new(&capture.mesh, side);
         let texel_area = texel_area_map(&capture.mesh, side);
         let areas = texel_area.data.iter().filter(|area| **area > 0.0);
         let (sum, count) = areas.fold((0.0, 0.0), |(s, n), area| (s + f64::from(*area), n + 1.0));
         let texel_mm = (sum / f64::max(count, 1.0)).sqrt();
-        Ok(Self { mesh_normal, shading, specular, texel_area, texel_mm })
+        let (mesh_normal, positions) = (atlas.normal_map(), atlas.positions);
+        Ok(Self { mesh_normal, positions, shading, specular, texel_area, texel_mm })
     }
 }

@@ -2,11 +2,13 @@
 
 use formats::Maps;
 use formats::picture::{GrayImage, Picture};
+use glam::Vec3;
 
 use super::ScoreError;
 use super::geometry::Geometry;
 use super::rows::{Compared, Floors, Heading, rows};
 use super::scores::{RegionSize, Row};
+use super::surface_scale::Cells;
 use super::truth::{LABELS, Truth, mean_alpha};
 use crate::metrics::{Pair, Region, Scale, ScaleMode, black_outside, resample, scored};
 
@@ -54,10 +56,7 @@ pub(super) fn rows_of_maps(
         let constant = Picture { data, ..truth.roughness.clone() };
         all.extend(map_rows(subject, &scored::ROUGHNESS, &constant, &truth.roughness, truth)?);
     }
-    for (subject, trivial, map, true_normal) in [
-        ("specular_normal", "mesh_specular_normal", &maps.specular_normal, &truth.specular_normal),
-        ("diffuse_normal", "mesh_diffuse_normal", &maps.diffuse_normal, &truth.diffuse_normal),
-    ] {
+    for (subject, trivial, map, true_normal) in normals(maps, truth) {
         if let Some(normal) = map {
             // Angles do not depend on length, so nothing is left to renormalise.
             let normal = fit_to(normal, truth);
@@ -74,7 +73,81 @@ pub(super) fn rows_of_maps(
         all.extend(map_rows(trivial, &scored::NORMAL, mesh, true_normal, truth)?);
         all.extend(by_area(trivial, mesh, true_normal, truth, geometry)?);
     }
+    for cells in Cells::of_all_sides(geometry, &truth.region)? {
+        all.extend(rows_of_cells(&cells, maps, truth, geometry, scale)?);
+    }
     Ok(all)
+}
+
+/// The rows of maps averaged over cells of the surface, as the truth is.
+fn rows_of_cells(
+    cells: &Cells,
+    maps: &Maps,
+    truth: &Truth,
+    geometry: &Geometry,
+    scale: Option<&Scale>,
+) -> Result<Vec<Row>, ScoreError> {
+    let mut all = Vec::new();
+    let of = |subject: &str, metrics: &[&str], mode: ScaleMode, map: &Picture, truth: &Picture| {
+        let factors = scale.map_or([1.0; 3], |scale| scale.factors(mode));
+        let pair = Pair::new(map, truth, &cells.region)
+            .and_then(|pair| pair.scaled(factors).with_area(&geometry.texel_area))
+            .map_err(ScoreError::of(subject))?;
+        let compared = [Compared { frame: None, pair }];
+        rows(heading(subject, mode), metrics, &compared, &Floors::new())
+    };
+    if let Some(albedo) = &maps.diffuse_albedo {
+        let albedo = cells.averaged(&fit_to(albedo, truth));
+        let true_albedo = cells.averaged(&truth.diffuse_albedo);
+        for mode in [ScaleMode::None, ScaleMode::Global] {
+            all.extend(of("diffuse_albedo", &scored::ALBEDO_AREA, mode, &albedo, &true_albedo)?);
+        }
+    }
+    let true_specular = cells.averaged(&truth.specular_albedo);
+    let constant = constant(&truth.specular_albedo, &truth.region);
+    let none = ScaleMode::None;
+    all.extend(of(
+        "constant_specular_albedo",
+        &scored::SPECULAR[..1],
+        none,
+        &constant,
+        &true_specular,
+    )?);
+    if let Some(specular) = &maps.specular_albedo {
+        let specular = cells.averaged(&fit_to(specular, truth));
+        all.extend(of("specular_albedo", &scored::SPECULAR[..2], none, &specular, &true_specular)?);
+    }
+    let mesh = cells.averaged(&geometry.mesh_normal);
+    for (subject, trivial, map, true_normal) in normals(maps, truth) {
+        let true_normal = cells.averaged(true_normal);
+        all.extend(of(trivial, &scored::NORMAL_AREA, none, &mesh, &true_normal)?);
+        if let Some(map) = map {
+            let map = cells.averaged(&unit(fit_to(map, truth)));
+            all.extend(of(subject, &scored::NORMAL_AREA, none, &map, &true_normal)?);
+        }
+    }
+    Ok(all)
+}
+
+/// Both normal maps: the names of the map and of the mesh in its place, the map, its truth.
+fn normals<'a>(
+    maps: &'a Maps,
+    truth: &'a Truth,
+) -> [(&'static str, &'static str, Option<&'a Picture>, &'a Picture); 2] {
+    let (specular, diffuse) = (maps.specular_normal.as_ref(), maps.diffuse_normal.as_ref());
+    [
+        ("specular_normal", "mesh_specular_normal", specular, &truth.specular_normal),
+        ("diffuse_normal", "mesh_diffuse_normal", diffuse, &truth.diffuse_normal),
+    ]
+}
+
+/// Vectors of length 1; a vector without length stays.
+fn unit(mut normals: Picture) -> Picture {
+    for normal in normals.data.chunks_exact_mut(3) {
+        let unit = Vec3::from_slice(normal).normalize_or_zero();
+        normal.copy_from_slice(&unit.to_array());
+    }
+    normals
 }
 
 /// The factors that align the diffuse albedo with the truth.

@@ -21,6 +21,7 @@ mod render;
 mod rows;
 mod scores;
 mod shown;
+mod surface_scale;
 mod truth;
 
 use std::path::Path;

@@ -68,8 +68,9 @@ const PHOTOGRAPHS: [&str; 5] = [
     "ci95: percentiles 2.5 and 97.5 of 1000 bootstrap resamples of blocks of pixels, pooled over frames, fixed seed; block is their side, four times the distance at which the errors' correlation falls to 1/e.",
 ];
 
-const STATEMENTS: [&str; 13] = [
+const STATEMENTS: [&str; 14] = [
     "Maps are compared on the texels that at least one training view sees (truth/coverage.png), eroded once by 5x5: coverage-e5. Metrics named _area weight every texel by its surface area. coverage-e5-views2 is the part that at least two views see.",
+    "coverage-e5-0.5mm, -1mm, -2mm, -4mm: map and truth are averaged by area over cells of the surface first, the cubes of a grid of that side, in which normals nearest to different axes are apart. Maps of different sizes and charts compare there.",
     "Maps of another size than the truth are sampled bilinearly at the truth's texel centres, clamped at the border; normals are renormalised.",
     "Pictures are compared on the pixels where the face is the first surface (masks/), eroded once by 5x5: mask-e5. Both pictures are black outside the uneroded mask.",
     "Frames are pooled: a PSNR is that of the mean squared error over the pixels of all withheld frames, a mean is over all their pixels; per_frame has each frame alone.",
