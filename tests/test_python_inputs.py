@@ -109,7 +109,7 @@ def test_a_wrong_dictionary_is_named_as_such(tiny_run: Path, tmp_path: Path) -> 
     case = tiny_run / "captures" / CASE
     wrong = {
         "nowhere.toml: cannot be read": (SceneError, lambda: unshade.synth(scene, tmp_path / "out")),
-        "the scene (a dict): lights: is unknown": (SceneError, lambda: unshade.synth({**scene, "lights": 1}, tmp_path / "out")),
+        "the scene (a dict): unknown key 'lights' in the scene (a dict); did you mean 'light'": (SceneError, lambda: unshade.synth({**scene, "lights": 1}, tmp_path / "out")),
         "the scene (a dict): x is a object": (SceneError, lambda: unshade.synth({"x": object()}, tmp_path / "out")),
         "the suite (a dict): methods: is unknown": (SceneError, lambda: unshade.run({**suite, "methods": 1}, tmp_path / "out")),
         "the config (a dict): ": (ConfigError, lambda: unshade.solve(case, config={"warm_ups": {}})),

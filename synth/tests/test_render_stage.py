@@ -16,9 +16,14 @@ def toy(**render):
     return parse_scene(render_toy.toy_table(**render), "toy", Path())
 
 
-def stage(*arguments, **options):
-    command = [sys.executable, "-m", "unshade.stage", *map(str, arguments)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+def stage(name, **arguments):
+    """A child with its request, whose standard input stays open."""
+    command = [sys.executable, "-m", "unshade.stage"]
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    child = subprocess.Popen(command, **pipes, text=True)
+    child.stdin.write(json.dumps({"stage": name, **arguments}, default=str) + "\n")
+    child.stdin.flush()
+    return child
 
 
 def events(output):
@@ -27,8 +32,8 @@ def events(output):
 
 def test_the_child_process_says_what_is_wrong(tmp_path):
     (tmp_path / "scene.toml").write_text(scene_text(toy()).replace("samples", "sampels"))
-    child = stage("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture")
-    (error,) = events(child.communicate()[0])
+    child = stage("synth", scene=tmp_path / "scene.toml", out=tmp_path / "capture")
+    (error,) = events(wait(child))
     assert child.returncode == 2
     assert error["event"] == "error" and error["kind"] == "SceneError"
     assert "unknown key 'sampels' in [render]" in error["message"] and "'samples'" in error["message"]
@@ -37,7 +42,7 @@ def test_the_child_process_says_what_is_wrong(tmp_path):
 
 def test_the_child_process_examines_the_machine():
     child = stage("doctor")
-    (result,) = events(child.communicate()[0])
+    (result,) = events(wait(child))
     checks = {check["name"]: check for check in result["checks"]}
     assert child.returncode == 0 and checks["llvm"]["ok"] and checks["variant"]["found"] == "llvm_ad_rgb"
     assert all("fix" in check for check in checks.values() if not check["ok"])
@@ -46,15 +51,15 @@ def test_the_child_process_examines_the_machine():
 def test_the_child_process_leaves_with_its_parent_and_goes_on_later(tmp_path):
     """The whole way with the painted head: killed in the middle, then finished."""
     (tmp_path / "scene.toml").write_text(scene_text(toy(width=16, height=16, samples=4)))
-    arguments = ("synth", "--scene", tmp_path / "scene.toml", "--out", tmp_path / "capture", "--watch-stdin")
-    child = stage(*arguments, stdin=subprocess.PIPE)
+    arguments = {"scene": tmp_path / "scene.toml", "out": tmp_path / "capture"}
+    child = stage("synth", **arguments)
     for line in child.stdout:
         if json.loads(line)["what"].startswith("view 001"):
             break
     child.communicate()
     assert child.returncode == 3
     assert (tmp_path / "capture.partial/images/000.exr").exists() and not (tmp_path / "capture").exists()
-    child = stage(*arguments, stdin=subprocess.PIPE)
+    child = stage("synth", **arguments)
     output = wait(child)
     said = events(output)
     assert child.returncode == 0 and said[-1]["event"] == "result" and said[-1]["variant"] == "llvm_ad_rgb"

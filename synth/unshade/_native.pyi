@@ -14,29 +14,20 @@ __all__ = [
     "Capture",
     "__version__",
     "adopt",
-    "calibrate",
     "coverage_array",
-    "figure",
     "judged_rows_json",
     "map_array",
     "picture_array",
     "read_maps",
-    "score_submission",
-    "seal",
-    "site",
     "subjects",
-    "table",
-    "verify",
     "write_exr",
     "write_maps",
     "begin_folder",
-    "check_json",
     "check_worker",
+    "command",
     "commit_folder",
-    "compare",
     "depth_of",
     "examine_layout",
-    "export",
     "exr_channels",
     "measure",
     "metric_definitions",
@@ -50,20 +41,14 @@ __all__ = [
     "read_obj",
     "read_png",
     "read_scores",
-    "relight",
-    "report",
-    "run",
     "run_command_line",
-    "budget",
-    "run_part",
+    "run_remote_stage",
     "score_json",
     "shown",
     "shown_json",
-    "study_json",
     "skin_reflected",
     "solve",
     "sources",
-    "synth",
     "write_colour",
     "write_scores",
 ]
@@ -159,67 +144,12 @@ def picture_array(name: str, value: ArrayLike) -> _Float: ...
 def write_exr(path: _Path, picture: _Float, names: list[str]) -> None: ...
 def shown_json(capture: _Path, maps: _Path, relit: _Path | None = None, factor: float | None = None) -> str: ...
 def judged_rows_json(capture: _Path, shown: str, metric: str, values: list[float | None]) -> str: ...
-def figure(
-    kind: str,
-    runs: list[_Path],
-    out: _Path,
-    methods: list[str],
-    cases: list[str],
-    progress: _Progress | None = None,
-) -> None: ...
-def table(runs: list[_Path], out: _Path) -> None: ...
-def site(runs: list[_Path], out: _Path) -> Path: ...
-def seal(
-    suite: _Path, seeds_from: _Path, out: _Path, round: str, jobs: int, progress: _Progress | None = None
-) -> str: ...
-def score_submission(
-    submission: _Path, private: _Path, seeds_from: _Path, out: _Path, progress: _Progress | None = None
-) -> dict[str, str]: ...
-def verify(folder: _Path, key: str | None = None) -> str: ...
-def calibrate(
-    out: _Path,
-    suite: _Path | None,
-    runs: list[_Path],
-    seeds: int,
-    vary: str,
-    keep: _Path | None,
-    baseline: _Path | None,
-    false_alarms: float,
-    rules: _Path | None,
-    progress: _Progress | None = None,
-) -> None: ...
+def command(request: str, progress: _Progress | None = None) -> str: ...
 def run_command_line(arguments: list[str]) -> int: ...
-def study_json(runs: list[_Path], out: _Path | None = None) -> tuple[str, str]: ...
-def budget(
-    capture: _Path,
-    maps: _Path,
-    out: _Path,
-    light: str | None = None,
-    view: str | None = None,
-    progress: _Progress | None = None,
-) -> str: ...
 def score_json(capture: _Path, maps: _Path, relit: _Path | None = None, lpips: str | None = None) -> str: ...
 def read_scores(path: _Path) -> str: ...
 def write_scores(text: str, path: _Path) -> None: ...
-def synth(scene: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
-def relight(
-    capture: _Path,
-    maps: _Path,
-    out: _Path,
-    progress: _Progress | None = None,
-    renderer: str = "mitsuba",
-    light: _Path | None = None,
-) -> Path: ...
-def export(
-    maps: _Path,
-    out: _Path,
-    options: list[str],
-    capture: _Path | None = None,
-    mesh: _Path | None = None,
-    progress: _Progress | None = None,
-) -> str: ...
-def run(suite: _Path, out: _Path, redo: list[str] = ..., progress: _Progress | None = None, jobs: int = 1) -> Path: ...
-def run_part(
+def run_remote_stage(
     suite: _Path,
     out: _Path,
     stage: str,
@@ -232,9 +162,6 @@ def check_worker(suite: _Path, content: str, versions: str) -> dict[str, str]: .
 def adopt(run: _Path, key: str, stage: str, record: str) -> None: ...
 def begin_folder(target: _Path, key: str) -> Path: ...
 def commit_folder(target: _Path, key: str) -> None: ...
-def report(run: _Path, out: _Path, progress: _Progress | None = None) -> None: ...
-def check_json(maps: _Path, capture: _Path | None = None) -> str: ...
-def compare(run: _Path, baseline: _Path, tolerances: _Path | None = None) -> bool: ...
 def metric_definitions() -> list[tuple[str, str, str, str, str, str, str]]: ...
 def measure(
     metrics: list[str],
@@ -317,7 +244,7 @@ def read_colour(path: _Path) -> _Float:
     """EXR or Radiance as linear Rec.709, (height, width, 3)."""
 
 def read_light(path: _Path) -> _Float:
-    """As ``read_colour``, lat-long pictures of 2 : 1 alone."""
+    """Lat-long pictures of 2 : 1, as linear Rec.709."""
 
 def write_colour(path: _Path, picture: _Float) -> None:
     """Linear Rec.709 (height, width, 3) as a float EXR; equal pictures give equal bytes."""

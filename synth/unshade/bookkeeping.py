@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Literal
 
-from . import _native
+from .commands import Progress as _Progress
+from .commands import command
 from .documents import Document, as_file
-from .errors import SceneError
+from .errors import ReportError, SceneError
 from .scene_file import read_table
 
 _Path = str | os.PathLike[str]
-_Progress = Callable[[int, int, str], object]
 
 
 def figure(
@@ -31,13 +31,14 @@ def figure(
     ``waterfall``, ``detail``, ``observability``. ``methods`` and ``cases`` choose by name; empty is the figure's
     usual choice. Raises ``errors.ReportError``; needs ``unshade[figures]``.
     """
-    _native.figure(kind, list(runs), out, list(methods), list(cases), progress)
+    chosen = {"method": list(methods), "case": list(cases)}
+    command("figure", kind=kind, runs=runs, out=out, **chosen, progress=progress, wrong=ReportError)
     return Path(out) / "figure.png"
 
 
 def table(*runs: _Path, out: _Path) -> Path:
     """Write the results of finished runs as tables to the file ``out``. Raises ``errors.ReportError``."""
-    _native.table(list(runs), out)
+    command("table", runs=runs, out=out)
     return Path(out)
 
 
@@ -46,7 +47,8 @@ def site(*runs: _Path, out: _Path) -> Path:
 
     Raises ``errors.ReportError``.
     """
-    return _native.site(list(runs), out)
+    command("site", runs=runs, out=out)
+    return Path(out) / "index.html"
 
 
 def seal(
@@ -65,7 +67,9 @@ def seal(
     `UnshadeError` for a secret that is too short.
     """
     with as_file(suite, "suite", SceneError) as file:
-        return _native.seal(file, seeds_from, out, round, jobs, progress)
+        arguments = {"suite": file, "seeds_from": seeds_from, "out": out, "round": round, "jobs": jobs}
+        public_key: str = command("seal", **arguments, progress=progress)
+    return public_key
 
 
 def score_submission(
@@ -75,7 +79,9 @@ def score_submission(
 
     ``private`` is the folder that `seal` wrote. Raises ``errors.UnshadeError`` for another secret than the round's.
     """
-    return _native.score_submission(submission, private, seeds_from, out, progress)
+    arguments = {"score": submission, "private": private, "out": out, "seeds_from": seeds_from, "round": "", "jobs": 1}
+    failed: dict[str, str] = command("seal", **arguments, progress=progress)
+    return failed
 
 
 def verify(folder: _Path, *, key: str | None = None) -> str:
@@ -83,7 +89,8 @@ def verify(folder: _Path, *, key: str | None = None) -> str:
 
     Raises ``errors.UnshadeError`` if the signature does not match, or is not by ``key``.
     """
-    return _native.verify(folder, key)
+    public_key: str = command("verify", folder=folder, key=key)
+    return public_key
 
 
 def calibrate(
@@ -110,7 +117,8 @@ def calibrate(
     if (suite is None) == (not runs):
         raise ValueError("give either a suite or runs")
     with nullcontext() if suite is None else as_file(suite, "suite", SceneError) as file:
-        _native.calibrate(
-            out, file, list(runs), seeds, vary, keep, baseline, false_alarms, rules, progress
+        command(
+            "calibrate", out=out, suite=file, runs=runs, seeds=seeds, vary=vary, keep=keep, baseline=baseline,
+            false_alarms=false_alarms, rules=rules, progress=progress,
         )  # fmt: skip
     return read_table(Path(out))

@@ -21,15 +21,16 @@ from numpy.typing import ArrayLike
 from unshade import _native
 from unshade._native import Capture
 
+from .commands import Progress as _Progress
+from .commands import command
 from .documents import Document, as_file, toml_of
-from .errors import ConfigError, PictureError, SceneError
+from .errors import ConfigError, ExportError, PictureError, SceneError
 from .exr import write_exr
 from .maps import Maps
 from .own_metrics import OwnMetric, rows
 from .scores import Scores
 
 _Path = str | os.PathLike[str]
-_Progress = Callable[[int, int, str], object]
 
 
 def synth(scene: Document, out: _Path, *, progress: _Progress | None = None) -> Capture:
@@ -39,7 +40,7 @@ def synth(scene: Document, out: _Path, *, progress: _Progress | None = None) -> 
     holds. Raises ``errors.SceneError``, `VariantError`, `RendererError` and `StorageError`.
     """
     with as_file(scene, "scene", SceneError) as file:
-        _native.synth(file, out, progress)
+        command("synth", scene=file, out=out, progress=progress)
     return Capture(out)
 
 
@@ -97,7 +98,9 @@ def relight(
     `PictureError`, `VariantError`, `RendererError` and `StorageError`.
     """
     with _folder_of(maps) as folder, _light_file(light) as file:
-        return _native.relight(_path_of(capture), folder, out, progress, renderer, file)
+        arguments = {"capture": _path_of(capture), "maps": folder, "out": out, "renderer": renderer, "light": file}
+        command("relight", **arguments, progress=progress)
+    return Path(out)
 
 
 @contextmanager
@@ -152,12 +155,13 @@ def export(
     empty without ``fidelity`` and for ``materialx`` and ``png``, which nothing here renders. Raises
     `ExportError`, `MapsError`, `CaptureError`, and `RendererError` where Blender is missing.
     """
-    options = ["--format", format, "--bits", str(bits), "--normal-y", normal_y]
-    options += [] if fidelity else ["--no-fidelity"]
+    options = {"format": format, "bits": bits, "normal_y": normal_y, "no_fidelity": not fidelity}
+    place = None if capture is None else _path_of(capture)
     with _folder_of(maps) as folder:
-        place = None if capture is None else _path_of(capture)
-        said = json.loads(_native.export(folder, out, options, place, mesh, progress))
-    fidelities: list[Fidelity] = said["fidelity"]
+        found = command(
+            "export", maps=folder, out=out, capture=place, mesh=mesh, **options, progress=progress, wrong=ExportError
+        )
+    fidelities: list[Fidelity] = found["fidelity"]
     return fidelities
 
 
@@ -216,8 +220,9 @@ def budget(
     withheld one.
     """
     with _folder_of(maps) as folder:
-        said = json.loads(_native.budget(_path_of(capture), folder, out, light, view, progress))
-    shares: list[Budget] = said["maps"]
+        place = _path_of(capture)
+        found = command("budget", capture=place, maps=folder, out=out, light=light, view=view, progress=progress)
+    shares: list[Budget] = found["maps"]
     return shares
 
 
@@ -234,7 +239,8 @@ def run(
     ``progress`` counts the suite's stages; ``what`` is the progress of the current one.
     """
     with as_file(suite, "suite", SceneError) as file:
-        return _native.run(file, out, list(redo), progress, jobs)
+        command("run", suite=file, out=out, redo=list(redo), jobs=jobs, progress=progress)
+    return Path(out) / "report" / "index.html"
 
 
 class Finding(TypedDict):
@@ -256,8 +262,7 @@ def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list
     is never opened.
     """
     with _folder_of(maps) as folder:
-        text = _native.check_json(folder, None if capture is None else _path_of(capture))
-    findings: list[Finding] = json.loads(text)
+        findings: list[Finding] = command("check", maps=folder, capture=None if capture is None else _path_of(capture))
     for finding in findings:
         finding.setdefault("evidence", {})
     return findings
@@ -265,7 +270,7 @@ def check(maps: Maps | _Path, *, capture: Capture | _Path | None = None) -> list
 
 def report(run: _Path, out: _Path, *, progress: _Progress | None = None) -> Path:
     """Write the report of a run folder; returns its page."""
-    _native.report(run, out, progress)
+    command("report", run=run, out=out, progress=progress)
     return Path(out) / "index.html"
 
 
@@ -277,7 +282,8 @@ def compare(run: _Path, baseline: _Path, *, tolerances: _Path | None = None) -> 
     that method on that capture is compared. Raises ``errors.CompareError`` for anything else, or if the two share
     nothing.
     """
-    return _native.compare(run, baseline, tolerances)
+    passed: bool = command("compare", run=run, baseline=baseline, tolerances=tolerances)
+    return passed
 
 
 def _path_of(capture: Capture | _Path) -> _Path:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any
 
-from . import _native
+from .commands import command
 from .errors import ScoreError
 
 _Path = str | os.PathLike[str]
@@ -63,8 +62,8 @@ def study(*runs: _Path, out: _Path | None = None) -> Study:
 
     Raises ``errors.ScoreError`` for runs without scores, or with a result twice.
     """
-    document, rows = _native.study_json(list(runs), out)
-    return Study(json.loads(document), [_tidy(row) for row in json.loads(rows)])
+    document, rows = command("study", runs=runs, out=out)
+    return Study(document, [_tidy(row) for row in rows])
 
 
 def _tidy(given: dict[str, Any]) -> dict[str, Any]:

@@ -65,9 +65,6 @@ impl Argument<'_> {
     /// The exception with the argument's name in front.
     pub(super) fn refused(self, reason: &str) -> PyErr {
         let message = format!("{}: {reason}", self.name);
-        if self.class == "ValueError" {
-            return PyValueError::new_err(message);
-        }
         named_error(self.class, &message)
     }
 

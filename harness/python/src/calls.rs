@@ -8,16 +8,15 @@ use harness::cli;
 use harness::suite::{self, SOLVER_SOURCES};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scoring::compare::{self as comparing, CompareError, Tolerances};
 use scoring::metrics::OwnMetric;
-use scoring::{check, score, study};
+use scoring::score;
 use solver::{Choice, Options};
 
 use super::capture::Capture;
+use super::commands::watched;
 use super::errors::{named_error, raise};
 use super::gpu_of_process;
 use super::maps;
-use super::stages::watched;
 use super::threads::{End, detached, interruptible, long};
 
 /// Runs the command line and returns its exit code.
@@ -133,18 +132,6 @@ pub(super) fn judged_rows_json(
     serde_json::to_string(&rows.map_err(raise)?).map_err(text)
 }
 
-/// Likely faults of a maps folder, as JSON text: a list of findings.
-#[pyfunction]
-#[pyo3(signature = (maps, capture=None))]
-pub(super) fn check_json(
-    py: Python<'_>,
-    maps: PathBuf,
-    capture: Option<PathBuf>,
-) -> PyResult<String> {
-    let findings = long(py, || check::check(&maps, capture.as_deref()))?.map_err(raise)?;
-    serde_json::to_string(&findings).map_err(|error| named_error("MapsError", &error.to_string()))
-}
-
 /// Writes scores, as JSON text, to a file: the bytes that the command line writes.
 #[pyfunction]
 pub(super) fn write_scores(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<()> {
@@ -159,48 +146,6 @@ pub(super) fn read_scores(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     json_of(&detached(py, || score::Scores::read(&path))?.map_err(raise)?)
 }
 
-/// The study of runs as JSON text: (the study, its observations). With `out`, its folder is written.
-#[pyfunction]
-#[pyo3(signature = (runs, out=None))]
-pub(super) fn study_json(
-    py: Python<'_>,
-    runs: Vec<PathBuf>,
-    out: Option<PathBuf>,
-) -> PyResult<(String, String)> {
-    let made = || {
-        let observations = study::observations(&runs)?;
-        let found = study::Study::of(&observations);
-        if let Some(out) = &out {
-            study::write_study(&found, &observations, &runs, out, "unshade.study")?;
-        }
-        Ok::<_, study::StudyError>((found, observations))
-    };
-    let (found, observations) = long(py, made)?.map_err(raise)?;
-    let text = |error: serde_json::Error| named_error("ScoreError", &error.to_string());
-    let found = serde_json::to_string(&found).map_err(text)?;
-    Ok((found, serde_json::to_string(&observations).map_err(text)?))
-}
-
 fn json_of(scores: &score::Scores) -> PyResult<String> {
     serde_json::to_string(scores).map_err(|error| named_error("ScoreError", &error.to_string()))
-}
-
-/// True if no score of a run is worse than its baseline beyond the tolerance.
-#[pyfunction]
-#[pyo3(signature = (run, baseline, tolerances=None))]
-pub(super) fn compare(
-    py: Python<'_>,
-    run: PathBuf,
-    baseline: PathBuf,
-    tolerances: Option<PathBuf>,
-) -> PyResult<bool> {
-    let passed = || {
-        let tolerances = match tolerances {
-            Some(path) => Tolerances::read(&path),
-            None => Tolerances::built_in(),
-        }?;
-        let [current, baseline] = comparing::sides(&run, &baseline)?;
-        Ok::<_, CompareError>(comparing::compare(&current, &baseline, &tolerances)?.passed())
-    };
-    long(py, passed)?.map_err(raise)
 }

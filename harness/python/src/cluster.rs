@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use harness::suite::{self, Suite, Wanted};
+use harness::suite::{self, RemoteStage, Suite};
 use harness::synth::Fingerprints;
 use pyo3::prelude::*;
 
+use super::commands::watched;
 use super::errors::{named_error, raise};
-use super::stages::watched;
 
 /// Raises where this machine has another version, or another suite, than what sends the work; returns the
 /// renderer's versions and code, by its stages.
@@ -29,7 +29,7 @@ pub(super) fn check_worker(
 /// of it, on `processors` or on all. With `key_only`, only what it is made from. `renderer` is what `check_worker` returned.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
-pub(super) fn run_part(
+pub(super) fn run_remote_stage(
     py: Python<'_>,
     suite: PathBuf,
     out: PathBuf,
@@ -42,13 +42,14 @@ pub(super) fn run_part(
     let contents = serde_json::from_str(contents).map_err(unread)?;
     let renderer = Fingerprints(renderer);
     let done = watched(py, None, |tools, _| {
-        let wanted = Wanted {
+        let stage = RemoteStage {
             id: &stage,
             contents: &contents,
             renderer: &renderer,
             processors: &processors,
         };
-        suite::run_part(&Suite::open(&suite)?, &out, wanted, key_only, tools, &mut |_, _, _| {})
+        let step = &mut |_, _, _: &str| {};
+        suite::run_remote_stage(&Suite::open(&suite)?, &out, stage, key_only, tools, step)
     })?;
     serde_json::to_string(&done).map_err(unread)
 }

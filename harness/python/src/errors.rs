@@ -95,6 +95,7 @@ impl Named for RunError {
             | Self::UnknownName { .. }
             | Self::Keep { .. }
             | Self::NoRun(_) => "UnshadeError",
+            Self::Argument(_) => "ValueError",
             Self::Seal(_) | Self::Submission(_) => "UnshadeError",
         }
     }
@@ -118,8 +119,9 @@ pub(super) fn raise<E: Named>(error: E) -> PyErr {
 /// The exception `class` of `unshade.errors`.
 pub(super) fn named_error(class: &str, message: &str) -> PyErr {
     Python::attach(|py| {
+        let module = if class == "ValueError" { "builtins" } else { "unshade.errors" };
         let raised = py
-            .import("unshade.errors")
+            .import(module)
             .and_then(|errors| errors.getattr(class))
             .and_then(|class| class.call1((message,)));
         raised.map_or_else(|error| error, PyErr::from_value)

@@ -52,7 +52,7 @@ pub(super) fn read_colour<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
     array(py, detached(py, || picture::read_colour(&path))?.map_err(raise)?)
 }
 
-/// As ``read_colour``, lat-long pictures of 2 : 1 alone.
+/// Lat-long pictures of 2 : 1, as linear Rec.709.
 #[pyfunction]
 pub(super) fn read_light<'py>(py: Python<'py>, path: PathBuf) -> Floats<'py> {
     array(py, detached(py, || picture::read_light(&path))?.map_err(raise)?)

@@ -3,10 +3,10 @@
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use super::progress::Progress;
-use crate::suite::{Observer, RunError, Tools};
-use crate::synth::{Interpreter, Interrupt};
+use crate::suite::{Observer, RunError};
+use crate::synth::{Interpreter, Interrupt, Tools};
 
+/// The tools of a command that Ctrl-C stops cleanly; without them Ctrl-C ends the process.
 pub(super) fn tools() -> Tools {
     let interrupt = Interrupt::default();
     let flag = interrupt.clone();
@@ -18,17 +18,14 @@ pub(super) fn tools() -> Tools {
 }
 
 /// Runs one stage outside a suite, with its bar.
-pub(super) fn alone(
+pub(super) fn alone<T>(
     id: &str,
-    work: impl FnOnce(&Tools, &mut dyn FnMut(u64, u64, &str)) -> Result<(), RunError>,
-) -> Result<(), RunError> {
-    let mut progress = Progress::new();
+    observer: &mut dyn Observer,
+    stage: impl FnOnce(&mut dyn FnMut(u64, u64, &str)) -> Result<T, RunError>,
+) -> Result<T, RunError> {
     let start = Instant::now();
-    progress.stage_begins(id, 0, 1);
-    let result = work(&tools(), &mut |done, total, what| progress.step(id, done, total, what));
-    if result.is_ok() {
-        progress.stage_ends(id, Some(start.elapsed().as_secs_f64()));
-    }
-    progress.finish();
-    result
+    observer.stage_begins(id, 0, 1);
+    let result = stage(&mut |done, total, what| observer.step(id, done, total, what))?;
+    observer.stage_ends(id, Some(start.elapsed().as_secs_f64()));
+    Ok(result)
 }

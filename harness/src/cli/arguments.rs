@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use serde::Deserialize;
 
 use super::bench::BenchArgs;
 use super::calibrate::CalibrateArgs;
 use super::compare::CompareArgs;
-use super::export::ExportArgs;
 use super::figure::FigureArgs;
 use crate::suite::NETS;
+use crate::synth::Export;
 
 /// Measures how well a face's reflectance can be recovered from photographs.
 #[derive(Parser)]
@@ -22,11 +23,14 @@ pub(super) struct Cli {
     pub verbose: u8,
 }
 
-#[derive(Subcommand)]
+/// A command, from the command line or from the Python package.
+#[derive(Subcommand, Deserialize)]
+#[serde(tag = "command", rename_all = "kebab-case")]
 pub(super) enum Verb {
     /// Render a capture with its truth from a scene; describe a scene; show many faces.
     Synth(SynthArgs),
     /// Recover reflectance maps from a capture.
+    #[serde(skip)]
     Solve(SolveArgs),
     /// Render recovered maps in the capture's lights.
     Relight {
@@ -61,7 +65,7 @@ pub(super) enum Verb {
         view: Option<String>,
     },
     /// Write maps as an asset for another program, and measure its error.
-    Export(ExportArgs),
+    Export(Export),
     /// Report likely faults of maps, with evidence and the fix; exit code 1 if there are any.
     Check {
         /// The maps' folder.
@@ -78,6 +82,7 @@ pub(super) enum Verb {
         captures: Option<PathBuf>,
     },
     /// Score maps and relit pictures against the truth, or against withheld photographs.
+    #[serde(skip)]
     Score {
         /// The capture, with its truth or with withheld photographs.
         capture: PathBuf,
@@ -97,6 +102,7 @@ pub(super) enum Verb {
         out: PathBuf,
     },
     /// Write a suite to start from, with comments, and an example of your own method.
+    #[serde(skip)]
     Init {
         /// A new folder, or an empty one.
         folder: PathBuf,
@@ -104,6 +110,7 @@ pub(super) enum Verb {
     /// Run a whole suite: render, solve, relight, score, report; resumes where it stopped.
     Run(RunArgs),
     /// Remove outputs that a run can make again; print the size of each kind.
+    #[serde(skip)]
     Clean {
         /// The run's folder.
         run: PathBuf,
@@ -175,8 +182,10 @@ pub(super) enum Verb {
     /// The tolerances have a known false-alarm rate.
     Calibrate(CalibrateArgs),
     /// Time the solver's kernels and steps against this machine's peak.
+    #[serde(skip)]
     Bench(BenchArgs),
     /// Check this machine, and say how to install what is missing.
+    #[serde(skip)]
     Doctor {
         /// Also check the renderer against physics; takes minutes. Exit code 1 if a check fails.
         #[arg(long)]
@@ -184,7 +193,7 @@ pub(super) enum Verb {
     },
 }
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct SynthArgs {
     /// The scene to render: a file, or the name of a scene of unshade, such as demo.
     #[arg(required_unless_present = "contact_sheet")]
@@ -194,6 +203,7 @@ pub(super) struct SynthArgs {
     pub out: Option<PathBuf>,
     /// Render nothing; print face, cameras, and each light's mean, maximum and colour.
     #[arg(long, conflicts_with_all = ["out", "contact_sheet"], requires = "scene")]
+    #[serde(default)]
     pub describe: bool,
     /// Render this many sampled identities into one picture instead.
     #[arg(long, value_name = "N", conflicts_with = "scene",
@@ -201,6 +211,7 @@ pub(super) struct SynthArgs {
     pub contact_sheet: Option<u32>,
     /// The seed of the identities on the contact sheet.
     #[arg(long, default_value_t = 0, requires = "contact_sheet")]
+    #[serde(default)]
     pub seed: u64,
 }
 
@@ -230,7 +241,7 @@ pub(super) struct SolveArgs {
     pub rerun: Option<String>,
 }
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct RunArgs {
     /// The suite: a file, or the name of a suite of unshade, such as demo.
     pub suite: PathBuf,
@@ -240,9 +251,11 @@ pub(super) struct RunArgs {
     /// Run only this method; may be repeated. Valid results of other methods are kept, and a run without this
     /// option resumes from there.
     #[arg(long = "method", value_name = "NAME")]
+    #[serde(default)]
     pub methods: Vec<String>,
     /// Run only this case; may be repeated.
     #[arg(long = "case", value_name = "NAME")]
+    #[serde(default)]
     pub cases: Vec<String>,
     /// Run this method again even if its results are valid; may be repeated.
     #[arg(long, value_name = "NAME")]
@@ -261,13 +274,15 @@ pub(super) struct RunArgs {
     pub store: Option<String>,
     /// Run nothing; print what is cached, and the time and disc space of the rest.
     #[arg(long)]
+    #[serde(default)]
     pub dry_run: bool,
     /// Also estimate from the timings of this run; may be repeated.
     #[arg(long, value_name = "RUN", requires = "dry_run")]
+    #[serde(default)]
     pub costs: Vec<PathBuf>,
 }
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct SealArgs {
     /// The suite, whose faces get seeds from the secret; its methods are ignored.
     #[arg(required_unless_present = "score")]
@@ -317,7 +332,8 @@ pub(super) enum BackendName {
     Gpu,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub(super) enum RendererName {
     /// Mitsuba, which renders the truth.
     Mitsuba,

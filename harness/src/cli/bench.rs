@@ -9,6 +9,7 @@ use clap::Args;
 use formats::atomic;
 use solver::backend::gpu::{Adapter, VARIABLE};
 
+use super::outcome::Outcome;
 use crate::suite::RunError;
 
 /// Choice of measurements, and where they go. The GPU is the best real one; a software adapter only
@@ -35,7 +36,7 @@ pub(super) struct BenchArgs {
     quick: bool,
 }
 
-pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
+pub(super) fn bench(arguments: &BenchArgs) -> Result<Outcome, RunError> {
     let BenchArgs { json, out, markdown: page, torch, solve, quick } = arguments;
     // What the user names is looked for before minutes have passed.
     if env::var_os(VARIABLE).is_some_and(|name| !name.is_empty()) {
@@ -65,7 +66,7 @@ pub(super) fn bench(arguments: &BenchArgs) -> Result<(), RunError> {
     match out {
         Some(out) => fs::create_dir_all(out.parent().unwrap_or(out.as_path()))
             .and_then(|()| atomic::write_file(out, text.as_bytes()))?,
-        None => say!("{}", text.trim_end()),
+        None => return Ok(Outcome::line(text.trim_end())),
     }
-    Ok(())
+    Ok(Outcome::default())
 }

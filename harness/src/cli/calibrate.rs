@@ -1,14 +1,17 @@
 //! `unshade calibrate`.
 
-use std::path::{Path, PathBuf};
+use std::ops::{Deref, RangeInclusive};
+use std::path::PathBuf;
 
 use clap::Args;
-use scoring::compare::{Baseline, Calibration, MIN_RUNS, Tolerances};
+use scoring::compare::{Baseline, Calibration, MIN_RUNS};
+use serde::Deserialize;
 
-use super::alone::tools;
-use super::exit::{CHECK_FAILED, DONE};
-use super::progress::Progress;
+use super::compare::tolerances_of;
+use super::exit::CHECK_FAILED;
+use super::outcome::Outcome;
 use crate::suite::{CalibrationRuns, Observer, RunError, Suite, Vary};
+use crate::synth::Tools;
 
 /// How many of the rows that see least are named.
 const NAMED: usize = 3;
@@ -16,7 +19,7 @@ const NAMED: usize = 3;
 /// The power below which a row is told.
 const POWER: f64 = 0.9;
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct CalibrateArgs {
     /// The suite to repeat: a file, or the name of one that comes with unshade.
     #[arg(required_unless_present = "runs", conflicts_with = "runs")]
@@ -51,82 +54,81 @@ pub(super) struct CalibrateArgs {
     rules: Option<PathBuf>,
 }
 
+/// Rates of false alarms that a calibration can aim at.
+const RATES: RangeInclusive<f64> = 0.0005..=0.5;
+
 fn rate(text: &str) -> Result<f64, String> {
     let rate: f64 = text.parse().map_err(|_| "is not a number".to_owned())?;
     // Fewer than ten simulated comparisons decide about less.
-    let valid = (0.0005..=0.5).contains(&rate);
-    valid.then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
+    RATES.contains(&rate).then_some(rate).ok_or_else(|| "is not from 0.0005 to 0.5".to_owned())
 }
 
 /// Runs what is not run yet, and writes the tolerances.
-pub(super) fn calibrate(arguments: &CalibrateArgs) -> Result<u8, RunError> {
-    let rules = match &arguments.rules {
-        Some(path) => Tolerances::read(path)?,
-        None => Tolerances::built_in()?,
-    };
+pub(super) fn calibrate(
+    arguments: &CalibrateArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
+    let CalibrateArgs { seeds, vary, out, keep, false_alarms, .. } = arguments;
+    if arguments.suite.is_some() && (*seeds as usize) < MIN_RUNS {
+        return Err(RunError::Argument(format!("seeds is {seeds}; give {MIN_RUNS} or more")));
+    }
+    if !RATES.contains(false_alarms) {
+        let reason = format!("false_alarms is {false_alarms}; give 0.0005 to 0.5");
+        return Err(RunError::Argument(reason));
+    }
+    let rules = tolerances_of(arguments.rules.as_deref())?;
     let folders = match &arguments.suite {
-        Some(suite) => match make_runs(suite, arguments)? {
-            Ok(folders) => folders,
-            Err(code) => return Ok(code),
-        },
         None => arguments.runs.clone(),
+        Some(suite) => {
+            let keep = keep.clone().unwrap_or_else(|| CalibrationRuns::beside(out));
+            let runs = CalibrationRuns { seeds: *seeds, vary: *vary, keep: keep.clone() };
+            match runs.make(&Suite::open(suite)?, tools, observer)? {
+                Ok(folders) => folders,
+                Err(failed) => {
+                    let (name, reason) = failed.into_iter().next().unwrap_or_default();
+                    let failure = Some(RunError::Methods { name, reason, report: keep });
+                    return Ok(Outcome { code: CHECK_FAILED, failure, ..Outcome::default() });
+                }
+            }
+        }
     };
     let runs: Vec<Baseline> =
         folders.iter().map(|run| Baseline::of_run(run)).collect::<Result<_, _>>()?;
-    let calibration = Calibration::of_runs(&runs, &rules, arguments.false_alarms)?;
+    let calibration = Calibration::of_runs(&runs, &rules, *false_alarms)?;
     if let (Some(path), Some(mean)) = (&arguments.baseline, Baseline::mean(&runs)) {
         mean.write(path)?;
     }
-    calibration.write(&arguments.out)?;
-    tell(&calibration, runs.first().map_or(0, |run| run.rows.len()));
-    say!("{}", arguments.out.display());
-    Ok(DONE)
+    calibration.write(out)?;
+    let mut lines = summary(&calibration, runs.first().map_or(0, |run| run.rows.len()));
+    lines.push(out.display().to_string());
+    Ok(Outcome { lines, ..Outcome::default() })
 }
 
-/// The runs' folders, or the exit code if a method failed in one.
-fn make_runs(
-    suite: &Path,
-    arguments: &CalibrateArgs,
-) -> Result<Result<Vec<PathBuf>, u8>, RunError> {
-    let suite = Suite::open(suite)?;
-    let beside = || CalibrationRuns::beside(&arguments.out);
-    let runs = CalibrationRuns {
-        seeds: arguments.seeds,
-        vary: arguments.vary,
-        keep: arguments.keep.clone().unwrap_or_else(beside),
-    };
-    let begin = &mut |round| {
-        eprintln!("calibrate: run {round} of {}", arguments.seeds);
-        Box::new(Progress::new()) as Box<dyn Observer>
-    };
-    let made = runs.make(&suite, &tools(), begin)?;
-    // The observer has told of each failure.
-    Ok(made.map_err(|_| CHECK_FAILED))
-}
-
-/// Says what the tolerances can see.
-fn tell(calibration: &Calibration, rows: usize) {
+/// States the changes that the tolerances detect.
+fn summary(calibration: &Calibration, rows: usize) -> Vec<String> {
     let rate = 100.0 * calibration.false_alarms;
     let count = calibration.rows.len();
     let Some(critical) = calibration.critical else {
-        say!("{count} rows, none of which depends on the seed");
-        return;
+        return vec![format!("{count} rows, none of which depends on the seed")];
     };
-    say!(
+    let mut lines = vec![format!(
         "{count} of {rows} rows in {} runs; {rate} % false alarms over all of them at {critical:.1} \
          standard deviations of a difference ({:.1} if every row were on its own)",
         calibration.runs,
         calibration.bonferroni()
-    );
+    )];
     let mut blind: Vec<_> = calibration.rows.iter().filter(|(_, row)| row.power < POWER).collect();
     blind.sort_by(|a, b| (b.1.sees / b.1.matters).total_cmp(&(a.1.sees / a.1.matters)));
-    say!(
+    lines.push(format!(
         "{} rows detect a change worth reporting with probability {POWER} or more, {} do not{}",
         count - blind.len(),
         blind.len(),
         if blind.is_empty() { "" } else { "; the least sensitive:" }
-    );
-    for (id, row) in blind.iter().take(NAMED) {
-        say!("  {id}: {:.4} worth reporting, {:.4} detectable", row.matters, row.sees);
-    }
+    ));
+    let named = blind.iter().take(NAMED);
+    lines.extend(named.map(|(id, row)| {
+        format!("  {id}: {:.4} worth reporting, {:.4} detectable", row.matters, row.sees)
+    }));
+    lines
 }

@@ -1,5 +1,6 @@
-//! The verbs of the command line.
+//! The commands, for the command line and for the Python package.
 
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use formats::atomic;
@@ -7,133 +8,150 @@ use scoring::score;
 use scoring::study::{self, Study};
 use solver::Choice;
 
-use super::alone::{alone, tools};
-use super::arguments::{BackendName, RendererName, SolveArgs, SolverName, SynthArgs, Verb};
-use super::exit::DONE;
+use super::alone::alone;
+use super::arguments::{SolveArgs, SolverName, SynthArgs, Verb};
+use super::command_line::{command_line, name_of};
+use super::outcome::Outcome;
 use super::run::run_suite;
-use super::{bench, calibrate, check, clean, compare, doctor, export, figure, seal, start};
+use super::{bench, calibrate, check, clean, compare, doctor, figure, seal, start};
 use crate::rerun_viewer::{RerunViewer, ViewerError};
-use crate::suite::{self, BaselineMethod, Budget, OwnMetrics, Relight, RunError};
+use crate::suite::{self, BaselineMethod, Budget, Observer, OwnMetrics, Relight, RunError};
+use crate::synth::Tools;
 
-pub(super) fn run(verb: Verb) -> Result<u8, RunError> {
+/// Runs the command that a JSON object states: its name as `command`, and its arguments.
+pub fn run_request(
+    request: &str,
+    tools: &Tools,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
+    let wrong = |error: serde_json::Error| RunError::Argument(error.to_string());
+    let request: serde_json::Value = serde_json::from_str(request).map_err(wrong)?;
+    run(serde_json::from_value(request).map_err(wrong)?, &tools, observer)
+}
+
+pub(super) fn run(
+    verb: Verb,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
     match verb {
-        Verb::Synth(arguments) => synth(arguments)?,
-        Verb::Solve(arguments) => solve(&arguments)?,
+        Verb::Synth(arguments) => synth(arguments, tools, observer),
+        Verb::Solve(arguments) => solve(&arguments, tools, observer),
         Verb::Relight { capture, maps, out, renderer, light } => {
-            let renderer = match renderer {
-                RendererName::Mitsuba => "mitsuba",
-                RendererName::Cycles => "cycles",
-            };
             let relight = Relight {
                 capture: &capture,
                 maps: &maps,
                 out: &out,
-                renderer,
+                renderer: &name_of(&renderer),
                 scales: &suite::SCALES,
                 light: light.as_deref(),
             };
-            alone("relight", |tools, step| suite::relight(&relight, tools, step))?;
+            alone("relight", observer, |step| suite::relight(&relight, tools, step))?;
+            Ok(Outcome::default())
         }
         Verb::Budget { capture, maps, out, light, view } => {
             let (light, view) = (light.as_deref(), view.as_deref());
             let budget = Budget { capture: &capture, maps: &maps, out: &out, light, view };
-            alone("budget", |tools, step| suite::budget(&budget, tools, step).map(|_| ()))?;
-            say!("{}", out.join("budget.md").display());
+            let found = alone("budget", observer, |step| suite::budget(&budget, tools, step))?;
+            Outcome::line(out.join("budget.md").display()).with(&found)
         }
-        Verb::Export(arguments) => export::export(&arguments)?,
+        Verb::Export(export) => {
+            let found = alone("export", observer, |step| suite::export(&export, tools, step))?;
+            let lines = found["lines"].as_array().into_iter().flatten();
+            let lines = lines.map(|line| line.as_str().unwrap_or_default().to_owned()).collect();
+            Outcome { lines, ..Outcome::default() }.with(&found)
+        }
         Verb::Check { submission: Some(folder), captures, .. } => {
-            return check::submission(&folder, captures.as_deref());
+            check::submission(&folder, captures.as_deref(), observer)
         }
         Verb::Check { maps, capture, .. } => {
-            return Ok(check::check(&maps.unwrap_or_default(), capture.as_deref())?);
+            check::check(&maps.unwrap_or_default(), capture.as_deref())
         }
-        Verb::Seal(arguments) => return seal::seal(&arguments),
-        Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref())?,
+        Verb::Seal(arguments) => seal::seal(&arguments, tools, observer),
+        Verb::Verify { folder, key } => seal::verify(&folder, key.as_deref()),
         Verb::Score { capture, maps, relit, lpips, metric, out } => {
             let inputs = [Some(&*capture), Some(&*maps), relit.as_deref()];
             atomic::refuse_overlap(&out, &inputs.into_iter().flatten().collect::<Vec<_>>())?;
             let mut scores = score::score(&capture, &maps, relit.as_deref())?;
             if let Some(net) = lpips {
-                let rows = suite::lpips(&net, &capture, &maps, relit.as_deref(), &tools())?;
+                let rows = suite::lpips(&net, &capture, &maps, relit.as_deref(), tools)?;
                 scores.rows.extend(rows);
             }
             let own = OwnMetrics::new(metric, PathBuf::new());
-            own.add_rows(&mut scores, [&capture, &maps], relit.as_deref(), &tools())?;
-            scores.findings.iter().for_each(|finding| eprintln!("{finding}"));
+            own.add_rows(&mut scores, [&capture, &maps], relit.as_deref(), tools)?;
+            scores.findings.iter().for_each(|finding| observer.message(&finding.to_string()));
             scores.write(&out)?;
+            Ok(Outcome::default())
         }
         Verb::Init { folder } => {
             start::write(&folder)?;
-            say!(
-                "unshade run {} -o {}",
-                folder.join("suite.toml").display(),
-                folder.join("run").display()
-            );
+            let [suite, run] = ["suite.toml", "run"].map(|name| folder.join(name));
+            Ok(Outcome::line(format!("unshade run {} -o {}", suite.display(), run.display())))
         }
-        Verb::Run(arguments) => return run_suite(arguments),
+        Verb::Run(arguments) => run_suite(arguments, tools, observer),
         Verb::Clean { run, keep, earlier_gb, earlier_days } => {
             let bytes = earlier_gb.map(|gb| (gb * 1e9) as u64);
             let seconds = earlier_days.map(|days| days * 86_400.0);
-            clean::clean(&run, &keep, suite::Bound { bytes, seconds })?;
+            clean::clean(&run, &keep, suite::Bound { bytes, seconds }, observer)
         }
         Verb::Report { run, out } => {
-            alone("report", |tools, step| suite::report(&run, &out, tools, step))?;
-            say!("{}", out.join("index.html").display());
+            alone("report", observer, |step| suite::report(&run, &out, tools, step))?;
+            Ok(Outcome::line(out.join("index.html").display()))
         }
-        Verb::Figure(arguments) => figure::figure(&arguments)?,
+        Verb::Figure(arguments) => figure::figure(&arguments, tools, observer),
         Verb::Table { runs, out } => {
-            let mut words = vec!["unshade table".to_owned()];
-            words.extend(runs.iter().map(|run| run.display().to_string()));
-            words.push(format!("-o {}", out.display()));
-            report::write_results(&runs, &out, &words.join(" "))?;
+            report::write_results(&runs, &out, &command_line("table", &runs, &[], Some(&out)))?;
+            Ok(Outcome::default())
         }
-        Verb::Compare(arguments) => return compare::compare(&arguments),
-        Verb::Calibrate(arguments) => return calibrate::calibrate(&arguments),
-        Verb::Study { runs, out } => study(&runs, out.as_deref())?,
+        Verb::Compare(arguments) => compare::compare(&arguments, tools, observer),
+        Verb::Calibrate(arguments) => calibrate::calibrate(&arguments, tools, observer),
+        Verb::Study { runs, out } => study(&runs, out.as_deref()),
         Verb::Site { runs, out } => {
-            say!("{}", report::write_site(&runs, &out)?.index.display());
+            Ok(Outcome::line(report::write_site(&runs, &out)?.index.display()))
         }
-        Verb::Bench(arguments) => bench::bench(&arguments)?,
-        Verb::Doctor { physics } => return doctor::examine(&tools(), physics),
+        Verb::Bench(arguments) => bench::bench(&arguments),
+        Verb::Doctor { physics } => doctor::examine(tools, physics, observer),
     }
-    Ok(DONE)
 }
 
-fn study(runs: &[PathBuf], out: Option<&Path>) -> Result<(), RunError> {
-    let mut words = vec!["unshade study".to_owned()];
-    words.extend(runs.iter().map(|run| run.display().to_string()));
-    words.extend(out.map(|out| format!("-o {}", out.display())));
-    let command = words.join(" ");
+fn study(runs: &[PathBuf], out: Option<&Path>) -> Result<Outcome, RunError> {
+    let command = command_line("study", runs, &[], out);
     let observations = study::observations(runs)?;
     let found = Study::of(&observations);
-    match out {
+    let outcome = match out {
         Some(out) => {
             study::write_study(&found, &observations, runs, out, &command)?;
-            say!("{}", out.join("study.md").display());
+            Outcome::line(out.join("study.md").display())
         }
-        None => say!("{}", found.markdown(&command).trim_end()),
-    }
-    Ok(())
+        None => Outcome::line(found.markdown(&command).trim_end()),
+    };
+    outcome.with(&(found, observations))
 }
 
-fn synth(arguments: SynthArgs) -> Result<(), RunError> {
+fn synth(
+    arguments: SynthArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
     // The parser lets no other combination through.
     match (arguments.scene, arguments.contact_sheet, arguments.out) {
-        (_, Some(count), Some(out)) => alone("contact sheet", |tools, step| {
+        (_, Some(count), Some(out)) => alone("contact sheet", observer, |step| {
             suite::contact_sheet(count, arguments.seed, &out, tools, step)
-        }),
+        })?,
         (Some(scene), _, Some(out)) => {
-            alone("synth", |tools, step| suite::synth(&scene, &out, tools, step))
+            alone("synth", observer, |step| suite::synth(&scene, &out, tools, step))?;
         }
-        (Some(scene), ..) => {
-            say!("{}", suite::describe(&scene, &tools())?);
-            Ok(())
-        }
-        _ => Ok(()),
+        (Some(scene), ..) => return Ok(Outcome::line(suite::describe(&scene, tools)?)),
+        _ => {}
     }
+    Ok(Outcome::default())
 }
 
-fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
+fn solve(
+    arguments: &SolveArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
     let mut config = suite::solver_config(&arguments.config)?;
     if arguments.no_records {
         config = config.without_records();
@@ -143,37 +161,31 @@ fn solve(arguments: &SolveArgs) -> Result<(), RunError> {
         return Err(ViewerError(reason).into());
     }
     let (capture, out) = (&arguments.capture, &arguments.out);
+    let baseline = |method: BaselineMethod| method.make(capture, out, BaselineMethod::TEXTURE_SIZE);
     match arguments.solver {
         SolverName::Fields => {
             let capture = capture::Capture::open(capture)?;
-            eprintln!("solve: {}", solver::memory::Estimate::new(&capture, &config));
-            let backend = match arguments.backend {
-                BackendName::Auto => Choice::Auto,
-                BackendName::Cpu => Choice::Cpu,
-                BackendName::Gpu => Choice::Gpu,
-            };
-            let backend = backend.open()?;
-            eprintln!("solve: {}", backend.name());
+            let estimate = solver::memory::Estimate::new(&capture, &config);
+            observer.message(&format!("solve: {estimate}"));
+            let backend = name_of(&arguments.backend).parse::<Choice>()?.open()?;
+            observer.message(&format!("solve: {}", backend.name()));
             let viewer = arguments.rerun.as_deref().map(|place| RerunViewer::open(place, &capture));
             let mut viewer = viewer.transpose()?;
-            alone("solve", |tools, bar| {
+            alone("solve", observer, |bar| {
                 let solution =
                     suite::solve(&*backend, &capture, &config, out, tools, &mut |step| {
                         bar(step.iteration as u64, step.total as u64, &suite::in_words(step));
                         viewer.iter_mut().for_each(|viewer| viewer.step(step));
                     })?;
                 Ok(viewer.map_or(Ok(()), |viewer| viewer.solution(&solution))?)
-            })
+            })?;
         }
-        SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture, arguments),
-        SolverName::SemanticInitialisation => {
-            baseline(BaselineMethod::SemanticInitialisation, arguments)
+        SolverName::MeanTexture => baseline(BaselineMethod::MeanTexture)?,
+        SolverName::SemanticInitialisation => baseline(BaselineMethod::SemanticInitialisation)?,
+        SolverName::LabelMeans => {
+            alone("solve", observer, |_| Ok(score::label_mean_maps(capture, out)?))?;
         }
-        SolverName::LabelMeans => alone("solve", |_, _| Ok(score::label_mean_maps(capture, out)?)),
-        SolverName::Oracle => alone("solve", |_, _| Ok(score::oracle_maps(capture, out)?)),
+        SolverName::Oracle => alone("solve", observer, |_| Ok(score::oracle_maps(capture, out)?))?,
     }
-}
-
-fn baseline(method: BaselineMethod, arguments: &SolveArgs) -> Result<(), RunError> {
-    method.make(&arguments.capture, &arguments.out, BaselineMethod::TEXTURE_SIZE)
+    Ok(Outcome::default())
 }

@@ -1,20 +1,21 @@
 //! `unshade compare`.
 
-use std::ffi::OsString;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use clap::Args;
 use formats::atomic;
 use scoring::compare::{self, Acceptances, CompareError, Places, Tolerances};
+use serde::Deserialize;
 
-use super::alone::tools;
 use super::baseline_branch;
 use super::exit::{CHECK_FAILED, DONE};
-use crate::suite::{RunError, Suite, case_places};
-use crate::synth::run_stage;
+use super::outcome::Outcome;
+use crate::suite::{Observer, RunError, Suite, case_places};
+use crate::synth::{Request, Tools};
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct CompareArgs {
     /// The run: its folder or its `run.json`; or a file of scores, or a baseline.
     run: PathBuf,
@@ -41,6 +42,7 @@ pub(super) struct CompareArgs {
     json: Option<PathBuf>,
     /// Print GitHub annotations before the table.
     #[arg(long)]
+    #[serde(default)]
     github: bool,
     /// Also write small pictures of each change into this folder: before (if the baseline is a run), after, the
     /// reference, and the difference.
@@ -70,11 +72,12 @@ pub(super) struct CompareArgs {
 }
 
 /// Judges the run and writes what is asked for; exit code 1 on a regression.
-pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
-    let tolerances = match &arguments.tolerances {
-        Some(path) => Tolerances::read(path)?,
-        None => Tolerances::built_in()?,
-    };
+pub(super) fn compare(
+    arguments: &CompareArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
+    let tolerances = tolerances_of(arguments.tolerances.as_deref())?;
     let places: Places = match &arguments.suite {
         Some(suite) => case_places(&Suite::open(suite)?),
         None => Places::new(),
@@ -88,7 +91,7 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
         if let (Some(rows), Some(reason)) = (&arguments.accept, &arguments.reason) {
             let until = arguments.until.as_deref();
             let count = comparison.write_acceptance(path, rows, reason, until)?;
-            eprintln!("{count} rows accepted in {}", path.display());
+            observer.message(&format!("{count} rows accepted in {}", path.display()));
             comparison.accept(&Acceptances::read(path)?, &today);
         }
     }
@@ -115,14 +118,18 @@ pub(super) fn compare(arguments: &CompareArgs) -> Result<u8, RunError> {
             baseline_branch::head().as_deref(),
         )?;
         if let Some(chart) = &arguments.chart {
-            history_chart(path, chart)?;
+            tools.ask(&Request::History { history: path, out: chart })?;
         }
     }
-    if arguments.github {
-        comparison.annotations(&places).iter().for_each(|line| say!("{line}"));
-    }
-    say!("{}", comparison.table().trim_end());
-    Ok(if comparison.passed() { DONE } else { CHECK_FAILED })
+    let mut lines = if arguments.github { comparison.annotations(&places) } else { Vec::new() };
+    lines.push(comparison.table().trim_end().to_owned());
+    let code = if comparison.passed() { DONE } else { CHECK_FAILED };
+    Outcome { code, lines, ..Outcome::default() }.with(&comparison.passed())
+}
+
+/// The tolerances of a file, or the built-in ones without a file.
+pub(super) fn tolerances_of(path: Option<&Path>) -> Result<Tolerances, CompareError> {
+    path.map_or_else(Tolerances::built_in, Tolerances::read)
 }
 
 /// The baseline: the file or folder that was named, or the branch's.
@@ -138,15 +145,6 @@ fn source(arguments: &CompareArgs) -> Result<PathBuf, RunError> {
 /// The time in UTC.
 fn now(form: &str) -> String {
     chrono::DateTime::<chrono::Utc>::from(SystemTime::now()).format(form).to_string()
-}
-
-fn history_chart(history: &Path, chart: &Path) -> Result<(), RunError> {
-    let arguments = [("--history", history), ("--out", chart)];
-    let arguments: Vec<OsString> =
-        arguments.iter().flat_map(|(flag, path)| [flag.into(), path.as_os_str().into()]).collect();
-    let tools = tools();
-    run_stage(&tools.interpreter, "history", &arguments, &tools.interrupt, &mut |_, _, _| {})?;
-    Ok(())
 }
 
 fn write(path: &Path, text: &str) -> Result<(), RunError> {

@@ -1,14 +1,19 @@
 //! `unshade figure`.
 
-use std::path::{Path, PathBuf};
+use std::ops::Deref;
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use report::{FigureKind, FigureRequest};
+use serde::Deserialize;
 
 use super::alone::alone;
-use crate::suite::{self, RunError};
+use super::command_line::{command_line, name_of};
+use super::outcome::Outcome;
+use crate::suite::{self, Observer, RunError};
+use crate::synth::Tools;
 
-#[derive(Args)]
+#[derive(Args, Deserialize)]
 pub(super) struct FigureArgs {
     /// The figure to draw.
     #[arg(value_enum)]
@@ -27,7 +32,8 @@ pub(super) struct FigureArgs {
     case: Vec<String>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 enum KindName {
     /// Relighting in several lights.
     Fig6,
@@ -65,35 +71,24 @@ impl KindName {
     }
 }
 
-/// The request for a figure by the name of its kind, and the command that makes it; the error names the kinds.
-pub fn figure_request(
-    kind: &str,
-    runs: Vec<PathBuf>,
-    methods: Vec<String>,
-    cases: Vec<String>,
-    out: &Path,
-) -> Result<FigureRequest, String> {
-    let found = KindName::from_str(kind, false).map_err(|_| {
-        let kinds = KindName::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-        let kinds: Vec<String> = kinds.map(|kind| kind.get_name().to_owned()).collect();
-        format!("figure {kind:?} is unknown; use one of {}", kinds.join(", "))
-    })?;
-    let mut words = vec![format!("unshade figure {kind}")];
-    words.extend(runs.iter().map(|run| run.display().to_string()));
-    words.extend(methods.iter().map(|name| format!("--method {name}")));
-    words.extend(cases.iter().map(|name| format!("--case {name}")));
-    words.push(format!("-o {}", out.display()));
-    Ok(FigureRequest { kind: found.kind(), runs, methods, cases, command: words.join(" ") })
-}
-
 /// Gathers and draws the figure.
-pub(super) fn figure(arguments: &FigureArgs) -> Result<(), RunError> {
+pub(super) fn figure(
+    arguments: &FigureArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
     let FigureArgs { kind, runs, out, method, case } = arguments;
-    let name = kind.to_possible_value().map_or(String::new(), |name| name.get_name().to_owned());
-    let request = figure_request(&name, runs.clone(), method.clone(), case.clone(), out);
-    // The parser lets no other kind through.
-    let Ok(request) = request else { return Ok(()) };
-    alone("figure", |tools, step| suite::figure(&request, out, tools, step))?;
-    say!("{}", out.join("figure.png").display());
-    Ok(())
+    let methods = method.iter().map(|name| format!("--method {name}"));
+    let options: Vec<String> =
+        methods.chain(case.iter().map(|name| format!("--case {name}"))).collect();
+    let name = format!("figure {}", name_of(kind));
+    let request = FigureRequest {
+        kind: kind.kind(),
+        runs: runs.clone(),
+        methods: method.clone(),
+        cases: case.clone(),
+        command: command_line(&name, runs, &options, Some(out)),
+    };
+    alone("figure", observer, |step| suite::figure(&request, out, tools, step))?;
+    Ok(Outcome::line(out.join("figure.png").display()))
 }

@@ -1,15 +1,6 @@
 //! The `unshade` command. Exit codes: 0 done, 1 a check failed, 2 bad input or usage,
 //! 3 interrupted.
 
-/// Prints a line for a reader who may have gone: of `... | head` nobody hears the rest.
-macro_rules! say {
-    ($($words:tt)*) => {{
-        use std::io::Write;
-        let mut out = std::io::stdout().lock();
-        let _ = writeln!(out, $($words)*).and_then(|()| out.flush());
-    }};
-}
-
 mod alone;
 mod arguments;
 mod baseline_branch;
@@ -17,26 +8,31 @@ mod bench;
 mod calibrate;
 mod check;
 mod clean;
+mod command_line;
 mod commands;
 mod compare;
 mod doctor;
 mod exit;
-mod export;
 mod figure;
 mod groups;
+mod outcome;
 mod progress;
 mod run;
 mod seal;
 mod start;
 
+use std::cell::LazyCell;
 use std::ffi::OsString;
+use std::io::Write;
 
 use clap::FromArgMatches;
 use tracing_subscriber::filter::LevelFilter;
 
 use arguments::Cli;
+pub use commands::run_request;
 use exit::{BAD_INPUT, DONE, INTERRUPTED};
-pub use figure::figure_request;
+pub use outcome::Outcome;
+use progress::Progress;
 
 /// Runs the command line `arguments` (the program's name first) and returns the exit code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
@@ -56,8 +52,18 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         .without_time()
         .with_target(false)
         .try_init();
-    match commands::run(cli.verb) {
-        Ok(code) => code,
+    let tools = LazyCell::new(alone::tools);
+    let mut progress = Progress::default();
+    let outcome = commands::run(cli.verb, &tools, &mut progress);
+    progress.finish();
+    match outcome {
+        Ok(Outcome { code, lines, .. }) => {
+            let mut out = std::io::stdout().lock();
+            // A reader may have gone, as that of `... | head`.
+            let mut show = |line: &String| writeln!(out, "{line}").and_then(|()| out.flush());
+            let _ = lines.iter().try_for_each(&mut show);
+            code
+        }
         Err(error) => {
             eprintln!("unshade: {error}");
             if error.is_interrupt() { INTERRUPTED } else { BAD_INPUT }

@@ -19,7 +19,9 @@ impl Drop for Progress {
 }
 
 /// Bars where standard error is a terminal, lines where it is not.
+#[derive(Default)]
 pub(super) struct Progress {
+    /// On a terminal, from the first stage on.
     bars: Option<Bars>,
     /// When each running stage began, and when its last line was printed; without a terminal.
     begun: BTreeMap<String, (Instant, Instant)>,
@@ -38,16 +40,16 @@ fn style(template: &str) -> ProgressStyle {
 }
 
 impl Progress {
-    pub(super) fn new() -> Self {
-        let bars = std::io::stderr().is_terminal().then(|| {
+    fn bars(&mut self) -> Option<&mut Bars> {
+        if self.bars.is_none() && std::io::stderr().is_terminal() {
             let all = MultiProgress::new();
             let run = all.add(ProgressBar::new(0));
             // Without a length a bar shows as full.
             run.set_style(style("{spinner} begins  {elapsed}"));
             run.enable_steady_tick(TICK);
-            Bars { all, run, stages: BTreeMap::new() }
-        });
-        Self { bars, begun: BTreeMap::new() }
+            self.bars = Some(Bars { all, run, stages: BTreeMap::new() });
+        }
+        self.bars.as_mut()
     }
 
     /// Takes the bars away, so that what is printed next stands alone.
@@ -72,8 +74,19 @@ impl Progress {
 }
 
 impl Observer for Progress {
+    fn suite_begins(&mut self) {
+        self.bars();
+    }
+
+    fn message(&mut self, line: &str) {
+        match &self.bars {
+            Some(bars) => bars.run.println(line),
+            None => eprintln!("{line}"),
+        }
+    }
+
     fn stage_begins(&mut self, id: &str, done: usize, total: usize) {
-        let Some(bars) = &mut self.bars else {
+        let Some(bars) = self.bars() else {
             self.begun.insert(id.to_owned(), (Instant::now(), Instant::now()));
             return;
         };

@@ -1,43 +1,49 @@
 //! `unshade run`.
 
+use std::ops::Deref;
 use std::time::Instant;
 
-use super::alone::tools;
 use super::arguments::RunArgs;
 use super::exit::{CHECK_FAILED, DONE};
-use super::progress::Progress;
-use crate::suite::{self, Cluster, RunError, RunOptions, Suite};
+use super::outcome::Outcome;
+use crate::suite::{self, Cluster, Observer, RunError, RunOptions, Suite};
+use crate::synth::Tools;
 
-pub(super) fn run_suite(arguments: RunArgs) -> Result<u8, RunError> {
+pub(super) fn run_suite(
+    arguments: RunArgs,
+    tools: &dyn Deref<Target = Tools>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, RunError> {
     let suite = Suite::open(&arguments.suite)?.only(arguments.methods, arguments.cases)?;
     let jobs = usize::from(arguments.jobs);
-    if arguments.dry_run {
-        say!("{}", suite::forecast(&suite, &arguments.out, &arguments.costs, jobs, &tools())?);
-        return Ok(DONE);
-    }
     let store = arguments.store;
     let cluster = arguments.cluster.map(|address| Cluster { address, store, workers: jobs });
-    // What comes back is only read here.
+    // Outputs of a cluster are only read here.
     let options = RunOptions {
         redo: arguments.redo,
         jobs: if cluster.is_some() { 1 } else { jobs },
         cluster,
     };
-    let mut progress = Progress::new();
+    if arguments.dry_run {
+        let forecast = suite::forecast(&suite, &arguments.out, &arguments.costs, &options, tools)?;
+        return Ok(Outcome::line(forecast));
+    }
     let start = Instant::now();
-    let summary = suite::run(&suite, &arguments.out, &options, &tools(), &mut progress);
-    progress.finish();
-    let summary = summary?;
+    let summary = suite::run(&suite, &arguments.out, &options, tools, observer)?;
     let seconds = start.elapsed().as_secs_f64();
     let (ran, skipped) = (summary.ran, summary.skipped);
-    eprintln!("{ran} stages run, {skipped} still valid, {seconds:.0} s");
-    say!("{}", summary.report.display());
-    // Each reason was printed when it arose.
-    if !summary.failed.is_empty() {
-        eprintln!(
-            "unshade: {} failed; the reasons are above and in the report",
-            summary.failed.len()
-        );
+    observer.message(&format!("{ran} stages run, {skipped} still valid, {seconds:.0} s"));
+    let count = summary.failed.len();
+    if count > 0 {
+        // Each reason was shown when it arose.
+        let reasons = "the reasons are above and in the report";
+        observer.message(&format!("unshade: {count} failed; {reasons}"));
     }
-    Ok(if summary.failed.is_empty() { DONE } else { CHECK_FAILED })
+    let failure = summary.failed.into_iter().next().map(|(name, reason)| RunError::Methods {
+        name,
+        reason,
+        report: summary.report.clone(),
+    });
+    let code = if failure.is_some() { CHECK_FAILED } else { DONE };
+    Ok(Outcome { code, failure, ..Outcome::line(summary.report.display()) })
 }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::error::RunError;
 use super::file::Suite;
+use super::observer::Observer;
 use super::run::{RunOptions, begin_from, run};
 use super::seeds::Vary;
-use super::tools::{Observer, Tools};
+use crate::synth::Tools;
 
 /// Runs of a suite with other seeds each.
 #[derive(Clone, Debug)]
@@ -28,13 +29,13 @@ impl CalibrationRuns {
     }
 
     /// Makes the runs that are not there yet, and returns the folders of all; or the methods that failed in one
-    /// (`<case>/<method>`) and why. `begin` makes the observer of each run, by its number from 1.
+    /// (`<case>/<method>`) and why.
     #[allow(clippy::type_complexity)]
-    pub fn make<'o>(
+    pub fn make(
         &self,
         suite: &Suite,
         tools: &Tools,
-        begin: &mut dyn FnMut(u32) -> Box<dyn Observer + 'o>,
+        observer: &mut dyn Observer,
     ) -> Result<Result<Vec<PathBuf>, BTreeMap<String, String>>, RunError> {
         let mut folders: Vec<PathBuf> = Vec::new();
         for round in 1..=self.seeds {
@@ -43,8 +44,8 @@ impl CalibrationRuns {
             if let (Some(first), true) = (folders.first(), self.vary.keeps_captures()) {
                 begin_from(first, &suite, &folder)?;
             }
-            let mut observer = begin(round);
-            let summary = run(&suite, &folder, &RunOptions::default(), tools, &mut *observer)?;
+            observer.message(&format!("calibrate: run {round} of {}", self.seeds));
+            let summary = run(&suite, &folder, &RunOptions::default(), tools, observer)?;
             if !summary.failed.is_empty() {
                 return Ok(Err(summary.failed));
             }

@@ -1,57 +1,48 @@
 //! Where a suite states each of its cases, for tools that mark a line of a file.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::cases::Case;
 use super::file::Suite;
-use super::place;
+use super::packaged::Kind;
+use super::place::{self, Entry};
 
 /// File and line, from 1, of each case: of its variant, else of its face, else of the suite's scene or
 /// captures.
 pub fn case_places(suite: &Suite) -> BTreeMap<String, (String, usize)> {
-    let sources = place::sources(&suite.path);
+    let files: Vec<(PathBuf, Vec<Entry>)> = place::sources(&suite.path, Kind::Suite)
+        .into_iter()
+        .map(|source| (source.path.clone(), place::entries(&source.path)))
+        .collect();
+    // The files that the suite leads to come last, and are the more exact.
+    let find = |is_meant: &dyn Fn(&Entry) -> bool| {
+        let line = |entries: &[Entry]| entries.iter().find(|e| is_meant(e)).map(|e| e.line);
+        files.iter().rev().find_map(|(path, entries)| Some((path.clone(), line(entries)?)))
+    };
     let place = |case: &Case| {
-        let own = |key: &str| place::line_of(&suite.path, None, key);
-        let found = match &case.variant {
-            Some(variant) => line_with(&suite.path, &|line| names(line, "name", variant)),
-            None => None,
+        let names = |entry: &Entry, name: &str| {
+            entry.key() == "name" && entry.text.as_deref() == Some(name)
         };
-        let found = found.map(|line| (suite.path.clone(), line)).or_else(|| face(&sources, case));
-        let fallback =
-            || (suite.path.clone(), own("scene").or_else(|| own("captures")).unwrap_or(1));
-        let (path, line) = found.unwrap_or_else(fallback);
+        let variant = case
+            .variant
+            .as_ref()
+            .and_then(|name| find(&|entry| entry.keys[0] == "variant" && names(entry, name)));
+        let face = || {
+            let name = case.scene.name_of("face");
+            let inline = |entry: &Entry| entry.keys[0] == "face" && names(entry, name);
+            let rendered = case.photographed.is_none();
+            let own = |entry: &Entry| entry.keys.len() == 1 && names(entry, name);
+            rendered.then(|| find(&inline).or_else(|| find(&own))).flatten()
+        };
+        let fallback = || {
+            let line = |key| place::line_of(&suite.path, None, key);
+            (suite.path.clone(), line("scene").or_else(|| line("captures")).unwrap_or(1))
+        };
+        let (path, line) = variant.or_else(face).unwrap_or_else(fallback);
         (case.id.clone(), (plain(&path).display().to_string(), line))
     };
     suite.cases.iter().map(place).collect()
-}
-
-/// The face's table in a scene, or its name in a file of its own, which the scene leads to.
-fn face(sources: &[PathBuf], case: &Case) -> Option<(PathBuf, usize)> {
-    if case.photographed.is_some() {
-        return None;
-    }
-    let name = case.scene.name_of("face");
-    let inline = |line: &str| line.trim_start().starts_with("face") && names(line, "name", name);
-    let own = |line: &str| names(line, "name", name) && line.trim_start().starts_with("name");
-    let first = |states: &dyn Fn(&str) -> bool| {
-        sources.iter().rev().find_map(|path| Some((path.clone(), line_with(path, states)?)))
-    };
-    first(&inline).or_else(|| first(&own))
-}
-
-/// Whether a line states `key = "value"`.
-fn names(line: &str, key: &str, value: &str) -> bool {
-    line.split(key).skip(1).any(|rest| {
-        let rest = rest.trim_start().strip_prefix('=').map(str::trim_start);
-        rest.is_some_and(|rest| rest.starts_with(&format!("{value:?}")))
-    })
-}
-
-fn line_with(path: &Path, states: &dyn Fn(&str) -> bool) -> Option<usize> {
-    let text = fs::read_to_string(path).ok()?;
-    text.lines().position(states).map(|line| line + 1)
 }
 
 /// A path without `..`, as tools match files.
@@ -69,6 +60,8 @@ fn plain(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

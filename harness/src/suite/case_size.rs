@@ -8,6 +8,7 @@ use formats::picture;
 use rayon::prelude::*;
 use serde_json::Value;
 
+use super::baseline::BaselineMethod;
 use super::cases::Case;
 
 /// Cameras of a rig that does not say how many it has.
@@ -49,6 +50,24 @@ impl CaseSize {
             Some(folder) => photographed(folder).unwrap_or_default(),
             None => rendered(case),
         }
+    }
+
+    /// Bytes of a capture as bare numbers: 25 floats for a view with its layers, nine for every relit one, and 13 for
+    /// a texel.
+    pub fn capture_bytes(&self) -> f64 {
+        let relit = self.test * (1.0 + self.other_lights);
+        4.0 * ((self.train + self.test) * 25.0 + relit * 9.0 + self.texels * 13.0)
+    }
+
+    /// Bytes that a method leaves of the case as bare numbers.
+    pub fn method_bytes(&self) -> f64 {
+        let relit = self.test * (1.0 + self.other_lights) * 2.0;
+        4.0 * (relit * 9.0 + self.texels * 13.0)
+    }
+
+    /// Texels of the maps of a method that chooses their size.
+    pub fn solved_texels(&self) -> f64 {
+        if self.photographed { BaselineMethod::TEXTURE_SIZE.pow(2) as f64 } else { self.texels }
     }
 
     /// Pixels of a picture.

@@ -1,13 +1,16 @@
 //! The cases of a suite: every face in every light, in every variant of the scene.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
+use formats::atomic;
+use scoring::score;
 use toml::{Table, Value};
 
-use super::place;
+use super::relative_path;
 use super::scene::{self, Scene, SceneError};
-use scoring::score;
 
 /// One capture: a face in a light, in a variant of the scene.
 #[derive(Clone, Debug)]
@@ -22,6 +25,17 @@ pub struct Case {
     pub scene: Scene,
     /// The capture's folder, if it was photographed and not rendered.
     pub photographed: Option<PathBuf>,
+}
+
+impl Case {
+    /// Writes its scene into a folder, as `<case>.toml`, and returns the file.
+    pub(super) fn write_scene(&self, folder: &Path) -> io::Result<PathBuf> {
+        fs::create_dir_all(folder)?;
+        let file = folder.join(format!("{}.toml", self.id));
+        let text = self.scene.to_toml().map_err(io::Error::other)?;
+        atomic::write_file(&file, text.as_bytes())?;
+        Ok(file)
+    }
 }
 
 /// The tables of a scene that a variant may change.
@@ -178,7 +192,7 @@ pub(super) fn photographed(path: &Path, suite: &Table) -> Result<Vec<Case>, Scen
     let names = names.ok_or_else(|| wrong("must be a list of captures' folders".to_owned()))?;
     let mut cases: Vec<Case> = Vec::new();
     for name in names {
-        let folder = place::beside(path, name);
+        let folder = relative_path::beside(path, name);
         let folder = std::path::absolute(&folder).unwrap_or(folder);
         if !score::is_photographed(&folder) {
             let reason =

@@ -9,10 +9,10 @@ use serde_json::Value;
 
 use super::earlier::{self, Bound};
 use super::error::RunError;
-use super::plan::Kind;
+use super::executor::DEBUG;
+use super::plan::StageKind;
 use super::run::lock;
 use super::size::size_of;
-use super::workshop::DEBUG;
 
 /// The folders of a run, beside its records.
 const PARTS: [&str; 10] = [
@@ -93,12 +93,12 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
     if name == STORE {
         return remove_store(&part, foreign);
     }
-    let kind = Kind::ALL.into_iter().find(|kind| kind.folder() == name);
+    let kind = StageKind::ALL.into_iter().find(|kind| kind.folder() == name);
     for id in ids(run)? {
         let Some((word, place)) = id.split_once('.') else { continue };
         let place = part.join(place.replace('.', "/"));
         match kind {
-            None if word == Kind::Maps.word() && name == DEBUG => {
+            None if word == StageKind::Maps.name() && name == DEBUG => {
                 match fs::remove_dir_all(&place) {
                     Err(error) if error.kind() != io::ErrorKind::NotFound => {
                         return Err(error.into());
@@ -106,10 +106,10 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
                     _ => {}
                 }
             }
-            None if word == Kind::Maps.word() => remove_file(&place.with_extension("txt"))?,
-            Some(kind) if kind.word() != word => continue,
-            Some(Kind::Scores) => remove_file(&place.with_extension("json"))?,
-            Some(Kind::Capture) => {
+            None if word == StageKind::Maps.name() => remove_file(&place.with_extension("txt"))?,
+            Some(kind) if kind.name() != word => continue,
+            Some(StageKind::Scores) => remove_file(&place.with_extension("json"))?,
+            Some(StageKind::Capture) => {
                 remove_ours(&place, foreign)?;
                 remove_file(&place.with_extension("toml"))?;
             }
@@ -144,9 +144,9 @@ fn ids(run: &Path) -> io::Result<Vec<String>> {
     let name = |value: &Value| value["id"].as_str().unwrap_or_default().to_owned();
     let mut ids = Vec::new();
     for case in list(&manifest["cases"]) {
-        ids.push(format!("{}.{}", Kind::Capture.word(), name(&case)));
+        ids.push(format!("{}.{}", StageKind::Capture.name(), name(&case)));
         for method in list(&case["solvers"]) {
-            ids.push(format!("{}.{}.{}", Kind::Maps.word(), name(&case), name(&method)));
+            ids.push(format!("{}.{}.{}", StageKind::Maps.name(), name(&case), name(&method)));
         }
     }
     for entry in fs::read_dir(run.join("stages"))? {

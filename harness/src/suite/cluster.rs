@@ -2,8 +2,7 @@
 //! taken for finished.
 
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 use std::time::Instant;
 
@@ -11,13 +10,15 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::error::RunError;
+use super::executor::{Contents, StageExecutor};
 use super::file::Suite;
-use super::part::{content, versions};
-use super::plan::{Kind, Task};
-use super::record::{Record, Records};
-use super::tools::{Observer, Tools};
-use super::workshop::{Contents, Workshop};
-use crate::synth::{Fingerprints, cli_args, run_stage};
+use super::finished::Record;
+use super::observer::Observer;
+use super::plan::Stage;
+use super::record::Records;
+use super::remote_stage::{content, versions};
+use crate::synth::Tools;
+use crate::synth::{Fingerprints, Request};
 
 /// Where stages are done.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,34 +49,28 @@ struct Ended {
 
 /// Does the stages of `plan` that no valid output is there of.
 pub(super) fn run(
-    workshop: &Workshop,
-    plan: &[Task],
+    executor: &StageExecutor,
+    plan: &[Stage],
     cluster: &Cluster,
     records: &Records,
     observer: &mut dyn Observer,
 ) -> Result<Elsewhere, RunError> {
-    let tools = workshop.tools;
-    let order = order(workshop, plan, records)?;
-    let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".json").tempfile()?;
-    file.write_all(&serde_json::to_vec(&order).map_err(io::Error::from)?)?;
-    let workers = cluster.workers.to_string();
+    let tools = executor.tools;
+    let order = order(executor, plan, records)?;
     let store = match &cluster.store {
         Some(store) => store.clone(),
-        None => std::path::absolute(workshop.out)?.join("store").to_string_lossy().into_owned(),
+        None => std::path::absolute(executor.out)?.join("store").to_string_lossy().into_owned(),
     };
-    let arguments = cli_args(&[
-        ("--order", file.path().as_os_str()),
-        ("--address", OsStr::new(&cluster.address)),
-        ("--store", OsStr::new(&store)),
-        ("--workers", OsStr::new(&workers)),
-    ]);
+    let request = Request::Cluster {
+        order: &order,
+        address: &cluster.address,
+        store: &store,
+        workers: cluster.workers,
+    };
     let start = Instant::now();
     observer.stage_begins("cluster", 0, plan.len() + 1);
-    let said = run_stage(
-        &tools.interpreter,
-        "cluster",
-        &arguments,
-        &tools.interrupt,
+    let result = tools.run(
+        &request,
         &mut |done, total, what| match serde_json::from_str::<Ended>(what) {
             Ok(Ended { stage, seconds }) => {
                 observer.step("cluster", done, total, &stage);
@@ -83,30 +78,30 @@ pub(super) fn run(
             }
             Err(_) => observer.step("cluster", done, total, what),
         },
-    );
-    let said = said?;
+    )?;
     observer.stage_ends("cluster", Some(start.elapsed().as_secs_f64()));
-    Ok(serde_json::from_value(said).map_err(io::Error::from)?)
+    Ok(serde_json::from_value(result).map_err(io::Error::from)?)
 }
 
 /// The stages with what they read, and what is valid already.
-fn order(workshop: &Workshop, plan: &[Task], records: &Records) -> Result<Value, RunError> {
-    let Workshop { suite, out, renderer, .. } = workshop;
+fn order(executor: &StageExecutor, plan: &[Stage], records: &Records) -> Result<Value, RunError> {
+    let StageExecutor { suite, out, renderer, .. } = executor;
     let mut contents = Contents::new();
     let mut tasks = Vec::new();
-    for task in plan {
-        let (key, path) = (workshop.key(task, &contents).ok(), workshop.path(task));
-        let valid = key.map(|key| records.valid(&task.id, &key.hash, &path)).transpose()?.flatten();
+    for stage in plan {
+        let (key, path) = (executor.key(stage, &contents).ok(), executor.path(stage));
+        let valid =
+            key.map(|key| records.valid(&stage.id, &key.hash, &path)).transpose()?.flatten();
         match &valid {
-            Some(record) => drop(contents.insert(task.id.clone(), record.output.clone())),
-            None if !task.wanted => continue,
+            Some(record) => drop(contents.insert(stage.id.clone(), record.output.clone())),
+            None if !stage.wanted => continue,
             // What comes back takes its place.
-            None => records.set_aside(&task.id, "", &path)?,
+            None => records.set_aside(&stage.id, "", &path)?,
         }
         tasks.push(json!({
-            "id": task.id, "after": task.after.iter().map(|at| &plan[*at].id).collect::<Vec<_>>(),
-            "path": task.path, "case": suite.cases[task.case].id, "output": valid.map(|record| record.output),
-            "name": task.name(suite).filter(|_| task.kind >= Kind::Maps),
+            "id": stage.id, "after": stage.after.iter().map(|at| &plan[*at].id).collect::<Vec<_>>(),
+            "path": stage.path, "case": suite.cases[stage.case].id, "output": valid.map(|record| record.output),
+            "name": stage.cell(suite),
         }));
     }
     Ok(json!({

@@ -1,6 +1,5 @@
 //! Methods that come with unshade and are no configuration of its solver: run in the renderer's process.
 
-use std::ffi::OsStr;
 use std::path::Path;
 
 use formats::atomic;
@@ -8,8 +7,8 @@ use serde_json::Value;
 
 use super::error::RunError;
 use super::program::copy_blind;
-use super::tools::Tools;
-use crate::synth::run_stage;
+use crate::synth::Request;
+use crate::synth::Tools;
 
 /// Class of a method's inputs; methods of different classes are in no ranking together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,18 +99,9 @@ impl Competitor {
             }
             Class::Controlled | Class::Privileged => capture,
         };
-        let arguments = [
-            OsStr::new("--name"),
-            OsStr::new(self.name),
-            OsStr::new("--capture"),
-            given.as_os_str(),
-            OsStr::new("--out"),
-            maps.as_os_str(),
-            OsStr::new("--settings"),
-            OsStr::new(settings),
-        ]
-        .map(OsStr::to_os_string);
-        run_stage(&tools.interpreter, "method", &arguments, &tools.interrupt, step)?;
+        let settings = serde_json::from_str(settings).unwrap_or_default();
+        let request = Request::Method { name: self.name, capture: given, out: maps, settings };
+        tools.run(&request, step)?;
         Ok(())
     }
 }

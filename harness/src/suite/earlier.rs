@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::RunError;
 use super::finished::{Finished, Record};
-use super::plan::Kind;
+use super::plan::StageKind;
 use super::size::size_of;
 
 /// The run's folder of such outputs.
@@ -38,7 +38,7 @@ pub(super) struct Earlier {
 impl Earlier {
     /// Those of the stage `id` of a run.
     pub fn of(run: &Path, id: &str) -> Self {
-        let name = id.strip_prefix(Kind::Maps.word()).and_then(|rest| rest.strip_prefix('/'));
+        let name = id.strip_prefix(StageKind::Maps.name()).and_then(|rest| rest.strip_prefix('/'));
         Self {
             folder: run.join(FOLDER).join(id.replace('/', ".")),
             log: name.map(|name| run.join("logs").join(format!("{name}.txt"))),

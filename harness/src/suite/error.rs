@@ -66,6 +66,8 @@ pub enum RunError {
     Seal(#[from] sealing::SealError),
     #[error("{0}")]
     Submission(String),
+    #[error("{0}")]
+    Argument(String),
     #[error("worker: {0}")]
     Worker(String),
     #[error("--keep: a run has no {name:?}; there are {known}")]

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
+use super::competitor::Class;
 use super::error::RunError;
 use super::method::{self, Method};
 use super::near;
 use super::own_metrics::OwnMetrics;
 use super::packaged::Kind;
-use super::place;
+use super::relative_path;
 use super::scene::{self, Scene, SceneError};
 
 const KEYS: [&str; 17] = [
@@ -100,7 +101,7 @@ impl Suite {
             return Err(SceneError::value(path, "captures", reason));
         }
         let methods = method::methods_of(path, &table)?;
-        let privileged = methods.iter().find(|method| method.reads_truth());
+        let privileged = methods.iter().find(|method| method.work().class() == Class::Privileged);
         if let (Some(method), false) = (privileged, photographed.is_empty()) {
             let reason = format!("photographs have no true maps; leave {:?} out", method.id);
             return Err(SceneError::in_table(path, &method.id, "name", reason));
@@ -190,7 +191,7 @@ fn own_metrics(path: &Path, table: &Table) -> Result<OwnMetrics, SceneError> {
         let reason = "must be a list of functions; write [\"module:function\"] or [\"file.py\"]";
         SceneError::value(path, "metrics", reason)
     })?;
-    Ok(OwnMetrics::new(names, place::beside(path, "")))
+    Ok(OwnMetrics::new(names, relative_path::beside(path, "")))
 }
 
 fn scales_of(path: &Path, table: &Table) -> Result<Vec<&'static str>, SceneError> {

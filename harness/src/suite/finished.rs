@@ -40,13 +40,13 @@ pub struct Record {
     /// Size of its output, without what is no content.
     #[serde(default)]
     pub bytes: u64,
-    /// How much there was to do, see [`cost`](super::cost).
+    /// How much there was to do, see [`Effort`](super::stage_work).
     #[serde(default)]
     pub work: f64,
     /// Size of the output as bare numbers, bytes.
     #[serde(default)]
     pub raw: f64,
-    /// Key of the records that it is compared with, see [`cost`](super::cost).
+    /// Key of the records that it is compared with, see [`Effort`](super::stage_work).
     #[serde(default)]
     pub what: String,
     /// How it came about.

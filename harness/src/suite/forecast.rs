@@ -8,13 +8,14 @@ use formats::atomic::claimable;
 
 use super::cost::{Costs, drawn};
 use super::error::RunError;
+use super::executor::{Contents, StageExecutor};
 use super::file::Suite;
-use super::plan::{Kind, plan};
+use super::plan::{StageKind, plan};
 use super::preflight;
 use super::record::{Around, Records, costs_of};
+use super::run::RunOptions;
 use super::size::in_words;
-use super::tools::Tools;
-use super::workshop::{Contents, Workshop};
+use crate::synth::Tools;
 
 /// Seconds around the stages, on two cores.
 const AROUND: Around = Around { start: 0.7, scene: 1.0, drawing: 0.2 };
@@ -48,20 +49,20 @@ pub struct Forecast {
     free: Option<u64>,
 }
 
-/// Estimates a run of `suite` in the folder `out` with `jobs` workers, from the timings of `out` and of the runs
-/// `costs`. Nothing is written.
+/// Estimates a run of `suite` in the folder `out`, from the timings of `out` and of the runs `costs`, and refuses what
+/// the run would refuse. Nothing is written.
 pub fn forecast(
     suite: &Suite,
     out: &Path,
     costs: &[PathBuf],
-    jobs: usize,
+    options: &RunOptions,
     tools: &Tools,
 ) -> Result<Forecast, RunError> {
     claimable(out)?;
-    preflight::files(suite)?;
-    let ready = preflight::methods(suite, tools)?;
+    let RunOptions { redo, jobs, .. } = options;
+    let methods = preflight::all(suite, redo, tools)?;
     let renderer = tools.interpreter.fingerprints()?;
-    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, &[]);
+    let executor = StageExecutor::new(suite, out, tools, &renderer, &methods, redo);
     let mut known = Costs::default();
     let mut around = None;
     for run in [out].into_iter().chain(costs.iter().map(PathBuf::as_path)) {
@@ -77,23 +78,27 @@ pub fn forecast(
     let around = around.unwrap_or(AROUND);
     let records = Records::of(out);
     let mut contents = Contents::new();
-    let mut forecast = Forecast { jobs, free: preflight::free(out), ..Forecast::default() };
-    let mut ends = Vec::new();
-    for task in plan(suite) {
-        let key = workshop.key(&task, &contents).ok();
+    let mut forecast = Forecast { jobs: *jobs, free: preflight::free(out), ..Forecast::default() };
+    let (mut ends, mut captures) = (Vec::new(), Vec::new());
+    for stage in plan(suite) {
+        let key = executor.key(&stage, &contents).ok();
+        let key = key.filter(|_| !executor.again(&stage));
         let kept =
-            key.and_then(|key| records.seems_valid(&task.id, &key.hash, &workshop.path(&task)));
-        let before = task.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
-        let stages = forecast.kinds.entry(task.kind.word()).or_default();
+            key.and_then(|key| records.seems_valid(&stage.id, &key.hash, &executor.path(&stage)));
+        let before = stage.after.iter().map(|at| ends[*at]).fold(0.0, f64::max);
+        let stages = forecast.kinds.entry(stage.kind.name()).or_default();
         let seconds = match kept {
             Some(output) => {
-                contents.insert(task.id.clone(), output);
+                contents.insert(stage.id.clone(), output);
                 stages.cached += 1;
                 0.0
             }
-            None if !task.wanted => 0.0,
+            None if !stage.wanted => 0.0,
             None => {
-                let cost = known.estimate(suite, &task);
+                if stage.kind == StageKind::Capture {
+                    captures.push(&suite.cases[stage.case]);
+                }
+                let cost = known.estimate(suite, &stage);
                 stages.pending += 1;
                 stages.measured += usize::from(cost.measured);
                 stages.seconds += cost.seconds;
@@ -103,11 +108,12 @@ pub fn forecast(
         };
         ends.push(before + seconds);
     }
+    preflight::space(suite, &captures, out)?;
+    preflight::scenes(suite, &captures, tools)?;
     forecast.longest = ends.into_iter().fold(0.0, f64::max);
-    forecast.order = Kind::ALL.into_iter().map(Kind::word).collect();
-    let scenes = forecast.kinds.get(Kind::Capture.word()).map_or(0, |stages| stages.pending);
+    forecast.order = StageKind::ALL.into_iter().map(StageKind::name).collect();
     let drawing = if around.drawing > 0.0 { around.drawing } else { AROUND.drawing };
-    forecast.around = around.start + around.scene * scenes as f64 + drawing * drawn(suite);
+    forecast.around = around.start + around.scene * captures.len() as f64 + drawing * drawn(suite);
     Ok(forecast)
 }
 

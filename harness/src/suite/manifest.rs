@@ -15,7 +15,7 @@ pub(super) struct Made<'a> {
     pub failed: &'a BTreeMap<String, String>,
     /// `<case>/<method>` of which nothing valid is there, and which was not to be run.
     pub left_out: BTreeSet<String>,
-    /// The identity of each method, by its id, see [`identity`](super::identity).
+    /// The identity of each method, by its id, see [`MethodWork::identity`](super::method_work).
     pub contents: BTreeMap<String, String>,
     /// Bytes that the stages of each kind left, by their folders.
     pub sizes: BTreeMap<&'static str, u64>,
@@ -47,7 +47,7 @@ pub(super) fn manifest(suite: &Suite, renderer: &Fingerprints, made: &Made) -> V
                     let name = format!("{}/{}", case.id, method.id);
                     let below = |folder| format!("{folder}/{name}");
                     let mut solver = json!({
-                        "id": method.id, "kind": method.role(), "class": method.class().name(),
+                        "id": method.id, "kind": method.work().role(), "class": method.work().class().name(),
                         "title": method.title,
                     });
                     if let Some((name, seed)) = &method.replicate {

@@ -2,22 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use solver::memory::{Estimate, available};
+use solver::memory::available;
 
-use super::cost::frame;
-use super::method::MethodKind;
-use super::plan::{Kind, Task};
-use super::workshop::Workshop;
-
-/// A process with the renderer in it, at the least (measured: 495 MB for 96 x 96 pictures), bytes.
-const RENDERER: u64 = 500 << 20;
-/// A camera ray in flight, and how many there are at most, see `synth/unshade/render/passes.py`.
-const RAY: u64 = 300;
-const MAX_RAYS: u64 = 1 << 21;
-/// A program that states no limit.
-const PROGRAM: u64 = 2 << 30;
-/// Scoring, and methods that optimise nothing.
-const SMALL: u64 = 200 << 20;
 /// Part of the free memory that is used: the rest is for what the estimates miss.
 const USED_FRACTION: f64 = 0.9;
 
@@ -55,32 +41,6 @@ impl Memory {
     /// The stage `at` is over.
     pub fn give_back(&mut self, at: usize) {
         self.taken.remove(&at);
-    }
-}
-
-/// Bytes that a stage takes at its peak.
-pub(super) fn estimate(workshop: &Workshop, task: &Task) -> u64 {
-    let suite = workshop.suite;
-    let renders = RENDERER + RAY * frame(suite, task).min(MAX_RAYS);
-    let method = task.method.map(|method| &suite.methods[method].kind);
-    match (task.kind, method) {
-        (Kind::Maps, Some(MethodKind::Fields { config, .. })) => {
-            let capture = capture::Capture::open(&workshop.capture(task));
-            match (capture, solver::Config::from_toml(config)) {
-                (Ok(capture), Ok(config)) => Estimate::new(&capture, &config).peak,
-                // The stage itself says what is wrong with them.
-                _ => SMALL,
-            }
-        }
-        (Kind::Maps, Some(MethodKind::Program(program))) => {
-            let stated = program.limits.memory_gib;
-            stated.map_or(PROGRAM, |gib| (gib * f64::from(1 << 30)) as u64)
-        }
-        (Kind::Maps, Some(MethodKind::Competitor { .. })) | (Kind::Capture | Kind::Relit, _) => {
-            renders
-        }
-        (Kind::Lights, _) => RENDERER,
-        (Kind::Maps | Kind::Scores, _) => SMALL,
     }
 }
 

@@ -8,9 +8,9 @@ use solver::{BackendError, Choice};
 use toml::{Table, Value};
 
 use super::baseline::BaselineMethod;
-use super::competitor::{Class, Competitor};
-use super::place;
+use super::competitor::Competitor;
 use super::program::{Gives, Limits, PLACES, Program, Start};
+use super::relative_path;
 use super::scene::{self, SceneError};
 use super::sweep::replicates;
 
@@ -18,36 +18,48 @@ use super::sweep::replicates;
 const ORACLE: &str = "oracle";
 const LABEL_MEANS: &str = "label-means";
 
-/// How a solver is started.
+/// Our own solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolverMethod {
+    /// Its settings, TOML text that names its `base`.
+    pub config: String,
+    /// The device that computes.
+    pub backend: Choice,
+}
+
+/// A method that comes with unshade and is not a configuration of its solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompetitorMethod {
+    /// Which one.
+    pub competitor: Competitor,
+    /// Its settings as JSON.
+    pub settings: String,
+}
+
+/// An answer that needs no optimisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BaselineSettings {
+    /// Which one.
+    pub baseline: BaselineMethod,
+    /// Side of its textures, texels.
+    pub texture_size: usize,
+}
+
+/// A kind of method with its settings; [`methods`](super::methods) has what each does.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MethodKind {
-    /// Our own solver with these settings (TOML text that names its `base`).
-    Fields {
-        /// A preset's name or the text of a configuration.
-        config: String,
-        /// The device that computes.
-        backend: Choice,
-    },
-    /// A program that is not ours.
+    /// Our own solver.
+    Fields(SolverMethod),
+    /// A program of the user.
     Program(Box<Program>),
     /// The true maps: the floor that rendering noise and the pipeline set.
     Oracle,
-    /// One that comes with unshade and is no configuration of its solver.
-    Competitor {
-        /// Which one.
-        competitor: Competitor,
-        /// Its settings as JSON.
-        settings: String,
-    },
+    /// A method of the Python package.
+    Competitor(CompetitorMethod),
     /// The true mean colour of every label: made from the truth too, see [`scoring::score::label_mean_maps`].
     LabelMeans,
-    /// An answer that needs no optimisation.
-    Baseline {
-        /// Which one.
-        baseline: BaselineMethod,
-        /// Side of its textures, texels.
-        texture_size: usize,
-    },
+    /// A baseline.
+    Baseline(BaselineSettings),
 }
 
 /// A column of the table.
@@ -73,34 +85,6 @@ impl Method {
     /// Whether a name of the command line stands for it: its own, or that of its table.
     pub(super) fn is_named(&self, name: &str) -> bool {
         [&self.id, &self.stated].iter().any(|known| *known == name)
-    }
-
-    /// Whether its maps are made from the truth, which photographs do not have.
-    pub fn reads_truth(&self) -> bool {
-        matches!(self.kind, MethodKind::Oracle | MethodKind::LabelMeans)
-    }
-
-    /// `solver`, `baseline`, `privileged` or `oracle`.
-    pub fn role(&self) -> &'static str {
-        match self.kind {
-            MethodKind::Oracle => ORACLE,
-            MethodKind::LabelMeans => "privileged",
-            MethodKind::Baseline { .. } => "baseline",
-            MethodKind::Fields { .. } | MethodKind::Program(_) | MethodKind::Competitor { .. } => {
-                "solver"
-            }
-        }
-    }
-
-    /// Class of its inputs.
-    pub fn class(&self) -> Class {
-        match self.kind {
-            MethodKind::Oracle | MethodKind::LabelMeans => Class::Privileged,
-            MethodKind::Competitor { competitor, .. } => competitor.class,
-            MethodKind::Baseline { .. } | MethodKind::Fields { .. } | MethodKind::Program(_) => {
-                Class::Passive
-            }
-        }
     }
 }
 
@@ -198,28 +182,23 @@ fn method_of(path: &Path, table: MethodTable) -> Result<Method, SceneError> {
             None if let Some(competitor) = competitor => {
                 let settings = serde_json::to_string(&table.set)
                     .map_err(|error| SceneError::in_table(path, name, "set", error.to_string()))?;
-                MethodKind::Competitor { competitor, settings }
+                MethodKind::Competitor(CompetitorMethod { competitor, settings })
             }
             Some(baseline) => {
-                MethodKind::Baseline { baseline, texture_size: table.texture_size(path)? }
+                let texture_size = table.texture_size(path)?;
+                MethodKind::Baseline(BaselineSettings { baseline, texture_size })
             }
-            None => MethodKind::Fields {
+            None => MethodKind::Fields(SolverMethod {
                 config: config_text(path, name, table.config.as_deref(), &table.set)?,
                 backend: table.backend.as_deref().map_or(Ok(Choice::Auto), str::parse).map_err(
                     |error: BackendError| {
                         SceneError::in_table(path, name, "backend", error.to_string())
                     },
                 )?,
-            },
+            }),
         },
     };
-    let title = table.title.unwrap_or_else(|| match kind {
-        MethodKind::Oracle => "oracle (true maps)".to_owned(),
-        MethodKind::LabelMeans => "true mean of each label".to_owned(),
-        MethodKind::Baseline { baseline, .. } => baseline.title().to_owned(),
-        MethodKind::Competitor { competitor, .. } => competitor.title.to_owned(),
-        MethodKind::Fields { .. } | MethodKind::Program(_) => table.name.clone(),
-    });
+    let title = table.title.unwrap_or_else(|| kind.work().title(&table.name));
     let stated = table.name.clone();
     let author = table.author;
     Ok(Method { id: table.name, title, kind, replicate: None, author, stated, set: table.set })
@@ -268,7 +247,7 @@ impl MethodTable {
             return wrong("set", &reason);
         }
         let Self { timeout_s, memory_gib, threads, .. } = *self;
-        let folder = place::folder_of(path);
+        let folder = relative_path::folder_of(path);
         Ok(Some(Program {
             gives,
             texture_size: self.texture_size(path)?,
@@ -373,7 +352,7 @@ fn config_text(
     let key = if config.is_some() { "config" } else { "name" };
     let config = config.unwrap_or(name);
     let mut table = if config.ends_with(".toml") {
-        scene::read_toml(&place::beside(path, config))?
+        scene::read_toml(&relative_path::beside(path, config))?
     } else {
         Table::from_iter([("base".to_owned(), Value::String(config.to_owned()))])
     };

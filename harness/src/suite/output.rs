@@ -7,7 +7,7 @@ use std::path::Path;
 use formats::content_hash::{hash_parts, hash_path};
 use serde::{Deserialize, Serialize};
 
-use super::plan::Kind;
+use super::plan::StageKind;
 use super::program::given_files;
 
 /// Hashes of a stage's output, and of those parts of a capture that other stages read alone.
@@ -26,9 +26,9 @@ pub struct Output {
 
 impl Output {
     /// Hashes the output of a stage of this kind.
-    pub(super) fn of(kind: Kind, path: &Path) -> io::Result<Self> {
+    pub(super) fn of(kind: StageKind, path: &Path) -> io::Result<Self> {
         let content = hash_path(path)?;
-        if kind != Kind::Capture {
+        if kind != StageKind::Capture {
             return Ok(Self { content, ..Self::default() });
         }
         let given = hash_files(path, given_files(path)?)?;
@@ -80,7 +80,7 @@ mod tests {
         for file in ["mesh.obj", "images/0.exr", "images/1.exr", "truth/diffuse_albedo.exr"] {
             write(file, file);
         }
-        let of = || Output::of(Kind::Capture, root.path()).unwrap();
+        let of = || Output::of(StageKind::Capture, root.path()).unwrap();
         let before = of();
         for (file, given, truth) in [
             ("truth/relit/noon/1.exr", false, false),

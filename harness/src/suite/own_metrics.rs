@@ -1,17 +1,16 @@
 //! Metrics that users write in Python, called by a child process.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use scoring::metrics::OwnMetric;
 use scoring::score::{self, Scores, Shown};
 use serde::Deserialize;
-use serde_json::json;
 
 use super::error::RunError;
-use super::tools::Tools;
-use crate::synth::{cli_args, run_stage};
+use crate::synth::Request;
+use crate::synth::Tools;
 
 /// Functions as a suite names them: `module:function`, `file.py` or `file.py:function`.
 #[derive(Clone, Debug, Default)]
@@ -88,16 +87,11 @@ impl OwnMetrics {
 
     fn ask<T: for<'de> Deserialize<'de>>(
         &self,
-        shown: &[Shown],
+        pairs: &[Shown],
         tools: &Tools,
     ) -> Result<T, RunError> {
-        let folder = std::path::absolute(&self.folder)?;
-        let request = json!({ "names": self.names, "folder": folder, "pairs": shown });
-        let mut file = tempfile::Builder::new().prefix("unshade-").suffix(".json").tempfile()?;
-        file.write_all(request.to_string().as_bytes())?;
-        let arguments = cli_args(&[("--request", file.path().as_os_str())]);
-        let silent = &mut |_, _, _: &str| {};
-        let said = run_stage(&tools.interpreter, "metrics", &arguments, &tools.interrupt, silent)?;
-        Ok(serde_json::from_value(said).map_err(io::Error::other)?)
+        let folder = &std::path::absolute(&self.folder)?;
+        let answer = tools.ask(&Request::Metrics { names: &self.names, folder, pairs })?;
+        Ok(serde_json::from_value(answer).map_err(io::Error::other)?)
     }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use super::place::beside;
+use super::relative_path::beside;
 
 static FOLDER: OnceLock<PathBuf> = OnceLock::new();
 

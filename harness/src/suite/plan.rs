@@ -6,9 +6,9 @@ use super::cases::Case;
 use super::file::Suite;
 use super::method::Method;
 
-/// Kinds of stages.
+/// A kind of stage; [`stage`](super::stage) has what each does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum StageKind {
     /// Renders a case.
     Capture,
     /// Writes the lights of a case for methods that give pictures.
@@ -21,12 +21,12 @@ pub enum Kind {
     Scores,
 }
 
-impl Kind {
+impl StageKind {
     /// All, in the order of a case.
     pub const ALL: [Self; 5] = [Self::Capture, Self::Lights, Self::Maps, Self::Relit, Self::Scores];
 
     /// The first word of ids of stages.
-    pub fn word(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Capture => "capture",
             Self::Lights => "lights",
@@ -36,22 +36,33 @@ impl Kind {
         }
     }
 
-    /// The run's folder that holds what such stages leave.
+    /// Whether there is such a stage for each method.
+    pub fn has_method(self) -> bool {
+        matches!(self, Self::Maps | Self::Relit | Self::Scores)
+    }
+
+    /// The id of such a stage: `<kind>/<case>[/<method>]`.
+    pub fn id(self, case: &str, method: Option<&str>) -> String {
+        let name = self.name();
+        method.map_or_else(|| format!("{name}/{case}"), |method| format!("{name}/{case}/{method}"))
+    }
+
+    /// The run's folder that holds the outputs of such stages.
     pub fn folder(self) -> &'static str {
         match self {
             Self::Capture => "captures",
-            other => other.word(),
+            other => other.name(),
         }
     }
 }
 
 /// A stage of a run.
 #[derive(Clone, Debug)]
-pub struct Task {
-    /// `<kind>/<case>[/<method>]`.
+pub struct Stage {
+    /// See [`StageKind::id`].
     pub id: String,
-    /// The kind of its work.
-    pub kind: Kind,
+    /// Its kind.
+    pub kind: StageKind,
     /// The index of its case in the suite.
     pub case: usize,
     /// The index of its method, of a stage that has one.
@@ -64,50 +75,50 @@ pub struct Task {
     pub path: PathBuf,
 }
 
-impl Task {
-    /// Whose failure a fault of this stage is: `<case>/<method>`.
-    pub fn name(&self, suite: &Suite) -> Option<String> {
+impl Stage {
+    /// The case and method, `<case>/<method>`, that fail with this stage.
+    pub fn cell(&self, suite: &Suite) -> Option<String> {
         let method = &suite.methods.get(self.method?)?;
         Some(format!("{}/{}", suite.cases.get(self.case)?.id, method.id))
     }
 }
 
 /// All stages of a suite, in the order in which one process does them.
-pub fn plan(suite: &Suite) -> Vec<Task> {
-    let handed = suite.methods.iter().any(Method::gives_pictures);
+pub fn plan(suite: &Suite) -> Vec<Stage> {
+    let gives_pictures = |method: &Method| method.work().gives_pictures();
+    let handed = suite.methods.iter().any(gives_pictures);
     let asked =
-        suite.methods.iter().any(|method| method.gives_pictures() && suite.runs_method(method));
-    let mut tasks: Vec<Task> = Vec::new();
+        suite.methods.iter().any(|method| gives_pictures(method) && suite.runs_method(method));
+    let mut stages: Vec<Stage> = Vec::new();
     for (case, one @ Case { id, photographed, .. }) in suite.cases.iter().enumerate() {
-        let mut add = |kind: Kind, method: Option<usize>, after: Vec<usize>| {
-            let name = match method {
-                Some(method) => format!("{id}/{}", suite.methods[method].id),
-                None => id.clone(),
-            };
+        let mut add = |kind: StageKind, method: Option<usize>, after: Vec<usize>| {
+            let of_method = method.map(|method| &*suite.methods[method].id);
+            let name = of_method.map_or_else(|| id.clone(), |method| format!("{id}/{method}"));
             let wanted = suite.runs_case(one)
                 && match method {
                     Some(method) => suite.runs_method(&suite.methods[method]),
-                    None => kind == Kind::Capture || asked,
+                    None => kind == StageKind::Capture || asked,
                 };
-            let file = if kind == Kind::Scores { format!("{name}.json") } else { name.clone() };
+            let file =
+                if kind == StageKind::Scores { format!("{name}.json") } else { name.clone() };
             let path = Path::new(kind.folder()).join(file);
-            let id = format!("{}/{name}", kind.word());
-            tasks.push(Task { id, kind, case, method, wanted, after, path });
-            tasks.len() - 1
+            let id = kind.id(id, of_method);
+            stages.push(Stage { id, kind, case, method, wanted, after, path });
+            stages.len() - 1
         };
         let rendered = photographed.is_none();
         let capture: Vec<usize> =
-            rendered.then(|| add(Kind::Capture, None, vec![])).into_iter().collect();
-        let lights = (handed && rendered).then(|| add(Kind::Lights, None, capture.clone()));
+            rendered.then(|| add(StageKind::Capture, None, vec![])).into_iter().collect();
+        let lights = (handed && rendered).then(|| add(StageKind::Lights, None, capture.clone()));
         for (method, given) in suite.methods.iter().enumerate() {
-            let lights = lights.filter(|_| given.gives_pictures());
+            let lights = lights.filter(|_| gives_pictures(given));
             let inputs = capture.iter().copied().chain(lights).collect();
-            let maps = add(Kind::Maps, Some(method), inputs);
+            let maps = add(StageKind::Maps, Some(method), inputs);
             let inputs = capture.iter().copied().chain([maps]).collect();
-            let relit = add(Kind::Relit, Some(method), inputs);
+            let relit = add(StageKind::Relit, Some(method), inputs);
             let inputs = capture.iter().copied().chain([maps, relit]).collect();
-            add(Kind::Scores, Some(method), inputs);
+            add(StageKind::Scores, Some(method), inputs);
         }
     }
-    tasks
+    stages
 }

@@ -1,8 +1,7 @@
-//! Does the stages of a plan, several at once where they do not wait for one another.
+//! Executes the stages of a plan, several at once where they do not wait for one another.
 //!
-//! Each worker is a thread with processors of its own, which what it starts keeps to: rendering and
-//! programs that it starts, and a pool of threads for what is computed here. Which stage is done when has no
-//! bearing on what it leaves.
+//! Each worker is a thread with its own processors, to which its renderers, programs and pool of threads are
+//! restricted. The order of the stages does not change their outputs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -15,12 +14,12 @@ use std::thread;
 use formats::cancel;
 
 use super::error::RunError;
-use super::memory::{Memory, estimate};
-use super::plan::{Kind, Task};
+use super::executor::{Contents, StageExecutor, StageResult};
+use super::memory::Memory;
+use super::observer::Observer;
+use super::plan::{Stage, StageKind};
 use super::processors;
 use super::record::{Records, Times};
-use super::tools::Observer;
-use super::workshop::{Contents, Done, Workshop};
 
 /// Outcome of a plan.
 #[derive(Default)]
@@ -38,97 +37,98 @@ pub(super) struct Outcome {
 
 /// The plan and how it is carried out.
 pub(super) struct Work<'a> {
-    pub plan: &'a [Task],
+    pub plan: &'a [Stage],
     /// How many workers there are.
     pub jobs: usize,
     /// Methods that are known to fail: `<case>/<method>` and why.
     pub failed: BTreeMap<String, String>,
 }
 
-/// Message of a worker, which goes on once it was heard.
+/// A message of a worker, which continues when it is answered.
 enum Event {
     Begins(usize),
     Step(usize, u64, u64, String),
     /// Without a result if the stage is left out.
-    Ends(usize, Box<Result<Option<Done>, RunError>>),
+    Ends(usize, Box<Result<Option<StageResult>, RunError>>),
 }
 
-/// A line to the thread that schedules, and its answer.
-struct Line(Sender<(Event, SyncSender<()>)>);
+/// Sends messages to the thread that schedules.
+struct EventSender(Sender<(Event, SyncSender<()>)>);
 
-impl Line {
-    fn say(&self, event: Event) {
-        let (heard, answer) = mpsc::sync_channel(1);
-        // After an end nobody listens any more.
-        let _ = self.0.send((event, heard)).map(|()| answer.recv());
+impl EventSender {
+    /// Returns when the message is answered.
+    fn send(&self, event: Event) {
+        let (acknowledge, answer) = mpsc::sync_channel(1);
+        // The receiver is gone after the last stage.
+        let _ = self.0.send((event, acknowledge)).map(|()| answer.recv());
     }
 }
 
-/// Does all of a plan. The first fault that is of no single method ends it.
+/// Executes a plan. The first error that is not of a single method ends it.
 pub(super) fn run(
-    workshop: &Workshop,
+    executor: &StageExecutor,
     Work { plan, jobs, failed }: Work,
     records: &Records,
     times: &mut Times,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, RunError> {
     let jobs = jobs.clamp(1, plan.len().max(1));
-    let (sender, events) = mpsc::channel();
-    let mut lines = Vec::new();
+    let (sender, received) = mpsc::channel();
+    let mut senders = Vec::new();
     thread::scope(|scope| {
         for own in processors::of_workers(jobs) {
             let (orders, ordered) = mpsc::channel::<(usize, Contents)>();
-            let line = Line(sender.clone());
+            let events = EventSender(sender.clone());
             let flag = cancel::flag();
             scope.spawn(move || {
-                let work = move || worker(workshop, plan, records, &ordered, &line);
+                let work = move || worker(executor, plan, records, &ordered, &events);
                 processors::keep_to(&own, flag, work)
             });
-            lines.push(orders);
+            senders.push(orders);
         }
         drop(sender);
-        // Its lines go with it, and with them the workers.
-        let mut schedule = Schedule::new(workshop, plan, lines);
+        // The workers end with its senders.
+        let mut schedule = Schedule::new(executor, plan, senders);
         for (name, reason) in failed {
             observer.stage_fails(&name, &reason);
             schedule.fails(name, reason)?;
         }
-        schedule.run(&events, times, observer)
+        schedule.run(&received, times, observer)
     })
 }
 
 fn worker(
-    workshop: &Workshop,
-    plan: &[Task],
+    executor: &StageExecutor,
+    plan: &[Stage],
     records: &Records,
     orders: &Receiver<(usize, Contents)>,
-    line: &Line,
+    events: &EventSender,
 ) {
     while let Ok((at, contents)) = orders.recv() {
-        let task = &plan[at];
-        if task.wanted {
-            line.say(Event::Begins(at));
+        let stage = &plan[at];
+        if stage.wanted {
+            events.send(Event::Begins(at));
         }
         let mut step =
-            |done, total, what: &str| line.say(Event::Step(at, done, total, what.to_owned()));
-        let work = AssertUnwindSafe(|| match task.wanted {
-            true => workshop.run(task, &contents, records, &mut step).map(Some),
-            false => workshop.kept(task, &contents, records),
+            |done, total, what: &str| events.send(Event::Step(at, done, total, what.to_owned()));
+        let work = AssertUnwindSafe(|| match stage.wanted {
+            true => executor.run(stage, &contents, records, &mut step).map(Some),
+            false => executor.kept(stage, &contents, records),
         });
         let done = panic::catch_unwind(work).unwrap_or_else(|payload| {
             if cancel::is_cancelled(&*payload) {
                 return Err(RunError::Interrupted);
             }
-            Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", task.id))))
+            Err(RunError::Folder(io::Error::other(format!("{}: ended in a fault", stage.id))))
         });
-        line.say(Event::Ends(at, Box::new(done)));
+        events.send(Event::Ends(at, Box::new(done)));
     }
 }
 
 struct Schedule<'a> {
-    workshop: &'a Workshop<'a>,
-    plan: &'a [Task],
-    lines: Vec<Sender<(usize, Contents)>>,
+    executor: &'a StageExecutor<'a>,
+    plan: &'a [Stage],
+    senders: Vec<Sender<(usize, Contents)>>,
     idle: Vec<usize>,
     /// Stages with the worker that does them.
     running: BTreeMap<usize, usize>,
@@ -141,16 +141,16 @@ struct Schedule<'a> {
 
 impl<'a> Schedule<'a> {
     fn new(
-        workshop: &'a Workshop<'a>,
-        plan: &'a [Task],
-        lines: Vec<Sender<(usize, Contents)>>,
+        executor: &'a StageExecutor<'a>,
+        plan: &'a [Stage],
+        senders: Vec<Sender<(usize, Contents)>>,
     ) -> Self {
         Self {
-            workshop,
+            executor,
             plan,
-            idle: (0..lines.len()).rev().collect(),
-            memory: Memory::new(lines.len()),
-            lines,
+            idle: (0..senders.len()).rev().collect(),
+            memory: Memory::new(senders.len()),
+            senders,
             running: BTreeMap::new(),
             waiting: (0..plan.len()).collect(),
             finished: BTreeSet::new(),
@@ -173,7 +173,7 @@ impl<'a> Schedule<'a> {
                     None => Ok(self.outcome),
                 };
             }
-            let Ok((event, heard)) = events.recv() else { return Ok(self.outcome) };
+            let Ok((event, acknowledge)) = events.recv() else { return Ok(self.outcome) };
             match event {
                 Event::Begins(at) => {
                     observer.stage_begins(&self.plan[at].id, self.done(), self.plan.len());
@@ -186,7 +186,7 @@ impl<'a> Schedule<'a> {
                     self.start();
                 }
             }
-            let _ = heard.send(());
+            let _ = acknowledge.send(());
         }
     }
 
@@ -208,27 +208,29 @@ impl<'a> Schedule<'a> {
                 Some((id.clone(), self.outcome.contents.get(&id)?.clone()))
             };
             let contents = self.plan[at].after.iter().filter_map(of).collect();
-            // A worker ends with its line alone.
-            let _ = self.lines[worker].send((at, contents));
+            // A worker ends only when its sender is gone.
+            let _ = self.senders[worker].send((at, contents));
         }
     }
 
     fn next(&mut self) -> Option<usize> {
-        let Self { plan, workshop, finished, memory, running, .. } = self;
+        let Self { plan, executor, finished, memory, running, .. } = self;
         let alone = running.is_empty();
         let ready = |at: &usize| plan[*at].after.iter().all(|before| finished.contains(before));
         let mut ready = self.waiting.iter().copied().filter(ready);
-        ready.find(|at| memory.take(*at, alone, || estimate(workshop, &plan[*at])))
+        ready.find(|at| {
+            memory.take(*at, alone, || plan[*at].kind.work().memory(executor, &plan[*at]))
+        })
     }
 
     fn ends(
         &mut self,
         at: usize,
-        done: Result<Option<Done>, RunError>,
+        done: Result<Option<StageResult>, RunError>,
         times: &mut Times,
         observer: &mut dyn Observer,
     ) {
-        let task = &self.plan[at];
+        let stage = &self.plan[at];
         self.idle.extend(self.running.remove(&at));
         self.memory.give_back(at);
         let noted = match done {
@@ -236,17 +238,17 @@ impl<'a> Schedule<'a> {
                 self.leave_out(at);
                 Ok(())
             }
-            Ok(Some(Done { record, kept })) => {
+            Ok(Some(StageResult { record, kept })) => {
                 *(if kept { &mut self.outcome.skipped } else { &mut self.outcome.ran }) += 1;
                 self.finished.insert(at);
-                self.outcome.contents.insert(task.id.clone(), record.output.clone());
-                observer.stage_ends(&task.id, (!kept).then_some(record.seconds));
+                self.outcome.contents.insert(stage.id.clone(), record.output.clone());
+                observer.stage_ends(&stage.id, (!kept).then_some(record.seconds));
                 times.add(record, kept).map_err(RunError::from)
             }
-            Err(error) => match task.name(self.workshop.suite) {
+            Err(error) => match stage.cell(self.executor.suite) {
                 Some(name) if error.is_of_method() => {
                     let reason = error.to_string();
-                    observer.stage_fails(&task.id, &reason);
+                    observer.stage_fails(&stage.id, &reason);
                     self.fails(name, reason)
                 }
                 _ => Err(error),
@@ -254,7 +256,7 @@ impl<'a> Schedule<'a> {
         };
         if let Err(error) = noted {
             // What else runs would go on for hours.
-            self.workshop.tools.interrupt.store(true, Ordering::Relaxed);
+            self.executor.tools.interrupt.store(true, Ordering::Relaxed);
             self.fault.get_or_insert(error);
         }
     }
@@ -263,8 +265,8 @@ impl<'a> Schedule<'a> {
     fn leave_out(&mut self, at: usize) {
         let left_out = &mut self.outcome.left_out;
         left_out.insert(at);
-        for (next, task) in self.plan.iter().enumerate().skip(at + 1) {
-            if task.after.iter().any(|before| left_out.contains(before)) {
+        for (next, stage) in self.plan.iter().enumerate().skip(at + 1) {
+            if stage.after.iter().any(|before| left_out.contains(before)) {
                 left_out.insert(next);
             }
         }
@@ -273,17 +275,22 @@ impl<'a> Schedule<'a> {
 
     /// A method that fails leaves its cells empty, and the others run.
     fn fails(&mut self, name: String, reason: String) -> Result<(), RunError> {
-        let suite = self.workshop.suite;
-        let of = |at: &usize| self.plan[*at].name(suite).is_some_and(|other| other == name);
+        let suite = self.executor.suite;
+        let of = |at: &usize| self.plan[*at].cell(suite).is_some_and(|other| other == name);
         self.waiting.retain(|at| !of(at));
         // Scores of an earlier state of the method must not pass for this one's.
-        let out = self.workshop.out;
-        let scores = out.join("scores").join(format!("{name}.json"));
-        Records::of(out).set_aside(&format!("{}/{name}", Kind::Scores.word()), "", &scores)?;
-        self.outcome.failed.insert(name, reason);
-        match fs::remove_file(scores) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error.into()),
-            _ => Ok(()),
+        let mut stages = self.plan.iter().enumerate();
+        if let Some((_, scores)) =
+            stages.find(|(at, stage)| stage.kind == StageKind::Scores && of(at))
+        {
+            let path = self.executor.path(scores);
+            Records::of(self.executor.out).set_aside(&scores.id, "", &path)?;
+            match fs::remove_file(path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error.into()),
+                _ => {}
+            }
         }
+        self.outcome.failed.insert(name, reason);
+        Ok(())
     }
 }

@@ -11,10 +11,9 @@ use formats::content_hash::hash_path;
 use serde::{Deserialize, Serialize};
 
 use super::earlier::{Earlier, refuse_foreign};
-use super::finished::Finished;
-pub use super::finished::{Made, Record};
+use super::finished::{Finished, Record};
 use super::output::Output;
-use super::plan::Task;
+use super::plan::Stage;
 use super::size::size_of;
 
 /// A stage in `RUN/timing.json`, and whether the last run could skip it.
@@ -181,8 +180,8 @@ pub(super) struct Times {
 }
 
 impl Times {
-    pub fn new(run: &Path, plan: &[Task]) -> Self {
-        let order = plan.iter().enumerate().map(|(at, task)| (task.id.clone(), at)).collect();
+    pub fn new(run: &Path, plan: &[Stage]) -> Self {
+        let order = plan.iter().enumerate().map(|(at, stage)| (stage.id.clone(), at)).collect();
         let file = run.join("timing.json");
         Self { file, order, stages: BTreeMap::new(), around: costs_of(run).1, written: None }
     }

@@ -11,21 +11,21 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use formats::atomic;
+use formats::content_hash::hash_parts;
 
 use super::cluster::{self, Cluster, Elsewhere};
 use super::cost::drawn;
 use super::error::RunError;
+use super::executor::{Contents, StageExecutor};
 use super::file::Suite;
-use super::identity;
 use super::manifest::{Made, manifest};
-use super::near;
-use super::plan::{Kind, Task, plan};
+use super::observer::Observer;
+use super::plan::{Stage, StageKind, plan};
 use super::pool::{self, Work};
 use super::preflight;
 use super::program::{self, copy_folder};
 use super::record::{Records, Times};
-use super::tools::{Observer, Tools};
-use super::workshop::{Contents, Workshop};
+use crate::synth::Tools;
 
 /// The stage that comes last.
 const REPORT: &str = "report";
@@ -89,7 +89,7 @@ pub fn begin_from(first: &Path, suite: &Suite, out: &Path) -> Result<(), RunErro
     if records.exists() {
         return Ok(());
     }
-    for kind in Kind::ALL.iter().filter(|kind| first.join(kind.folder()).is_dir()) {
+    for kind in StageKind::ALL.iter().filter(|kind| first.join(kind.folder()).is_dir()) {
         copy_folder(&first.join(kind.folder()), &out.join(kind.folder()))?;
     }
     fs::copy(first.join("timing.json"), out.join("timing.json"))?;
@@ -106,10 +106,8 @@ pub(super) fn stages(
     observer: &mut dyn Observer,
 ) -> Result<(File, Times, pool::Outcome), RunError> {
     let start = Instant::now();
-    check_redo(suite, options)?;
-    preflight::files(suite)?;
-    preflight::judge(suite, tools)?;
-    let ready = preflight::methods(suite, tools)?;
+    observer.suite_begins();
+    let methods = preflight::all(suite, &options.redo, tools)?;
     let lock = claim(suite, out)?;
     program::clear_scratch(&program::scratch_prefix(out));
     let renderer = tools.interpreter.fingerprints()?;
@@ -117,33 +115,36 @@ pub(super) fn stages(
     let records = Records::open(out)?;
     let mut times = Times::new(out, &plan);
     let redo = &options.redo;
-    let workshop = Workshop::new(suite, out, tools, &renderer, &ready, redo);
-    write_manifest(&workshop, &Made::default())?;
+    let executor = StageExecutor::new(suite, out, tools, &renderer, &methods, redo);
+    write_manifest(&executor, &Made::default())?;
     times.around.start = start.elapsed().as_secs_f64();
     let reading = Instant::now();
-    if let Some(cases) = prepare(&workshop, &plan, &records)? {
+    if let Some(cases) = prepare(&executor, &plan, &records)? {
         times.around.scene = reading.elapsed().as_secs_f64() / cases as f64;
     }
     let elsewhere = match &options.cluster {
-        Some(cluster) => cluster::run(&workshop, &plan, cluster, &records, observer)?,
+        Some(cluster) => cluster::run(&executor, &plan, cluster, &records, observer)?,
         None => Elsewhere::default(),
     };
     let made_elsewhere = elsewhere.records.len();
     let records = records.with(elsewhere.records);
     let mut counted = Counted { observer, total: plan.len() + 1 };
     let work = Work { plan: &plan, jobs: options.jobs, failed: elsewhere.failed };
-    let done = pool::run(&workshop, work, &records, &mut times, &mut counted);
+    let done = pool::run(&executor, work, &records, &mut times, &mut counted);
     times.write()?;
     let mut done = done?;
     done.ran += made_elsewhere;
     done.skipped = done.skipped.saturating_sub(made_elsewhere);
-    let left_out = done.left_out.iter().filter_map(|at| plan[*at].name(suite)).collect();
+    let left_out = done.left_out.iter().filter_map(|at| plan[*at].cell(suite)).collect();
     let mut contents = BTreeMap::new();
-    for ready in &ready {
-        contents.extend(identity::content(ready)?.map(|hash| (ready.method.id.clone(), hash)));
+    for resolved in &methods {
+        if let Some(parts) = resolved.method.work().identity(resolved)? {
+            let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+            contents.insert(resolved.method.id.clone(), hash_parts(&parts));
+        }
     }
     let made = Made { failed: &done.failed, left_out, contents, sizes: sizes(&plan, &times) };
-    write_manifest(&workshop, &made)?;
+    write_manifest(&executor, &made)?;
     Ok((lock, times, done))
 }
 
@@ -188,17 +189,6 @@ impl Observer for Counted<'_> {
     }
 }
 
-fn check_redo(suite: &Suite, options: &RunOptions) -> Result<(), RunError> {
-    let ids: Vec<_> = suite.methods.iter().map(|method| method.id.as_str()).collect();
-    match options.redo.iter().find(|name| !ids.contains(&name.as_str())) {
-        None => Ok(()),
-        Some(name) => {
-            let reason = near::unknown("the suite has no method", name, &ids);
-            Err(RunError::UnknownName { flag: "--redo", reason })
-        }
-    }
-}
-
 /// Writes the report of the run folder `run` to the folder `out`.
 pub fn report(
     run: &Path,
@@ -213,16 +203,16 @@ pub fn report(
     Ok(())
 }
 
-fn write_manifest(workshop: &Workshop, made: &Made) -> Result<(), RunError> {
-    let manifest = manifest(workshop.suite, workshop.renderer, made);
+fn write_manifest(executor: &StageExecutor, made: &Made) -> Result<(), RunError> {
+    let manifest = manifest(executor.suite, executor.renderer, made);
     let text = serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?;
-    Ok(atomic::write_file(&workshop.out.join("run.json"), &text)?)
+    Ok(atomic::write_file(&executor.out.join("run.json"), &text)?)
 }
 
 /// Bytes that the stages of each kind left.
-fn sizes(plan: &[Task], times: &Times) -> BTreeMap<&'static str, u64> {
-    let kinds: BTreeMap<&str, Kind> =
-        plan.iter().map(|task| (task.id.as_str(), task.kind)).collect();
+fn sizes(plan: &[Stage], times: &Times) -> BTreeMap<&'static str, u64> {
+    let kinds: BTreeMap<&str, StageKind> =
+        plan.iter().map(|stage| (stage.id.as_str(), stage.kind)).collect();
     let mut sizes = BTreeMap::new();
     for record in times.records() {
         if let Some(kind) = kinds.get(record.id.as_str()) {
@@ -234,31 +224,22 @@ fn sizes(plan: &[Task], times: &Times) -> BTreeMap<&'static str, u64> {
 
 /// Writes the scenes of all cases, and checks those that are still to be rendered: how many, if any.
 fn prepare(
-    workshop: &Workshop,
-    plan: &[Task],
+    executor: &StageExecutor,
+    plan: &[Stage],
     records: &Records,
 ) -> Result<Option<usize>, RunError> {
-    let (suite, out) = (workshop.suite, workshop.out);
-    let captures = write_scenes(suite, out)?;
+    let (suite, out) = (executor.suite, executor.out);
+    for case in suite.cases.iter().filter(|case| case.photographed.is_none()) {
+        case.write_scene(&out.join(StageKind::Capture.folder()))?;
+    }
     let mut pending = Vec::new();
-    for task in plan.iter().filter(|task| task.kind == Kind::Capture && task.wanted) {
-        let key = workshop.key(task, &Contents::new())?.hash;
-        if records.valid(&task.id, &key, &workshop.path(task))?.is_none() {
-            pending.push(&suite.cases[task.case]);
+    for stage in plan.iter().filter(|stage| stage.kind == StageKind::Capture && stage.wanted) {
+        let key = executor.key(stage, &Contents::new())?.hash;
+        if records.valid(&stage.id, &key, &executor.path(stage))?.is_none() {
+            pending.push(&suite.cases[stage.case]);
         }
     }
     preflight::space(suite, &pending, out)?;
-    preflight::scenes(suite, &pending, &captures, workshop.tools)?;
+    preflight::scenes(suite, &pending, executor.tools)?;
     Ok((!pending.is_empty()).then_some(pending.len()))
-}
-
-/// Writes the scenes of all cases that are rendered, into the folder that is returned.
-pub(super) fn write_scenes(suite: &Suite, out: &Path) -> Result<PathBuf, RunError> {
-    let captures = out.join(Kind::Capture.folder());
-    fs::create_dir_all(&captures)?;
-    for case in suite.cases.iter().filter(|case| case.photographed.is_none()) {
-        let scene = case.scene.to_toml().map_err(io::Error::other)?;
-        atomic::write_file(&captures.join(format!("{}.toml", case.id)), scene.as_bytes())?;
-    }
-    Ok(captures)
 }

@@ -7,7 +7,8 @@ use formats::content_hash::hash_path;
 use toml::{Table, Value};
 
 use super::packaged;
-use super::place::{self, beside};
+use super::place;
+use super::relative_path::beside;
 
 /// Faults of a scene or suite file.
 #[derive(Debug, thiserror::Error)]
@@ -39,7 +40,7 @@ pub enum SceneError {
         line: Option<usize>,
         /// The key in question.
         key: String,
-        /// The fault and its fix.
+        /// The fault and the fix.
         reason: String,
     },
 }
@@ -56,19 +57,6 @@ impl SceneError {
         Self::Value { path: path.to_path_buf(), line, key: key.to_owned(), reason: reason.into() }
     }
 }
-
-const KEYS: [&str; 10] = [
-    "format",
-    "name",
-    "face",
-    "light",
-    "relight",
-    "rig",
-    "render",
-    "image_formation",
-    "captured_mesh",
-    "labels",
-];
 
 /// Keys of faces and lights that name files, which lie beside the file that names them.
 const FILES: [&str; 8] = [
@@ -90,11 +78,10 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a scene file and everything it refers to.
+    /// Reads a scene file and everything it refers to; `synth/unshade/scene_file` checks the keys and their values.
     pub fn open(path: &Path) -> Result<Self, SceneError> {
         let mut table = read_toml(path)?;
         check_format(path, &table)?;
-        check_keys(path, &table, &KEYS)?;
         for key in ["face", "light", "rig"] {
             let value = table.remove(key).ok_or_else(|| {
                 SceneError::value(path, key, "is missing; name a file or write a table")
@@ -111,11 +98,6 @@ impl Scene {
         };
         let mut scene = Self { table };
         scene.set_relight(relight);
-        for section in ["name", "render"] {
-            if !scene.table.contains_key(section) {
-                return Err(SceneError::value(path, section, "is missing"));
-            }
-        }
         Ok(scene)
     }
 
@@ -155,6 +137,17 @@ impl Scene {
             .flat_map(|table| FILES.iter().filter_map(|key| table.get(*key)?.as_str()))
             .map(PathBuf::from)
             .collect()
+    }
+
+    /// The scene, and the content of the files that it names, as keys of stages hold it.
+    pub fn key(&self) -> Result<[String; 2], SceneError> {
+        let unwritten = |error: toml::ser::Error| SceneError::Value {
+            path: PathBuf::from("scene"),
+            line: None,
+            key: self.name_of("face").to_owned(),
+            reason: error.to_string(),
+        };
+        Ok([self.to_toml().map_err(unwritten)?, self.content()?])
     }
 
     /// A hash of the content of each of [`Self::files`].

@@ -11,13 +11,14 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::error::RunError;
+use super::executor::Contents;
 use super::file::Suite;
-use super::plan::Kind;
+use super::observer::Observer;
+use super::plan::StageKind;
 use super::program::copy_blind;
 use super::run::{RunOptions, stages};
 use super::scene::SceneError;
-use super::tools::{Observer, Tools};
-use super::workshop::Contents;
+use crate::synth::Tools;
 
 /// Folders of a round: for others, and to be kept here.
 pub(super) const PUBLIC: &str = "public";
@@ -174,8 +175,8 @@ fn hand_out(
 ) -> Result<Round, RunError> {
     let mut cases = Vec::new();
     for case in &suite.cases {
-        let blind = public.join(Kind::Capture.folder()).join(&case.id);
-        copy_blind(&private.join(Kind::Capture.folder()).join(&case.id), &blind)?;
+        let blind = public.join(StageKind::Capture.folder()).join(&case.id);
+        copy_blind(&private.join(StageKind::Capture.folder()).join(&case.id), &blind)?;
         cases.push(SealedCase {
             id: case.id.clone(),
             face: case.scene.name_of("face").to_owned(),
@@ -183,7 +184,7 @@ fn hand_out(
             variant: case.variant.clone(),
             capture: hash_path(&blind)?,
             truth: contents
-                .get(&format!("{}/{}", Kind::Capture.word(), case.id))
+                .get(&StageKind::Capture.id(&case.id, None))
                 .map(|capture| capture.content.clone()),
         });
     }

@@ -5,12 +5,11 @@ use toml::{Table, Value};
 
 use super::cases::Case;
 use super::file::Suite;
-use super::method::MethodKind;
-use super::program::SEED;
 use super::scene::SceneError;
 
 /// Random numbers that differ from one run to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Vary {
     /// Those of the renderer and of the methods.
     Both,
@@ -21,12 +20,6 @@ pub enum Vary {
 }
 
 impl Vary {
-    /// The one of this name; the error names all.
-    pub fn named(name: &str) -> Result<Self, String> {
-        clap::ValueEnum::from_str(name, false)
-            .map_err(|_| format!("vary is {name:?}; use both, method or rounding"))
-    }
-
     /// Whether captures are made once.
     pub fn keeps_captures(self) -> bool {
         self != Self::Both
@@ -52,48 +45,9 @@ impl Suite {
             case.scene = case.scene.clone().with_changes(&changes);
         }
         for method in &mut suite.methods {
-            match &mut method.kind {
-                MethodKind::Fields { config, .. } => {
-                    let unreadable = |error: String| {
-                        SceneError::in_table(&self.path, &method.id, "config", error)
-                    };
-                    let given = solver::Config::from_toml(config)
-                        .map_err(|error| unreadable(error.to_string()))?;
-                    let mut values: Table = config
-                        .parse()
-                        .map_err(|error: toml::de::Error| unreadable(error.to_string()))?;
-                    if vary == Vary::Rounding {
-                        let rendering = values.entry("rendering").or_insert(Table::new().into());
-                        if let Some(rendering) = rendering.as_table_mut() {
-                            rendering.insert("rounding_seed".to_owned(), add.into());
-                        }
-                    } else {
-                        let seed = Value::Integer((given.seed() as i64).wrapping_add(add));
-                        values.insert("seed".to_owned(), seed);
-                    }
-                    *config =
-                        toml::to_string(&values).map_err(|error| unreadable(error.to_string()))?;
-                }
-                MethodKind::Program(program) if vary != Vary::Rounding => {
-                    let seed = added(program.settings.get("seed"));
-                    if let Some(stated) = program.settings.get_mut("seed") {
-                        *stated = Value::Integer(seed);
-                    }
-                    program.environment.insert(SEED.to_owned(), seed.to_string());
-                }
-                MethodKind::Competitor { competitor, settings }
-                    if vary != Vary::Rounding && competitor.has_seed() =>
-                {
-                    let unreadable = |error: serde_json::Error| {
-                        SceneError::in_table(&self.path, &method.id, "set", error.to_string())
-                    };
-                    let mut values: serde_json::Value =
-                        serde_json::from_str(settings).map_err(unreadable)?;
-                    values["seed"] = (values["seed"].as_i64().unwrap_or(0) + add).into();
-                    *settings = values.to_string();
-                }
-                _ => {}
-            }
+            let id = method.id.clone();
+            let wrong = |(key, reason)| SceneError::in_table(&self.path, &id, key, reason);
+            method.kind.reseed(add, vary).map_err(wrong)?;
         }
         Ok(suite)
     }
@@ -105,6 +59,7 @@ fn table(key: &str, value: Value) -> Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::method::MethodKind;
     use super::*;
 
     #[test]
@@ -112,8 +67,8 @@ mod tests {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/suites/ci.toml");
         let suite = Suite::open(path.as_ref()).unwrap();
         let config = |suite: &Suite| match &suite.methods[0].kind {
-            MethodKind::Fields { config, .. } => solver::Config::from_toml(config).unwrap(),
-            _ => panic!("the first method is not a solve"),
+            MethodKind::Fields(solver) => solver::Config::from_toml(&solver.config).unwrap(),
+            _ => panic!("the first method is not our solver"),
         };
         let given = config(&suite);
         let rounded = config(&suite.reseeded(2, Vary::Rounding).unwrap());

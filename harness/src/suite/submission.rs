@@ -15,12 +15,13 @@ use serde_json::{Value, json};
 
 use super::error::RunError;
 use super::file::{RENDERERS, SCALES};
-use super::part::versions;
-use super::plan::Kind;
+use super::observer::Observer;
+use super::plan::StageKind;
+use super::remote_stage::versions;
 use super::seal::{Relight, Round, SealedCase};
 use super::sources::SCORE_SOURCES;
 use super::stages;
-use super::tools::{Observer, Tools};
+use crate::synth::Tools;
 
 const FILE: &str = "submission.toml";
 
@@ -70,7 +71,7 @@ impl Submission {
     }
 
     fn maps(folder: &Path, case: &str) -> PathBuf {
-        folder.join(Kind::Maps.folder()).join(case)
+        folder.join(StageKind::Maps.folder()).join(case)
     }
 }
 
@@ -111,7 +112,7 @@ pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked,
     let cases: Vec<(String, Option<PathBuf>)> = match public {
         Some(public) => {
             let round = Round::read(public)?;
-            let captures = public.join(Kind::Capture.folder());
+            let captures = public.join(StageKind::Capture.folder());
             for case in &round.cases {
                 let capture = captures.join(&case.id);
                 if hash_path(&capture).ok().as_ref() != Some(&case.capture) {
@@ -128,7 +129,7 @@ pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked,
                 .collect()
         }
         None => {
-            let listed = fs::read_dir(folder.join(Kind::Maps.folder())).into_iter().flatten();
+            let listed = fs::read_dir(folder.join(StageKind::Maps.folder())).into_iter().flatten();
             let folders = listed.flatten().filter(|entry| entry.path().is_dir());
             let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
             let mut names: Vec<String> = names.collect();
@@ -202,6 +203,7 @@ pub fn score_submission(
     tools: &Tools,
     observer: &mut dyn Observer,
 ) -> Result<BTreeMap<String, String>, RunError> {
+    observer.suite_begins();
     atomic::refuse_overlap(out, &[folder, private])?;
     let submission = Submission::read(folder).map_err(RunError::Submission)?;
     let round = Round::read(private)?;
@@ -279,7 +281,7 @@ impl Scoring<'_> {
         maps: &Path,
         step: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<(), RunError> {
-        let capture = self.private.join(Kind::Capture.folder()).join(&case.id);
+        let capture = self.private.join(StageKind::Capture.folder()).join(&case.id);
         if hash_path(&capture)? != case.truth.clone().unwrap_or_default() {
             return Err(RunError::Folder(io::Error::other(format!(
                 "{}: was changed since it was sealed",

@@ -1,7 +1,6 @@
 //! One rendering stage as a child process.
 
-use std::ffi::{OsStr, OsString};
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,14 +11,26 @@ use std::time::Duration;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{Interpreter, InterpreterError};
+use super::{Interpreter, InterpreterError, Request};
 
 /// Raised by Ctrl-C; every stage looks at it and stops cleanly.
 pub type Interrupt = Arc<AtomicBool>;
 
-/// The arguments of a stage: each flag before its value.
-pub fn cli_args(pairs: &[(&str, &OsStr)]) -> Vec<OsString> {
-    pairs.iter().flat_map(|(flag, value)| [OsString::from(flag), value.to_os_string()]).collect()
+/// Tools of every stage.
+pub struct Tools {
+    /// Runs the path tracer.
+    pub interpreter: Interpreter,
+    /// Raised by Ctrl-C.
+    pub interrupt: Interrupt,
+}
+
+/// A key of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct Place {
+    /// The table that holds it, such as `render`; empty for the scene itself.
+    pub table: String,
+    /// Its name.
+    pub key: String,
 }
 
 /// How a rendering stage can end badly.
@@ -33,14 +44,19 @@ pub enum StageError {
     Input {
         /// The Python exception's name.
         kind: String,
-        /// The fault, its place, and its fix.
+        /// The fault, its place, and the fix.
         message: String,
+        /// The key of a scene that is wrong, where the fault is that of a key.
+        place: Option<Place>,
     },
+    /// The request cannot be sent.
+    #[error("{0}; rename the file or folder, so that its name is UTF-8")]
+    Request(String),
     /// The child died without saying why.
-    #[error("{verb}: the renderer ended with {status}; its last words: {last_words}")]
+    #[error("{stage}: the renderer ended with {status}; its last words: {last_words}")]
     Died {
         /// The stage.
-        verb: String,
+        stage: String,
         /// Exit status or signal.
         status: String,
         /// The last line on its standard error.
@@ -67,25 +83,40 @@ enum Event {
         #[serde(default)]
         kind: String,
         message: String,
+        #[serde(default)]
+        place: Option<Place>,
     },
     Result(Value),
 }
 
-/// Runs `python -m unshade.stage <verb> <arguments>` and returns its result event.
-///
-/// `progress` is called with how many of how many steps are done; warnings go to the log.
-pub fn run_stage(
-    interpreter: &Interpreter,
-    verb: &str,
-    arguments: &[OsString],
-    interrupt: &Interrupt,
+impl Tools {
+    /// Runs `python -m unshade.stage` on a request and returns its result event.
+    ///
+    /// `progress` is called with how many of how many steps are done; warnings go to the log.
+    pub fn run(
+        &self,
+        request: &Request,
+        progress: &mut dyn FnMut(u64, u64, &str),
+    ) -> Result<Value, StageError> {
+        run(self, request, progress)
+    }
+
+    /// Runs a stage without progress.
+    pub fn ask(&self, request: &Request) -> Result<Value, StageError> {
+        run(self, request, &mut |_, _, _| {})
+    }
+}
+
+fn run(
+    Tools { interpreter, interrupt }: &Tools,
+    request: &Request,
     progress: &mut dyn FnMut(u64, u64, &str),
 ) -> Result<Value, StageError> {
+    let request =
+        serde_json::to_value(request).map_err(|error| StageError::Request(error.to_string()))?;
     let mut child = interpreter
         .command()
-        .args(["-m", "unshade.stage", verb])
-        .args(arguments)
-        .arg("--watch-stdin")
+        .args(["-m", "unshade.stage"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -94,6 +125,10 @@ pub fn run_stage(
             path: interpreter.path().to_path_buf(),
             reason: error.to_string(),
         })?;
+    if let Some(stdin) = &mut child.stdin {
+        // A child that has ended says why by itself.
+        let _ = writeln!(stdin, "{request}").and_then(|()| stdin.flush());
+    }
     let (sender, lines) = mpsc::channel();
     if let Some(stdout) = child.stdout.take() {
         thread::spawn(move || {
@@ -121,8 +156,8 @@ pub fn run_stage(
             Ok(line) => match serde_json::from_str(&line) {
                 Ok(Event::Progress { done, total, what }) => progress(done, total, &what),
                 Ok(Event::Warning { message }) => tracing::warn!("{message}"),
-                Ok(Event::Error { kind, message }) => {
-                    outcome = Some(Err(StageError::Input { kind, message }));
+                Ok(Event::Error { kind, message, place }) => {
+                    outcome = Some(Err(StageError::Input { kind, message, place }));
                 }
                 Ok(Event::Result(value)) => outcome = Some(Ok(value)),
                 Err(_) => tracing::debug!("{line}"),
@@ -138,7 +173,7 @@ pub fn run_stage(
         Some(Err(error)) => Err(error),
         Some(Ok(value)) if ok => Ok(value),
         _ => Err(StageError::Died {
-            verb: verb.to_owned(),
+            stage: request["stage"].as_str().unwrap_or_default().to_owned(),
             status: status.map_or_else(|error| error.to_string(), |status| status.to_string()),
             last_words: said.trim().lines().last().unwrap_or("none").to_owned(),
         }),
@@ -169,9 +204,8 @@ mod tests {
             .status();
         assert!(written.unwrap().success());
         let mut done = Vec::new();
-        let result = run_stage(&Interpreter::at(&path), "synth", &[], interrupt, &mut |d, _, _| {
-            done.push(d)
-        });
+        let tools = Tools { interpreter: Interpreter::at(&path), interrupt: interrupt.clone() };
+        let result = tools.run(&Request::Doctor, &mut |d, _, _| done.push(d));
         (result, done)
     }
 

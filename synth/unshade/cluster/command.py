@@ -1,11 +1,10 @@
-"""``python -m unshade.stage cluster``: an order on a cluster, or on workers of this machine."""
+"""An order on a cluster, or on workers of this machine."""
 
 from __future__ import annotations
 
 import os
 import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from ..errors import ClusterError
@@ -14,7 +13,7 @@ _FIX = 'install it: pip install "unshade[cluster]"'
 
 
 def on_cluster(
-    order_file: Path, address: str, store_url: str, workers: int, progress: Callable[[int, int, str], None]
+    request: dict[str, Any], address: str, store_url: str, workers: int, progress: Callable[[int, int, str], None]
 ) -> dict[str, Any]:
     """Does an order; returns the failures and the records of its stages."""
     try:
@@ -26,7 +25,7 @@ def on_cluster(
     from .order import read_order
     from .store import Store
 
-    order = read_order(order_file)
+    order = read_order(request)
     own = store_url == str(order.run / "store")
     store = Store(store_url)
     if address != "local":

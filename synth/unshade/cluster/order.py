@@ -1,8 +1,7 @@
-"""Stages to be done, as ``unshade run --cluster`` writes it down."""
+"""Stages to be done, as ``unshade run --cluster`` requests them."""
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -36,14 +35,13 @@ class Order:
     tasks: tuple[Task, ...]
 
 
-def read_order(path: Path) -> Order:
-    """The order in a file that unshade wrote."""
-    order: dict[str, Any] = json.loads(path.read_text())
+def read_order(request: dict[str, Any]) -> Order:
+    """The order of a request."""
     tasks = tuple(
         Task(
             id=task["id"], after=tuple(task["after"]), path=task["path"], case=task["case"],
             name=task["name"], output=task["output"],
         )
-        for task in order["tasks"]
+        for task in request["tasks"]
     )  # fmt: skip
-    return Order(Path(order["suite"]), Path(order["run"]), order["suite_content"], order["versions"], tasks)
+    return Order(Path(request["suite"]), Path(request["run"]), request["suite_content"], request["versions"], tasks)

@@ -72,7 +72,7 @@ def do(job: Job, *before: StageOutcome) -> StageOutcome:
         records = {earlier["id"]: earlier["record"] or {} for earlier in before}
         place = Path(get_worker().local_directory) / f"unshade-{job['suite_content'][:12]}"
         part = job["suite"], place, job["id"], json.dumps(records), _CHECKED[checked]
-        key = json.loads(_native.run_part(*part, True, None))["key"]
+        key = json.loads(_native.run_remote_stage(*part, True, None))["key"]
         known = store.known(key)
         if known is not None:
             return _done(job, key, record=known["record"], log=known.get("log"))
@@ -80,7 +80,7 @@ def do(job: Job, *before: StageOutcome) -> StageOutcome:
         for stage, record in records.items():
             _bring(store, place, job["inputs"][stage], record["content"])
         with _share(job) as processors:
-            outcome = json.loads(_native.run_part(*part, False, processors))
+            outcome = json.loads(_native.run_remote_stage(*part, False, processors))
         log = _keep_log(store, place, job)
         if outcome["failed"] is not None:
             return _done(job, key, failed=outcome["failed"], log=log)

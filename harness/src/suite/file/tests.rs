@@ -1,5 +1,5 @@
 use super::super::baseline::BaselineMethod;
-use super::super::method::MethodKind;
+use super::super::method::{BaselineSettings, MethodKind};
 use super::super::program::Start;
 use super::*;
 
@@ -79,8 +79,8 @@ fn seeds_make_cases_of_the_renderer_and_methods_of_our_solver() {
     for (method, seed) in suite.methods.iter().zip([1, 2]) {
         assert_eq!(method.id, format!("paper-seed{seed}"));
         assert_eq!(method.replicate, Some(("paper".to_owned(), seed)));
-        let MethodKind::Fields { config, .. } = &method.kind else { panic!() };
-        let config = config.parse::<Table>().unwrap();
+        let MethodKind::Fields(solver) = &method.kind else { panic!() };
+        let config = solver.config.parse::<Table>().unwrap();
         assert_eq!(config["base"].as_str(), Some("paper"));
         assert_eq!(config["seed"].as_integer(), Some(seed.cast_signed()));
     }
@@ -135,8 +135,8 @@ fn a_sweep_makes_a_method_of_each_combination_and_seeds_one_of_each() {
     );
     let ours = "name = \"fast\"\nsweep.maps.texture_size = [256, 512]";
     let ours = open(ours).unwrap().methods;
-    let MethodKind::Fields { config, .. } = &ours[1].kind else { panic!() };
-    let config = config.parse::<Table>().unwrap();
+    let MethodKind::Fields(solver) = &ours[1].kind else { panic!() };
+    let config = solver.config.parse::<Table>().unwrap();
     assert_eq!(ours[1].id, "fast-texture_size512");
     assert_eq!(config["maps"]["texture_size"].as_integer(), Some(512));
     for (lines, words) in [
@@ -192,8 +192,8 @@ fn every_light_is_relit_in_all_the_others() {
     let hall = suite.cases[1].scene.table["light"]["path"].as_str().unwrap();
     assert_eq!(Path::new(hall), root.path().join("lights/hall.exr"));
     assert_eq!(suite.cases[0].scene.table["render"]["width"].as_integer(), Some(16));
-    let MethodKind::Fields { config, .. } = &suite.methods[0].kind else { panic!() };
-    assert_eq!(config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
+    let MethodKind::Fields(solver) = &suite.methods[0].kind else { panic!() };
+    assert_eq!(solver.config.parse::<Table>().unwrap()["seed"].as_integer(), Some(4));
     let MethodKind::Program(program) = &suite.methods[1].kind else { panic!() };
     let words = ["run", "{capture}", "{maps}"].map(str::to_owned).to_vec();
     assert_eq!(program.start, Start::Command(words));
@@ -256,8 +256,11 @@ fn every_case_is_there_in_every_variant_and_a_variant_changes_only_what_it_names
     let text = suite.cases[3].scene.to_toml().unwrap();
     assert_eq!(&text.parse::<Table>().unwrap(), table(3));
     let baseline = BaselineMethod::SemanticInitialisation;
-    assert_eq!(suite.methods[0].kind, MethodKind::Baseline { baseline, texture_size: 512 });
-    assert_eq!(suite.methods[0].role(), "baseline");
+    assert_eq!(
+        suite.methods[0].kind,
+        MethodKind::Baseline(BaselineSettings { baseline, texture_size: 512 })
+    );
+    assert_eq!(suite.methods[0].work().role(), "baseline");
 }
 
 #[test]
@@ -273,10 +276,10 @@ fn a_competitor_is_named_with_its_settings_and_has_a_class() {
          [[method]]\nname = \"oracle\"\n[[method]]\nname = \"paper-tuned\"\n",
     );
     let suite = suite.unwrap();
-    let classes: Vec<_> = suite.methods.iter().map(|e| e.class().name()).collect();
+    let classes: Vec<_> = suite.methods.iter().map(|method| method.work().class().name()).collect();
     assert_eq!(classes, ["passive", "controlled", "privileged", "passive"]);
-    let MethodKind::Competitor { settings, .. } = &suite.methods[0].kind else { panic!() };
-    assert_eq!(settings, "{\"order\":3}");
+    let MethodKind::Competitor(found) = &suite.methods[0].kind else { panic!() };
+    assert_eq!(found.settings, "{\"order\":3}");
     let wrong = open("name = \"sh-lambert\"\ntexture_size = 64\n").unwrap_err().to_string();
     assert!(wrong.contains("set = { texture_size"), "{wrong}");
     let renamed =
@@ -286,7 +289,7 @@ fn a_competitor_is_named_with_its_settings_and_has_a_class() {
     assert!(wrong.contains("config"), "{wrong}");
     // Under a configuration, it is our solver's name for once.
     let ours = open("name = \"sh-lambert\"\nconfig = \"fast\"\n").unwrap();
-    assert!(matches!(ours.methods[0].kind, MethodKind::Fields { .. }));
+    assert!(matches!(ours.methods[0].kind, MethodKind::Fields(_)));
 }
 
 #[test]
@@ -298,8 +301,8 @@ fn every_suite_of_the_project_can_be_read() {
         let suite = Suite::open(&path).unwrap();
         assert_eq!(path.file_stem().unwrap().to_str(), Some(suite.name.as_str()));
         for method in &suite.methods {
-            if let MethodKind::Fields { config, .. } = &method.kind {
-                solver::Config::from_toml(config).unwrap();
+            if let MethodKind::Fields(solver) = &method.kind {
+                solver::Config::from_toml(&solver.config).unwrap();
             }
         }
         count += suite.cases.len();

@@ -10,15 +10,16 @@ use tempfile::TempDir;
 
 use super::super::clean::clean;
 use super::super::earlier::Bound;
+use super::super::executor::{Contents, StageExecutor};
 use super::super::file::Suite;
-use super::super::plan::{Kind, Task, plan};
+use super::super::finished::Made;
+use super::super::method::MethodKind;
+use super::super::plan::{Stage, StageKind, plan};
 use super::super::preflight;
-use super::super::record::{Made, Records};
+use super::super::record::Records;
 use super::super::sources::Sources;
-use super::super::tools::Tools;
-use super::super::workshop::{Contents, Workshop};
 use super::*;
-use crate::synth::{Fingerprints, Interpreter, Interrupt};
+use crate::synth::{Fingerprints, Interpreter, Interrupt, Tools};
 
 const SCENE: &str = r#"
 format = 1
@@ -131,37 +132,38 @@ impl Place {
         let suite = Suite::open(&self.path("suite/suite.toml")).unwrap();
         let interpreter = Interpreter::at(&self.path("venv/bin/python"));
         let tools = Tools { interpreter, interrupt: Interrupt::default() };
-        let ready = preflight::methods(&suite, &tools).unwrap();
+        let methods = preflight::methods(&suite, &tools).unwrap();
         let redo: Vec<String> = redo.iter().map(|name| (*name).to_owned()).collect();
         let out = self.path("run");
-        let mut workshop = Workshop::new(&suite, &out, &tools, &self.renderer, &ready, &redo);
-        workshop.sources = self.sources;
+        let mut executor =
+            StageExecutor::new(&suite, &out, &tools, &self.renderer, &methods, &redo);
+        executor.sources = self.sources;
         let records = Records::open(&out)?;
         let mut contents = Contents::new();
-        let mut ran: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
-        for task in plan(&suite) {
-            let key = workshop.key(&task, &contents)?.hash;
-            let make = |path: &Path| make(&workshop, &task, path, &key).map(|()| Made::default());
-            let done = workshop.run_by(&task, &contents, &records, make)?;
+        let mut ran: BTreeMap<StageKind, Vec<&str>> = BTreeMap::new();
+        for stage in plan(&suite) {
+            let key = executor.key(&stage, &contents)?.hash;
+            let make = |path: &Path| make(&executor, &stage, path, &key).map(|()| Made::default());
+            let done = executor.run_by(&stage, &contents, &records, make)?;
             if !done.kept {
-                let method = task.method.map(|method| &*suite.methods[method].id);
-                ran.entry(task.kind).or_default().extend(method);
+                let method = stage.method.map(|method| &*suite.methods[method].id);
+                ran.entry(stage.kind).or_default().extend(method);
             }
-            contents.insert(task.id.clone(), done.record.output);
+            contents.insert(stage.id.clone(), done.record.output);
         }
         let lines = ran.into_iter().map(|(kind, methods)| match methods.len() {
-            0 => kind.word().to_owned(),
-            all if all == suite.methods.len() => format!("{}: all", kind.word()),
-            _ => format!("{}: {}", kind.word(), methods.join(" ")),
+            0 => kind.name().to_owned(),
+            all if all == suite.methods.len() => format!("{}: all", kind.name()),
+            _ => format!("{}: {}", kind.name(), methods.join(" ")),
         });
         Ok(lines.collect::<Vec<_>>().join("; "))
     }
 }
 
 /// Leaves what a stage would: a capture that follows from its scene, true maps, or what follows from the key.
-fn make(workshop: &Workshop, task: &Task, path: &Path, key: &str) -> Result<(), RunError> {
-    let scene = &workshop.suite.cases[task.case].scene;
-    if task.kind == Kind::Scores {
+fn make(executor: &StageExecutor, stage: &Stage, path: &Path, key: &str) -> Result<(), RunError> {
+    let scene = &executor.suite.cases[stage.case].scene;
+    if stage.kind == StageKind::Scores {
         return Ok(fs::write(path, key)?);
     }
     let folder = Folder::begin(path)?;
@@ -170,8 +172,8 @@ fn make(workshop: &Workshop, task: &Task, path: &Path, key: &str) -> Result<(), 
         fs::create_dir_all(file.parent().unwrap()).unwrap();
         fs::write(file, text).unwrap();
     };
-    match (task.kind, workshop.ready(task).map(|ready| &ready.method.kind)) {
-        (Kind::Capture, _) => {
+    match (stage.kind, executor.method(stage).map(|found| &found.method.kind)) {
+        (StageKind::Capture, _) => {
             let own = scene.clone().without_relight().to_toml().unwrap();
             let cameras = r#"{"mesh": "mesh.obj", "train_filenames": ["images/0.exr"],
                 "frames": [{"file_path": "images/0.exr"}, {"file_path": "images/1.exr"}]}"#;
@@ -184,7 +186,7 @@ fn make(workshop: &Workshop, task: &Task, path: &Path, key: &str) -> Result<(), 
                 write(&format!("truth/relit/{}/1.exr", light["name"]), &own);
             }
         }
-        (Kind::Maps, Some(MethodKind::Oracle)) => {
+        (StageKind::Maps, Some(MethodKind::Oracle)) => {
             write("diffuse_albedo.exr", &scene.table["face"].to_string());
         }
         _ => write("diffuse_albedo.exr", key),

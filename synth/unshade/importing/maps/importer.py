@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import _native
+from ...commands import command
 from ...errors import MapsError, StorageError
 from ...files.folder import ResumableFolder, content_hash
 from ...files.pictures import ROUGHNESS_CHANNELS, write_exr, write_gray, write_json, write_text
@@ -153,7 +154,7 @@ class _Import:
         light = self.folder / "light.exr"
         if settled.name == OWN and light.is_file() and np.allclose(self.alignment.matrix, np.eye(4)):
             (folder.path / light.name).write_bytes(light.read_bytes())  # of a head that was moved it would be another
-        findings = json.loads(_native.check_json(folder.path, self.capture.path))
+        findings = command("check", maps=folder.path, capture=self.capture.path)
         for finding in findings:
             warnings.warn(f"{finding['map']}: {finding['message']}; {finding['fix']}", MapsWarning, stacklevel=4)
         record = self._record(settled, flight, counterparts, limit, size) | {"findings": findings}

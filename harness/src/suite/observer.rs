@@ -1,20 +1,14 @@
-//! Tools of every stage, and the observer of a run.
+//! The observer of a command.
 
-use crate::synth::{Interpreter, Interrupt};
-
-/// Tools of every stage.
-pub struct Tools {
-    /// Runs the path tracer.
-    pub interpreter: Interpreter,
-    /// Raised by Ctrl-C.
-    pub interrupt: Interrupt,
-}
-
-/// Hears how a run gets on.
+/// Follows the progress of a command.
 pub trait Observer {
+    /// A suite is read, and its first stage begins soon.
+    fn suite_begins(&mut self) {}
+    /// A line for the reader that is no result.
+    fn message(&mut self, _line: &str) {}
     /// `done` of `total` stages are finished and `id` begins.
     fn stage_begins(&mut self, id: &str, done: usize, total: usize);
-    /// The stage `id` has done `done` of `total` steps, and is at `what`; `total` is 0 where nobody can count them, and
+    /// The stage `id` has done `done` of `total` steps, and is at `what`; `total` is 0 where they cannot be counted, and
     /// `what` then is the last line of a program.
     fn step(&mut self, id: &str, done: u64, total: u64, what: &str);
     /// The stage is finished; `seconds` is absent if its earlier result was still valid.

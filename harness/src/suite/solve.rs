@@ -1,4 +1,4 @@
-//! Turns a capture into maps, whichever way a method of the suite does it.
+//! Our own solver, on a capture.
 
 use std::fs;
 use std::ops::ControlFlow;
@@ -7,50 +7,13 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use indicatif::HumanDuration;
-use scoring::score;
 
 use super::error::RunError;
-use super::method::MethodKind;
-use super::preflight::Ready;
-use super::program::{Place, Usage};
 use super::sources::SOLVER_SOURCES;
-use super::tools::Tools;
+use crate::synth::Tools;
 
-/// Ends what is said of a step that knows better than its share how long the rest takes.
+/// Ends the text of a step that has its own estimate of the time left.
 pub const TIME_LEFT: &str = " left";
-
-/// Writes the maps of a place from its capture.
-pub(super) fn make_maps(
-    ready: &Ready,
-    place: Place,
-    tools: &Tools,
-    progress: &mut dyn FnMut(u64, u64, &str),
-) -> Result<Option<Usage>, RunError> {
-    let Place { capture, maps, .. } = place;
-    let Ready { method, files, .. } = ready;
-    match (&method.kind, files) {
-        (MethodKind::Baseline { baseline, texture_size }, _) => {
-            baseline.make(capture, maps, *texture_size)?;
-        }
-        (MethodKind::Competitor { competitor, settings }, _) => {
-            competitor.make(settings, capture, maps, tools, progress)?;
-        }
-        (MethodKind::Fields { config, backend }, _) => {
-            let config = solver::Config::from_toml(config)?;
-            let backend = backend.open()?;
-            let capture = capture::Capture::open(capture)?;
-            solve(&*backend, &capture, &config, maps, tools, &mut |step| {
-                progress(step.iteration as u64, step.total as u64, &in_words(step));
-            })?;
-        }
-        (MethodKind::Program(program), Some(files)) => {
-            return program.run(&method.id, files, &place, &tools.interrupt, progress).map(Some);
-        }
-        (MethodKind::LabelMeans, _) => score::label_mean_maps(capture, maps)?,
-        (MethodKind::Oracle | MethodKind::Program(_), _) => score::oracle_maps(capture, maps)?,
-    }
-    Ok(None)
-}
 
 /// The configuration that a preset's name or a file's path stands for. What has a folder or an ending in it, or is
 /// a file here, is a path.
@@ -76,14 +39,14 @@ pub fn solve(
     config: &solver::Config,
     maps: &Path,
     tools: &Tools,
-    hear: &mut dyn FnMut(&solver::Progress),
+    report: &mut dyn FnMut(&solver::Progress),
 ) -> Result<solver::Solution, RunError> {
     let solution =
         solver::solve_into(backend, maps, SOLVER_SOURCES, capture, config, &mut |step| {
             if tools.interrupt.load(Ordering::Relaxed) {
                 return ControlFlow::Break(());
             }
-            hear(step);
+            report(step);
             ControlFlow::Continue(())
         })?;
     match solution.record.interrupted {

@@ -1,6 +1,5 @@
-//! Single stages of a suite, for machines that have no run but what such a stage reads.
+//! One stage of a suite on a machine that has only its inputs.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -9,21 +8,22 @@ use formats::content_hash::hash_parts;
 use serde::{Deserialize, Serialize};
 
 use super::error::RunError;
+use super::executor::{Contents, StageExecutor, StageResult};
 use super::file::Suite;
+use super::finished::Record;
 use super::output::Output;
-use super::plan::{Kind, Task, plan};
+use super::plan::{StageKind, plan};
 use super::preflight;
 use super::processors::keep_to;
 use super::program;
-use super::record::{Record, Records};
+use super::record::Records;
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
-use super::tools::Tools;
-use super::workshop::{Contents, Done, Workshop};
 use crate::synth::Fingerprints;
+use crate::synth::Tools;
 
-/// A stage that is asked for.
+/// A requested stage.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted<'a> {
+pub struct RemoteStage<'a> {
     /// Its id.
     pub id: &'a str,
     /// Hashes of the outputs that it reads, by ids.
@@ -36,7 +36,7 @@ pub struct Wanted<'a> {
 
 /// Outcome of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PartDone {
+pub struct RemoteResult {
     /// Key of its inputs.
     pub key: String,
     /// Record of its output, unless its method failed.
@@ -63,50 +63,42 @@ pub(super) fn content(suite: &Suite) -> Result<String, RunError> {
     Ok(hash_parts(&parts.iter().map(String::as_str).collect::<Vec<_>>()))
 }
 
-/// Does a stage of `suite` in the folder `out`, which holds what it reads. With `key_only`, only says what it
-/// is made from.
-pub fn run_part(
+/// Executes a stage of `suite` in the folder `out`, which holds its inputs. With `key_only`, only computes its key.
+pub fn run_remote_stage(
     suite: &Suite,
     out: &Path,
-    wanted: Wanted,
+    stage: RemoteStage,
     key_only: bool,
     tools: &Tools,
     step: &mut (dyn FnMut(u64, u64, &str) + Send),
-) -> Result<PartDone, RunError> {
-    let Wanted { id, contents, renderer, processors } = wanted;
-    let tasks = plan(suite);
+) -> Result<RemoteResult, RunError> {
+    let RemoteStage { id, contents, renderer, processors } = stage;
+    let stages = plan(suite);
     let unknown = || RunError::Folder(io::Error::other(format!("the suite has no stage {id}")));
-    let task = tasks.iter().find(|task| task.id == id).ok_or_else(unknown)?;
-    let ready = preflight::methods(suite, tools)?;
-    let workshop = Workshop::new(suite, out, tools, renderer, &ready, &[]);
-    let key = workshop.key(task, contents)?.hash;
+    let stage = stages.iter().find(|stage| stage.id == id).ok_or_else(unknown)?;
+    let methods = preflight::methods(suite, tools)?;
+    let executor = StageExecutor::new(suite, out, tools, renderer, &methods, &[]);
+    let key = executor.key(stage, contents)?.hash;
     // Before what it reads is put there.
     atomic::claim(out)?;
     if key_only {
-        return Ok(PartDone { key, ..PartDone::default() });
+        return Ok(RemoteResult { key, ..RemoteResult::default() });
     }
     let records = Records::open(out)?;
     program::clear_scratch(&program::scratch_prefix(out));
-    if task.kind == Kind::Capture {
-        write_scene(suite, task, out)?;
+    if stage.kind == StageKind::Capture {
+        suite.cases[stage.case].write_scene(&out.join(StageKind::Capture.folder()))?;
     }
-    match keep_to(processors, formats::cancel::flag(), || {
-        workshop.run(task, contents, &records, step)
-    }) {
-        Ok(Done { record, .. }) => Ok(PartDone { key, record: Some(record), failed: None }),
-        Err(error) if task.method.is_some() && error.is_of_method() => {
-            Ok(PartDone { key, record: None, failed: Some(error.to_string()) })
+    let execute = || executor.run(stage, contents, &records, step);
+    match keep_to(processors, formats::cancel::flag(), execute) {
+        Ok(StageResult { record, .. }) => {
+            Ok(RemoteResult { key, record: Some(record), failed: None })
+        }
+        Err(error) if stage.method.is_some() && error.is_of_method() => {
+            Ok(RemoteResult { key, record: None, failed: Some(error.to_string()) })
         }
         Err(error) => Err(error),
     }
-}
-
-fn write_scene(suite: &Suite, task: &Task, out: &Path) -> Result<(), RunError> {
-    let case = &suite.cases[task.case];
-    let folder = out.join(Kind::Capture.folder());
-    fs::create_dir_all(&folder)?;
-    let scene = case.scene.to_toml().map_err(io::Error::other)?;
-    Ok(atomic::write_file(&folder.join(format!("{}.toml", case.id)), scene.as_bytes())?)
 }
 
 /// Takes the output of a stage that lies in the run's folder, and was made elsewhere, for finished.
