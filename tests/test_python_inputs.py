@@ -105,11 +105,12 @@ def test_a_wrong_metric_is_named(
 
 def test_a_wrong_dictionary_is_named_as_such(tiny_run: Path, tmp_path: Path) -> None:
     scene = {"format": 1, "name": "x", "face": {"name": "x", "seed": 1}, "light": "nowhere.toml"}
+    complete = {**scene, "light": {"name": "x", "kind": "dome"}, "rig": {"name": "x"}}
     suite = tomllib.loads(SUITE.read_text())
     case = tiny_run / "captures" / CASE
     wrong = {
         "nowhere.toml: cannot be read": (SceneError, lambda: unshade.synth(scene, tmp_path / "out")),
-        "the scene (a dict): unknown key 'lights' in the scene (a dict); did you mean 'light'": (SceneError, lambda: unshade.synth({**scene, "lights": 1}, tmp_path / "out")),
+        "the scene (a dict): unknown key 'lights' in the scene (a dict); did you mean 'light'": (SceneError, lambda: unshade.synth({**complete, "lights": 1}, tmp_path / "out")),
         "the scene (a dict): x is a object": (SceneError, lambda: unshade.synth({"x": object()}, tmp_path / "out")),
         "the suite (a dict): methods: is unknown": (SceneError, lambda: unshade.run({**suite, "methods": 1}, tmp_path / "out")),
         "the config (a dict): ": (ConfigError, lambda: unshade.solve(case, config={"warm_ups": {}})),

@@ -1,4 +1,4 @@
-"""Commands of the command line, from Python: one request, as its arguments state it."""
+"""Runs the commands of the command line from Python, each as one request."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Progress = Callable[[int, int, str], object]
 def command(
     name: str, *, progress: Progress | None = None, wrong: type[Exception] = ValueError, **arguments: object
 ) -> Any:
-    """Run a command and return its result, or None without one; an argument that it cannot take raises ``wrong``."""
+    """Runs a command and returns its result, or None without one; an unsupported argument raises ``wrong``."""
     request = json.dumps({"command": name, **arguments}, default=_plain)
     try:
         text = _native.command(request, progress)
@@ -25,5 +25,5 @@ def command(
 
 
 def _plain(value: Any) -> object:
-    """Paths, and the whole numbers of numpy."""
+    """A path as text, or an integer of numpy as a number of JSON."""
     return value.__index__() if hasattr(value, "__index__") else os.fspath(value)

@@ -1,9 +1,9 @@
 """The rendering stages as child processes: ``python -m unshade.stage``.
 
 Standard input carries a line of JSON, the request: the name of the stage as ``stage``, and its arguments by name.
-When standard input then ends, the parent has died, and so does this process. Standard output carries JSON lines: ``progress``, ``warning``, and one ``result`` or
-``error`` at the end. The exit code is 0 done, 2 bad input, 3 interrupted, 1 a fault of our
-own (its traceback goes to standard error).
+When standard input then ends, the parent has died, and this process ends too. Standard output carries JSON lines:
+``progress``, ``warning``, and one ``result`` or ``error`` at the end. The exit code is 0 after success, 2 for bad
+input, 3 after an interrupt, and 1 for a fault of unshade (its traceback goes to standard error).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _INTERRUPTED, _FAULT = 3, 1
 
 
 def main() -> int:
-    """Do the stage that standard input names."""
+    """Does the stage that standard input names; returns the exit code."""
     request = json.loads(sys.stdin.buffer.readline())
     warnings.showwarning = _show_warning
     threading.Thread(target=_leave_with_parent, daemon=True).start()
