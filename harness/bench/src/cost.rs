@@ -1,13 +1,16 @@
-//! Least work of a step: arithmetic, and bytes from and to memory if every value is read once
-//! and written once. Divided by what the machine reaches, they are its floors.
+//! The least work of a step: its arithmetic, and the bytes from and to memory if every value is read once
+//! and written once. Divided by the rates that a machine reaches, they are the floors of its time.
 //!
-//! Arithmetic is counted twice: the products of networks and blurs alone; and all of it, where whatever is
-//! done to a vector at once takes the place of one multiply-add. What is not a product is counted as the
-//! solver's kernels do it at their best level, its parts written out below.
+//! Arithmetic is counted twice: the products of networks and blurs alone; and all operations, where one
+//! operation on a vector takes the place of one multiply-add. Operations other than products are counted as
+//! the solver's kernels do them at their best level; the constants below list their parts.
 
 use serde::Serialize;
 use solver::config::PaperConfig;
 use solver::model::pyramid::Pyramid;
+
+use super::kind::Kind;
+use super::synthetic::paper;
 
 /// Bytes of a value, of a sample's place in the textures, and of a value that Adam moves: it, its two
 /// moments, each read and written.
@@ -49,6 +52,17 @@ pub struct Cost {
     pub bytes: f64,
 }
 
+impl Cost {
+    /// The work of one step.
+    pub fn of(kind: Kind, pixels: usize, size: usize) -> Self {
+        match kind {
+            Kind::WarmUp => warm_up(&paper(), pixels, size),
+            Kind::Normals => normals(&paper(), pixels, size),
+            Kind::Diffuse => diffuse(pixels, size),
+        }
+    }
+}
+
 /// Multiply-adds of a network: forward, to the weights and to the inputs of every layer but the first.
 fn products(config: &PaperConfig) -> [f64; 3] {
     let n = &config.networks;
@@ -66,7 +80,7 @@ fn neurons(config: &PaperConfig) -> [f64; 2] {
 
 /// A warm-up step: three networks with their gradients; positions, two directions, Fresnel factor,
 /// colour and weight of every pixel (14 values); four values per texel.
-pub fn warm_up(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
+fn warm_up(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
     let [hidden, outputs] = neurons(config);
     // ReLU, its gate, and the sums for the biases.
     let networks = 3.0 * (3.0 * hidden + outputs);
@@ -80,7 +94,7 @@ pub fn warm_up(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
 /// A step on normals and specular albedo: two networks and their gradients by the inputs; light
 /// vector, normal, view, Fresnel factor, colour, weight, diffuse albedo (22 values); four values per
 /// texel, of which three pass through a blur and its transpose, as the blur's pyramid takes them.
-pub fn normals(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
+fn normals(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
     let [forward, ..] = products(config);
     let [hidden, outputs] = neurons(config);
     let shading = outputs * (2.0 * SOFTPLUS + 2.0 + 4.0);
@@ -95,7 +109,7 @@ pub fn normals(config: &PaperConfig, pixels: usize, size: usize) -> Cost {
 }
 
 /// A step on the diffuse albedo: S_d, specular layer, colour and weight (8 values if S_d has colours).
-pub fn diffuse(pixels: usize, size: usize) -> Cost {
+fn diffuse(pixels: usize, size: usize) -> Cost {
     // Per channel: model, residual and loss; its part of the gradient.
     let sample = 3.0 * (SAMPLED + 6.0);
     cost([0.0, sample, 8.0], pixels, [0.0, 3.0 * (ADAM + PRIOR), 3.0], size)
@@ -116,7 +130,6 @@ fn cost(sample: [f64; 3], samples: usize, texel: [f64; 3], size: usize) -> Cost 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::paper;
 
     #[test]
     fn the_published_networks_have_the_published_counts() {

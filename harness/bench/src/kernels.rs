@@ -1,11 +1,10 @@
-//! The parts that the steps are made of, one by one.
+//! The kernels of the steps, each timed alone.
 
 use std::time::Duration;
 
 use capture::Mesh;
 use capture::rays::Occluder;
 use glam::{Vec2, Vec3};
-use serde::Serialize;
 use solver::backend::Backend;
 use solver::config::TransportConfig;
 use solver::fit::adam::Adam;
@@ -16,20 +15,10 @@ use solver::model::prior::prior;
 use solver::model::pyramid::Pyramid;
 use solver::transport::{Sky, Transport};
 
-use super::clock::best;
 use super::cost::Cost;
+use super::machine::{Reach, best};
+use super::rows::{Floors, Kernel};
 use super::synthetic::Problem;
-
-/// A measured kernel.
-#[derive(Clone, Debug, Serialize)]
-pub struct Kernel {
-    /// Name of the kernel.
-    pub name: &'static str,
-    /// Milliseconds, the shortest of several.
-    pub milliseconds: f64,
-    /// The least work.
-    pub cost: Cost,
-}
 
 /// Sizes of a kernel's inputs.
 pub struct Size {
@@ -43,8 +32,8 @@ pub struct Size {
     pub budget: Duration,
 }
 
-/// All kernels of a backend.
-pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
+/// Times every kernel of a processor that reaches `reach`.
+pub fn measure(backend: &dyn Backend, reach: Reach, size: &Size) -> Vec<Kernel> {
     let _kept = KeepFreedMemory::begin();
     let Problem { config, samples, mut state } = Problem::new(size.pixels, size.texture);
     let mut kernels = vec![];
@@ -52,7 +41,9 @@ pub fn measure(backend: &dyn Backend, size: &Size) -> Vec<Kernel> {
     let mut time = |name, flops: f64, values: f64, work: &mut dyn FnMut()| {
         let milliseconds = 1e3 * best(size.budget, 2, work);
         let cost = Cost { flops, operations: flops, bytes: 4.0 * values };
-        kernels.push(Kernel { name, milliseconds, cost });
+        let (device, step) = (backend.name(), String::new());
+        let floors = Floors::new(&cost, reach);
+        kernels.push(Kernel { device, step, name, dispatches: 1.0, milliseconds, floors });
     };
     let taps = &samples.taps;
     let scale = DirectionScale::from(&config.networks);

@@ -1,60 +1,63 @@
-//! `unshade bench`: what the solver's arithmetic takes, against what the machine reaches in the same
-//! run.
+//! `unshade bench`: times of the solver's kernels and steps against the rates that the machine reaches in the
+//! same run.
 //!
 //! Everything runs through [`solver::backend::Backend`] and the stages of a solve.
 
-mod cells;
-mod clock;
 mod cost;
+mod device;
 mod error;
-mod gpu;
 mod kernels;
 mod kind;
 mod machine;
-mod markdown;
-mod paper;
-mod report;
+mod page;
+mod rows;
 mod solves;
-mod steps;
 mod synthetic;
+#[cfg(test)]
+mod tests;
 mod torch;
 
 use std::path::PathBuf;
 use std::time::Duration;
 
-use rayon::ThreadPoolBuilder;
+use solver::BackendError;
+use solver::backend::Backend;
 use solver::backend::cpu::{Cpu, Level};
-use solver::backend::gpu::Adapter;
-use solver::backend::{Backend, BackendError};
-use solver::model::deviation::Deviation;
+use solver::backend::gpu::{Adapter, Gpu};
+use solver::memory::available;
 
+pub use cost::Cost;
 pub use error::BenchError;
-pub use gpu::GpuReport;
-pub use kernels::Kernel;
 pub use kind::Kind;
-pub use machine::Machine;
-pub use markdown::markdown;
-pub use report::{PaperSize, Report, Torch, TorchRow};
-pub use solves::Solved;
-pub use steps::{Reach, Step};
-pub use torch::{FIX, TorchDevice, TorchError, TorchStep};
+pub use machine::{Machine, Reach};
+pub use page::markdown;
+pub use rows::{Floors, Kernel, PaperCapture, Report, Solve, Step};
+pub use torch::TorchError;
 
-use paper::{COARSE, PAPER_DIVISORS, PAPER_STEPS, Paper};
-use synthetic::Problem;
-use torch::TORCH_STEPS;
+use device::{Computer, Device, Measured, gpu_error};
+use torch::TorchPlace;
 
 /// Pixels of the steps that stand for a capture of the demo's kind, half resolution.
 const SMALL: usize = 300_000;
 const LARGE: usize = 3_000_000;
+/// Sides of the textures of warm-up and fine-tuning.
+const COARSE: usize = 128;
 const FINE: usize = 1024;
 /// Bytes of each array of the bandwidth measurement: far more than any cache.
 const ARRAY: usize = 128 << 20;
+/// The paper's capture: ten views of 12 million pixels in half resolution, 48 million in full, textures of
+/// 2048²; steps of each kind.
+const PAPER_PIXELS: [usize; 2] = [12_000_000, 48_000_000];
+const PAPER_TEXTURE: usize = 2048;
+const PAPER_STEPS: [usize; 3] = [2000, 500, 500];
+/// Memory of the host that all pixels of the paper's capture take, about.
+const PAPER_MEMORY: u64 = 20 << 30;
 
 /// Choice of measurements.
 pub struct Options {
-    /// One of every kind of row, as small as it goes: does the command work?
+    /// One row of every kind on the smallest size; the times are meaningless.
     pub quick: bool,
-    /// A GPU too, if there is one; the processor is measured at each of its levels.
+    /// Measures a GPU too, if there is one; the processor is measured at each of its levels.
     pub gpu: bool,
     /// A Python that has PyTorch.
     pub torch: Option<PathBuf>,
@@ -62,57 +65,10 @@ pub struct Options {
     pub captures: Vec<PathBuf>,
 }
 
-/// Measures everything; `progress` hears what comes next.
+/// Measures everything; `progress` gets the name of each measurement before it begins.
 pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Report, BenchError> {
-    let bench = Bench { quick: options.quick };
-    // Before there is a load of our own.
-    let machine = Machine::here();
-    // First, so that what the process keeps of other measurements does not count as theirs.
-    let mut solves = vec![];
-    for capture in &options.captures {
-        progress(&format!("solving {}", capture.display()));
-        solves.extend(solves::measure(capture, &Cpu::new())?);
-    }
-    progress("bandwidth");
-    let bandwidth = machine::bandwidth(if bench.quick { 1 << 20 } else { ARRAY }, bench.budget());
-    let mut devices: Vec<(Cpu, Reach)> = vec![];
-    for level in Level::available() {
-        progress(&format!("multiply-adds, {level}"));
-        let flops = machine::peak(level, bench.budget());
-        devices.push((Cpu::at(level), Reach { flops, bytes: bandwidth }));
-    }
-    let reach = devices.iter().map(|(device, reach)| (device.name(), *reach)).collect();
-    let mut steps = vec![];
-    for (kind, size) in bench.sizes() {
-        for (device, reach) in &devices {
-            progress(&format!("{}, {} pixels, {}", kind.name(), size.0, device.name()));
-            steps.push(steps::measure(kind, device, *reach, size, bench.budget()));
-        }
-    }
-    // Levels come in rising order, and there is always the portable one.
-    let Some((device, reach_of_best)) = devices.last() else { unreachable!("no level at all") };
-    progress("kernels");
-    let kernels = kernels::measure(device, &bench.kernel_size());
-    let scaling = bench.scaling(device, *reach_of_best, progress);
-    let paper = bench.paper_size(device, *reach_of_best, progress);
-    // Not looked for before: its driver takes memory, which would count as that of the steps.
-    let adapter = if options.gpu { adapter()? } else { None };
-    let gpu = adapter.map(|adapter| bench.gpu(&adapter, device, options, progress)).transpose()?;
-    let torch = match &options.torch {
-        None => Torch::Absent { fix: FIX.to_owned() },
-        Some(python) => {
-            let mut rows = vec![];
-            // Large fine-tuning steps take PyTorch many seconds each and say nothing new.
-            let worth =
-                |(kind, size): &(Kind, (usize, usize))| *kind == Kind::WarmUp || size.0 < LARGE;
-            for (kind, size) in bench.sizes().into_iter().filter(worth) {
-                progress(&format!("{}, {} pixels, PyTorch", kind.name(), size.0));
-                rows.push(torch_row(python, kind, size, device, &steps)?);
-            }
-            Torch::Measured(rows)
-        }
-    };
-    Ok(Report { machine, reach, steps, kernels, scaling, paper, gpu, torch, solves })
+    let adapter = || if options.gpu { adapter() } else { Ok(None) };
+    Bench { options, progress }.run(adapter)
 }
 
 /// The best real GPU, or the adapter that the user names.
@@ -124,122 +80,198 @@ fn adapter() -> Result<Option<Adapter>, BackendError> {
     }
 }
 
-struct Bench {
-    quick: bool,
+struct Bench<'a> {
+    options: &'a Options,
+    progress: &'a mut dyn FnMut(&str),
 }
 
-impl Bench {
+impl Bench<'_> {
+    fn run(
+        &mut self,
+        adapter: impl FnOnce() -> Result<Option<Adapter>, BackendError>,
+    ) -> Result<Report, BenchError> {
+        // Before this run adds to the load.
+        let machine = Machine::here();
+        // Before other measurements fill the memory of the process.
+        let solves = self.solves(&Cpu::new())?;
+        let processors = self.processors();
+        // Levels come in rising order, and there is always the portable one.
+        let (Some(best), Some(level)) = (processors.last(), Level::available().pop()) else {
+            unreachable!("no level at all")
+        };
+        let mut report = Report {
+            machine,
+            reach: processors.iter().map(|device| (device.name(), device.reach)).collect(),
+            steps: vec![],
+            kernels: vec![],
+            paper: vec![],
+            solves,
+        };
+        let sizes = self.sizes();
+        let mut losses = vec![vec![]; sizes.len()];
+        for (size, losses) in sizes.iter().zip(&mut losses) {
+            for device in &processors {
+                let found = self.step(device, *size)?;
+                *losses = found.losses;
+                report.steps.push(found.step);
+            }
+        }
+        (self.progress)("kernels");
+        report.kernels = kernels::measure(&Cpu::at(level), best.reach, &self.kernel_size());
+        report.paper.push(self.paper(best, [16, 64]));
+        let mut others = vec![];
+        // Opened late: the driver's memory would count as that of the processor's steps.
+        if let Some(adapter) = adapter()? {
+            others.push(self.gpu(&adapter)?);
+        }
+        others.extend(self.torch(best, others.first()));
+        for device in &others {
+            for ((kind, size), losses) in sizes.iter().zip(&losses) {
+                if device.is_torch() && *kind != Kind::WarmUp && size.0 >= LARGE {
+                    // Such steps take PyTorch many seconds each, and the smaller ones give the same ratio.
+                    continue;
+                }
+                let found = match self.step(device, (*kind, *size)) {
+                    // Not every GPU has CUDA, nor every PyTorch.
+                    Err(error) if device.is_cuda() => {
+                        (self.progress)(&format!("PyTorch does not run on the GPU: {error}"));
+                        break;
+                    }
+                    found => found?,
+                };
+                let difference = losses.iter().zip(&found.losses).map(|(a, b)| (a / b - 1.0).abs());
+                let loss_difference = Some(difference.fold(0.0, f64::max));
+                report.steps.push(Step { loss_difference, ..found.step });
+                report.kernels.extend(found.passes);
+            }
+            if let Computer::Gpu { gpu, software } = &device.computer {
+                report.reach.push((device.name(), device.reach));
+                report.solves.extend(self.solves(gpu)?);
+                let divisors = match software {
+                    true => [256, 1024],
+                    false if available().is_some_and(|bytes| bytes < PAPER_MEMORY) => [4, 16],
+                    false => [1, 4],
+                };
+                report.paper.push(self.paper(device, divisors));
+            }
+        }
+        Ok(report)
+    }
+
     fn budget(&self) -> Duration {
-        Duration::from_millis(if self.quick { 1 } else { 1500 })
+        Duration::from_millis(if self.options.quick { 1 } else { 1500 })
+    }
+
+    fn array(&self) -> usize {
+        if self.options.quick { 1 << 20 } else { ARRAY }
+    }
+
+    fn solves(&mut self, backend: &dyn Backend) -> Result<Vec<Solve>, BenchError> {
+        let mut solves = vec![];
+        for capture in &self.options.captures {
+            (self.progress)(&format!("solving {}, {}", capture.display(), backend.name()));
+            solves.extend(solves::measure(capture, backend)?);
+        }
+        Ok(solves)
+    }
+
+    /// The processor at each of its levels.
+    fn processors(&mut self) -> Vec<Device> {
+        (self.progress)("bandwidth");
+        let bytes = machine::bandwidth(self.array(), self.budget());
+        let mut devices = vec![];
+        for level in Level::available() {
+            (self.progress)(&format!("multiply-adds, {level}"));
+            let reach = Reach { flops: machine::peak(level, self.budget()), bytes };
+            devices.push(Device { computer: Computer::Processor(level), reach });
+        }
+        devices
+    }
+
+    fn gpu(&mut self, adapter: &Adapter) -> Result<Device, BenchError> {
+        (self.progress)(&format!("multiply-adds and bandwidth, {}", adapter.name));
+        let gpu = Gpu::open(adapter)?;
+        let found = gpu.ceilings(self.array(), self.budget());
+        let found = found.map_err(|error| gpu_error(&gpu, &error))?;
+        let reach = Reach { flops: found.flops, bytes: found.bytes };
+        Ok(Device { computer: Computer::Gpu { gpu, software: adapter.software }, reach })
+    }
+
+    /// PyTorch on the processor, and on a real GPU.
+    fn torch(&self, processor: &Device, gpu: Option<&Device>) -> Vec<Device> {
+        let Some(python) = &self.options.torch else { return vec![] };
+        let on = |place, reach| Device {
+            computer: Computer::Torch { python: python.clone(), place },
+            reach,
+        };
+        let mut devices = vec![on(TorchPlace::Cpu, processor.reach)];
+        let real = |gpu: &&Device| matches!(gpu.computer, Computer::Gpu { software: false, .. });
+        devices.extend(gpu.filter(real).map(|gpu| on(TorchPlace::Cuda, gpu.reach)));
+        devices
+    }
+
+    fn step(
+        &mut self,
+        device: &Device,
+        (kind, size): (Kind, (usize, usize)),
+    ) -> Result<Measured, BenchError> {
+        let (pixels, side) = size;
+        let name = device.name();
+        (self.progress)(&format!("{}, {pixels} pixels, {side}² textures, {name}", kind.name()));
+        device.measure(kind, size, self.budget())
     }
 
     fn sizes(&self) -> Vec<(Kind, (usize, usize))> {
-        if self.quick {
+        if self.options.quick {
             return Kind::ALL.map(|kind| (kind, (5000, 32))).to_vec();
         }
-        let warm_up = [SMALL, LARGE].map(|pixels| (Kind::WarmUp, (pixels, COARSE)));
-        let fine = [Kind::Normals, Kind::Diffuse].into_iter();
-        let fine = fine.flat_map(|kind| [SMALL, LARGE].map(|pixels| (kind, (pixels, FINE))));
-        warm_up.into_iter().chain(fine).collect()
+        let sides = [(Kind::WarmUp, COARSE), (Kind::Normals, FINE), (Kind::Diffuse, FINE)];
+        let of = |(kind, side)| [SMALL, LARGE].map(|pixels| (kind, (pixels, side)));
+        sides.into_iter().flat_map(of).collect()
     }
 
     fn kernel_size(&self) -> kernels::Size {
         let budget = self.budget() / 3;
-        match self.quick {
+        match self.options.quick {
             true => kernels::Size { pixels: 5000, texture: 32, transport: 16, budget },
             false => kernels::Size { pixels: SMALL, texture: FINE, transport: 128, budget },
         }
     }
 
-    fn scaling(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> Vec<Step> {
-        let (pixels, textures): (&[usize], &[usize]) = match self.quick {
-            true => (&[1000, 4000], &[16, 32]),
-            false => (&[10_000, 100_000, 1_000_000, 10_000_000], &[128, 256, 512, 1024, 2048]),
-        };
-        let over_pixels = pixels.iter().map(|pixels| (Kind::WarmUp, (*pixels, COARSE)));
-        let over_textures = [Kind::Normals, Kind::Diffuse].into_iter().flat_map(|kind| {
-            textures
-                .iter()
-                .map(move |texture| (kind, (SMALL.min(100 * texture * texture), *texture)))
-        });
-        let mut rows = vec![];
-        for (kind, size) in over_pixels.chain(over_textures) {
-            progress(&format!("{}, {} pixels, {}² textures", kind.name(), size.0, size.1));
-            rows.push(steps::measure(kind, device, reach, size, self.budget()));
-        }
-        let all = rayon::current_num_threads();
-        let size = (if self.quick { 4000 } else { SMALL }, COARSE);
-        for threads in (0..).map(|power| 1 << power).take_while(|threads| *threads < all) {
-            progress(&format!("warm-up, {threads} threads"));
-            // A machine that cannot start a thread has no row for it.
-            let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
-            let fraction = threads as f64 / all as f64;
-            let reach = Reach { flops: fraction * reach.flops, ..reach };
-            let budget = self.budget();
-            rows.push(pool.install(|| steps::measure(Kind::WarmUp, device, reach, size, budget)));
-        }
-        rows
-    }
-
-    fn paper(&self) -> Paper {
-        Paper {
-            quick: self.quick,
-            divisors: if self.quick { [10_000, 40_000] } else { PAPER_DIVISORS },
-        }
-    }
-
-    fn paper_size(&self, device: &Cpu, reach: Reach, progress: &mut dyn FnMut(&str)) -> PaperSize {
-        let paper = self.paper();
-        let steps = Kind::ALL.map(|kind| {
-            paper.divisors.map(|divisor| {
-                let size = paper.size(kind, divisor);
-                let (pixels, name) = (size.0, kind.name());
-                progress(&format!(
-                    "the paper's capture, {name}, {pixels} pixels, {}",
-                    device.name()
-                ));
-                steps::measure(kind, device, reach, size, self.budget())
-            })
-        });
-        let seconds = steps.iter().zip(PAPER_STEPS).map(|([more, less], steps)| {
-            let times = [more, less].map(|step| (step.pixels, step.milliseconds));
-            1e-3 * steps as f64 * on_a_line(times, paper.size(more.kind, 1).0)
-        });
-        PaperSize { divisors: paper.divisors, seconds: seconds.sum(), steps: steps.to_vec() }
-    }
-
-    /// Steps, whole solves and the paper's capture on a GPU; `cpu` says what the losses should be.
-    fn gpu(
-        &self,
-        adapter: &Adapter,
-        cpu: &dyn Backend,
-        options: &Options,
-        progress: &mut dyn FnMut(&str),
-    ) -> Result<GpuReport, BenchError> {
-        progress(&format!("what {} reaches", adapter.name));
-        let bytes = if self.quick { 1 << 20 } else { ARRAY };
-        let device = gpu::Device::open(adapter, bytes, self.budget())?;
+    /// The paper's capture on one pixel of `divisors`, more of them first. A step's time is linear in its pixels,
+    /// but for its textures.
+    fn paper(&mut self, device: &Device, divisors: [usize; 2]) -> PaperCapture {
+        let divisors = if self.options.quick { [10_000, 40_000] } else { divisors };
         let mut steps = vec![];
-        for (kind, (pixels, texture)) in self.sizes() {
-            progress(&format!("{}, {pixels} pixels, {}", kind.name(), device.name()));
-            let problem = Problem::new(pixels, texture);
-            let mut step = device.step(kind, &problem, &losses(kind, &problem, cpu))?;
-            if let Some(python) = options.torch.as_ref().filter(|_| !device.software) {
-                // Not every GPU has CUDA, nor every PyTorch.
-                match torch::measure(python, TorchDevice::Cuda, kind, &problem, TORCH_STEPS) {
-                    Ok(there) => step.torch = Some(there),
-                    Err(error) => progress(&format!("no row for PyTorch on the GPU: {error}")),
-                }
+        let seconds = self.paper_seconds(device, divisors, &mut steps);
+        let (seconds, failure) = match seconds {
+            Ok(seconds) => (Some(seconds), None),
+            Err(error) => (None, Some(error.to_string())),
+        };
+        PaperCapture { device: device.name(), divisors, steps, seconds, failure }
+    }
+
+    fn paper_seconds(
+        &mut self,
+        device: &Device,
+        divisors: [usize; 2],
+        steps: &mut Vec<Step>,
+    ) -> Result<f64, BenchError> {
+        let texture = if self.options.quick { 32 } else { PAPER_TEXTURE };
+        let mut seconds = 0.0;
+        for (kind, count) in Kind::ALL.into_iter().zip(PAPER_STEPS) {
+            let [half, full] = PAPER_PIXELS;
+            let (pixels, side) =
+                if kind == Kind::WarmUp { (half, COARSE) } else { (full, texture) };
+            let mut times = vec![];
+            for divisor in divisors {
+                let step = self.step(device, (kind, (pixels / divisor, side)))?.step;
+                times.push((step.pixels, step.milliseconds));
+                steps.push(step);
             }
-            steps.push(step);
+            seconds += 1e-3 * count as f64 * on_a_line([times[0], times[1]], pixels);
         }
-        let mut solves = vec![];
-        for capture in &options.captures {
-            progress(&format!("solving {}, {}", capture.display(), device.name()));
-            solves.extend(device.solves(capture)?);
-        }
-        let paper = device.paper(&self.paper(), progress);
-        Ok(device.report(steps, solves, paper))
+        Ok(seconds)
     }
 }
 
@@ -247,102 +279,4 @@ impl Bench {
 fn on_a_line([(more, later), (less, sooner)]: [(usize, f64); 2], pixels: usize) -> f64 {
     let slope = (later - sooner) / (more as f64 - less as f64);
     later + slope * (pixels as f64 - more as f64)
-}
-
-fn torch_row(
-    python: &std::path::Path,
-    kind: Kind,
-    (pixels, texture): (usize, usize),
-    device: &dyn Backend,
-    steps: &[Step],
-) -> Result<TorchRow, TorchError> {
-    let problem = Problem::new(pixels, texture);
-    let torch = torch::measure(python, TorchDevice::Cpu, kind, &problem, TORCH_STEPS)?;
-    let ours = losses(kind, &problem, device);
-    let difference = ours.iter().zip(&torch.losses).map(|(a, b)| (a / b - 1.0).abs());
-    let same = |step: &&Step| (step.kind, step.pixels, step.texture) == (kind, pixels, texture);
-    Ok(TorchRow {
-        kind,
-        pixels,
-        texture,
-        loss_difference: difference.fold(0.0, f64::max),
-        torch,
-        ours: steps.iter().filter(same).cloned().collect(),
-    })
-}
-
-/// The losses before the first steps.
-fn losses(kind: Kind, problem: &Problem, device: &dyn Backend) -> Vec<f64> {
-    let deviation = Deviation::new(&problem.config, problem.state.size);
-    let mut fit = problem.fit(kind, &deviation, device);
-    (0..TORCH_STEPS).map(|_| fit.step(device, 1.0)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every row is there and finite; nothing is said about its time.
-    #[test]
-    fn the_smallest_run_has_every_row_and_a_table() {
-        let options = Options { quick: true, gpu: false, torch: None, captures: vec![] };
-        let mut heard = 0;
-        let report = run(&options, &mut |_| heard += 1).unwrap();
-        let levels = Level::available().len();
-        assert_eq!(report.reach.len(), levels);
-        assert_eq!(report.steps.len(), 3 * levels);
-        assert!(report.steps.iter().all(|step| step.milliseconds > 0.0));
-        assert!(report.kernels.len() > 10 && heard > report.steps.len());
-        let text = markdown(&report, "unshade bench");
-        assert!(text.contains("pip install torch"), "{text}");
-        assert_eq!(text.matches("ot yet measured").count(), 3, "{text}");
-        let value = serde_json::to_value(&report).unwrap();
-        assert_eq!(value["steps"][0]["kind"], "warm-up");
-    }
-
-    /// Where there is no adapter, the run above has said that nothing was measured.
-    #[test]
-    fn an_adapter_has_its_steps_its_passes_and_the_processors_losses() {
-        let mut adapters = solver::backend::gpu::adapters();
-        let software = adapters.iter().position(|adapter| adapter.software).unwrap_or(0);
-        if adapters.is_empty() {
-            eprintln!("skipped: no adapter");
-            return;
-        }
-        let adapter = adapters.swap_remove(software);
-        let bench = Bench { quick: true };
-        let options = Options { quick: true, gpu: true, torch: None, captures: vec![] };
-        let report = bench.gpu(&adapter, &Cpu::new(), &options, &mut |_| {}).unwrap();
-        assert_eq!(report.software, adapter.software);
-        assert_eq!(report.steps.len(), 3);
-        for step in &report.steps {
-            assert!(step.milliseconds > 0.0 && step.floors.iter().all(|floor| *floor > 0.0));
-            assert!(step.loss_difference.unwrap() < 1e-4, "{:?}", step.loss_difference);
-            assert_eq!(step.passes.is_empty(), !adapter.has_clock());
-        }
-        let gpu::GpuPaper::Done { steps, seconds, .. } = &report.paper else {
-            panic!("{:?}", report.paper)
-        };
-        assert!(steps.len() == 3 && *seconds > 0.0);
-    }
-
-    #[test]
-    fn what_a_step_takes_without_pixels_is_counted_once() {
-        let time = |pixels: usize| 7.0 + 0.25 * pixels as f64;
-        let times = [120, 30].map(|pixels| (pixels, time(pixels)));
-        assert_eq!(on_a_line(times, 1920), time(1920));
-    }
-
-    #[test]
-    fn a_python_without_torch_is_named_with_the_fix() {
-        let problem = Problem::new(100, 8);
-        let python = std::path::Path::new("/nowhere/python");
-        let error = torch::measure(python, TorchDevice::Cpu, Kind::WarmUp, &problem, 1)
-            .unwrap_err()
-            .to_string();
-        assert!(
-            error.contains("/nowhere/python") && error.contains("pip install torch"),
-            "{error}"
-        );
-    }
 }

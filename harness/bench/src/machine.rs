@@ -1,4 +1,4 @@
-//! The machine: what it calls itself, and what it reaches in this very run.
+//! The machine: its names, the rates that it reaches in this run, and the time and memory of work on it.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -7,12 +7,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use solver::backend::cpu::{Cpu, Level};
 
-use super::clock::best;
-
 /// Rounds of multiply-adds on one thread, about 10 ms.
 const ROUNDS: usize = 4_000_000;
 
-/// The machine in words, for whoever reads the table elsewhere.
+/// The machine in words.
 #[derive(Clone, Debug, Serialize)]
 pub struct Machine {
     /// The processor's name.
@@ -21,7 +19,7 @@ pub struct Machine {
     pub threads: usize,
     /// Sizes of the caches, the smallest first, as the system names them.
     pub caches: Vec<String>,
-    /// Processes that wanted to run when it was asked, mean of a minute, this one included.
+    /// Runnable processes when the run began, mean of a minute, this one included.
     pub load: Option<f64>,
     /// Bytes of memory.
     pub memory: Option<u64>,
@@ -32,7 +30,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one. What the system does not say is left out.
+    /// Describes this machine. Values that the system does not give are left out.
     pub fn here() -> Self {
         let line = |file: &str, key: &str| {
             let text = fs::read_to_string(file).ok()?;
@@ -62,27 +60,51 @@ impl Machine {
     }
 }
 
+/// Rates that a device reaches.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Reach {
+    /// Multiply-adds, FLOP/s.
+    pub flops: f64,
+    /// From and to memory, bytes/s.
+    pub bytes: f64,
+}
+
+/// Runs `work` as often as fits into `budget`, `min_runs` times at least, and returns the shortest time in
+/// seconds: other work of the machine only adds to it.
+pub fn best(budget: Duration, min_runs: usize, mut work: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    let mut best = f64::INFINITY;
+    let mut runs = 0;
+    while runs < min_runs || start.elapsed() < budget {
+        let begin = Instant::now();
+        work();
+        best = best.min(begin.elapsed().as_secs_f64());
+        runs += 1;
+    }
+    best
+}
+
+/// Resets the largest memory of this process; false where the system cannot.
+pub fn reset_peak_memory() -> bool {
+    fs::write("/proc/self/clear_refs", "5").is_ok()
+}
+
+/// The largest resident set of this process since [`reset_peak_memory`], bytes.
+pub fn peak_memory() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().trim_end_matches(" kB").parse::<u64>().ok().map(|kb| kb * 1024)
+}
+
 /// Multiply-adds per second of all threads, in FLOP/s.
 pub fn peak(level: Level, budget: Duration) -> f64 {
     let cpu = Cpu::at(level);
-    let threads = rayon::current_num_threads();
     let mut flops = 0.0;
     let seconds = best(budget, 3, || {
         let each = rayon::broadcast(|_| cpu.multiply_adds(ROUNDS));
         flops = each.iter().sum();
-        debug_assert_eq!(each.len(), threads);
     });
     flops / seconds
-}
-
-/// [`peak`] over about a fifth of a millisecond, each thread by its own clock: the rate that is left at the
-/// pace to which the work before has brought the processor.
-pub fn peak_now(cpu: &Cpu) -> f64 {
-    let rates = rayon::broadcast(|_| {
-        let begin = Instant::now();
-        cpu.multiply_adds(ROUNDS / 50) / begin.elapsed().as_secs_f64()
-    });
-    rates.iter().sum()
 }
 
 /// Bytes per second of a = b + s c over arrays of `bytes` each, which no cache should hold, all threads

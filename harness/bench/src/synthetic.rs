@@ -1,4 +1,4 @@
-//! The work that is timed: synthetic G-buffers of any size, so that a benchmark needs no capture.
+//! Synthetic G-buffers of any size, so that a benchmark needs no capture.
 //!
 //! Every view sees the same bump of a surface through a turned square grid of pixels, so that
 //! neighbouring pixels share texels as on a real chart, and views meet them in different places.
@@ -22,8 +22,8 @@ use super::kind::Kind;
 
 /// Views of every problem.
 pub const VIEWS: usize = 10;
-/// Side of the square of the chart that a view sees.
-const SEEN: f32 = 0.8;
+/// Side of the square of the chart that a view covers.
+const COVERED: f32 = 0.8;
 
 /// Starting point of an optimisation's stages.
 pub struct Problem {
@@ -101,12 +101,12 @@ struct Pixel {
     colour: Vec3,
 }
 
-/// Where pixel `i` of a view's grid of side `side` lies on the chart, and how far the view is turned.
+/// The place of pixel `i` of a view's grid of side `side` on the chart, and the turn of the view.
 fn place(i: usize, view: usize, side: f32) -> (Vec2, f32) {
     let (x, y) = (i as f32 % side, (i as f32 / side).floor());
     let local = (Vec2::new(x, y) + 0.5) / side - 0.5;
     let turn = (view as f32 + 0.5) / VIEWS as f32 - 0.5;
-    (Vec2::splat(0.5) + SEEN * Vec2::from_angle(0.3 * turn).rotate(local), turn)
+    (Vec2::splat(0.5) + COVERED * Vec2::from_angle(0.3 * turn).rotate(local), turn)
 }
 
 fn pixel((uv, turn): (Vec2, f32)) -> Pixel {

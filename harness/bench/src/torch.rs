@@ -1,79 +1,85 @@
 //! The paper's steps in PyTorch, an optional extra: a Python that has torch runs `torch_steps.py` on
-//! equal numbers, and its times and losses stand beside ours.
+//! equal numbers.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::process::Command;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use solver::model::planes::Planes;
 
 use super::kind::Kind;
 use super::synthetic::Problem;
 
-/// Steps whose losses are compared with PyTorch's.
-pub(super) const TORCH_STEPS: usize = 8;
-
 const SCRIPT: &str = include_str!("torch_steps.py");
 
-/// How to get the row, where there is no PyTorch.
-pub const FIX: &str = "python3 -m venv torch && torch/bin/pip install torch numpy, then `unshade \
-                        bench --torch torch/bin/python`";
+/// The way to get PyTorch's rows.
+pub const INSTALL: &str = "python3 -m venv torch && torch/bin/pip install torch numpy, then `unshade \
+                           bench --torch torch/bin/python`";
 
-/// Steps of one kind in PyTorch.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct TorchStep {
+/// The answer of `torch_steps.py`.
+#[derive(Deserialize)]
+pub struct TorchSteps {
     /// Milliseconds of a step, the shortest of several.
     pub milliseconds: f64,
     /// The loss before every step.
     pub losses: Vec<f64>,
-    /// Largest resident set of the Python process, or what its tensors took on the GPU, bytes.
+    /// Largest resident set of the Python process, or the memory of its tensors on the GPU, bytes.
     pub peak_memory: u64,
     /// PyTorch's version.
     pub version: String,
 }
 
-/// A Python that cannot do it, with the fix.
+/// PyTorch cannot take the steps.
 #[derive(Debug, thiserror::Error)]
 pub enum TorchError {
-    /// The problem cannot be handed over.
+    /// The problem's file cannot be written.
     #[error("{0}")]
     Io(#[from] io::Error),
-    /// Python said no.
-    #[error("{python} cannot run the steps: {reason}; get PyTorch by: {FIX}")]
+    /// Python failed.
+    #[error("{python} cannot run the steps: {reason}; get PyTorch by: {INSTALL}")]
     Python {
         /// The interpreter.
         python: String,
-        /// Its last line.
+        /// The last line of its messages.
         reason: String,
     },
 }
 
-/// Where PyTorch computes.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum TorchDevice {
+/// The device that PyTorch computes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum TorchPlace {
     /// As many threads as this process has.
     Cpu,
     /// The GPU that CUDA lists first.
     Cuda,
 }
 
+impl TorchPlace {
+    /// PyTorch's name of the device.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Cuda => "cuda",
+        }
+    }
+}
+
 /// Runs `steps` eager steps of `kind` on `problem`.
 pub fn measure(
     python: &Path,
-    device: TorchDevice,
+    place: TorchPlace,
     kind: Kind,
     problem: &Problem,
     steps: usize,
-) -> Result<TorchStep, TorchError> {
+) -> Result<TorchSteps, TorchError> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("problem.f32");
     write(&file, problem)?;
     let arguments = serde_json::json!({
         "kind": kind, "file": file, "pixels": problem.samples.len(), "size": problem.state.size,
-        "steps": steps, "device": device, "threads": rayon::current_num_threads(),
+        "steps": steps, "device": place.name(), "threads": rayon::current_num_threads(),
         "prior": problem.config.warm_up.prior, "rate": problem.config.warm_up.diffuse_rate,
         "range": problem.config.fine_tuning.deviation_range,
         "blur": problem.config.fine_tuning.deviation_blur,
