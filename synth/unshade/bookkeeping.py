@@ -67,8 +67,9 @@ def seal(
     `UnshadeError` for a secret that is too short.
     """
     with as_file(suite, "suite", SceneError) as file:
-        arguments = {"suite": file, "seeds_from": seeds_from, "out": out, "round": round, "jobs": jobs}
-        public_key: str = command("seal", **arguments, progress=progress)
+        public_key: str = command(
+            "seal", suite=file, seeds_from=seeds_from, out=out, round=round, jobs=jobs, progress=progress
+        )
     return public_key
 
 
@@ -79,8 +80,9 @@ def score_submission(
 
     ``private`` is the folder that `seal` wrote. Raises ``errors.UnshadeError`` for another secret than the round's.
     """
-    arguments = {"score": submission, "private": private, "out": out, "seeds_from": seeds_from, "round": "", "jobs": 1}
-    failed: dict[str, str] = command("seal", **arguments, progress=progress)
+    failed: dict[str, str] = command(
+        "seal", score=submission, private=private, out=out, seeds_from=seeds_from, round="", jobs=1, progress=progress
+    )
     return failed
 
 

@@ -98,8 +98,10 @@ def relight(
     `PictureError`, `VariantError`, `RendererError` and `StorageError`.
     """
     with _folder_of(maps) as folder, _light_file(light) as file:
-        arguments = {"capture": _path_of(capture), "maps": folder, "out": out, "renderer": renderer, "light": file}
-        command("relight", **arguments, progress=progress)
+        command(
+            "relight", capture=_path_of(capture), maps=folder, out=out, renderer=renderer, light=file,
+            progress=progress,
+        )  # fmt: skip
     return Path(out)
 
 
