@@ -11,6 +11,7 @@ from unshade.errors import PictureError, SceneError
 from unshade.formation import expose, needs_own_rendering
 from unshade.render.scene_text import scene_text
 from unshade.scene_file import CapturedMesh, Formation, parse_scene
+from unshade.srgb import decoded, encoded
 
 
 def flat(value, count=40000):
@@ -82,6 +83,41 @@ def test_equal_seeds_give_equal_bits_and_nothing_is_the_picture_itself():
     assert expose(radiance, Formation(), 1) is radiance
 
 
+BRACKETED = {"white_level": 1.0, "full_well_electrons": 6000.0, "read_noise_electrons": 5.0, "bits": 8}
+
+
+@pytest.mark.parametrize("level", [0.002, 0.02, 0.15, 0.6, 1.5, 3.5])
+def test_merged_brackets_have_the_least_variance_that_weights_can_reach(level):
+    """One over the sum of the inverse variances (Gauss-Markov) of the exposures that do not clip there."""
+    stops = (-2.0, 0.0, 2.0)
+    picture = expose(flat(level), Formation(**BRACKETED, brackets_stops=stops), 1).astype(float)
+    precision = 0.0
+    for scale in np.exp2(stops):
+        x = level * scale
+        if x > 0.9:
+            continue
+        codes = decoded((encoded(np.float64(x)) * 255 + np.array([-0.5, 0.5])) / 255)
+        noise = x / 6000 + (5 / 6000) ** 2 + np.diff(codes).item() ** 2 / 12
+        precision += scale**2 / noise
+    assert picture.var() == pytest.approx(1 / precision, rel=0.05)
+    # Readings of the short exposures that are cut off at black brighten the darkest level a little.
+    assert picture.mean() == pytest.approx(level, rel=2e-3 if level > 0.01 else 0.02)
+
+
+def test_brackets_extend_the_range_and_the_rest_is_as_it_was():
+    radiance = ramp(8.0)
+    bracketed = Formation(**BRACKETED, brackets_stops=(2.0, -2.0))
+    first, again = (expose(radiance, bracketed, 5) for _ in range(2))
+    assert first.tobytes() == again.tobytes() and first.max() == 4.0
+    low, high = (radiance < 0.1), (radiance > 0.3) & (radiance < 3.5)
+    single = expose(radiance, Formation(**BRACKETED), 5)
+    assert np.square(first - radiance)[low].mean() < 0.4 * np.square(single - radiance)[low].mean()
+    assert np.abs(first - radiance)[high].max() < 0.3 and (single[radiance > 1.1] == 1).all()
+    # The order of the exposures changes their noise alone.
+    other = expose(radiance, Formation(**BRACKETED, brackets_stops=(-2.0, 2.0)), 5)
+    assert np.abs(first - other)[low].max() < 0.05
+
+
 def test_pictures_stay_finite():
     sensor = Formation(
         exposure_stops=16.0, white_level=1e-3, full_well_electrons=1e9, read_noise_electrons=1e6, bits=16
@@ -96,7 +132,7 @@ def test_pictures_stay_finite():
 FULL = {
     "exposure_stops": 1.0, "white_level": 1.5, "full_well_electrons": 20000, "read_noise_electrons": 3, "bits": 8, "transfer": "linear",
     "motion_pixels": 2.0, "motion_direction_degrees": 30.0, "aperture_radius_mm": 2, "focus_distance_metres": 0.5,
-    "lens_distortion": [-0.1, 0.02, 0.001, 0], "pose_noise_degrees": 0.05, "pose_noise_mm": 0.3,
+    "lens_distortion": [-0.1, 0.02, 0.001, 0], "brackets_stops": [-2, 0.5, 2], "pose_noise_degrees": 0.05, "pose_noise_mm": 0.3,
 }  # fmt: skip
 
 
@@ -128,6 +164,9 @@ def test_every_key_survives_writing_and_reading(tmp_path):
         ({"white_level": 1, "bits": 10}, "bits .* is 10; use 8 or 16"),
         ({"motion_pixels": 1, "motion_degrees": 1}, "keep one"),
         ({"focus_distance_metres": 1}, "does nothing without aperture_radius_mm"),
+        ({"brackets_stops": [-2, 2], "white_level": 1}, "brackets_stops .* does nothing without bits"),
+        ({"brackets_stops": [0, 0], "white_level": 1, "bits": 8}, r"use 2 to 9 different numbers, as \[-2, 0, 2\]"),
+        ({"brackets_stops": 2, "white_level": 1, "bits": 8}, "use 2 to 9 different numbers"),
         ({"lens_distortion": [0.1]}, r"use four numbers \[k1, k2, p1, p2\]"),
         ({"pose_noise_pixels": 1, "pose_noise_mm": 1}, "keep it or them"),
         ({"pose_noise_mm": -1}, "from 0 to 100"),

@@ -21,3 +21,9 @@ def decoded(codes: NDArray[Any]) -> NDArray[Any]:
     """Returns the linear values of codes, in the precision of ``codes``."""
     power = ((np.maximum(codes, _CODE_END) + 0.055) / 1.055) ** 2.4
     return np.where(codes <= _CODE_END, codes / 12.92, power)
+
+
+def slope(linear: NDArray[Any]) -> NDArray[Any]:
+    """Returns the derivative of `decoded` at the codes of linear values."""
+    power = np.maximum(linear, _LINEAR_END) ** (1.4 / 2.4)
+    return np.where(linear <= _LINEAR_END, 1 / 12.92, 2.4 / 1.055 * power)

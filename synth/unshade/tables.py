@@ -150,6 +150,20 @@ def vector(default: Any, wanted: str, count: int, low: float = -math.inf, high: 
     return _field(default, lambda table, key: table.vector(key, wanted, count, low, high))
 
 
+def numbers(wanted: str, fewest: int, most: int, low: float, high: float) -> Any:
+    """A field that holds ``fewest`` to ``most`` different numbers, or by default none; errors say what is ``wanted``."""
+
+    def read(table: Table, key: str) -> tuple[float, ...]:
+        value = table.values[key]
+        count = len(value) if isinstance(value, list) and fewest <= len(value) <= most else fewest
+        found = table.vector(key, wanted, count, low, high)
+        if len(set(found)) < count:
+            raise table.wrong(key, f"is {value!r}; use {wanted}")
+        return found
+
+    return _field(None, read)
+
+
 def colour(*default: float) -> Any:
     """A field that holds a linear Rec.709 colour, not negative and not black."""
     wanted = "three numbers of 0 or more, as [1.0, 0.5, 0.2]"

@@ -7,6 +7,7 @@ import numpy as np
 from ..errors import PictureError
 from ..scene_file import Formation
 from ..srgb import decoded, encoded
+from .brackets import merged
 
 
 def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
@@ -17,6 +18,7 @@ def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
     well, which is the white level; read noise (Gaussian); the converter's range; code
     values. Then the code is decoded and the exposure divided out. Without black level the
     converter cuts negative readings off, so that noise brightens what is nearly black.
+    Bracketed exposures go this way one by one, each with noise of its own, and are merged.
 
     Equal seeds give equal bytes. Raises `PictureError` where ``radiance`` is not finite.
     """
@@ -27,18 +29,25 @@ def expose(radiance: np.ndarray, formation: Formation, seed: int) -> np.ndarray:
     if formation.white_level is None:
         return radiance
     scale = 2.0**formation.exposure_stops / formation.white_level
+    if formation.brackets_stops is None:
+        return (_reading(radiance, scale, formation, np.random.default_rng(seed)) / scale).astype(np.float32)
+    scales = [scale * 2.0**stops for stops in formation.brackets_stops]
+    readings = [_reading(radiance, s, formation, np.random.default_rng([seed, k])) for k, s in enumerate(scales)]
+    return merged(readings, scales, formation).astype(np.float32)
+
+
+def _reading(radiance: np.ndarray, scale: float, formation: Formation, rng: np.random.Generator) -> np.ndarray:
+    """Decoded readings, 0 to 1 of the white level, of one exposure that multiplies radiance by ``scale``."""
     signal = radiance.astype(np.float64) * scale
     if formation.full_well_electrons is not None:
-        signal = _read(
-            signal, formation.full_well_electrons, formation.read_noise_electrons, np.random.default_rng(seed)
-        )
+        signal = _counted(signal, formation.full_well_electrons, formation.read_noise_electrons, rng)
     signal = signal.clip(0, 1)
     if formation.bits is not None:
         signal = _quantised(signal, formation.bits, formation.transfer)
-    return (signal / scale).astype(np.float32)
+    return signal
 
 
-def _read(signal: np.ndarray, full_well: float, read_noise: float, rng: np.random.Generator) -> np.ndarray:
+def _counted(signal: np.ndarray, full_well: float, read_noise: float, rng: np.random.Generator) -> np.ndarray:
     """Shares of the full well after counting, saturation and reading."""
     expected = signal.clip(0) * full_well
     # So far above saturation the count does not matter, and the generator has its limits.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import SceneError
-from ..tables import Table, changes, one_of, read, real, vector
+from ..tables import Table, changes, numbers, one_of, read, real, vector
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,9 @@ class Formation:
     """8 or 16 bits a channel, code 0 at black and the largest at the white level."""
     transfer: str = one_of("srgb", "linear")
     """``srgb`` or ``linear``: how code values are spaced."""
+    brackets_stops: tuple[float, ...] | None = numbers("2 to 9 different numbers, as [-2, 0, 2]", 2, 9, -16, 16)
+    """Exposures relative to ``exposure_stops``, in powers of two, whose pictures are merged to one of high dynamic
+    range (`formation.brackets`); ``None`` is one exposure."""
     motion_pixels: float = real(0.0, 0, 1000)
     """Length of the streak that a point in the middle of the picture leaves (pixels)."""
     motion_degrees: float = real(0.0, 0, 30)
@@ -74,6 +77,7 @@ def _require_sense(formation: Formation, table: Table) -> None:
     needs("read_noise_electrons", "full_well_electrons", formation.full_well_electrons is not None, "20000")
     needs("exposure_stops", "white_level", white, "1.0")
     needs("transfer", "bits", formation.bits is not None, "8")
+    needs("brackets_stops", "bits", formation.bits is not None, "8")
     moves = formation.motion_pixels > 0 or formation.motion_degrees > 0
     needs("motion_direction_degrees", "motion_pixels", moves, "2.0")
     needs("focus_distance_metres", "aperture_radius_mm", formation.aperture_radius_mm > 0, "2.0")
