@@ -6,6 +6,7 @@ import weakref
 from pathlib import Path
 
 import drjit as dr
+import igl
 import mitsuba as mi
 import numpy as np
 import pytest
@@ -263,6 +264,20 @@ def test_parts_are_welded_and_open_rims_capped():
     vertices, triangles = box(flip=[3])
     with pytest.raises(SceneError, match="needs a closed head"):
         body.close([Mesh("flipped", vertices, vertices, triangles)])
+
+
+def test_a_finer_raised_chart_is_joined_to_coarse_parts():
+    """One side of the box, cut finer and raised by a pyramid: the volume is the box's and the pyramid's."""
+    vertices, triangles = box()
+    front = (vertices[triangles][:, :, 2] == 1).all(1)
+    fine, cut = igl.upsample(vertices.astype(float), triangles[front].astype(np.int64), 3)
+    used, cut = np.unique(cut, return_inverse=True)
+    fine = fine[used]
+    fine[:, 2] += 0.5 * np.minimum(fine[:, :2], 1 - fine[:, :2]).min(1)
+    chart = Mesh("chart", fine.astype(np.float32), fine, cut.reshape(-1, 3))
+    closed = body.close([chart, Mesh("rest", vertices, vertices, triangles[~front])])
+    # A third of its height of 0.25; the cut follows one diagonal alone.
+    assert enclosed(closed) == pytest.approx(1 + 0.25 / 3, rel=2e-3)
 
 
 def test_a_variant_without_compiler_is_refused(monkeypatch):

@@ -105,10 +105,6 @@ def parse_scene(values: Mapping[str, Any], place: str, folder: Path) -> Scene:
         rig = parse_rig(table.subtable("rig"), f"[rig] of {place}")
     with SceneError.in_table("render"):
         render = parse_render(table.subtable("render"), f"[render] of {place}")
-    if getattr(face, "displacement", False) and render.tier == "volume":
-        raise SceneError(
-            f'{place}: tier = "volume" fills the smooth head; leave displacement out, or set tier = "diffusion"'
-        )
     with SceneError.in_table("image_formation"):
         formation = parse_formation(values.get("image_formation", {}), f"[image_formation] of {place}")
     with SceneError.in_table("captured_mesh"):
