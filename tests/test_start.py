@@ -20,17 +20,19 @@ START = ROOT / "harness" / "src" / "cli" / "start"
 
 def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert command("synth", "portrait", "--describe").stdout.startswith("scene portrait\n")
-    failed = command("run", "portrait", "-o", "run", check=False)
+    assert command("synth", "photographic", "--describe").stdout.startswith("scene photographic\n")
+    failed = command("run", "photographic", "-o", "run", check=False)
     assert failed.returncode == 2 and not Path("run").exists()
     assert failed.stderr.count("\n") == 1 and " ci, competitors, degraded, demo, emily, held-out, " in failed.stderr
     with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are ci, demo"):
         unshade.synth("dmeo", "capture")
     # A file of the same name wins.
-    Path("portrait").write_text((HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes/lights/", ""))
+    Path("photographic").write_text(
+        (HERE / "scenes" / "tiny-scene.toml").read_text().replace("../../scenes/lights/", "")
+    )
     Path("studio.toml").write_text('name = "mine"\nkind = "dome"\n')
     Path("uniform.toml").write_text('name = "other"\nkind = "dome"\n')
-    said = command("synth", "portrait", "--describe").stdout
+    said = command("synth", "photographic", "--describe").stdout
     assert said.startswith("scene tiny\n") and "mine" in said
 
 
