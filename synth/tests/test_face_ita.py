@@ -6,6 +6,7 @@ import pytest
 
 from unshade.face import FaceSpec, build_face
 from unshade.face.cache import load_head
+from unshade.face.canvas import Canvas
 from unshade.face.geometry import place
 from unshade.face.hair import hair_style
 from unshade.face.identity import shape
@@ -53,7 +54,7 @@ def tones():
         geometry = place(head, shape(head, spec_of("III", seed, 64)))
         for skin in TYPES:
             spec = spec_of(skin, seed, 64)
-            found[skin].append(face_ita(paint_maps(head, geometry, hair_style(spec), spec)))
+            found[skin].append(face_ita(paint_maps(Canvas.face(head), geometry, hair_style(spec), spec)))
     return found
 
 

@@ -2,11 +2,15 @@
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter, map_coordinates
+from scipy.spatial import cKDTree
 
 from unshade.face import FaceError, FaceSpec, Label, build_face, statistics
 from unshade.face.blotches import blood_factor, melanin_factor
 from unshade.face.character import ROUGHNESS_FACTORS, SPECULAR_FACTORS, character
+from unshade.face.chart import boundary_loops
 from unshade.face.pigment import BLOOD, MELANOSOMES, exact_colour
+from unshade.face.regions import find_regions
 from unshade.face.strands import Field, Ground, Strands
 from unshade.face.texels import rasterise
 
@@ -113,7 +117,32 @@ def test_scales_change_the_sheen_and_nothing_else(small):
         np.testing.assert_array_equal(getattr(scaled.maps, name), getattr(plain.maps, name))
     rest = [next(part for part in face.parts if part.name == "rest") for face in (plain, scaled)]
     np.testing.assert_allclose(rest[1].specular, 0.6 * rest[0].specular, rtol=1e-5)
+    np.testing.assert_allclose(rest[1].texture.specular, 0.6 * rest[0].texture.specular, rtol=1e-5)
     assert FaceSpec.from_table(scaled.spec.to_table()) == scaled.spec
+
+
+def test_paint_goes_on_across_the_rim_of_the_chart(faces):
+    """Along the rim the chart and the rest of the head have the same albedo, gloss and hair."""
+    face = faces["natural"]
+    rest = next(part for part in face.parts if part.name == "rest")
+    rim = boundary_loops(face.chart.triangles)[0]
+    twin = cKDTree(rest.vertices).query(face.chart.vertices[rim])[1]
+
+    def at(picture, uv):
+        place = np.stack([1 - uv[:, 1], uv[:, 0]]) * len(picture) - 0.5
+        # Single hairs are as wide as a texel, and the two charts sample them at different places.
+        return map_coordinates(gaussian_filter(picture, 2.0), place, order=1, mode="nearest")
+
+    maps, texture = face.maps, rest.texture
+    for chart, behind, bound in (
+        (np.log(maps.diffuse_albedo[..., 1]), np.log(texture.diffuse[..., 1]), 0.15),
+        (np.log(maps.specular_albedo), np.log(texture.specular), 0.1),
+        (np.log(maps.roughness[..., 0]), np.log(texture.roughness[..., 0]), 0.1),
+    ):
+        ours, theirs = at(chart, face.chart.uv[rim]), at(behind, texture.uv[twin])
+        assert np.median(np.abs(ours - theirs)) < bound
+        assert np.corrcoef(ours, theirs)[0, 1] > 0.9
+    np.testing.assert_array_equal(rest.vertices[twin], face.chart.vertices[rim])
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +152,8 @@ def flat():
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
     texels = rasterise(uv, triangles, 100)
     points = texels.sample(np.column_stack([40 * uv[:, 0], 20 * uv[:, 1], 0 * uv[:, 0]]))
-    return Field(texels, texels.nearest_inside(), points), Ground(uv, triangles, np.array([400.0, 400.0]))
+    sites = find_regions(np.zeros((4, 3), np.float32))
+    return Field(texels, texels.nearest_inside(), points), Ground(uv[triangles], triangles, np.full(2, 400.0), sites)
 
 
 def test_strands_are_as_long_and_cover_as_much_as_they_should(flat):
@@ -137,6 +167,6 @@ def test_strands_are_as_long_and_cover_as_much_as_they_should(flat):
     # Texels are 0.4 mm wide and 0.2 mm high, and rows go down.
     end = (paths[:, -1] - paths[:, 0]) * [0.4, -0.2]
     np.testing.assert_allclose(end, np.broadcast_to([1.8, 2.4], end.shape), atol=1e-5)
-    layers, tone = field.draw(Strands(paths, np.full(80, 0.15), np.full(80, 0.7)), taper=0.0)
+    layers, tone = field.draw([Strands(paths, np.full(80, 0.15), np.full(80, 0.7))], taper=0.0)
     assert layers.sum() * 0.4 * 0.2 == pytest.approx(80 * 3.0 * 0.15, rel=0.1)
     np.testing.assert_allclose(tone[layers > 0], 0.7, rtol=1e-5)

@@ -29,12 +29,25 @@ class Chart:
 
 
 @dataclasses.dataclass(frozen=True)
+class SkinTexture:
+    """Maps of a part that is painted like the chart: `uv` (V,2) f32, pictures (N,N,...) as those of `Maps`."""
+
+    uv: np.ndarray
+    diffuse: np.ndarray
+    specular: np.ndarray
+    diffuse_normal: np.ndarray
+    specular_normal: np.ndarray
+    roughness: np.ndarray
+
+
+@dataclasses.dataclass(frozen=True)
 class Part:
     """An occluder beside the chart.
 
     `vertices` (V,3) f32 m, `normals` (V,3) f32 unit, `triangles` (F,3) u32. Without `uv`,
     `diffuse` (V,3) f32 linear Rec.709 and `specular` (V,) f32 (0 to 0.05) hold one value per
-    vertex; with `uv` (V,2) f32 they are textures (H,W,3) and (H,W), row 0 at v = 1.
+    vertex; with `uv` (V,2) f32 they are textures (H,W,3) and (H,W), row 0 at v = 1. A `texture` is what pictures show in
+    place of the values per vertex, which are its course without detail.
     """
 
     name: str
@@ -44,6 +57,7 @@ class Part:
     diffuse: np.ndarray
     specular: np.ndarray
     uv: np.ndarray | None = None
+    texture: SkinTexture | None = None
 
 
 def textured_part(
@@ -115,13 +129,3 @@ def _posed(
             moved = close_lids(moved, head.refine(offset), weight, head.part_chart, eye, turn)
         moved = lift_lids(resting, moved, head.part_chart, socket, eye, turn)
     return moved
-
-
-def part_mesh(geometry: Geometry, triangles: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Subdivided vertices of a part and the mesh fields of its `Part`."""
-    used, local = np.unique(triangles, return_inverse=True)
-    return used, dict(
-        vertices=geometry.positions[used].astype(np.float32),
-        normals=geometry.normals[used].astype(np.float32),
-        triangles=local.reshape(-1, 3).astype(np.uint32),
-    )

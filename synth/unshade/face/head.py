@@ -37,6 +37,10 @@ _UPPER_RIMS = (_GUM_RIM, (9, 26, 11, 10, 25, 18, 17, 16, 20))
 _LOWER_RIMS = (_GUM_RIM, (18, 9, 10, 11, 12, 13, 14, 15, 16))
 # The chart ends behind the ears and, over the forehead, leans back with the skull (m).
 _CHART_DEPTH, _CHART_CROWN = 0.04, 0.775
+_BAND = 0.026
+"""The surround reaches this far (m) into the chart: as far as the longest strands of hair."""
+_SHOULDER_SCALE = 0.5
+"""Scale of neck and shoulders in a surround, where they are farther from the face and plainer than the scalp."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,6 +57,11 @@ class Head:
     `chart_vertices` (C,) subdivided indices, ascending, twice where a seam runs; `chart_triangles`
     those of `part_chart` as indices into the C vertices; `chart_uv` (C,2); `native_uv` (C,2)
     of the base mesh, where the region masks live; `rim_mm` (C,) distance to its outer rim.
+
+    The surround, a second chart of S vertices over `part_rest` and a band of the chart along it, so that paint can
+    run across the rim (empty for a wide chart): `surround_vertices` (S,), `surround_triangles`, `surround_uv` (S,2),
+    `surround_native_uv` (S,2), `surround_rim_mm` like those of the chart; `surround_rest` which of its triangles are those of
+    `part_rest`, in order; `surround_band` which of the chart's triangles are the others, in order.
     """
 
     base: np.ndarray
@@ -77,6 +86,13 @@ class Head:
     chart_uv: np.ndarray
     native_uv: np.ndarray
     rim_mm: np.ndarray
+    surround_vertices: np.ndarray
+    surround_triangles: np.ndarray
+    surround_uv: np.ndarray
+    surround_native_uv: np.ndarray
+    surround_rim_mm: np.ndarray
+    surround_rest: np.ndarray
+    surround_band: np.ndarray
 
     def refine(self, base: np.ndarray) -> np.ndarray:
         """Subdivided positions (V,3) of base positions (B,3)."""
@@ -137,7 +153,7 @@ def make_head(wide: bool = False) -> Head:
     blank = np.zeros(0)
     head = Head(
         base, refine.data, refine.indices, refine.indptr, eyes, arches, tongue, names, targets.data, targets.indices, targets.indptr,
-        np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), blank, blank, blank, blank, blank,
+        np.zeros((refine.shape[0], 3)), blank, *(triangulate(fine_quads[fine_part == p]) for p in PARTS), *[blank] * 12,
     )  # fmt: skip
     young = head.morph(average_weights())
     spheres = np.stack([fit_sphere(young[e]) for e in eyes])
@@ -145,26 +161,54 @@ def make_head(wide: bool = False) -> Head:
     spheres[:, :3] -= middle
     template = 1000 * (head.refine(young) - middle)
 
-    chart = part == "chart"
-    local, uv, native = _chart(young, quads[chart], uv_quads[chart], mesh.uv, wide)
-    spread, fine_local = subdivide(local, len(uv), LEVELS)
-    # Subdivided vertex of every vertex in the chart's own subdivision.
-    joined = np.empty(spread.shape[0], dtype=np.int64)
-    joined[fine_local] = fine_quads[fine_part == "chart"]
-    own = np.argsort(joined, kind="stable")
-    fine = joined[own]
-    rim = _outer_rim(template, head.part_chart)
-    distance = cKDTree(template[rim]).query(template[fine])[0]
+    front, rest = part == "chart", part == "rest"
+    near = front & _beside(young, quads, rest)
+    charted = [_charted(young, quads, fine_quads, uv_quads, mesh.uv, front, wide)]
+    charted.append(
+        [blank] * 4 if wide else _charted(young, quads, fine_quads, uv_quads, mesh.uv, rest | near, True, True)
+    )
+    chart, surround = charted
+    to_rim = cKDTree(template[_outer_rim(template, head.part_chart)])
+    # Triangles that each quad becomes.
+    cut = 2 * 4**LEVELS
     return dataclasses.replace(
         head,
         template=template,
         eye_template=1000 * spheres,
-        chart_vertices=fine,
-        chart_triangles=np.argsort(own)[triangulate(fine_local)],
-        chart_uv=(spread @ uv)[own],
-        native_uv=(spread @ native)[own],
-        rim_mm=distance,
+        **dict(zip(("chart_vertices", "chart_triangles", "chart_uv", "native_uv"), chart)),
+        rim_mm=to_rim.query(template[chart[0]])[0],
+        **dict(zip(("surround_vertices", "surround_triangles", "surround_uv", "surround_native_uv"), surround)),
+        surround_rim_mm=blank if wide else to_rim.query(template[surround[0]])[0],
+        surround_rest=np.repeat(rest[rest | near], cut),
+        surround_band=np.repeat(near[front], cut),
     )
+
+
+def _beside(young: np.ndarray, quads: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Which quads (F,) bool lie within the band of the surround along those of `rest` (F,) bool."""
+    if not rest.any():
+        return rest
+    return cKDTree(young[np.unique(quads[rest])]).query(young[quads].mean(axis=1))[0] < _BAND
+
+
+def _charted(
+    young: np.ndarray,
+    quads: np.ndarray,
+    fine_quads: np.ndarray,
+    uv_quads: np.ndarray,
+    native: np.ndarray,
+    chosen: np.ndarray,
+    cut: bool,
+    surround: bool = False,
+) -> tuple[np.ndarray, ...]:
+    """Subdivided vertices (N,), triangles, UV and native UV (N,2) of a chart of the `chosen` quads (F,) bool."""
+    local, uv, own_native = _chart(young, quads[chosen], uv_quads[chosen], native, cut, surround)
+    # Subdivided vertex of every vertex in the chart's own subdivision.
+    spread, fine_local = subdivide(local, len(uv), LEVELS)
+    joined = np.empty(spread.shape[0], dtype=np.int64)
+    joined[fine_local] = fine_quads[np.repeat(chosen, 4**LEVELS)]
+    own = np.argsort(joined, kind="stable")
+    return joined[own], np.argsort(own)[triangulate(fine_local)], (spread @ uv)[own], (spread @ own_native)[own]
 
 
 def _select(mesh: base_mesh.BaseMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -202,13 +246,14 @@ def _dental_arches(mesh: base_mesh.BaseMesh) -> np.ndarray:
 
 
 def _chart(
-    young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray, wide: bool
+    young: np.ndarray, quads: np.ndarray, uv_quads: np.ndarray, native: np.ndarray, cut: bool, surround: bool
 ) -> tuple[np.ndarray, ...]:
     """Quads (F,4) of the chart's own vertices, their UV in the chart and in the base mesh (N,2).
 
-    A wide chart is cut open along the base mesh's seams; of them the front has but the end of one, in a rim.
+    More than the front is `cut` open along the base mesh's seams; of them the front has but the end of one, in a rim.
+    A `surround` has no mouth, and its islands that do not reach up to the crown are small.
     """
-    seams = uv_quads.ravel() if wide else np.zeros(uv_quads.size, dtype=uv_quads.dtype)
+    seams = uv_quads.ravel() if cut else np.zeros(uv_quads.size, dtype=uv_quads.dtype)
     corners, first, local = np.unique(
         np.stack([quads.ravel(), seams], axis=1), axis=0, return_index=True, return_inverse=True
     )
@@ -225,8 +270,9 @@ def _chart(
         points = young[corners[own, 0]]
         loops = boundary_loops(triangulate(inner))[1:]
         # The mouth is the inner loop on the midline; the other inner loops are the eyes.
-        mouth = min(loops, key=lambda loop: abs(points[loop, 0].mean())) if loops else None
-        islands.append(unwrap(points, inner, guess[own], mouth))
+        mouth = min(loops, key=lambda loop: abs(points[loop, 0].mean())) if loops and not surround else None
+        crowned = points[:, 1].max() > young[:, 1].max() - 0.02
+        islands.append((1.0 if crowned or not surround else _SHOULDER_SCALE) * unwrap(points, inner, guess[own], mouth))
     uv = np.empty((len(corners), 2))
     uv[np.concatenate(members)] = np.concatenate(packed(islands))
     return local, uv, guess

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 
 from .character import BEARDS, Character
-from .hair import HairStyle
+from .hair import HairStyle, scalp_cover
 from .noise import octaves
 from .regions import Regions, bump, smoothstep
 from .spec import FaceSpec, stream
@@ -51,31 +51,24 @@ def scalp_colour(points: np.ndarray, style: HairStyle, spec: FaceSpec) -> np.nda
 
 
 def draw_hairs(
-    field: Field,
-    points: np.ndarray,
-    sites: Regions,
-    cover: np.ndarray,
-    ground: Ground,
-    style: HairStyle,
-    person: Character,
-    spec: FaceSpec,
+    field: Field, points: np.ndarray, grounds: list[Ground], style: HairStyle, person: Character, spec: FaceSpec
 ) -> Hairs:
-    """Strands over the texels; `sites` the chart's vertices, `cover` (C,) their share of scalp hair."""
-    rng = stream(spec.seed, "strands")
-    roots = field.roots(_PER_CM2, cover, ground, rng)
+    """Strands over the texels, at template points (M,3) mm, rooted in `grounds`."""
+    layers, tone = field.draw([_scalp_hair(field, ground, style, spec) for ground in grounds])
+    beard = [_beard(field, ground, style, person, spec) for ground in grounds]
+    beard_layers, beard_tone = field.draw(beard)
+    return Hairs(1 - np.exp(-1.3 * layers), tone * lock_tone(points, spec.seed), 1 - np.exp(-beard_layers), beard_tone)
+
+
+def _scalp_hair(field: Field, ground: Ground, style: HairStyle, spec: FaceSpec) -> Strands:
+    rng = stream(spec.seed, f"strands{ground.name}")
+    roots = field.roots(_PER_CM2, scalp_cover(ground.sites.points, style, spec.seed), ground, rng)
     count = len(roots)
     # A strand goes its own way all along, and sways a little.
     turns = rng.normal(0, 0.16, (count, 1)) + np.cumsum(rng.normal(0, 0.07, (count, 8)), axis=1)
     shade = np.exp(rng.normal(0, _TONES, count)) * np.where(rng.random(count) < 0.8 * style.grey, _GREYER, 1.0)
-    combed = Strands(
-        field.grow(roots, rng.uniform(8, 24, count), _combed(stream(spec.seed, "comb")), turns),
-        rng.uniform(*_WIDTH_MM, count),
-        shade,
-    )
-    layers, tone = field.draw(combed)
-    beard = _beard(field, sites, ground, style, person, spec)
-    beard_layers, beard_tone = field.draw(beard) if beard else (np.zeros_like(layers), np.zeros_like(layers))
-    return Hairs(1 - np.exp(-1.3 * layers), tone * lock_tone(points, spec.seed), 1 - np.exp(-beard_layers), beard_tone)
+    length, width = rng.uniform(8, 24, count), rng.uniform(*_WIDTH_MM, count)
+    return field.strands(roots, length, _combed(stream(spec.seed, "comb")), turns, width, shade)
 
 
 def _combed(rng: np.random.Generator):
@@ -99,24 +92,16 @@ def beard_region(regions: Regions, spec: FaceSpec) -> np.ndarray:
     return smoothstep(0.22, 0.75, where) * (1 - regions.lips)
 
 
-def _beard(
-    field: Field,
-    sites: Regions,
-    ground: Ground,
-    style: HairStyle,
-    person: Character,
-    spec: FaceSpec,
-) -> Strands | None:
+def _beard(field: Field, ground: Ground, style: HairStyle, person: Character, spec: FaceSpec) -> Strands:
     low, high = BEARDS[person.beard]
-    if high == 0 or style.beard == 0:
-        return None
-    rng = stream(spec.seed, "whiskers")
-    roots = field.roots(style.beard * rng.uniform(55, 95), beard_region(sites, spec), ground, rng)
+    rng = stream(spec.seed, f"whiskers{ground.name}")
+    dense = style.beard * rng.uniform(55, 95) * (high > 0)
+    roots = field.roots(dense, beard_region(ground.sites, spec), ground, rng)
     count = len(roots)
 
     def down(points: np.ndarray) -> np.ndarray:
         return np.stack([0.25 * np.sign(points[:, 0]), -np.ones(len(points)), 0 * points[:, 0]], axis=1)
 
     turns = rng.normal(0, 0.45, (count, 1)) + np.cumsum(rng.normal(0, 0.15, (count, 8)), axis=1)
-    paths = field.grow(roots, rng.uniform(low, high, count), down, turns)
-    return Strands(paths, rng.uniform(0.10, 0.17, count), np.exp(rng.normal(0, 0.35, count)))
+    length, width = rng.uniform(low, high, count), rng.uniform(0.10, 0.17, count)
+    return field.strands(roots, length, down, turns, width, np.exp(rng.normal(0, 0.35, count)))

@@ -10,6 +10,7 @@ import dataclasses
 import numpy as np
 
 from .blotches import blood_factor, draw_fine, melanin_factor
+from .canvas import Canvas
 from .character import Character, character
 from .hair import HairStyle
 from .locks import Hairs, draw_hairs
@@ -19,7 +20,7 @@ from .roughness import HIGH, LOW, NOMINAL
 from .skin import SPECULAR_LIMIT, Pigments
 from .spec import FaceSpec, stream
 from .spots import draw_spots
-from .strands import Field, Ground
+from .strands import Field
 from .texels import Texels
 from .vessels import VEIN_COLOUR, draw_vessels
 
@@ -51,22 +52,21 @@ class Natural:
         """Uneven pigments; `fade` (M,) is 0 at the chart's outer rim, where the rest of the head takes over."""
         return Pigments(base.melanin * self.melanin**fade, base.blood * self.blood**fade)
 
-    def colour(self, diffuse: np.ndarray, style: HairStyle, fade: np.ndarray, edge: np.ndarray) -> np.ndarray:
-        """Diffuse albedo (M,3) with veins, lines of the lips and hair over it; hair fades by `edge` (M,)."""
+    def colour(self, diffuse: np.ndarray, style: HairStyle, fade: np.ndarray) -> np.ndarray:
+        """Diffuse albedo (M,3) with veins, lines of the lips and hair over it."""
         skin = diffuse * np.exp(-(fade * self.veins)[:, None] * VEIN_COLOUR - (fade * self.lines)[:, None])
         hairs = self.hairs
         for cover, tone, colour in (
             (hairs.beard_cover, hairs.beard_tone, style.brow),
             (hairs.cover, hairs.tone, style.scalp),
         ):
-            opacity = (edge * cover)[:, None]
-            skin = skin + opacity * (np.minimum(tone[:, None] * colour, 0.6) - skin)
+            skin = skin + cover[:, None] * (np.minimum(tone[:, None] * colour, 0.6) - skin)
         return np.maximum(skin, 0.004).astype(np.float32)
 
-    def specular(self, values: np.ndarray, fade: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    def specular(self, values: np.ndarray, fade: np.ndarray) -> np.ndarray:
         """Specular albedo (M,) of this person; sheen of hair is a third of skin's."""
         hair = np.maximum(self.hairs.cover, self.hairs.beard_cover)
-        own = values * np.exp(fade * self.sheen) * (1 - 0.6 * edge * hair)
+        own = values * np.exp(fade * self.sheen) * (1 - 0.6 * hair)
         return np.clip(self.person.specular * own, 0, SPECULAR_LIMIT).astype(np.float32)
 
     def roughness(self, lobes: np.ndarray, fade: np.ndarray) -> np.ndarray:
@@ -78,27 +78,27 @@ class Natural:
 
 def draw_natural(
     regions: Regions,
-    sites: Regions,
+    canvas: Canvas,
     texels: Texels,
     nearest: tuple[np.ndarray, np.ndarray],
-    ground: Ground,
-    scalp: np.ndarray,
     pores: np.ndarray,
+    edge: np.ndarray,
     texel: float,
     style: HairStyle,
     spec: FaceSpec,
 ) -> Natural:
-    """Draw all layers. `regions` at the texels, `sites` at the chart's vertices, with their share `scalp` (C,) of scalp
-    hair; `pores` (M,) of the relief; `texel` in mm."""
+    """Draw all layers. `regions` at the texels; `pores` (M,) of the relief; `edge` (M,) is 0 at the chart's rim, where
+    single marks end; `texel` in mm."""
     person = character(spec)
     field = Field(texels, nearest, regions.points)
+    grounds = canvas.grounds()
     melanin, blood = draw_fine(regions.points, texel, spec, (person.mottle, person.redness))
-    spots = draw_spots(regions.points, texels, sites, ground.uv, texel, spec)
-    threads, veins = draw_vessels(field, sites, ground, texel, spec)
-    hairs = draw_hairs(field, regions.points, sites, scalp, ground, style, person, spec)
+    spots = draw_spots(regions.points, texels, canvas.sites, canvas.uv, texel, spec)
+    threads, veins = draw_vessels(field, grounds[-1], texel, spec)
+    hairs = draw_hairs(field, regions.points, grounds, style, person, spec)
     # Pores hold sebum that has gone dark.
-    melanin = melanin + spots.melanin + np.float32(0.12) * np.clip(pores, 0, 1)
-    height = spots.height + _STRAND_MM * hairs.cover + _WHISKER_MM * hairs.beard_cover
+    melanin = melanin + edge * spots.melanin + np.float32(0.12) * np.clip(pores, 0, 1)
+    height = edge * spots.height + _STRAND_MM * hairs.cover + _WHISKER_MM * hairs.beard_cover
     for wavelength, deviation in _UNDULATION:
         if wavelength >= 2 * texel:
             bumps = smooth_noise(regions.points, wavelength, stream(spec.seed, "bumps", str(wavelength)))
@@ -106,9 +106,9 @@ def draw_natural(
     return Natural(
         person=person,
         melanin=melanin_factor(melanin, spec),
-        blood=blood_factor(blood + spots.blood + threads, spec),
+        blood=blood_factor(blood + edge * (spots.blood + threads), spec),
         height=height.astype(np.float32),
-        veins=veins,
+        veins=edge * veins,
         hairs=hairs,
         lines=_lip_lines(regions, texel, spec),
         sheen=np.float32(0.12) * octaves(regions.points, 12.0, 4, 2 * texel, stream(spec.seed, "specular patches")),

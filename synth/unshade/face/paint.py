@@ -7,10 +7,9 @@ import dataclasses
 import numpy as np
 
 from ..vectors import unit
-from .chart import signed_areas
+from .canvas import Canvas, has_surround
 from .geometry import Geometry
 from .hair import HairStyle, beard_cover, draw_brows, scalp_cover, scalp_grain
-from .head import Head
 from .labels import Label
 from .lids import margin_distance
 from .natural import draw_natural
@@ -21,7 +20,6 @@ from .relief import draw_relief
 from .roughness import MIN_ALPHA, draw_roughness
 from .skin import SPECULAR_LIMIT, Pigments, base_pigments, chart_colour, draw_marks
 from .spec import FaceSpec
-from .strands import Ground
 from .strokes import Sketch
 from .texels import Texels, rasterise
 
@@ -52,21 +50,19 @@ class Maps:
 
 # Detail of the chart fades out over this distance (mm) from its outer rim.
 _RIM_FADE_MM = 18.0
-_HAIR_FADE_MM = 5.0
+_MARK_FADE_MM = 5.0
 
 # Between these distances (mm) from the eyeballs skin comes to be more than a lid.
 _LID_MM = (3.0, 7.0)
 
 
-def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec) -> Maps:
-    """Paint the chart of a face placed as `geometry`."""
-    uv, triangles, vertices = head.chart_uv, head.chart_triangles, head.chart_vertices
+def paint_maps(canvas: Canvas, geometry: Geometry, style: HairStyle, spec: FaceSpec) -> Maps:
+    """Paint a chart of a face placed as `geometry`."""
+    uv, triangles, vertices, sites = canvas.uv, canvas.triangles, canvas.vertices, canvas.sites
     texels = rasterise(uv, triangles, spec.texture_size)
     nearest = texels.nearest_inside()
-    scale = chart_scale(head)
-    texel = scale / spec.texture_size
+    texel = canvas.scale / spec.texture_size
 
-    sites = find_regions(head.template[vertices].astype(np.float32), sample_masks(head.native_uv))
     # Slowly varying quantities are computed at the vertices and interpolated.
     coarse = base_pigments(sites, spec)
     melanin, blood, scalp, x, y, z, s, t, u, v = texels.sample(
@@ -76,7 +72,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
                 coarse.blood,
                 scalp_cover(sites.points, style, spec.seed),
                 sites.points,
-                head.native_uv,
+                canvas.native_uv,
                 uv,
             ]
         )
@@ -84,12 +80,13 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     points = np.stack([x, y, z], axis=1)
     regions = find_regions(points, sample_masks(np.stack([s, t], axis=1)))
     positions, normals = geometry.positions[vertices], geometry.normals[vertices]
-    rims = _rims(texels, 1000 * margin_distance(positions, triangles, geometry.eyes), head.rim_mm, regions)
-    sketch = Sketch(points, (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70))
+    rims = _rims(canvas, texels, positions, geometry, regions, spec)
+    front = (z > -30) & (y > -100) & (y < 85) & (np.abs(x) < 70)
+    sketch = Sketch(points, front & canvas.is_face)
     brow, brow_outline = draw_brows(sketch, points, texel, spec)
     cover = {"brow": brow, "scalp": scalp, "beard": beard_cover(regions, style)}
     labels = _labels(regions, scalp, brow_outline)
-    places = np.stack([u, v], axis=1) * np.float32(scale)
+    places = np.stack([u, v], axis=1) * np.float32(canvas.scale)
     relief = draw_relief(regions, places, sketch, brow, texel, spec)
     shaven = np.flatnonzero(cover["beard"])
     cover["beard"][shaven] = np.minimum(cover["beard"][shaven] * stubble_roots(places[shaven], texel, spec), 1.8)
@@ -101,20 +98,15 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     pigments, fade = Pigments(melanin, blood), rims["outer"]
     natural = None
     if spec.detail == "natural":
-        hair_here = scalp_cover(sites.points, style, spec.seed)
-        ground = _ground(head)
-        natural = draw_natural(regions, sites, texels, nearest, ground, hair_here, relief.pores, texel, style, spec)
+        natural = draw_natural(regions, canvas, texels, nearest, relief.pores, rims["edge"], texel, style, spec)
         pigments, marks = natural.pigments(pigments, fade), np.zeros_like(marks)
         # Hair is strands; between them the skin is in their shade.
-        cover["scalp"] = cover["scalp"] * (1 - 0.15 * rims["edge"])
+        cover["scalp"] = 0.85 * cover["scalp"]
         relief = dataclasses.replace(relief, height=relief.height + natural.height)
     diffuse, specular = chart_colour(regions, pigments, relief, marks, cover, rims, texel, style, spec)
     roughness = draw_roughness(regions, relief, cover, rims, texel, spec)
     if natural is not None:
-        diffuse, specular = (
-            natural.colour(diffuse, style, fade, rims["edge"]),
-            natural.specular(specular, fade, rims["edge"]),
-        )
+        diffuse, specular = natural.colour(diffuse, style, fade), natural.specular(specular, fade)
         roughness = natural.roughness(roughness, fade)
     if spec.specular_scale != 1:
         specular = np.clip(np.float32(spec.specular_scale) * specular, 0, SPECULAR_LIMIT)
@@ -124,7 +116,7 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
 
     smooth = unit(texels.sample(normals))
     du, dv = (texels.sample(t) for t in tangents(positions, uv, triangles))
-    metres = 1e-3 * relief.height * rims["outer"]
+    metres = 1e-3 * relief.height * rims["relief"]
     blurred = smoothed(metres, texels, DIFFUSION_MM / texel)
 
     def extended(values: np.ndarray) -> np.ndarray:
@@ -142,41 +134,33 @@ def paint_maps(head: Head, geometry: Geometry, style: HairStyle, spec: FaceSpec)
     )
 
 
-def chart_scale(head: Head) -> float:
-    """Template millimetres per unit of UV, in the mean over the chart's area."""
-    corner = head.template[head.part_chart]
-    doubled = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1).sum()
-    return float(np.sqrt(0.5 * doubled / signed_areas(head.chart_uv, head.chart_triangles).sum()))
-
-
-def _ground(head: Head) -> Ground:
-    corner = head.template[head.part_chart]
-    doubled = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
-    return Ground(head.chart_uv, head.chart_triangles, 0.5 * doubled)
-
-
 def _thick(positions: np.ndarray, eyes: np.ndarray) -> np.ndarray:
     """0 where skin at positions (M,3) m lies close over an eyeball, 1 where it can be raised and sunk."""
     over = [1000 * (np.linalg.norm(positions - eye[:3], axis=1) - eye[3]) for eye in eyes]
     return smoothstep(*_LID_MM, np.minimum(*over))
 
 
-def _rims(texels: Texels, margin: np.ndarray, rim: np.ndarray, regions: Regions) -> dict[str, np.ndarray]:
-    """`outer`: 0 at the chart's outer rim to 1 inside, `edge` the same for hair; `lash`, `wet`: dark line and moist edge of the lids.
-
-    `margin` and `rim`: distances (C,) in mm from the chart's vertices to the lid margins and the outer rim.
+def _rims(
+    canvas: Canvas, texels: Texels, positions: np.ndarray, geometry: Geometry, regions: Regions, spec: FaceSpec
+) -> dict[str, np.ndarray]:
+    """`outer`: 0 at the chart's outer rim to 1 inside, or 1 where a painted surround goes on; `relief` the same for the
+    height, and `edge` for single marks, which a rim would cut; `lash`, `wet`: dark line and moist edge of the lids.
     """
-    lid, outer = texels.sample(np.column_stack([margin, rim])).T
+    outer = texels.sample(canvas.rim_mm)
+    rims = {"outer": smoothstep(0, _RIM_FADE_MM, outer), "edge": smoothstep(0, _MARK_FADE_MM, outer)}
+    rims["relief"] = rims["outer"]
+    if has_surround(spec):
+        rims["outer"] = np.ones_like(outer)
+        # As geometry the chart's relief has to end at its rim, where the smooth rest of the head begins.
+        rims["relief"] = rims["relief"] if spec.displacement else rims["outer"]
+    if not canvas.is_face:
+        return rims | {"lash": np.zeros_like(outer), "wet": np.zeros_like(outer)}
+    lid = texels.sample(1000 * margin_distance(positions, canvas.triangles, geometry.eyes))
     upper = smoothstep(-3.0, 2.0, regions.points[:, 1])
     width = 0.55 + 0.75 * upper
     lash = (0.45 + 0.55 * upper) * smoothstep(width, 0.4 * width, lid) * smoothstep(0.0, 0.25, lid + 0.25 * upper)
     wet = (1 - upper) * smoothstep(0.9, 0.3, lid)
-    return {
-        "outer": smoothstep(0, _RIM_FADE_MM, outer),
-        "edge": smoothstep(0, _HAIR_FADE_MM, outer),
-        "lash": lash,
-        "wet": wet,
-    }
+    return rims | {"lash": lash, "wet": wet}
 
 
 def _labels(regions: Regions, scalp: np.ndarray, brow: np.ndarray) -> np.ndarray:

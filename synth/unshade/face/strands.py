@@ -7,13 +7,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from .regions import Regions
 from .texels import Texels
 
-_STEP_TEXELS = 0.7
-"""Distance of the points that stand for a strand's length."""
+_STEP_TEXELS = 0.9
+"""Largest distance of the points that stand for a strand's length."""
 
-_BATCH = 12000
-"""Strands drawn at a time, to bound memory."""
+_BATCH = 1 << 20
+"""Points drawn at a time, to bound memory."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,11 +28,19 @@ class Strands:
 
 @dataclasses.dataclass(frozen=True)
 class Ground:
-    """The chart as triangles: `uv` (C,2), `triangles` (F,3), their `area` (F,) on the template in mm2."""
+    """Skin on which strands are rooted: `corners` (F,3,2) UV of its triangles in the painted chart, their `triangles`
+    (F,3) as indices into `sites`, their `area` (F,) on the template in mm2, and its `name` in random streams.
 
-    uv: np.ndarray
+    `elsewhere` (F,) bool, if any: triangles that are not in the painted chart. Their strands are drawn to keep the others
+    the same as in the chart that has them all.
+    """
+
+    corners: np.ndarray
     triangles: np.ndarray
     area: np.ndarray
+    sites: Regions
+    name: str = ""
+    elsewhere: np.ndarray | None = None
 
 
 class Field:
@@ -50,17 +59,20 @@ class Field:
     def roots(self, per_cm2: float, weight: np.ndarray, ground: Ground, rng: np.random.Generator) -> np.ndarray:
         """Places (K,2) in texels, `per_cm2` strands on a square centimetre of the template where the `weight` (C,) is 1.
 
-        They stay where they are when the texture's size changes.
+        They stay where they are when the texture's size changes; those elsewhere are NaN.
         """
         mass = ground.area * weight[ground.triangles].mean(axis=1)
         total = mass.sum(dtype=np.float64)
         count = int(per_cm2 * total / 100)
         if not count:
             return np.empty((0, 2))
-        corner = ground.uv[ground.triangles[rng.choice(len(mass), count, p=mass / total)]]
+        chosen = rng.choice(len(mass), count, p=mass / total)
+        corner = ground.corners[chosen]
         # Even over the triangle (Turk 1990).
         s, t = np.sqrt(rng.random((count, 1))), rng.random((count, 1))
         place = (1 - s) * corner[:, 0] + s * (1 - t) * corner[:, 1] + s * t * corner[:, 2]
+        if ground.elsewhere is not None:
+            place[ground.elsewhere[chosen]] = np.nan
         return np.stack([place[:, 0], 1 - place[:, 1]], axis=1) * self.size
 
     def grow(
@@ -90,44 +102,65 @@ class Field:
             paths.append(paths[-1] + move * (length / steps / np.maximum(on_surface, 1e-9))[:, None])
         return np.stack(paths, axis=1)
 
-    def draw(self, strands: Strands, taper: float = 0.7) -> tuple[np.ndarray, np.ndarray]:
+    def strands(
+        self,
+        roots: np.ndarray,
+        length: np.ndarray,
+        towards: Callable[[np.ndarray], np.ndarray],
+        turns: np.ndarray,
+        width: np.ndarray,
+        tone: np.ndarray,
+    ) -> Strands:
+        """Strands grown from those of the `roots` (K,2) that lie in this chart; all else as for `grow` and `Strands`."""
+        here = np.isfinite(roots[:, 0])
+        return Strands(self.grow(roots[here], length[here], towards, turns[here]), width[here], tone[here])
+
+    def draw(self, groups: list[Strands], taper: float = 0.7) -> tuple[np.ndarray, np.ndarray]:
         """Layers (M,) of strands over each texel (1: covered once on average) and their mean tone (M,), 0 where there are none.
 
         Strands lose `taper` of their width on the way to the tip; a bilinear foot spreads each
         point over four texels.
         """
-        layers, tones = np.zeros(self.size**2), np.zeros(self.size**2)
-        for start in range(0, len(strands.paths), _BATCH):
-            self._splat(strands, slice(start, start + _BATCH), taper, layers, tones)
-        inside = self.texels.inside.ravel()
-        layers, tones = layers[inside], tones[inside]
+        # A margin of a texel catches feet outside the picture.
+        layers, tones = np.zeros((2, (self.size + 2) ** 2))
+        for strands in groups:
+            pieces = np.linalg.norm(np.diff(strands.paths, axis=1), axis=2).max(axis=1, initial=0.0)
+            # Strands of like length are drawn together, with as many points.
+            order = np.argsort(pieces, kind="stable")
+            start = 0
+            while start < len(order):
+                count = max(2, int(np.ceil(pieces[order[start]] / _STEP_TEXELS)))
+                most = max(1, _BATCH // (count * strands.paths.shape[1]))
+                part = order[start : start + most]
+                part = part[: np.searchsorted(pieces[part], max(1.25 * count, 2) * _STEP_TEXELS, side="right")]
+                count = max(count, int(np.ceil(pieces[part[-1]] / _STEP_TEXELS)))
+                self._splat(strands.paths[part], strands.width[part], strands.tone[part], count, taper, layers, tones)
+                start += len(part)
+        inner = np.pad(self.texels.inside, 1).ravel()
+        layers, tones = layers[inner], tones[inner]
         return layers.astype(np.float32), (tones / np.maximum(layers, 1e-9)).astype(np.float32)
 
-    def _splat(self, strands: Strands, part: slice, taper: float, layers: np.ndarray, tones: np.ndarray) -> None:
-        paths = strands.paths[part]
-        if not len(paths):
-            return
-        pieces = np.linalg.norm(np.diff(paths, axis=1), axis=2)
-        count = max(2, int(np.ceil(pieces.max() / _STEP_TEXELS)))
-        fraction = (np.arange(count) + 0.5) / count
-        ahead = paths[:, 1:, None] - paths[:, :-1, None]
-        places = (paths[:, :-1, None] + fraction[:, None] * ahead).reshape(-1, 2)
-        along = ((np.arange(paths.shape[1] - 1)[:, None] + fraction) / (paths.shape[1] - 1)).ravel()
-        at = self._at(places)
+    def _splat(self, paths, width, tone, count: int, taper: float, layers: np.ndarray, tones: np.ndarray) -> None:
+        """Adds strands, each of whose pieces is `count` points, to `layers` and `tones`."""
+        ahead = np.diff(paths, axis=1)
+        at = self._at((paths[:, :-1] + 0.5 * ahead).reshape(-1, 2))
         across, down = self.across[at], self.down[at]
-        step = np.repeat(ahead / count, count, axis=2).reshape(-1, 2)
+        step = ahead.reshape(-1, 2) / count
         length = np.linalg.norm(step[:, :1] * across + step[:, 1:] * down, axis=1)
-        width = (strands.width[part, None] * (1 - taper * along**2)).ravel()
-        # Texels that each point stands for: its piece of the strand over a texel's surface.
-        area = length * width / np.maximum(np.linalg.norm(np.cross(across, down), axis=1), 1e-9)
-        tone = np.repeat(strands.tone[part], along.size)
-        corner = np.floor(places - 0.5).astype(np.int64)
-        within = places - 0.5 - corner
-        for dx in (0, 1):
-            for dy in (0, 1):
-                foot = (within[:, 0] if dx else 1 - within[:, 0]) * (within[:, 1] if dy else 1 - within[:, 1])
-                column, row = corner[:, 0] + dx, corner[:, 1] + dy
-                valid = (column >= 0) & (row >= 0) & (column < self.size) & (row < self.size)
-                index, amount = (row * self.size + column)[valid], (area * foot)[valid]
-                layers += np.bincount(index, amount, minlength=layers.size)
-                tones += np.bincount(index, amount * tone[valid], minlength=tones.size)
+        e, f, g = ((a * b).sum(axis=1) for a, b in ((across, across), (across, down), (down, down)))
+        # Texels that each point stands for: its part of the strand over a texel's surface.
+        share = length / np.maximum(np.sqrt(np.maximum(e * g - f * f, 0)), 1e-9)
+        fraction = (np.arange(count) + 0.5) / count
+        along = (np.arange(ahead.shape[1])[:, None] + fraction) / ahead.shape[1]
+        area = share.reshape(len(paths), -1, 1) * width[:, None, None] * (1 - taper * along**2)
+        places = paths[:, :-1, None] + fraction[:, None] * ahead[:, :, None] + 0.5
+        places = np.clip(places, 0, self.size + 0.999)
+        corner = places.astype(np.int32)
+        right, low = np.moveaxis(places - corner, -1, 0)
+        first = corner[..., 1] * (self.size + 2) + corner[..., 0]
+        tone = np.broadcast_to(tone[:, None, None], first.shape)
+        for dy, dx in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            amount = area * (right if dx else 1 - right) * (low if dy else 1 - low)
+            index = (first + (dy * (self.size + 2) + dx)).ravel()
+            layers += np.bincount(index, amount.ravel(), minlength=layers.size)
+            tones += np.bincount(index, (amount * tone).ravel(), minlength=layers.size)

@@ -106,12 +106,17 @@ class HeadScene:
 
 def _part(part: Part):
     if part.uv is None:
-        bsdf = {
-            "type": "skin",
-            "diffuse": {"type": "mesh_attribute", "name": "vertex_diffuse"},
-            "specular": {"type": "mesh_attribute", "name": "vertex_specular"},
-        }
-        mesh = mesh_shape(part.name, part, mi.load_dict(bsdf))
+        texture = part.texture
+        if texture is None:
+            bsdf = {
+                "diffuse": {"type": "mesh_attribute", "name": "vertex_diffuse"},
+                "specular": {"type": "mesh_attribute", "name": "vertex_specular"},
+            }
+        else:
+            names = ("diffuse", "specular", "diffuse_normal", "specular_normal", "roughness")
+            bsdf = {name: _texture(getattr(texture, name)) for name in names}
+        skin = mi.load_dict({"type": "skin", **bsdf})
+        mesh = mesh_shape(part.name, part, skin, uv=None if texture is None else texture.uv)
         mesh.add_attribute("vertex_diffuse", 3, _flat(part.diffuse))
         mesh.add_attribute("vertex_specular", 1, _flat(part.specular))
         return mesh
