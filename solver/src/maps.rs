@@ -51,7 +51,7 @@ pub(crate) fn coverage(seen: &[bool]) -> GrayImage {
     GrayImage { width: size, height: size, data }
 }
 
-/// Factors from solved to physical albedos.
+/// Factors from the solved albedos to reflectances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scales {
     pub diffuse: f32,

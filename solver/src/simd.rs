@@ -84,7 +84,7 @@ mod tests {
 
     use crate::fit::adam::Adam;
     use crate::model::blur::Blur;
-    use crate::model::prior::prior;
+    use crate::model::prior::albedo_prior;
     use crate::model::pyramid::Pyramid;
     use crate::model::taps::Taps;
 
@@ -107,7 +107,7 @@ mod tests {
             let (side, texture) = (37, noise(3 * 37 * 37));
             let mut all = Blur::new(side, 3, 2.0).apply(&texture);
             let mut gradient = all.clone();
-            all.push(prior(&texture, side, 0.3, &mut gradient) as f32);
+            all.push(albedo_prior(&texture, side, 0.3, &mut gradient) as f32);
             let mut adam = Adam::new(&crate::config::AdamConfig::default(), 0.1, texture.len());
             let mut moved = texture.clone();
             adam.step(&mut moved, &gradient, 1.0, 0.0);

@@ -7,7 +7,7 @@ use formats::atomic::{self, Folder};
 use formats::maps::MapsError;
 
 use crate::backend::Backend;
-use crate::config::{AdamConfig, Config};
+use crate::config::Config;
 use crate::memory::{self, Estimate};
 use crate::run::checkpoint::Checkpoint;
 use crate::run::error::SolveError;
@@ -16,9 +16,9 @@ use crate::run::{Extent, Run, Work};
 use crate::solution::{Record, Solution, ViewLayers};
 use crate::{paper, unshade};
 
-/// [`solve_on`] into the folder `maps`, with a checkpoint beside it (`<maps>.checkpoint`) from which the same call
-/// continues after an interrupt, to the same bytes. `program` identifies the program: a checkpoint of another one is
-/// not used, nor of another backend.
+/// Runs [`solve_on`] and writes the folder `maps`. A checkpoint next to it (`<maps>.checkpoint`) lets the same call
+/// continue after an interrupt, to the same bytes. `program` identifies the program: checkpoints of other programs and
+/// backends are ignored.
 pub fn solve_into(
     backend: &dyn Backend,
     maps: &Path,
@@ -27,7 +27,7 @@ pub fn solve_into(
     config: &Config,
     progress: &mut Callback,
 ) -> Result<Solution, SolveError> {
-    // Now, so that what cannot be written is known before the work.
+    // First, so that a folder that cannot be written is refused before the work.
     atomic::refuse_overlap(maps, &[&capture.folder]).map_err(MapsError::from)?;
     atomic::require_space(maps, bytes_on_disk(capture, config)).map_err(MapsError::from)?;
     let folder = Folder::begin(maps).map_err(MapsError::from)?;
@@ -50,7 +50,7 @@ pub fn solve_into(
     Ok(solution)
 }
 
-/// Returns the seconds that a solve of this extent takes on two cores with AVX-512, where the costs of its stages were
+/// Estimates the seconds of a solve of this extent on two cores with AVX-512, where the costs of its stages were
 /// measured.
 pub fn seconds_on_two_cores(config: &Config, extent: &Extent) -> f64 {
     plan(config, extent).iter().map(Work::seconds).sum()
@@ -76,9 +76,8 @@ fn bytes_on_disk(capture: &Capture, config: &Config) -> u64 {
     side * side * 11 * 4 + withheld * 9 * 4 + layers
 }
 
-/// Decomposes a capture into maps. `progress` is called after every step (a device that takes over whole fits: every
-/// submission) and may stop the solve, which then makes maps of what it has and states so in
-/// [`crate::Record::interrupted`].
+/// Decomposes a capture into maps. `progress` is called after every step (on a device: after every submission) and may
+/// stop the solve, which then makes maps of the current estimates and sets [`crate::Record::interrupted`].
 ///
 /// Equal capture, configuration and backend give equal solutions for any number of threads.
 pub fn solve_on(
@@ -94,12 +93,13 @@ pub fn solve_on(
     let _kept = memory::KeepFreedMemory::begin();
     let Estimate { views, pixels, texture_size, .. } = estimate;
     let plan = plan(config, &Extent { views, pixels, texture_size });
-    let adam = match config {
-        Config::Unshade(_) => AdamConfig::default(),
-        Config::Paper(config) => config.adam.clone(),
+    let final_decay = match config {
+        // Constant learning rates.
+        Config::Unshade(_) => 1.0,
+        Config::Paper(config) => config.adam.final_decay,
     };
     let checkpoint = options.checkpoint.map(|checkpoint| checkpoint.of(capture, config, backend));
-    let mut run = Run::new(plan, adam.final_decay, backend, checkpoint, progress);
+    let mut run = Run::new(plan, final_decay, backend, checkpoint, progress);
     let results = match config {
         Config::Unshade(config) => unshade::solve(capture, config, &mut run, options.layers)?,
         Config::Paper(config) => paper::solve(capture, config, &mut run, options.layers)?,

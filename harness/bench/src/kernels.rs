@@ -11,7 +11,7 @@ use solver::fit::adam::Adam;
 use solver::memory::KeepFreedMemory;
 use solver::model::blur::Blur;
 use solver::model::normals::DirectionScale;
-use solver::model::prior::prior;
+use solver::model::prior::albedo_prior;
 use solver::model::pyramid::Pyramid;
 use solver::transport::{Sky, Transport};
 
@@ -76,7 +76,7 @@ pub fn measure(backend: &dyn Backend, reach: Reach, size: &Size) -> Vec<Kernel> 
     });
     let mut gradient = vec![0.0f32; state.diffuse.len()];
     time("prior", 40.0 * 3.0 * texels, 3.0 * 3.0 * texels, &mut || {
-        prior(&state.diffuse, size.texture, 0.3, &mut gradient);
+        albedo_prior(&state.diffuse, size.texture, 0.3, &mut gradient);
     });
     let mut adam = Adam::new(&config.adam, 1e-3, state.diffuse.len());
     time("Adam, 3 channels", 14.0 * 3.0 * texels, 7.0 * 3.0 * texels, &mut || {
@@ -95,7 +95,7 @@ pub fn measure(backend: &dyn Backend, reach: Reach, size: &Size) -> Vec<Kernel> 
         pyramid.apply(&four);
     });
 
-    let (mesh, sky) = (bump(256), Sky::even(16));
+    let (mesh, sky) = (bump(256), Sky::lat_long(16));
     let config =
         TransportConfig { texture_size: size.transport, bounces: 0, ..TransportConfig::default() };
     let transport = Transport::new(&mesh, &sky, &config, 0);

@@ -169,7 +169,7 @@ impl Capture {
         (transport.bounces, transport.bounce_albedo) = (bounces, bounce_albedo);
         solver::Config::Unshade(config.clone()).validate().map_err(raise)?;
         let data = long(py, || {
-            let sky = Sky::even(light.height).at(nearness);
+            let sky = Sky::lat_long(light.height).at(nearness);
             let (mesh, transport) = (&self.inner.mesh, &config.transport);
             Transport::new(mesh, &sky, transport, config.seed).shading(&light.data)
         })?;

@@ -1,9 +1,8 @@
-//! Stages that run on a device from end to end: samples, textures, gradients and moments stay there,
-//! many steps are submitted at once, and the host hears of the losses alone.
+//! Fits that run entirely on a device: samples, textures, gradients and moments stay there, many steps are submitted at
+//! once, and only the losses are read back.
 //!
-//! The host keeps its own copy of everything that moves, as it was at the last
-//! [`Resident::download`]: that is what checkpoints are made of, and where the processor goes on
-//! should the device fail.
+//! The host keeps a copy of all variables from the last [`Resident::download`]. Checkpoints store this copy, and the
+//! processor resumes from it if the device fails.
 
 use glam::Vec3;
 
@@ -15,30 +14,30 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::taps::Taps;
 
-/// A stage as a device may take it in: all that stays as it is while the stage runs.
+/// The constants of a fit, for a device. The variables are uploaded separately.
 pub enum Job<'a> {
-    /// Moves networks, diffuse and specular albedo.
+    /// Optimises networks, diffuse and specular albedo.
     Joint {
         /// The pixels.
         samples: &'a Samples,
         /// Inputs of the directional networks.
         directions: &'a Planes,
-        /// Of the networks, see [`Networks::shape`].
+        /// See [`Networks::shape`].
         shape: &'a [usize],
         /// Weight of the albedo prior.
         prior: f32,
     },
-    /// Moves one of the albedos, in which the model is linear while everything else stays.
+    /// Optimises one of the albedos, in which the model is linear.
     Layer {
         /// From texels to pixels.
         taps: &'a Taps,
-        /// Rows: what the other layer leaves of the target R, G, B; the weight; and the shading of this
-        /// layer, R, G, B under the diffuse albedo, one value under the specular one.
+        /// Rows: the target R, G, B minus the other layer; the weight; and the shading of this layer, R, G, B for the
+        /// diffuse albedo, one value for the specular albedo.
         known: Planes,
         /// Weight of the albedo prior.
         prior: f32,
     },
-    /// Moves deviation and specular albedo under frozen networks.
+    /// Optimises deviation and specular albedo under frozen networks.
     Normals(NormalsJob<'a>),
 }
 
@@ -53,11 +52,11 @@ pub struct NormalsJob<'a> {
     pub networks: &'a Networks,
     /// L(p).
     pub light: &'a Planes,
-    /// Sampled albedos, of which the diffuse one stays.
+    /// The albedos at every sample; only the diffuse one is read.
     pub albedo: &'a Planes,
 }
 
-/// Something that a stage moves, with its optimiser.
+/// A parameter array of a fit with its optimiser.
 pub struct Variable<'a> {
     /// The values.
     pub values: &'a mut Vec<f32>,
@@ -65,17 +64,17 @@ pub struct Variable<'a> {
     pub adam: &'a mut Adam,
     /// No value falls below this.
     pub minimum: f32,
-    /// Nor rises above this.
+    /// No value rises above this.
     pub maximum: f32,
 }
 
 impl<'a> Variable<'a> {
-    /// Of these values.
+    /// A variable without a maximum.
     pub fn new(values: &'a mut Vec<f32>, adam: &'a mut Adam, minimum: f32) -> Self {
         Self { values, adam, minimum, maximum: f32::INFINITY }
     }
 
-    /// A step on the host.
+    /// Takes a step on the host.
     pub fn step(&mut self, gradient: &[f32], decay: f32) {
         self.adam.step(self.values, gradient, decay, self.minimum);
         if self.maximum < f32::INFINITY {
@@ -84,50 +83,48 @@ impl<'a> Variable<'a> {
     }
 }
 
-/// A stage on a device. Its variables come in the order that [`Job`] names.
+/// A fit on a device. The order of its variables is that in the description of its [`Job`].
 pub trait Resident {
-    /// Values, moments and step counts of the host go to the device.
+    /// Copies values, moments and step counts from the host to the device.
     fn upload(&mut self, variables: &[Variable]) -> Result<(), DeviceError>;
 
-    /// A step for each share of the learning rates, [`BATCH`] at most; the losses before each.
+    /// Takes a step for each factor on the learning rates, at most [`BATCH`], and returns the losses before the steps.
     fn steps(&mut self, rate_factors: &[f32]) -> Result<Vec<f64>, DeviceError>;
 
-    /// The reverse of [`Resident::upload`]; on an error the host's copies are as they were.
+    /// Copies everything from the device to the host. After an error the host's copies are unchanged.
     fn download(&mut self, variables: &mut [Variable]) -> Result<(), DeviceError>;
 }
 
-/// The normal equations of the height solve, see `unshade/height_solve.rs`: unknown are a height per texel
-/// and three changes of the albedo.
+/// The normal equations A x = b of `unshade/height_solve.rs`. The unknowns are a height and three changes of the albedo
+/// per texel.
 pub struct NormalEquations<'a> {
     /// From texels to pixels.
     pub taps: &'a Taps,
-    /// What a colour gains: by the specular deviation (3 rows), by the diffuse one (3 of R, then of G and
-    /// B), by the albedo (R, G, B).
+    /// Derivatives of a sample's colour with respect to the specular deviation (3 rows), the diffuse deviation (3 of R,
+    /// then of G and B) and the albedo (R, G, B).
     pub slopes: &'a Planes,
-    /// Of every sample.
+    /// The weight of every sample.
     pub weight: &'a Planes,
-    /// The right-hand side.
-    pub goal: &'a [f32],
-    /// Where to start.
+    /// b.
+    pub right_hand_side: &'a [f32],
+    /// The initial x.
     pub x: &'a [f32],
-    /// Deviation by the height's change to the right, and downwards.
+    /// Derivatives of the deviation with respect to the height's difference to the right, and downwards.
     pub basis: [&'a [Vec3]; 2],
     /// From the specular deviation to the diffuse one.
     pub blur: &'a Blur,
-    /// Weights of the squared deviation, of its squared differences, of squared heights, and of the
-    /// albedo's squared unknowns.
+    /// Weight of the squared deviation.
     pub flatness: f32,
-    /// See `flatness`.
+    /// Weight of the squared differences of the deviation.
     pub smoothness: f32,
-    /// See `flatness`.
-    pub rest: f32,
-    /// See `flatness`.
-    pub damping: f32,
-    /// Share of a colour's part along that of the diffuse layer (the slopes by the albedo) that counts for
-    /// nothing.
+    /// Weight of squared heights.
+    pub height_damping: f32,
+    /// Weight of squared changes of the albedo.
+    pub albedo_damping: f32,
+    /// The removed share of a colour's component along the diffuse layer (the derivatives with respect to the albedo).
     pub diffuse_share: f32,
-    /// Squared norm of the residual, over that of the goal, at which nothing moves any more.
-    pub enough: f64,
+    /// Squared norm of the residual, over that of b, below which steps change nothing.
+    pub tolerance: f64,
 }
 
 /// Conjugate gradients on a device.
@@ -135,14 +132,14 @@ pub trait Descent {
     /// Takes steps.
     fn steps(&mut self, count: usize) -> Result<(), DeviceError>;
 
-    /// Where they have led.
+    /// Returns the current x.
     fn unknowns(&mut self) -> Result<Vec<f32>, DeviceError>;
 }
 
-/// Most steps between two submissions.
+/// The largest number of steps of a submission.
 pub const BATCH: usize = 25;
 
-/// A device that is lost, out of memory, or refused what it was told to do.
+/// A device is lost, out of memory, or refused a command.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct DeviceError(pub String);

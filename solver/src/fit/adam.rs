@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::config::AdamConfig;
 use crate::simd::widened;
 
-/// Elements that one task works through.
+/// Elements per task.
 const CHUNK: usize = 1 << 14;
 
-/// The optimiser of one array of parameters.
+/// The optimiser of an array of parameters.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Adam {
     config: AdamConfig,
@@ -20,7 +20,7 @@ pub struct Adam {
 }
 
 impl Adam {
-    /// For `count` parameters, with a learning rate.
+    /// An optimiser of `count` parameters, with a learning rate.
     pub fn new(config: &AdamConfig, rate: f32, count: usize) -> Self {
         Self {
             config: config.clone(),
@@ -31,7 +31,7 @@ impl Adam {
         }
     }
 
-    /// Steps done.
+    /// The number of steps taken.
     pub fn steps(&self) -> usize {
         self.steps as usize
     }
@@ -41,12 +41,12 @@ impl Adam {
         &self.config
     }
 
-    /// Whether it moves anything.
+    /// Whether the learning rate is above 0.
     pub fn moves(&self) -> bool {
         self.rate != 0.0
     }
 
-    /// For a device that keeps the moments itself.
+    /// A copy without moments, for a device that has its own.
     pub(crate) fn without_moments(&self) -> Self {
         Self {
             config: self.config.clone(),
@@ -62,13 +62,13 @@ impl Adam {
         [&self.first, &self.second]
     }
 
-    /// After `steps` steps that a device has done.
+    /// Restores the state after `steps` steps of a device.
     pub(crate) fn restore(&mut self, steps: usize, first: Vec<f32>, second: Vec<f32>) {
         (self.steps, self.first, self.second) = (steps as i32, first, second);
     }
 
-    /// At step `number`, from 1, by `decay` of the learning rate: what the first moment is multiplied
-    /// with, and the root of the second one.
+    /// The factors on the first moment and on the root of the second moment at step `number`, from 1, with `decay` of the
+    /// learning rate.
     pub(crate) fn factors(&self, number: i32, decay: f32) -> [f32; 2] {
         let correction = |beta: f32| 1.0 - f64::from(beta).powi(number);
         let rate = (f64::from(decay * self.rate) / correction(self.config.beta1)) as f32;
@@ -80,8 +80,7 @@ impl Adam {
         self.first.len()
     }
 
-    /// Moves the parameters against the gradient, by `decay` of the learning rate, and not below
-    /// `minimum`.
+    /// Takes a step by `decay` of the learning rate. No parameter falls below `minimum`.
     pub fn step(&mut self, parameters: &mut [f32], gradient: &[f32], decay: f32, minimum: f32) {
         let factors = self.next(decay, minimum);
         parameters
@@ -93,7 +92,7 @@ impl Adam {
             });
     }
 
-    /// Counts a step; its factors.
+    /// Counts a step and returns its factors.
     fn next(&mut self, decay: f32, minimum: f32) -> Factors {
         self.steps += 1;
         let AdamConfig { beta1, beta2, epsilon, .. } = self.config;
@@ -102,7 +101,7 @@ impl Adam {
     }
 }
 
-/// The factors of a step, alike for all elements.
+/// The factors of a step, the same for all elements.
 #[derive(Clone, Copy)]
 struct Factors {
     beta1: f32,
@@ -120,7 +119,7 @@ widened! {
             *m = f.beta1 * *m + (1.0 - f.beta1) * g;
             *v = f.beta2 * *v + (1.0 - f.beta2) * g * g;
             let moved = *p - f.rate * *m / (v.sqrt() * f.root + f.epsilon);
-            // Unlike max, this lets a NaN through, which the loss then shows.
+            // Unlike max, this preserves a NaN, so that the loss becomes NaN.
             *p = if moved < f.minimum { f.minimum } else { moved };
         }
     }
@@ -130,7 +129,7 @@ widened! {
 mod tests {
     use super::*;
 
-    /// Three steps of torch.optim.Adam, written out in f64 operation by operation, are the reference.
+    /// The reference is three steps of torch.optim.Adam, in f64, operation by operation.
     #[test]
     fn steps_follow_the_published_formula() {
         let config = AdamConfig::default();

@@ -1,11 +1,10 @@
-//! The albedo prior, equation (2): piecewise constancy.
+//! The prior on the diffuse albedo, equation (2): piecewise constancy.
 
 use rayon::prelude::*;
 
 use crate::simd::widened;
+use crate::transport::CHANNELS;
 
-/// Channels of the diffuse albedo.
-const CHANNELS: usize = 3;
 /// Rows that one task works through.
 const ROWS: usize = 16;
 /// Independent sums, which a compiler turns into vectors.
@@ -13,7 +12,7 @@ const LANES: usize = 8;
 
 /// `weight` times the average over texels and channels of sqrt(1 + |du A|) - 1 + sqrt(1 + |dv A|)
 /// - 1 with differences to the next texel; its gradient is added to `gradient`.
-pub fn prior(albedo: &[f32], size: usize, weight: f32, gradient: &mut [f32]) -> f64 {
+pub fn albedo_prior(albedo: &[f32], size: usize, weight: f32, gradient: &mut [f32]) -> f64 {
     if weight == 0.0 {
         return 0.0;
     }
@@ -45,7 +44,8 @@ pub fn prior(albedo: &[f32], size: usize, weight: f32, gradient: &mut [f32]) -> 
 }
 
 widened! {
-    /// The penalty's derivatives by the differences `b` - `a`; the sum of the penalties.
+    /// Writes the derivatives of the penalty with respect to the differences `b` - `a`, and returns the sum of the
+    /// penalties.
     fn slopes(a: &[f32], b: &[f32], slopes: &mut [f32]) -> f64 {
         let mut sums = [0.0f64; LANES];
         let ((a, a_rest), (b, b_rest)) = (a[..b.len()].as_chunks::<LANES>(), b.as_chunks::<LANES>());
@@ -117,7 +117,7 @@ mod tests {
                 }
             }
         }
-        let value = prior(&albedo, 5, 0.3, &mut vec![0.0; albedo.len()]);
+        let value = albedo_prior(&albedo, 5, 0.3, &mut vec![0.0; albedo.len()]);
         assert!((value - 0.3 * sum / 75.0).abs() < 1e-8, "{value}");
     }
 
@@ -125,12 +125,12 @@ mod tests {
     fn the_gradient_matches_central_differences() {
         let albedo = texture();
         let mut gradient = vec![0.0; albedo.len()];
-        prior(&albedo, 5, 10.0, &mut gradient);
+        albedo_prior(&albedo, 5, 10.0, &mut gradient);
         for at in [0, 17, 36, 74] {
             let value = |step: f32| {
                 let mut moved = albedo.clone();
                 moved[at] += step;
-                prior(&moved, 5, 10.0, &mut vec![0.0; albedo.len()])
+                albedo_prior(&moved, 5, 10.0, &mut vec![0.0; albedo.len()])
             };
             let numeric = (value(1e-2) - value(-1e-2)) / 2e-2;
             // The step is far from every kink of this texture; f32 leaves about 1e-4.

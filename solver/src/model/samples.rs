@@ -19,13 +19,13 @@ const RUN: usize = 4096;
 /// Samples in texel order; see [`Taps`].
 #[derive(Clone, Debug)]
 pub struct Samples {
-    /// Input of the spatial network: position, centred and scaled.
+    /// Input of the spatial network: position, centred and scaled. Without rows if no network reads it.
     pub position: Planes,
     /// Unit normal of the mesh.
     pub normal: Planes,
     /// Unit vector to the camera.
     pub view: Planes,
-    /// Fresnel factor of the mesh normal (1 if switched off).
+    /// Fresnel factor of the mesh normal (1 if switched off). Without rows if no network reads it.
     pub fresnel: Planes,
     /// Radiance in the picture; zero for withheld views.
     pub target: Planes,
@@ -39,21 +39,27 @@ pub struct Samples {
     pub view_index: Vec<u32>,
 }
 
-/// How positions and the Fresnel factor become inputs of the model.
+/// Converts G-buffers and pictures to samples: position scale, exposure, perturbation.
 #[derive(Clone, Debug)]
 pub struct SampleSpace {
-    centre: Vec3,
-    scale: f32,
-    f0: Option<f32>,
+    network_inputs: Option<NetworkInputs>,
     /// Factor on the pictures.
-    gain: f32,
-    /// See [`SampleSpace::rounded`].
-    rounding_seed: u64,
+    picture_scale: f32,
+    /// See [`SampleSpace::with_perturbed_pictures`].
+    perturbation_seed: u64,
 }
 
-/// Largest relative change of a value by a rounding seed: a few units in the last place, times the sums that a
-/// solve makes of them.
-const ROUNDING: f32 = 1e-6;
+/// The inputs that the networks of the published method read in addition.
+#[derive(Clone, Debug)]
+struct NetworkInputs {
+    centre: Vec3,
+    position_scale: f32,
+    f0: Option<f32>,
+}
+
+/// Largest relative change of a value by a perturbation: a few units in the last place, times the number of values in
+/// the sums of a solve.
+const PERTURBATION: f32 = 1e-6;
 
 /// One sample before the samples are sorted and laid out.
 struct Sample {
@@ -68,35 +74,33 @@ struct Sample {
 }
 
 impl SampleSpace {
-    /// Positions span -1 to 1 along the longest side of the mesh's box, times `position_scale`.
-    pub fn new(mesh: &Mesh, position_scale: f32) -> Self {
+    /// Pictures as they are, and no inputs of networks.
+    pub fn new() -> Self {
+        Self { network_inputs: None, picture_scale: 1.0, perturbation_seed: 0 }
+    }
+
+    /// Adds the inputs of networks. Positions span -1 to 1 along the longest side of the mesh's box, times
+    /// `position_scale`. `f0` is the reflectance at normal incidence in Schlick's factor; `None` is a factor of 1.
+    pub fn with_network_inputs(self, mesh: &Mesh, position_scale: f32, f0: Option<f32>) -> Self {
         let (low, high) = mesh.bounds();
         let half = (0.5 * (high - low).max_element()).max(f32::MIN_POSITIVE);
-        Self {
-            centre: 0.5 * (low + high),
-            scale: position_scale / half,
-            f0: None,
-            gain: 1.0,
-            rounding_seed: 0,
-        }
+        let (centre, position_scale) = (0.5 * (low + high), position_scale / half);
+        Self { network_inputs: Some(NetworkInputs { centre, position_scale, f0 }), ..self }
     }
 
-    /// With Schlick's factor of this reflectance at normal incidence; `None`: a factor of 1.
-    pub fn with_fresnel(self, f0: Option<f32>) -> Self {
-        Self { f0, ..self }
+    /// Multiplies every picture value by its own random factor within 1 +- [`PERTURBATION`], drawn by this seed; 0
+    /// leaves them as they are.
+    pub fn with_perturbed_pictures(self, perturbation_seed: u64) -> Self {
+        Self { perturbation_seed, ..self }
     }
 
-    /// With every picture value multiplied by a number next to 1 that is drawn by this seed; 0: as they are.
-    pub fn rounded(self, rounding_seed: u64) -> Self {
-        Self { rounding_seed, ..self }
+    /// Multiplies the pictures by a factor.
+    pub fn with_picture_scale(self, picture_scale: f32) -> Self {
+        Self { picture_scale, ..self }
     }
 
-    /// Samples of the pictures multiplied with `gain`.
-    pub fn exposed(self, gain: f32) -> Self {
-        Self { gain, ..self }
-    }
-
-    /// The usable pixels of training views (those that count at all), for textures of side `size`.
+    /// The pixels of training views with weights above 0, for textures of side `size`. Without [`ViewWeightConfig`] a
+    /// weight is the cosine between view and normal.
     pub fn training(
         &self,
         views: &[View],
@@ -110,14 +114,16 @@ impl SampleSpace {
                 Some(weights) => view_weights::view_weights(gbuffer, weights),
                 None => view_weights::cosine_weights(gbuffer),
             };
-            let mut random = Pcg64Mcg::seed_from_u64(self.rounding_seed ^ ((number as u64) << 32));
-            let mut rounded = |value: f32| match self.rounding_seed {
+            let seed = self.perturbation_seed;
+            let mut random = Pcg64Mcg::seed_from_u64(seed ^ ((number as u64) << 32));
+            let mut unit = || random.next_u32() as i32 as f32 / i32::MIN as f32;
+            let mut perturbed = |value: f32| match seed {
                 0 => value,
-                _ => value * (1.0 + ROUNDING * (random.next_u32() as i32 as f32 / i32::MIN as f32)),
+                _ => value * (1.0 + PERTURBATION * unit()),
             };
             let mut target = |pixel: u32| {
                 let value = Vec3::from_slice(&view.image.data[3 * pixel as usize..]);
-                Vec3::from_array(value.to_array().map(&mut rounded)) * self.gain
+                Vec3::from_array(value.to_array().map(&mut perturbed)) * self.picture_scale
             };
             let usable = weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
             samples.extend(usable.map(|(i, weight)| Sample {
@@ -141,19 +147,27 @@ impl SampleSpace {
     fn arrange(&self, samples: &[Sample], size: usize) -> Samples {
         let uvs: Vec<Vec2> = samples.iter().map(|sample| sample.uv).collect();
         let (taps, order) = Taps::sorted(size, &uvs);
+        let count = order.len();
         let vector = |of: &(dyn Fn(&Sample) -> Vec3 + Sync)| {
-            Planes::from_fn(order.len(), |i| of(&samples[order[i]]).to_array())
+            Planes::from_fn(count, |i| of(&samples[order[i]]).to_array())
+        };
+        let (position, fresnel) = match &self.network_inputs {
+            None => (Planes::new(0, count), Planes::new(0, count)),
+            Some(NetworkInputs { centre, position_scale, f0 }) => {
+                let fresnel = Planes::from_fn(count, |i| {
+                    let s = &samples[order[i]];
+                    [f0.map_or(1.0, |f0| schlick(f0, s.normal.dot(s.view)))]
+                });
+                (vector(&|s| (s.position - centre) * position_scale), fresnel)
+            }
         };
         Samples {
-            position: vector(&|s| (s.position - self.centre) * self.scale),
+            position,
             normal: vector(&|s| s.normal),
             view: vector(&|s| s.view),
-            fresnel: Planes::from_fn(order.len(), |i| {
-                let s = &samples[order[i]];
-                [self.f0.map_or(1.0, |f0| schlick(f0, s.normal.dot(s.view)))]
-            }),
+            fresnel,
             target: vector(&|s| s.target),
-            weight: Planes::from_fn(order.len(), |i| [samples[order[i]].weight]),
+            weight: Planes::from_fn(count, |i| [samples[order[i]].weight]),
             taps,
             pixel: order.iter().map(|source| samples[*source].pixel).collect(),
             view_index: order.iter().map(|source| samples[*source].view_index).collect(),
@@ -178,17 +192,18 @@ impl Samples {
         }
     }
 
-    /// As many as fit into `count`, evenly spread over the texels.
+    /// Every n-th sample, with the least n that leaves at most `count`. The choice depends on the number of samples
+    /// alone.
     pub fn thinned(&self, count: usize) -> Self {
         self.kept(&Kept::spread(count, self.len(), 1))
     }
 
-    /// Likewise, but in runs, so that most of what several views see of one texel stays together.
+    /// Every n-th run of samples, so that most samples of one texel in several views stay together.
     pub fn thinned_in_runs(&self, count: usize) -> Self {
         self.kept(&Kept::spread(count, self.len(), RUN))
     }
 
-    /// The samples that are kept.
+    /// A part of the samples.
     pub fn kept(&self, kept: &Kept) -> Self {
         Self {
             position: self.position.kept(kept),

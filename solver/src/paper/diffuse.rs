@@ -24,7 +24,7 @@ pub fn diffuse<'a>(
     });
     let f = &config.fine_tuning;
     let minimum = config.minimum_albedo();
-    let steps = AlbedoSteps { iterations: f.iterations, prior: f.prior, minimum };
-    let by_albedo = Adam::new(&config.adam, f.diffuse_rate, fields.diffuse.len());
-    AlbedoFit::new(steps, by_albedo, samples, &shading, fields.diffuse.clone())
+    let steps = AlbedoSteps { iterations: f.iterations, prior_weight: f.prior, minimum };
+    let adam = Adam::new(&config.adam, f.diffuse_rate, fields.diffuse.len());
+    AlbedoFit::new(steps, adam, samples, &shading, fields.diffuse.clone())
 }

@@ -11,23 +11,23 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::model::texture::{interleave, resample};
 
-/// Networks and textures: everything that the published method solves for.
+/// The parameters of the published method: networks and textures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShadingFields {
     /// The shading networks.
     pub networks: Networks,
     /// Side of the textures, texels.
     pub size: usize,
-    /// R, G, B per texel, in units of 1 / S_d.
+    /// The unscaled diffuse albedo, R, G, B per texel: radiance = albedo x S_d without highlights.
     pub diffuse: Vec<f32>,
-    /// One value per texel, in units of 1 / S_s.
+    /// The unscaled specular albedo, one value per texel.
     pub specular: Vec<f32>,
-    /// The texture t of which [`Deviation`] makes the deviation from the mesh normal; x, y, z per texel.
+    /// The texture t from which [`Deviation`] computes the deviation from the mesh normal; x, y, z per texel.
     pub deviation: Vec<f32>,
 }
 
 impl ShadingFields {
-    /// The same with textures of another side.
+    /// Resamples the textures to another side.
     #[must_use]
     pub fn resized(self, size: usize) -> Self {
         if size == self.size {

@@ -33,7 +33,7 @@ use crate::scene::Scene;
 use crate::semantic;
 use crate::solution::{Results, ViewLayers};
 
-/// Recovers maps from a capture: warm-up, then normals with specular albedo and diffuse albedo in turns.
+/// Recovers maps from a capture: warm-up, then alternately normals with specular albedo and diffuse albedo.
 pub(crate) fn solve(
     capture: &Capture,
     config: &PaperConfig,
@@ -61,9 +61,9 @@ pub(crate) fn solve(
             break;
         }
         let name = format!("normals and specular {round}");
-        let relief: Relief = run.stage(&name, |run| {
+        let relief: Relief = run.stage(&name, |run, name| {
             let mut fit = Normals::new(config, &samples, &deviation, &fields, run.backend);
-            run.fit(&name, &mut fit)?;
+            run.fit(name, &mut fit)?;
             Ok(fit.relief)
         })?;
         fields = ShadingFields { deviation: relief.deviation, specular: relief.specular, ..fields };
@@ -71,9 +71,9 @@ pub(crate) fn solve(
         let snapshot = Snapshot::new(&name).specular(&fields.specular, fields.size);
         snapshots.push(snapshot.deviation(&sharp, fields.size));
         let name = format!("diffuse {round}");
-        let albedo: Vec<f32> = run.stage(&name, |run| {
+        let albedo: Vec<f32> = run.stage(&name, |run, name| {
             let mut fit = diffuse(config, &samples, &deviation, &fields, run.backend);
-            run.fit(&name, &mut fit)?;
+            run.fit(name, &mut fit)?;
             Ok(fit.albedo)
         })?;
         fields = ShadingFields { diffuse: albedo, ..fields };
@@ -82,7 +82,7 @@ pub(crate) fn solve(
     assemble(&scene, config, run, &samples, fields, snapshots, layer_sink)
 }
 
-/// The steps and costs of the stages, measured on two cores with AVX-512.
+/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls.
 pub(crate) fn plan(config: &PaperConfig, extent: &Extent) -> Vec<Work> {
     let square = |side: usize| (side * side) as f64;
     let Extent { pixels, texture_size: size, .. } = *extent;
@@ -104,17 +104,18 @@ pub(crate) fn plan(config: &PaperConfig, extent: &Extent) -> Vec<Work> {
     plan
 }
 
-/// Samples as the networks see them.
+/// The conversion of pictures to samples for networks of this configuration.
 pub fn sample_space(mesh: &Mesh, config: &PaperConfig) -> SampleSpace {
-    SampleSpace::new(mesh, config.networks.position_scale)
-        .with_fresnel(config.rendering.fresnel.then_some(config.skin.f0))
-        .rounded(config.rendering.rounding_seed)
+    let f0 = config.rendering.fresnel.then_some(config.skin.f0);
+    SampleSpace::new()
+        .with_network_inputs(mesh, config.networks.position_scale, f0)
+        .with_perturbed_pictures(config.rendering.rounding_seed)
 }
 
 fn warm_up_samples(scene: &Scene, config: &PaperConfig) -> Samples {
     let (weights, size) = (config.depth_weights(), config.warm_up.texture_size);
     match config.warm_up.half_resolution {
-        true => scene.half_samples(weights, size),
+        true => scene.samples_at_half_resolution(weights, size),
         false => scene.samples(weights, size),
     }
 }
@@ -145,7 +146,7 @@ fn semantic_initialisation(scene: &Scene, config: &PaperConfig) -> ShadingFields
     }
 }
 
-/// Maps, withheld views and records; after an interrupt of what there is.
+/// Returns maps, withheld views and records; after an interrupt, from the current fields.
 fn assemble(
     scene: &Scene,
     config: &PaperConfig,
@@ -203,7 +204,7 @@ fn assemble(
     })
 }
 
-/// A view as the networks see it.
+/// Renders a view by the networks.
 fn synthesise(
     scene: &Scene,
     camera: &Camera,

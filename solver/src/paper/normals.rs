@@ -13,7 +13,7 @@ use crate::model::networks::Networks;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
-/// The textures that [`Normals`] moves.
+/// The parameters of [`Normals`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Relief {
     /// See [`ShadingFields::deviation`].
@@ -22,9 +22,9 @@ pub struct Relief {
     pub specular: Vec<f32>,
 }
 
-/// Specular albedo and deviation, with frozen networks and diffuse albedo.
+/// The fit of specular albedo and deviation, with frozen networks and diffuse albedo.
 pub struct Normals<'a> {
-    /// What moves.
+    /// The parameters.
     pub relief: Relief,
     config: &'a PaperConfig,
     samples: &'a Samples,
@@ -32,12 +32,12 @@ pub struct Normals<'a> {
     networks: &'a Networks,
     light: Planes,
     albedo: Planes,
-    by_deviation: Adam,
-    by_specular: Adam,
+    deviation_adam: Adam,
+    specular_adam: Adam,
 }
 
 impl<'a> Normals<'a> {
-    /// From these fields; L(p) and the diffuse albedo are evaluated once.
+    /// Starts from these fields; L(p) and the diffuse albedo are evaluated once.
     pub fn new(
         config: &'a PaperConfig,
         samples: &'a Samples,
@@ -57,8 +57,8 @@ impl<'a> Normals<'a> {
             networks: &fields.networks,
             light: backend.light(&fields.networks, &samples.position),
             albedo: fields.albedo(samples),
-            by_deviation: Adam::new(adam, f.deviation_rate, fields.deviation.len()),
-            by_specular: Adam::new(adam, f.specular_rate, fields.specular.len()),
+            deviation_adam: Adam::new(adam, f.deviation_rate, fields.deviation.len()),
+            specular_adam: Adam::new(adam, f.specular_rate, fields.specular.len()),
         }
     }
 }
@@ -96,8 +96,8 @@ impl Fit for Normals<'_> {
     fn variables(&mut self) -> Vec<Variable<'_>> {
         let (free, minimum) = (f32::NEG_INFINITY, self.config.minimum_albedo());
         vec![
-            Variable::new(&mut self.relief.deviation, &mut self.by_deviation, free),
-            Variable::new(&mut self.relief.specular, &mut self.by_specular, minimum),
+            Variable::new(&mut self.relief.deviation, &mut self.deviation_adam, free),
+            Variable::new(&mut self.relief.specular, &mut self.specular_adam, minimum),
         ]
     }
 }

@@ -11,7 +11,7 @@ use crate::fit::adam::Adam;
 use crate::model::networks::Networks;
 use crate::model::normals::DirectionScale;
 use crate::model::planes::Planes;
-use crate::model::prior::prior;
+use crate::model::prior::albedo_prior;
 use crate::model::samples::Samples;
 use crate::model::texture::part;
 use crate::run::Run;
@@ -19,19 +19,19 @@ use crate::run::error::SolveError;
 
 /// Networks and both albedos, on samples whose taps are of the fields' size.
 pub struct WarmUp<'a> {
-    /// What moves.
+    /// The parameters.
     pub fields: ShadingFields,
     config: &'a PaperConfig,
     iterations: usize,
     samples: &'a Samples,
     directions: Planes,
-    by_networks: Adam,
-    by_diffuse: Adam,
-    by_specular: Adam,
+    network_adam: Adam,
+    diffuse_adam: Adam,
+    specular_adam: Adam,
 }
 
 impl<'a> WarmUp<'a> {
-    /// From these fields.
+    /// Starts from these fields.
     pub fn new(config: &'a PaperConfig, samples: &'a Samples, fields: ShadingFields) -> Self {
         let (w, adam) = (&config.warm_up, &config.adam);
         Self {
@@ -39,9 +39,9 @@ impl<'a> WarmUp<'a> {
             iterations: w.iterations,
             samples,
             directions: DirectionScale::from(&config.networks).directions(samples, None),
-            by_networks: Adam::new(adam, w.network_rate, fields.networks.parameters.len()),
-            by_diffuse: Adam::new(adam, w.diffuse_rate, fields.diffuse.len()),
-            by_specular: Adam::new(adam, w.specular_rate, fields.specular.len()),
+            network_adam: Adam::new(adam, w.network_rate, fields.networks.parameters.len()),
+            diffuse_adam: Adam::new(adam, w.diffuse_rate, fields.diffuse.len()),
+            specular_adam: Adam::new(adam, w.specular_rate, fields.specular.len()),
             fields,
         }
     }
@@ -60,8 +60,8 @@ impl Fit for WarmUp<'_> {
         let mut diffuse = part::<ALBEDOS, 3>(&joint.albedo, 0);
         let specular = part::<ALBEDOS, 1>(&joint.albedo, 3);
         let weight = self.config.warm_up.prior;
-        let prior = prior(&fields.diffuse, fields.size, weight, &mut diffuse);
-        (joint.loss + prior, vec![joint.networks, diffuse, specular])
+        let penalty = albedo_prior(&fields.diffuse, fields.size, weight, &mut diffuse);
+        (joint.loss + penalty, vec![joint.networks, diffuse, specular])
     }
 
     fn job(&self) -> Option<Job<'_>> {
@@ -77,9 +77,9 @@ impl Fit for WarmUp<'_> {
         let (free, minimum) = (f32::NEG_INFINITY, self.config.minimum_albedo());
         let fields = &mut self.fields;
         vec![
-            Variable::new(&mut fields.networks.parameters, &mut self.by_networks, free),
-            Variable::new(&mut fields.diffuse, &mut self.by_diffuse, minimum),
-            Variable::new(&mut fields.specular, &mut self.by_specular, minimum),
+            Variable::new(&mut fields.networks.parameters, &mut self.network_adam, free),
+            Variable::new(&mut fields.diffuse, &mut self.diffuse_adam, minimum),
+            Variable::new(&mut fields.specular, &mut self.specular_adam, minimum),
         ]
     }
 }
@@ -100,7 +100,7 @@ impl Start {
     }
 }
 
-/// The starts that a configuration asks for; with one seed alone there is nothing to choose.
+/// The number of starts; a single start is the warm-up itself.
 pub(super) fn starts(config: &PaperConfig) -> usize {
     if config.initialisation.starts > 1 { config.initialisation.starts } else { 0 }
 }
@@ -111,7 +111,7 @@ pub(super) fn steps_after_start(config: &PaperConfig) -> usize {
     config.warm_up.iterations.saturating_sub(start)
 }
 
-/// The fields after the warm-up, which continues the start with the lowest loss.
+/// Returns the fields after the warm-up, which continues the start with the least loss.
 pub(super) fn warm_up(
     run: &mut Run,
     config: &PaperConfig,
@@ -121,7 +121,8 @@ pub(super) fn warm_up(
     let mut best: Option<Start> = None;
     for number in 0..starts(config) {
         let name = format!("start {}", number + 1);
-        let start = run.stage(&name, |run| start(run, &name, number, config, samples, initial))?;
+        let start =
+            run.stage(&name, |run, name| start(run, name, number, config, samples, initial))?;
         if best.as_ref().is_none_or(|best| start.loss() < best.loss()) {
             best = Some(start);
         }
@@ -129,7 +130,7 @@ pub(super) fn warm_up(
             break;
         }
     }
-    run.stage("warm-up", |run| {
+    run.stage("warm-up", |run, name| {
         let (fields, losses, optimisers) = match best {
             Some(Start { losses, fields, optimisers }) => (fields, losses, Some(optimisers)),
             None => (initial.clone(), vec![], None),
@@ -137,9 +138,9 @@ pub(super) fn warm_up(
         let mut fit = WarmUp::new(config, samples, fields);
         fit.iterations = steps_after_start(config);
         if let Some(optimisers) = optimisers {
-            [fit.by_networks, fit.by_diffuse, fit.by_specular] = optimisers;
+            [fit.network_adam, fit.diffuse_adam, fit.specular_adam] = optimisers;
         }
-        run.continue_fit("warm-up", &mut fit, losses)?;
+        run.continue_fit(name, &mut fit, losses)?;
         Ok(fit.fields)
     })
 }
@@ -155,7 +156,7 @@ fn start(
     let networks = Networks::new(&config.networks, config.seed + number as u64);
     let mut fit = WarmUp::new(config, samples, ShadingFields { networks, ..initial.clone() });
     fit.iterations = config.initialisation.start_iterations;
-    let losses = run.trial(name, &mut fit)?;
-    let optimisers = [fit.by_networks, fit.by_diffuse, fit.by_specular];
+    let losses = run.unrecorded_fit(name, &mut fit)?;
+    let optimisers = [fit.network_adam, fit.diffuse_adam, fit.specular_adam];
     Ok(Start { losses, fields: fit.fields, optimisers })
 }

@@ -23,15 +23,15 @@ use crate::backend::resident::{BATCH, DeviceError, Resident};
 use crate::fit::Fit;
 use crate::solution::{StageRecord, Timing};
 
-/// Time between two copies of what a device moves: a failure costs no more than that.
+/// Time between two downloads of a device's variables: a failure of the device costs at most this time.
 const FETCH: Duration = Duration::from_secs(20);
-/// Time of a submission: systems reset a device that does not answer for seconds.
+/// Target time of a submission: systems reset a device that does not respond for seconds.
 const SUBMISSION: Duration = Duration::from_millis(200);
 
 /// Runs the stages of a solve in their order.
 ///
-/// A stage is a function from values to a value. Its value is stored when it is made; the same solve, started again,
-/// reads it instead. After an interrupt the remaining stages run without steps, so that a solve always ends with maps.
+/// A stage is a function from values to a value, which is stored; the same solve, started again, reads the stored
+/// value. After an interrupt the remaining stages run without steps, so that a solve always ends with maps.
 pub(crate) struct Run<'a, 'b> {
     pub backend: &'a dyn Backend,
     progress: &'a mut Callback<'b>,
@@ -41,15 +41,16 @@ pub(crate) struct Run<'a, 'b> {
     log: Log,
     cut: Option<Cut>,
     checkpoint: Option<Open>,
-    /// The fit that an earlier run was in, until it continues.
+    /// The fit during which an earlier run was interrupted, until it continues.
     pending: Option<FitMemory>,
     lap: Instant,
-    /// Seconds of this lap in the run that this one continues.
+    /// Seconds of this lap in the interrupted run.
     earlier: f64,
 }
 
 impl<'a, 'b> Run<'a, 'b> {
-    /// A run of the stages of `plan`. The learning rates of every fit fall to `final_decay` over its last 40 %.
+    /// A run of the stages of `plan`. The learning rates of every fit fall by the factor `final_decay` over its last
+    /// 40 %; 1 keeps them constant.
     pub fn new(
         plan: Vec<Work>,
         final_decay: f32,
@@ -72,11 +73,12 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// The value of the next stage of the plan: the stored one, or what `make` returns.
+    /// Returns the value of the next stage of the plan: the stored one, or the result of `make`, which gets the stage's
+    /// name.
     pub fn stage<T: Serialize + DeserializeOwned>(
         &mut self,
         name: &str,
-        make: impl FnOnce(&mut Self) -> Result<T, SolveError>,
+        make: impl FnOnce(&mut Self, &str) -> Result<T, SolveError>,
     ) -> Result<T, SolveError> {
         let stored = self.checkpoint.as_mut().and_then(|checkpoint| checkpoint.stored(name));
         if let Some((log, value)) = stored {
@@ -85,7 +87,7 @@ impl<'a, 'b> Run<'a, 'b> {
             self.lap = Instant::now();
             return Ok(value);
         }
-        let value = make(self)?;
+        let value = make(self, name)?;
         self.clock.next();
         if let Some(checkpoint) = self.checkpoint.as_mut().filter(|_| self.cut.is_none()) {
             checkpoint.store(name, &self.log, &value);
@@ -93,12 +95,25 @@ impl<'a, 'b> Run<'a, 'b> {
         Ok(value)
     }
 
-    /// Whether the caller has interrupted the solve: from then on no fit takes steps.
+    /// [`Run::stage`] that `make` begins from a value, which is the result after an interrupt.
+    pub fn stage_from<T: Serialize + DeserializeOwned>(
+        &mut self,
+        name: &str,
+        start: T,
+        make: impl FnOnce(&mut Self, &str, T) -> Result<T, SolveError>,
+    ) -> Result<T, SolveError> {
+        self.stage(name, |run, name| match run.is_interrupted() {
+            true => Ok(start),
+            false => make(run, name, start),
+        })
+    }
+
+    /// Whether the caller has interrupted the solve. After that no fit takes steps.
     pub fn is_interrupted(&self) -> bool {
         self.cut.is_some()
     }
 
-    /// Where the caller interrupted the solve, in words.
+    /// The stage and step at which the caller interrupted the solve, as text.
     pub fn interrupted(&self) -> Option<String> {
         self.cut.as_ref().map(ToString::to_string)
     }
@@ -120,7 +135,7 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Takes the steps of a fit and records its losses under its name.
+    /// Takes the steps of a fit and records its losses under its name. Does nothing after an interrupt.
     pub fn fit(&mut self, name: &str, fit: &mut dyn Fit) -> Result<(), SolveError> {
         self.continue_fit(name, fit, vec![])
     }
@@ -141,15 +156,19 @@ impl<'a, 'b> Run<'a, 'b> {
         Ok(())
     }
 
-    /// Takes the steps of a fit without recording them, and returns their losses.
-    pub fn trial(&mut self, name: &str, fit: &mut dyn Fit) -> Result<Vec<f64>, SolveError> {
+    /// Takes the steps of a fit without recording them, and returns their losses. Does nothing after an interrupt.
+    pub fn unrecorded_fit(
+        &mut self,
+        name: &str,
+        fit: &mut dyn Fit,
+    ) -> Result<Vec<f64>, SolveError> {
         let losses = if self.is_interrupted() { vec![] } else { self.steps(name, fit)? };
         self.record_time("starts");
         Ok(losses)
     }
 
-    /// Reports and records the steps of a solver with a loop of its own, `steps` at most. An interrupt reaches it as
-    /// [`SolveError::Interrupted`] of a step.
+    /// Reports and records the steps of a solver with its own loop, `steps` at most. An interrupt reaches the solver as
+    /// [`SolveError::Interrupted`] from a step.
     pub fn foreign_steps<T>(
         &mut self,
         name: &str,
@@ -173,7 +192,7 @@ impl<'a, 'b> Run<'a, 'b> {
         let of = fit.iterations();
         let mut losses = self.restore(name, fit);
         let mut device = self.upload(name, fit);
-        // Steps that the host's copy of a device's values has seen, and when it was made.
+        // The number of steps in the host's copy of the device's variables, and the time of that copy.
         let (mut known, mut fetched) = (losses.len(), Instant::now());
         let mut pace = Pace::default();
         while losses.len() < of && self.cut.is_none() && !fit.is_converged() {
@@ -215,7 +234,7 @@ impl<'a, 'b> Run<'a, 'b> {
         Ok(losses)
     }
 
-    /// The fit as a program of the device, if it has one for it.
+    /// Uploads the fit to the device, if the device has a program for it.
     fn upload(&self, name: &str, fit: &mut dyn Fit) -> Option<Box<dyn Resident + 'a>> {
         let mut program = self.backend.resident(&fit.job()?)?;
         match program.upload(&fit.variables()) {
@@ -227,7 +246,7 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Returns to what the host has seen of a fit whose device failed. The device has said why.
+    /// Returns to the host's copy of a fit whose device failed. The device has logged the reason.
     fn mark_failed(&mut self, name: &str, known: usize, losses: &mut Vec<f64>) {
         tracing::info!("{name}: resuming after step {known}");
         self.log.done -= losses.len() - known;
@@ -235,7 +254,7 @@ impl<'a, 'b> Run<'a, 'b> {
         self.cut = None;
     }
 
-    /// Reports steps to the caller, of which `step` was the last, and learns whether to continue.
+    /// Reports steps to the caller, the last of which is `step`, and records an interrupt.
     fn report(&mut self, stage: &str, step: usize, of: usize, losses: &[f64]) {
         self.log.done += losses.len();
         let mut seconds_left = 0.0;
@@ -254,7 +273,7 @@ impl<'a, 'b> Run<'a, 'b> {
         }
     }
 
-    /// Brings a fit to where a checkpoint left it, and returns the losses until there.
+    /// Restores a fit from the checkpoint, and returns its losses so far.
     fn restore(&mut self, name: &str, fit: &mut dyn Fit) -> Vec<f64> {
         let Some(memory) = self.pending.take_if(|memory| memory.name == name) else {
             return vec![];
@@ -277,7 +296,7 @@ impl<'a, 'b> Run<'a, 'b> {
     }
 }
 
-/// Refuses losses that are not finite; the first is that of step `first`.
+/// Refuses losses that are not finite. The first loss belongs to step `first`.
 fn finite(name: &str, first: usize, losses: &[f64]) -> Result<(), SolveError> {
     match losses.iter().position(|loss| !loss.is_finite()) {
         None => Ok(()),
@@ -297,7 +316,7 @@ struct Pace {
 
 impl Pace {
     fn steps(&self) -> usize {
-        // The first step alone shows how long one takes.
+        // The first submission is one step, which measures the time of a step.
         self.seconds_per_step
             .map_or(1, |s| ((SUBMISSION.as_secs_f64() / s) as usize).clamp(1, BATCH))
     }

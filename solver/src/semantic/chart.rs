@@ -45,7 +45,7 @@ impl Chart {
         Self {
             colours: seen.iter().map(colour).collect(),
             side,
-            transport: Transport::new(mesh, &Sky::even(rows), &transport, 0),
+            transport: Transport::new(mesh, &Sky::lat_long(rows), &transport, 0),
             seen,
         }
     }
@@ -166,7 +166,7 @@ pub(super) struct Lobes {
 impl Lobes {
     /// Lobes as wide as `width` radians on a sky of `rows` rows; 0 for the cells.
     pub fn new(rows: usize, width: f32) -> Self {
-        let cells = Sky::even(rows).centres();
+        let cells = Sky::lat_long(rows).centres();
         let radiance = |lobe: &Vec3| -> Vec<f32> {
             let of = |cell: &Vec3| ((lobe.dot(*cell) - 1.0) / width.powi(2)).exp();
             cells.iter().map(of).collect()
@@ -198,7 +198,7 @@ impl Lobes {
 }
 
 pub(super) fn luminance(colour: &Vec3) -> f32 {
-    colour.dot(Vec3::from_array(transport::LUMINANCE)).max(0.0)
+    transport::luminance::<f32>(&colour.to_array()).max(0.0)
 }
 
 /// Logarithms of a colour, brightened by `dark`.

@@ -65,7 +65,7 @@ impl Lamps {
             let residuals: Vec<f32> = lamps.par_iter().map(residual).collect();
             least(&residuals).map(|at| (lamps[at], lamps))
         };
-        let ((first, _), _) = best(&Sky::even(ROWS).centres())?;
+        let ((first, _), _) = best(&Sky::lat_long(ROWS).centres())?;
         let ((direction, nearness), lamps) = best(&around(first))?;
         let direct: Vec<Vec<f32>> =
             lamps.par_iter().map(|lamp| scene.direct(lamp.0, lamp.1)).collect();

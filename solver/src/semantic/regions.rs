@@ -1,4 +1,4 @@
-//! Regions of the face: by labels, or by colour where there are none, and hair that is called skin.
+//! Regions of the face: by labels, or by colour without labels, and hair in labelled skin.
 
 use std::collections::HashSet;
 
@@ -17,17 +17,19 @@ use super::{initial_diffuse_albedo, region_map};
 use crate::config::{UnshadeConfig, ViewWeightConfig};
 use crate::scene::Scene;
 
-/// The regions of a face.
+/// The regions of a face. `labelled_skin` restricts the light fits and shares one initial colour; `skin` shares one
+/// specular term, keeps its albedo in the recolouring and the inpainting, and is split into `parts`; without named skin
+/// the shared specular term is that of the largest region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FaceRegions {
     colours: Option<ColourRegions>,
-    /// The labels that are skin by their names.
+    /// The labels with names of skin; empty without such names.
     pub labelled_skin: Vec<u8>,
-    /// The regions that are skin: labels, or the largest region by colour; empty if labels have no names.
+    /// `labelled_skin`, or the largest region by colour without labels; empty if labels have no names of skin.
     pub skin: Vec<u8>,
-    /// The regions of hair that was called skin.
+    /// The regions of hair in labelled skin.
     pub hair_in_skin: Vec<u8>,
-    /// Parts of what is called skin that are none, each with a label that nothing else has.
+    /// Parts of labelled skin that are not skin, each with its own new label.
     parts: Vec<(PartOfSkin, u8)>,
 }
 
@@ -42,8 +44,8 @@ impl FaceRegions {
         Self::find(scene.capture, &scene.projections(), config, labelled, skin)
     }
 
-    /// `projections` are of the training views, the labels `skin` are skin; regions by colour replace labels unless
-    /// there are several (`labelled`).
+    /// Finds the regions by labels if there are several (`labelled`), else by colour. `projections` are of the training
+    /// views, `skin` the labels of skin.
     fn find(
         capture: &Capture,
         projections: &[Projection],
@@ -73,7 +75,7 @@ impl FaceRegions {
         found
     }
 
-    /// Finds the parts of the skin of `labels`.
+    /// Finds the parts of skin that are not skin, with skin as in `labels`.
     fn split(&mut self, capture: &Capture, chart: &Chart, config: &Settings, mut labels: Vec<u8>) {
         let views = capture.train.iter().filter_map(|view| view.labels.as_ref());
         let mut used: HashSet<u8> = views.flat_map(|labels| labels.data.iter().copied()).collect();
@@ -83,7 +85,7 @@ impl FaceRegions {
         let explain =
             |labels: &[u8]| Explanation::new(&capture.mesh, chart, config, labels, &self.skin);
         let Some(mut explanation) = explain(&labels) else { return };
-        // Under a lamp, no sky of cells explains the face, and shadows would be colours.
+        // The sky of cells does not fit a face under a lamp: shadows would be segmented as colours.
         if self.colours.is_none() && explanation.lamps().is_none() {
             let other = other_colours(&explanation, chart, config, &labels, &self.skin);
             for (part, label) in other.into_iter().zip(&mut free) {
@@ -91,7 +93,7 @@ impl FaceRegions {
                 self.parts.push((part, label));
             }
             if !self.parts.is_empty() {
-                // The skin that is left is explained better.
+                // The remaining skin has a lower residual.
                 let Some(without) = explain(&labels) else { return };
                 explanation = without;
             }
@@ -104,7 +106,7 @@ impl FaceRegions {
     }
 
     /// The region of every texel of a texture of side `size`; 0 everywhere if the face is one region.
-    pub fn on(&self, scene: &Scene, size: usize) -> Vec<u8> {
+    pub fn region_map(&self, scene: &Scene, size: usize) -> Vec<u8> {
         self.map(&Atlas::new(&scene.capture.mesh, size), &scene.projections())
     }
 
@@ -119,24 +121,26 @@ impl FaceRegions {
         regions
     }
 
-    /// The mean colour of every region on a texture of side `size`, linear R, G, B per texel in the unit of the
-    /// scene's pictures. All that is skin has the colour of the largest of its regions.
-    pub fn mean_albedo(&self, scene: &Scene, size: usize) -> Vec<f32> {
-        let mean_colours = || -> Picture {
+    /// The mean colour of the region of every texel, for the [`Self::region_map`] of a square texture: linear R, G, B in
+    /// the unit of the scene's pictures, times [`Scene::picture_scale`]. All labelled skin has the colour of the largest
+    /// of its regions.
+    pub fn mean_colours(&self, scene: &Scene, regions: &[u8]) -> Vec<f32> {
+        let size = regions.len().isqrt();
+        let by_labels = || -> Picture {
             let (capture, weights) = (scene.capture, &ViewWeightConfig::default());
             let (views, skin) = (&capture.train, &self.labelled_skin);
             initial_diffuse_albedo(&capture.mesh, views, &scene.gbuffers, weights, size, skin)
         };
         let colours = self.colours.as_ref();
-        let mut albedo = colours.map_or_else(mean_colours, |colours| colours.albedo(size)).data;
-        self.paint_parts(&self.on(scene, size), &mut albedo);
-        albedo.iter_mut().for_each(|value| *value *= scene.gain);
-        albedo
+        let mut texels = colours.map_or_else(by_labels, |colours| colours.albedo(size)).data;
+        self.paint_parts(regions, &mut texels);
+        texels.iter_mut().for_each(|value| *value *= scene.picture_scale);
+        texels
     }
 
-    /// Gives parts of skin their colours, in an `albedo` of these `regions` where they still have skin's.
-    fn paint_parts(&self, regions: &[u8], albedo: &mut [f32]) {
-        for (texel, region) in albedo.chunks_exact_mut(3).zip(regions) {
+    /// Multiplies the parts of skin, which still have the colour of skin, by their ratios to it.
+    fn paint_parts(&self, regions: &[u8], colours: &mut [f32]) {
+        for (texel, region) in colours.chunks_exact_mut(3).zip(regions) {
             if let Some((part, _)) = self.parts.iter().find(|(_, label)| label == region) {
                 let ratio = part.ratio.to_array();
                 texel.iter_mut().zip(ratio).for_each(|(value, ratio)| *value *= ratio);
@@ -145,8 +149,7 @@ impl FaceRegions {
     }
 }
 
-/// Whether labels part the face where pictures show it: one label for everything carries no more information than
-/// none.
+/// Whether the visible face has more than one label. A single label carries no information.
 fn several_labels(scene: &Scene) -> bool {
     let of_view = |(view, gbuffer): (&capture::View, &GBuffer)| -> Vec<u8> {
         gbuffer.pixels.iter().map(|pixel| view.label(*pixel as usize)).collect()

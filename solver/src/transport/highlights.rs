@@ -1,45 +1,37 @@
-//! Highlights, and how they change with the normal.
+//! Highlights and their derivatives with respect to the normal.
 
 use glam::Vec3;
 
 use super::matrix::Matrix;
 use super::reflection::scale;
 use super::skin::{GRAZING, lobe_slopes, schlick};
-use super::{CHANNELS, LIGHT_EXPONENT, LUMINANCE, SpecularTerm, Transport};
+use super::{CHANNELS, SpecularTerm, Transport, luminance};
 use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::simd::widened;
 
-/// Rows of [`SkinHighlights::on`]: R, G, B, and how the luminance changes with the normal's x, y, z.
+/// Rows of [`SkinHighlights::on`]: R, G, B, and the derivatives of the luminance with respect to the normal's x, y, z.
 pub const HIGHLIGHT_ROWS: usize = CHANNELS + 3;
-/// Cells that are summed beside each other.
+/// Cells that one vector instruction sums.
 const LANES: usize = 16;
 /// Least squared length of the sum of two directions.
 const OPPOSITE: f32 = 1e-12;
 
-/// A light and its visibility, which make highlights on skin of any normals.
+/// A light and its visible solid angles, for highlights of skin with any normals.
 #[derive(Clone)]
 pub struct SkinHighlights<'a> {
     transport: &'a Transport,
     skin: &'a SkinConfig,
-    open: &'a Matrix,
+    visible_solid_angle: &'a Matrix,
     cells: Vec<Cells>,
     scale: f32,
 }
 
 impl Transport {
-    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1.
+    /// Highlights of a light of R, G, B per cell, scaled so that its [`Self::peak`] is 1. The light is filtered with
+    /// this power of the cosine, usually [`LIGHT_EXPONENT`](super::LIGHT_EXPONENT).
     pub fn skin_highlights<'a>(
-        &'a self,
-        skin: &'a SkinConfig,
-        light: &[f32],
-    ) -> SkinHighlights<'a> {
-        self.skin_highlights_through(skin, light, LIGHT_EXPONENT)
-    }
-
-    /// Likewise, with the light seen through another lobe than the transport's own.
-    pub fn skin_highlights_through<'a>(
         &'a self,
         skin: &'a SkinConfig,
         light: &[f32],
@@ -49,41 +41,43 @@ impl Transport {
         let light = self.through_lobes(light, exponent);
         let mut cells = vec![[[0.0; LANES]; CELL]; self.cells().div_ceil(LANES)];
         for (cell, (centre, light)) in self.sky.centres().iter().zip(&light).enumerate() {
-            let luminance = light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
             let [r, g, b] = *light;
-            let row = [centre.x, centre.y, centre.z, r, g, b, luminance];
+            let row = [centre.x, centre.y, centre.z, r, g, b, luminance(light)];
             (0..CELL).for_each(|k| cells[cell / LANES][k][cell % LANES] = row[k]);
         }
-        SkinHighlights { transport: self, skin, open: &self.open, cells, scale }
+        let visible_solid_angle = &self.visible_solid_angle;
+        SkinHighlights { transport: self, skin, visible_solid_angle, cells, scale }
     }
 }
 
 impl SkinHighlights<'_> {
-    /// Radiance that skin of these [`SpecularTerm`] terms sends to the camera of every sample, on these normals (unit),
-    /// and how it changes with the normal, along the surface and across it; [`HIGHLIGHT_ROWS`] rows.
+    /// The specular radiance from every sample to its camera, with these unit normals and [`SpecularTerm`] terms, and
+    /// its derivatives with respect to the normal, whose component along the normal counts as well;
+    /// [`HIGHLIGHT_ROWS`] rows.
     pub fn on(&self, samples: &Samples, normals: &Planes, specular: &Planes) -> Planes {
-        let Self { transport, skin, open, cells, scale } = self;
+        let Self { transport, skin, visible_solid_angle, cells, scale } = self;
         Planes::from_fn(samples.len(), |i| {
             let row = transport.row_of(samples, i);
-            let seen = Seen {
+            let place = Place {
                 normal: Vec3::from_array(normals.sample(i, 0)),
                 view: Vec3::from_array(samples.view.sample(i, 0)),
                 from: transport.sky.nearness * transport.places[row],
             };
             let mut sums = [0.0; HIGHLIGHT_ROWS];
-            let open = &open.rows[row * open.cells..][..open.cells];
+            let count = visible_solid_angle.cells;
+            let visible = &visible_solid_angle.rows[row * count..][..count];
             let specular = SpecularTerm::at(specular, i);
-            sum_lobes(&specular.lobes_of(skin), cells, open, &seen, &mut sums);
+            sum_lobes(&specular.lobes_of(skin), cells, visible, &place, &mut sums);
             sums.map(|sum| specular.reflectance * (scale * sum))
         })
     }
 
-    /// For a device that does the same.
+    /// Returns the data that a device needs for [`Self::on`].
     pub(crate) fn parts(&self, samples: &Samples) -> SkinHighlightParts<'_> {
-        let Self { transport, skin, open, cells, scale } = self;
+        let Self { transport, skin, visible_solid_angle, cells, scale } = self;
         SkinHighlightParts {
             cells: cells.as_flattened().as_flattened(),
-            open: &open.rows,
+            visible_solid_angle: &visible_solid_angle.rows,
             row: (0..samples.len()).map(|i| transport.row_of(samples, i) as u32).collect(),
             from: transport.places.iter().map(|place| transport.sky.nearness * *place).collect(),
             scale: *scale,
@@ -98,7 +92,7 @@ pub(crate) struct SkinHighlightParts<'a> {
     /// In blocks of 16 cells, seven rows each: direction from the sky's centre, R, G, B, luminance.
     pub cells: &'a [f32],
     /// Rows of as many weights as there are cells.
-    pub open: &'a [f32],
+    pub visible_solid_angle: &'a [f32],
     /// The row of every sample.
     pub row: Vec<u32>,
     /// The place of every row, in units of the sky's radius.
@@ -114,25 +108,26 @@ pub(crate) struct SkinHighlightParts<'a> {
 const CELL: usize = 2 * CHANNELS + 1;
 type Cells = [[f32; LANES]; CELL];
 
-struct Seen {
+/// Where a sample lies.
+struct Place {
     normal: Vec3,
     view: Vec3,
-    /// The place in units of the sky's radius.
+    /// The position from the sky's centre, in units of the sky's radius.
     from: Vec3,
 }
 
 widened! {
-    /// Sums [`HIGHLIGHT_ROWS`] rows over the cells that are open.
-    fn sum_lobes(skin: &SkinConfig, cells: &[Cells], open: &[f32], seen: &Seen, sums: &mut [f32; HIGHLIGHT_ROWS]) {
+    /// Sums [`HIGHLIGHT_ROWS`] rows over the visible cells.
+    fn sum_lobes(skin: &SkinConfig, cells: &[Cells], visible: &[f32], place: &Place, sums: &mut [f32; HIGHLIGHT_ROWS]) {
         let skin = *skin;
-        let Seen { normal: n, view: v, from } = *seen;
+        let Place { normal: n, view: v, from } = *place;
         let nv = n.dot(v).max(GRAZING);
         let mut lanes = [[0.0f32; LANES]; HIGHLIGHT_ROWS];
         for (block, cells) in cells.iter().enumerate() {
             let first = block * LANES;
             let mut here = [0.0; LANES];
-            let some = (open.len() - first).min(LANES);
-            here[..some].copy_from_slice(&open[first..first + some]);
+            let some = (visible.len() - first).min(LANES);
+            here[..some].copy_from_slice(&visible[first..first + some]);
             // Half of the sky is behind the surface.
             if here == [0.0; LANES] {
                 continue;
@@ -173,7 +168,7 @@ mod tests {
     use crate::config::{TransportConfig, UnshadeConfig};
     use crate::model::samples::SampleSpace;
     use crate::testing;
-    use crate::transport::Sky;
+    use crate::transport::{LIGHT_EXPONENT, Sky};
 
     const NEARNESS: f32 = 0.7;
 
@@ -181,15 +176,14 @@ mod tests {
     fn scene() -> (Transport, Vec<f32>, Samples) {
         let (mesh, config) = (testing::dome(16), UnshadeConfig::default());
         let t = TransportConfig { texture_size: 32, rows: 6, ..config.transport.clone() };
-        let sky = Sky::even(t.rows).at(NEARNESS);
+        let sky = Sky::lat_long(t.rows).at(NEARNESS);
         let transport = Transport::new(&mesh, &sky, &t, 3);
         let light = (0..CHANNELS * transport.cells()).map(|i| 1.0 + (i as f32 * 1.7).sin());
         let shade = |_| (Vec3::ONE, 1);
         let views: Vec<_> =
             testing::rig(2, 40).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
-        let space = SampleSpace::new(&mesh, 1.0);
-        let samples = space.training(&views, &gbuffers, None, 64);
+        let samples = SampleSpace::new().training(&views, &gbuffers, None, 64);
         (transport, light.collect(), samples)
     }
 
@@ -207,7 +201,7 @@ mod tests {
         let terms = terms(samples.len());
         let (skin, peak) = (UnshadeConfig::default().skin, transport.peak(&light));
         let rows = transport.reflection(&skin, &samples, &terms, peak, NEARNESS);
-        let highlights = transport.skin_highlights(&skin, &light);
+        let highlights = transport.skin_highlights(&skin, &light, LIGHT_EXPONENT);
         let found = highlights.on(&samples, &samples.normal, &terms);
         assert!(samples.len() > 500);
         for (i, expected) in rows.radiance(&light).into_iter().enumerate() {
@@ -223,7 +217,7 @@ mod tests {
         let (transport, light, samples) = scene();
         let skin = UnshadeConfig::default().skin;
         const STEP: f32 = 2e-3;
-        let highlights = transport.skin_highlights(&skin, &light);
+        let highlights = transport.skin_highlights(&skin, &light, LIGHT_EXPONENT);
         let terms = terms(samples.len());
         let along = |axis: Vec3, step: f32| {
             let normal = |i: usize| {
@@ -232,7 +226,7 @@ mod tests {
             };
             let normals = Planes::from_fn(samples.len(), normal);
             let bent = highlights.on(&samples, &normals, &terms);
-            move |i: usize| (0..CHANNELS).map(|c| LUMINANCE[c] * bent.get(c, i)).sum::<f32>()
+            move |i: usize| luminance::<f32>(&bent.sample::<CHANNELS>(i, 0))
         };
         let bent = highlights.on(&samples, &samples.normal, &terms);
         for axis in [Vec3::X, Vec3::Y] {

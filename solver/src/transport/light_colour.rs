@@ -6,7 +6,7 @@ use super::CHANNELS;
 /// `weight` times the sum over neighbouring cells of edge x sum_c (sqrt(d_c^2 + s^2) - s), over the number of
 /// cells. d_c is how much channel c of the logarithm differs between the two, less the mean of the three; the edge
 /// is its length over that on the equator; s is `softness`, below which differences cost next to nothing. The
-/// gradient is added to `gradient`. Cells are those of [`super::sky::Sky::even`], R, G, B each.
+/// gradient is added to `gradient`. Cells are those of [`super::sky::Sky::lat_long`], R, G, B each.
 pub fn light_colour(log_light: &[f32], weight: f32, softness: f32, gradient: &mut [f32]) -> f64 {
     if weight == 0.0 {
         return 0.0;

@@ -1,11 +1,10 @@
-//! Shadowed diffuse light transport of a known mesh: what a texel receives from each cell of the
-//! sky, with the mesh in between and light bounced off it.
+//! Shadowed diffuse light transport of a known mesh: the shading of a texel by each cell of the sky, with the mesh's
+//! shadows and bounce light.
 //!
 //! S_d(t, c) = sum over cells j of T(t, j) l(j, c), with T = T0 + a B T0 + a^2 B B T0. T0 is the
-//! cosine-weighted visible solid angle of a cell over pi, by ray casts; B the same for what lies
-//! behind the rays that meet the mesh, and a the albedo that bounces are given (precomputed
-//! radiance transfer, Sloan et al. 2002, on an albedo held constant). A white texel in full light 1
-//! from everywhere has S_d = 1.
+//! cosine-weighted visible solid angle of a cell over pi, by ray casts; B is the same of the texels that the blocked
+//! rays hit, and a is one albedo for all bounces (precomputed radiance transfer, Sloan et al. 2002). A white texel
+//! under an unoccluded light of radiance 1 from every direction has S_d = 1.
 //!
 //! The cells lie on a sphere around the head's centre. Real lamps are a metre away, not infinitely
 //! far: a cell of nearness k (inverse radius) in direction w from the centre lies along w - k x from a
@@ -30,7 +29,7 @@ use rayon::prelude::*;
 
 use crate::config::TransportConfig;
 pub use channels::CHANNELS;
-pub(crate) use channels::LUMINANCE;
+pub(crate) use channels::{GREEN, luminance};
 pub use highlights::{HIGHLIGHT_ROWS, SkinHighlights};
 pub(crate) use light_colour::light_colour;
 pub(crate) use matrix::add_scaled;
@@ -46,9 +45,9 @@ pub(crate) const RAY_OFFSET: f32 = 1.6e-3;
 const NEAR_RADIUS: f32 = 6.0;
 /// Least radius of the sphere of the light, in the same unit.
 const LEAST_RADIUS: f32 = 2.5;
-/// Exponent of the cosine lobe through which highlights see the light: 10 degrees, about a cell, which is as sharp as
-/// the cells describe a light.
-pub(crate) const LIGHT_EXPONENT: i32 = 64;
+/// Exponent of the cosine lobe that filters the light for highlights: 10 degrees, about the width of a cell, since
+/// cells do not resolve more.
+pub const LIGHT_EXPONENT: i32 = 64;
 
 /// The transport of the texels of a chart.
 #[derive(Clone, Debug)]
@@ -56,13 +55,14 @@ pub struct Transport {
     size: usize,
     /// One row per texel inside the chart, one column per cell.
     matrix: Matrix,
-    /// The gain of `matrix` when the sky comes nearer by [`Self::near`].
-    gain: Option<Matrix>,
+    /// Derivative of `matrix` with respect to relative nearness: its change between the sky's nearness and one
+    /// [unit](Self::nearness_unit) more.
+    by_nearness: Option<Matrix>,
     /// Visible solid angle over pi.
-    open: Matrix,
-    /// Nearness that `gain` stands for, per metre.
-    near: f32,
-    /// From the sky's centre, of every row.
+    visible_solid_angle: Matrix,
+    /// The unit of relative nearness, per metre.
+    nearness_unit: f32,
+    /// The position of every row from the sky's centre, metres.
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
     sky: Sky,
@@ -71,13 +71,14 @@ pub struct Transport {
 }
 
 impl Transport {
-    /// Casts all rays under a sky that stays where it is. Memory is texels inside the chart x cells x 8 bytes, three
-    /// times that while bounces are added.
+    /// Casts all rays for a sky of fixed nearness. Memory is texels inside the chart x cells x 8 bytes, three times
+    /// that while bounces are added.
     pub fn new(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64) -> Self {
         Self::cast(mesh, sky, config, seed, false)
     }
 
-    /// Likewise, with the change of the shading as the sky comes nearer: half as much memory again.
+    /// Casts all rays, and computes the derivative of the shading with respect to nearness as well: half as much
+    /// memory again.
     pub fn with_nearness(mesh: &Mesh, sky: &Sky, config: &TransportConfig, seed: u64) -> Self {
         Self::cast(mesh, sky, config, seed, true)
     }
@@ -99,7 +100,7 @@ impl Transport {
 
         let (low, high) = mesh.bounds();
         let longest = (high - low).max_element();
-        let near = 2.0 / (NEAR_RADIUS * longest);
+        let nearness_unit = 2.0 / (NEAR_RADIUS * longest);
         let rays = sky.rays(config.rays_per_cell_side, seed);
         let caster = Caster {
             occluder: Occluder::new(mesh),
@@ -107,7 +108,7 @@ impl Transport {
             rays: &rays,
             centre: 0.5 * (low + high),
             nearness: sky.nearness,
-            near: sky.nearness + near,
+            nearer: sky.nearness + nearness_unit,
             row: &row,
             size,
         };
@@ -115,27 +116,38 @@ impl Transport {
         let cells = sky.len();
         let entries = texels.len() * cells;
         let mut direct = vec![0.0; entries];
-        let mut open = vec![0.0; entries];
-        let mut gain = vec![0.0; if has_nearness { entries } else { 0 }];
-        let mut parts = [&mut direct, &mut open, &mut gain].map(|rows| rows.chunks_mut(cells));
-        let seen: Vec<Seen> = (0..texels.len())
+        let mut visible = vec![0.0; entries];
+        let mut by_nearness = vec![0.0; if has_nearness { entries } else { 0 }];
+        let parts = [&mut direct, &mut visible, &mut by_nearness];
+        let mut parts = parts.map(|rows| rows.chunks_mut(cells));
+        let rows_of_texels: Vec<RowsOfTexel> = (0..texels.len())
             .map(|_| parts.each_mut().map(|rows| rows.next().unwrap_or_default()))
-            .map(|[direct, open, gain]| Seen { direct, open, gain })
+            .map(|[direct, visible, by_nearness]| RowsOfTexel { direct, visible, by_nearness })
             .collect();
-        let cast = |(texel, seen): (&usize, Seen)| {
+        let cast = |(texel, rows): (&usize, RowsOfTexel)| {
             cancel::check();
             let normal = atlas.normals[*texel];
-            caster.texel(atlas.positions[*texel] + lift * normal, normal, seen)
+            caster.texel(atlas.positions[*texel] + lift * normal, normal, rows)
         };
-        let bounces: Vec<Bounces> = texels.par_iter().zip(seen).map(cast).collect();
+        let bounces: Vec<Bounces> = texels.par_iter().zip(rows_of_texels).map(cast).collect();
         let matrix = Matrix::with_bounces(direct, &bounces, cells, config);
-        let open = Matrix { rows: open, cells };
+        let visible_solid_angle = Matrix { rows: visible, cells };
         let with_bounces = |rows| Matrix::with_bounces(rows, &bounces, cells, config);
-        let gain = (!gain.is_empty()).then(|| with_bounces(gain));
+        let by_nearness = has_nearness.then(|| with_bounces(by_nearness));
         let places = texels.iter().map(|texel| atlas.positions[*texel] - caster.centre).collect();
         let normals = texels.iter().map(|texel| atlas.normals[*texel]).collect();
         let sky = sky.clone();
-        Self { size, matrix, gain, open, near, places, normals, sky, row }
+        Self {
+            size,
+            matrix,
+            by_nearness,
+            visible_solid_angle,
+            nearness_unit,
+            places,
+            normals,
+            sky,
+            row,
+        }
     }
 
     /// Side of the chart's texture.
@@ -148,7 +160,7 @@ impl Transport {
         self.matrix.cells
     }
 
-    /// What a light of 1 from every cell adds to the shading of a texel of the square.
+    /// The share of every cell of radiance 1 in the shading of a texel of the square.
     pub fn cells_of(&self, texel: usize) -> &[f32] {
         &self.matrix.rows[self.row[texel] as usize * self.cells()..][..self.cells()]
     }
@@ -158,81 +170,92 @@ impl Transport {
         self.matrix.rows.is_empty()
     }
 
-    /// The nearness, per metre, of the unit of [`Self::shading`]'s `nearer`.
-    pub fn near(&self) -> f32 {
-        self.near
+    /// The inverse radius of the sky for which the rays were cast, per metre.
+    pub fn nearness_per_metre(&self) -> f32 {
+        self.sky.nearness
     }
 
-    /// The most that a sky at infinity may come nearer, in the same unit.
-    pub fn nearest(&self) -> f32 {
+    /// The unit of relative nearness, per metre: the nearness of a sphere around the head of about one metre.
+    pub fn nearness_unit(&self) -> f32 {
+        self.nearness_unit
+    }
+
+    /// The largest relative nearness of a sky at infinity.
+    pub fn max_relative_nearness(&self) -> f32 {
         NEAR_RADIUS / LEAST_RADIUS
     }
 
-    /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell;
-    /// outside the chart that of the nearest texel inside.
+    /// The diffuse shading, R, G, B per texel of the square, in a light of R, G, B per cell. A texel outside the chart
+    /// has the shading of the nearest texel inside.
     pub fn shading(&self, light: &[f32]) -> Vec<f32> {
         self.spread(&self.matrix.product(light))
     }
 
-    /// The adjoint of [`Self::shading`]: the gradient by the light.
+    /// The adjoint of [`Self::shading`]: the gradient with respect to the light.
     pub fn adjoint(&self, by_shading: &[f32]) -> Vec<f32> {
         self.matrix.adjoint(&self.collected(by_shading))
     }
 
-    /// The shading when the sky has come nearer, to first order: by `nearer` times [`Self::near`]; and
-    /// how it changes with `nearer`, if the transport holds that.
-    pub fn shading_nearer(&self, light: &[f32], nearer: f32) -> (Vec<f32>, Option<Vec<f32>>) {
-        let (mut shading, gain) = (self.shading(light), self.gain(light));
-        if let Some(gain) = &gain {
-            shading.iter_mut().zip(gain).for_each(|(s, gain)| *s += nearer * gain);
+    /// The shading from a sky that is nearer by `relative_nearness` x [`Self::nearness_unit`], to first order; and its
+    /// derivative with respect to the relative nearness. A transport without that derivative ignores the nearness.
+    pub fn shading_nearer(
+        &self,
+        light: &[f32],
+        relative_nearness: f32,
+    ) -> (Vec<f32>, Option<Vec<f32>>) {
+        let (mut shading, by_nearness) = (self.shading(light), self.shading_by_nearness(light));
+        if let Some(slopes) = &by_nearness {
+            let texels = shading.iter_mut().zip(slopes);
+            texels.for_each(|(shading, slope)| *shading += relative_nearness * slope);
         }
-        (shading, gain)
+        (shading, by_nearness)
     }
 
-    /// The adjoint of [`Self::shading_nearer`]: the gradient by the light.
-    pub fn adjoint_nearer(&self, by_shading: &[f32], nearer: f32) -> Vec<f32> {
+    /// The adjoint of [`Self::shading_nearer`]: the gradient with respect to the light.
+    pub fn adjoint_nearer(&self, by_shading: &[f32], relative_nearness: f32) -> Vec<f32> {
         let mut by_light = self.adjoint(by_shading);
-        if let Some(gain) = self.gain_adjoint(by_shading) {
-            by_light.iter_mut().zip(gain).for_each(|(g, gain)| *g += nearer * gain);
+        if let Some(slopes) = self.adjoint_by_nearness(by_shading) {
+            let cells = by_light.iter_mut().zip(slopes);
+            cells.for_each(|(gradient, slope)| *gradient += relative_nearness * slope);
         }
         by_light
     }
 
-    /// The gain of the shading as the sky comes nearer by [`Self::near`]; to first order.
-    pub fn gain(&self, light: &[f32]) -> Option<Vec<f32>> {
-        self.gain.as_ref().map(|gain| self.spread(&gain.product(light)))
+    /// The derivative of the shading with respect to the relative nearness.
+    fn shading_by_nearness(&self, light: &[f32]) -> Option<Vec<f32>> {
+        self.by_nearness.as_ref().map(|matrix| self.spread(&matrix.product(light)))
     }
 
-    /// The adjoint of [`Self::gain`].
-    pub fn gain_adjoint(&self, by_shading: &[f32]) -> Option<Vec<f32>> {
-        self.gain.as_ref().map(|gain| gain.adjoint(&self.collected(by_shading)))
+    /// The adjoint of [`Self::shading_by_nearness`].
+    fn adjoint_by_nearness(&self, by_shading: &[f32]) -> Option<Vec<f32>> {
+        self.by_nearness.as_ref().map(|matrix| matrix.adjoint(&self.collected(by_shading)))
     }
 
-    /// How S_d of every channel changes with the normal (x, y, z of R, then of G and B; 9 values per
-    /// texel of the square): the visible light summed as a vector. Of bounces and of what rises over
-    /// the texel's horizon nothing.
+    /// The derivative of S_d with respect to the normal (x, y, z of R, then of G and B; 9 values per texel of the
+    /// square): the vector sum of the visible light. Bounce light, and light that rises over the texel's horizon, are
+    /// left out.
     pub fn shading_by_normal(&self, light: &[f32]) -> Vec<f32> {
         let centres = self.sky.centres();
         let (light, _) = light.as_chunks::<CHANNELS>();
         let row = |(row, place): (&[f32], &Vec3)| {
             let mut sum = [Vec3::ZERO; CHANNELS];
-            for ((open, centre), light) in row.iter().zip(&centres).zip(light) {
-                if *open > 0.0 {
+            for ((visible, centre), light) in row.iter().zip(&centres).zip(light) {
+                if *visible > 0.0 {
                     let towards = (*centre - self.sky.nearness * *place).normalize();
-                    (0..CHANNELS).for_each(|c| sum[c] += open * light[c] * towards);
+                    (0..CHANNELS).for_each(|c| sum[c] += visible * light[c] * towards);
                 }
             }
             let mut flat = [0.0; 3 * CHANNELS];
             (0..CHANNELS).for_each(|c| flat[3 * c..3 * c + 3].copy_from_slice(&sum[c].to_array()));
             flat
         };
-        let rows: Vec<_> =
-            self.open.rows.par_chunks(self.cells()).zip(&self.places).map(row).collect();
+        let rows = self.visible_solid_angle.rows.par_chunks(self.cells());
+        let rows: Vec<_> = rows.zip(&self.places).map(row).collect();
         self.spread(&rows)
     }
 
-    /// The largest S_d that a texel in front (normal towards +Z) would have if nothing stood in the
-    /// light's way, as Rec.709 luminance: what pictures are exposed by. 0 without such texels.
+    /// The largest unoccluded S_d of texels in front (normal towards +Z), as Rec.709 luminance. By convention it sets
+    /// the exposure of pictures. 0 without such texels.
     pub fn peak(&self, light: &[f32]) -> f32 {
         let rays = self.sky.rays(1, 0);
         let light = luminances(light);
@@ -260,17 +283,17 @@ impl Transport {
 
 /// Rec.709 luminances of R, G, B per cell.
 pub(crate) fn luminances(light: &[f32]) -> Vec<f32> {
-    let luminance = |light: &[f32; CHANNELS]| light.iter().zip(LUMINANCE).map(|(l, w)| l * w).sum();
-    light.as_chunks::<CHANNELS>().0.iter().map(luminance).collect()
+    light.as_chunks::<CHANNELS>().0.iter().map(|rgb| luminance(rgb)).collect()
 }
 
-/// The visibility of every cell from a texel.
-struct Seen<'a> {
-    /// Its row of T0.
+/// The rows of a texel in the matrices of direct light, one value per cell.
+struct RowsOfTexel<'a> {
+    /// T0.
     direct: &'a mut [f32],
-    /// Its visibility, and its gain as the sky comes nearer; empty if not asked for.
-    open: &'a mut [f32],
-    gain: &'a mut [f32],
+    /// Visible solid angle over pi.
+    visible: &'a mut [f32],
+    /// The change of T0 by a unit of nearness; empty if it is not needed.
+    by_nearness: &'a mut [f32],
 }
 
 struct Caster<'a> {
@@ -280,21 +303,21 @@ struct Caster<'a> {
     /// Centre of the sky's sphere.
     centre: Vec3,
     nearness: f32,
-    /// The nearness to compare with.
-    near: f32,
+    /// The nearness at the other end of the finite difference.
+    nearer: f32,
     row: &'a [u32],
     size: usize,
 }
 
 impl Caster<'_> {
-    /// Adds up in `seen`, and returns the texel's row of B.
-    fn texel(&self, origin: Vec3, normal: Vec3, seen: Seen) -> Bounces {
-        let nearness = !seen.gain.is_empty();
+    /// Adds all rays of a texel to its rows, and returns its row of B.
+    fn texel(&self, origin: Vec3, normal: Vec3, rows: RowsOfTexel) -> Bounces {
+        let has_nearness = !rows.by_nearness.is_empty();
         let mut bounces = Bounces::new();
         let place = origin - self.centre;
         for ray in self.rays {
             let weight = received(ray, place, normal, self.nearness);
-            let nearer = if nearness { received(ray, place, normal, self.near) } else { 0.0 };
+            let nearer = if has_nearness { received(ray, place, normal, self.nearer) } else { 0.0 };
             if weight.max(nearer) <= 0.0 {
                 continue;
             }
@@ -303,14 +326,14 @@ impl Caster<'_> {
             match self.occluder.first_hit(origin, direction) {
                 None => {
                     let cell = ray.cell as usize;
-                    seen.direct[cell] += weight;
-                    if nearness {
-                        seen.gain[cell] += nearer - weight;
+                    rows.direct[cell] += weight;
+                    if has_nearness {
+                        rows.by_nearness[cell] += nearer - weight;
                     }
-                    seen.open[cell] += open(ray, place, self.nearness);
+                    rows.visible[cell] += solid_angle(ray, place, self.nearness);
                 }
                 Some(hit) if hit.front => bounces.push((self.row_at(&hit), weight)),
-                // The back of a surface is inside the head: dark.
+                // The back of a surface is inside the head, and dark.
                 Some(_) => {}
             }
         }
@@ -332,8 +355,8 @@ impl Caster<'_> {
     }
 }
 
-/// Cosine-weighted solid angle over pi of a part of the sky, seen from `place` (from its centre); see
-/// the module's formula.
+/// The cosine-weighted solid angle over pi of a part of the sky, from a `place` relative to its centre, by the
+/// module's formula.
 fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
     let towards = ray.direction - nearness * place;
     let facing = 1.0 - nearness * ray.direction.dot(place);
@@ -342,9 +365,9 @@ fn received(ray: &SkyRay, place: Vec3, normal: Vec3, nearness: f32) -> f32 {
     ray.solid_angle * facing * cosine / (squared * squared) * std::f32::consts::FRAC_1_PI
 }
 
-/// [`received`] by a normal that faces the part of the sky. Not found by dividing by the cosine: of a
-/// direction made a unit vector, the cosine may round to zero where the other one did not.
-fn open(ray: &SkyRay, place: Vec3, nearness: f32) -> f32 {
+/// The solid angle over pi of a part of the sky: [`received`] by a normal that faces it. A division by the cosine
+/// would fail at grazing angles, where one of two equal cosines may round to zero.
+fn solid_angle(ray: &SkyRay, place: Vec3, nearness: f32) -> f32 {
     received(ray, place, (ray.direction - nearness * place).normalize(), nearness)
 }
 

@@ -1,4 +1,4 @@
-//! The highlights that a light makes on skin, by the transport's visibility.
+//! Highlights of skin as a linear function of the light, with the transport's visibility.
 
 use formats::cancel;
 use glam::Vec3;
@@ -11,22 +11,23 @@ use crate::config::SkinConfig;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 
-/// Shares of a lobe that are left out: they change no sum, but their products with other factors would be
-/// subnormal, which some processors take a hundred times as long for.
+/// Shares of a lobe below this are left out: they change no sum, but their products would be subnormal numbers, which
+/// take some processors a hundred times as long.
 const FAINT: f32 = 1e-16;
 
-/// From a light to the highlights of samples, linear.
+/// The matrix from a light to the highlights of samples.
 #[derive(Debug)]
 pub struct Reflection(Matrix);
 
 impl Reflection {
-    /// Radiance of every sample in a light of R, G, B per cell.
+    /// The radiance of every sample in a light of R, G, B per cell.
     pub fn radiance(&self, light: &[f32]) -> Vec<[f32; CHANNELS]> {
         self.0.product(light)
     }
 
-    /// The gradient by the light, if `value` makes of a sample and its [radiance](Self::radiance) the gradient
-    /// by that; and what else it makes. In one pass over the rows, which are most of the bytes of a step.
+    /// Returns the gradient with respect to the light, where `value` returns the gradient with respect to the
+    /// [radiance](Self::radiance) of a sample; and the other results of `value`. One pass over the rows, which are most
+    /// of the bytes of a step.
     pub fn exchange<T: Send>(
         &self,
         light: &[f32],
@@ -37,18 +38,17 @@ impl Reflection {
 }
 
 impl Transport {
-    /// The highlights of samples with these [`SpecularTerm`] terms, in colour, for lights of the scale that has
-    /// this `peak`, at a nearness per metre that may be another than what the rays were
-    /// cast for. Takes samples x cells x 4 bytes.
+    /// Returns the reflection of samples with these [`SpecularTerm`] terms, for lights of this `peak` at a nearness per
+    /// metre, which may differ from that of the cast rays. Takes samples x cells x 4 bytes.
     pub fn reflection(
         &self,
         skin: &SkinConfig,
         samples: &Samples,
         specular: &Planes,
         peak: f32,
-        nearness: f32,
+        nearness_per_metre: f32,
     ) -> Reflection {
-        let (open, centres) = (&self.open, self.sky.centres());
+        let centres = self.sky.centres();
         let (cells, lobes) = (self.cells(), self.lobes(LIGHT_EXPONENT));
         let mut rows = vec![0.0; samples.len() * cells];
         rows.par_chunks_mut(cells.max(1)).enumerate().for_each(|(i, row)| {
@@ -56,48 +56,47 @@ impl Transport {
             let specular = SpecularTerm::at(specular, i);
             let scale = scale(skin, peak) * specular.reflectance;
             let skin = &specular.lobes_of(skin);
-            for (cell, weight) in self.reflecting(skin, open, &centres, samples, i, nearness) {
+            let from = nearness_per_metre * self.places[self.row_of(samples, i)];
+            for (cell, weight) in self.reflecting(skin, &centres, samples, i, from) {
                 add_scaled(row, &lobes[cell * cells..][..cells], scale * weight);
             }
         });
         Reflection(Matrix { rows, cells })
     }
 
-    /// Cells that a sample sees, each with the part of its light that the sample reflects towards its
-    /// camera, times F0 / pi.
+    /// Returns the visible cells of a sample, each with the share of its light that is reflected towards the camera,
+    /// times F0 / pi. The sample lies at `from`, in units of the sky's radius.
     fn reflecting<'a>(
         &'a self,
         skin: &'a SkinConfig,
-        open: &'a Matrix,
         centres: &'a [Vec3],
         samples: &Samples,
         i: usize,
-        nearness: f32,
+        from: Vec3,
     ) -> impl Iterator<Item = (usize, f32)> + 'a {
         let row = self.row_of(samples, i);
         let normal = Vec3::from_array(samples.normal.sample(i, 0));
         let view = Vec3::from_array(samples.view.sample(i, 0));
-        let from = nearness * self.places[row];
-        let cells = open.rows[row * self.cells()..].iter().zip(centres).enumerate();
-        cells.filter(|(_, (open, _))| **open > 0.0).map(move |(cell, (open, centre))| {
-            (cell, open * reflected(skin, normal, view, (*centre - from).normalize()))
+        let visible = &self.visible_solid_angle.rows[row * self.cells()..];
+        let cells = visible.iter().zip(centres).enumerate();
+        cells.filter(|(_, (visible, _))| **visible > 0.0).map(move |(cell, (visible, centre))| {
+            (cell, visible * reflected(skin, normal, view, (*centre - from).normalize()))
         })
     }
 
-    /// The row of the texel that a sample lies in, whatever the side of its taps.
+    /// The row of the texel in which a sample lies, for taps of any side.
     pub(super) fn row_of(&self, samples: &Samples, i: usize) -> usize {
         let (at, side) = (samples.taps.nearest(i), samples.taps.size());
         let texel = |x: usize| x * self.size / side;
         self.row[texel(at / side) * self.size + texel(at % side)] as usize
     }
 
-    /// A light of R, G, B per cell, every cell seen through a power of the cosine.
+    /// Filters a light of R, G, B per cell with a power of the cosine.
     pub(super) fn through_lobes(&self, light: &[f32], exponent: i32) -> Vec<[f32; CHANNELS]> {
         Matrix { rows: self.lobes(exponent), cells: self.cells() }.product(light)
     }
 
-    /// For every cell the weights of all cells in a lobe around it: rows of sum 1. Finer than that, the cells do
-    /// not tell of the light.
+    /// The weights of all cells in a lobe around every cell: rows of sum 1.
     fn lobes(&self, exponent: i32) -> Vec<f32> {
         let (rays, centres) = (self.sky.rays(1, 0), self.sky.centres());
         let lobe = |centre: &Vec3| {
@@ -113,7 +112,7 @@ impl Transport {
     }
 }
 
-/// From [`Transport::reflecting`] to radiance by the reflectance at normal incidence, in a light of this
+/// The factor from [`Transport::reflecting`] to radiance for a reflectance of 1 at normal incidence, in a light of this
 /// peak.
 pub(super) fn scale(skin: &SkinConfig, peak: f32) -> f32 {
     std::f32::consts::PI / (skin.f0 * peak.max(f32::MIN_POSITIVE))

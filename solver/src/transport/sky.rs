@@ -8,7 +8,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use super::{CHANNELS, LUMINANCE};
+use super::{CHANNELS, luminance};
 
 /// A direction within a cell and the solid angle it stands for, both from the head's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +47,8 @@ pub struct Sky {
 }
 
 impl Sky {
-    /// `rows` x `2 rows` cells of equal polar and azimuthal angle, at infinity.
-    pub fn even(rows: usize) -> Self {
+    /// Returns `rows` x `2 rows` cells of equal polar and azimuthal angle, at infinity.
+    pub fn lat_long(rows: usize) -> Self {
         let columns = 2 * rows;
         let cell = |index: usize| {
             let (row, column) = (index / columns, index % columns);
@@ -60,12 +60,12 @@ impl Sky {
         Self { cells: (0..rows * columns).map(cell).collect(), nearness: 0.0 }
     }
 
-    /// These cells on a sphere of another nearness.
+    /// Moves these cells to a sphere of another nearness.
     pub fn at(self, nearness: f32) -> Self {
         Self { nearness, ..self }
     }
 
-    /// How many cells.
+    /// The number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
     }
@@ -75,7 +75,7 @@ impl Sky {
         self.cells.is_empty()
     }
 
-    /// Jittered directions, `side` x `side` to a cell; together they stand for the whole sphere.
+    /// Returns jittered directions, `side` x `side` to a cell, whose solid angles sum to the whole sphere.
     pub fn rays(&self, side: usize, seed: u64) -> Vec<SkyRay> {
         let mut random = Pcg64::seed_from_u64(seed);
         let mut unit = || (f64::from(random.next_u32()) + 0.5) / (1u64 << 32) as f64;
@@ -99,7 +99,7 @@ impl Sky {
         rays
     }
 
-    /// The middle of every cell.
+    /// The central direction of every cell, unit.
     pub fn centres(&self) -> Vec<Vec3> {
         let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
         let centre = |cell: &Cell| {
@@ -111,23 +111,18 @@ impl Sky {
     }
 }
 
-/// How much a light of R, G, B per cell of an even sky of `rows` rows differs with direction: the
-/// standard deviation of its luminance over the mean, over directions in front (+Z), seen through a
-/// lobe as wide as skin's highlights (the eighth power of the cosine). About 0.1 under a dome, 1 under
-/// softboxes.
+/// The contrast of a light of R, G, B per cell of [`Sky::lat_long`] with `rows` rows: the standard deviation of its
+/// luminance over the mean, over directions in front (+Z), filtered with a lobe as wide as skin's highlights (the
+/// eighth power of the cosine). About 0.1 under a dome, 1 under softboxes.
 pub fn contrast(rows: usize, light: &[f32]) -> f32 {
     const LOBE: i32 = 8;
-    let rays = Sky::even(rows).rays(1, 0);
-    let luminance = |cell: u32| {
-        let at = CHANNELS * cell as usize;
-        light[at..at + CHANNELS].iter().zip(LUMINANCE).map(|(l, w)| f64::from(l * w)).sum::<f64>()
-    };
+    let rays = Sky::lat_long(rows).rays(1, 0);
     let seen = |front: &SkyRay| {
         let (mut sum, mut total) = (0.0, 0.0);
         for ray in &rays {
             let cosine = ray.direction.dot(front.direction).max(0.0);
             let weight = f64::from(cosine.powi(LOBE) * ray.solid_angle);
-            sum += weight * luminance(ray.cell);
+            sum += weight * luminance::<f64>(&light[CHANNELS * ray.cell as usize..][..CHANNELS]);
             total += weight;
         }
         (f64::from(front.solid_angle), sum / total)
@@ -147,7 +142,7 @@ mod tests {
 
     #[test]
     fn directions_cover_the_sphere_evenly() {
-        let sky = Sky::even(16);
+        let sky = Sky::lat_long(16);
         let rays = sky.rays(3, 0);
         let total: f64 = rays.iter().map(|ray| f64::from(ray.solid_angle)).sum();
         assert!((total - 4.0 * PI).abs() < 1e-4, "{total}");
@@ -164,11 +159,12 @@ mod tests {
     }
 
     #[test]
-    fn an_even_light_has_no_contrast_and_a_lamp_has_much() {
-        let cells = Sky::even(16).len();
+    fn a_uniform_light_has_no_contrast_and_a_lamp_has_much() {
+        let cells = Sky::lat_long(16).len();
         let mut light = vec![0.5; CHANNELS * cells];
         assert!(contrast(16, &light) < 1e-6);
-        let lamp = Sky::even(16).rays(1, 0).iter().position(|ray| ray.direction.z > 0.95).unwrap();
+        let lamp =
+            Sky::lat_long(16).rays(1, 0).iter().position(|ray| ray.direction.z > 0.95).unwrap();
         light[CHANNELS * lamp..CHANNELS * (lamp + 1)].fill(500.0);
         assert!(contrast(16, &light) > 1.0);
     }

@@ -6,7 +6,7 @@ fn config(size: usize) -> TransportConfig {
 }
 
 fn plain(mesh: &Mesh, config: &TransportConfig, seed: u64) -> Transport {
-    Transport::new(mesh, &Sky::even(config.rows), config, seed)
+    Transport::new(mesh, &Sky::lat_long(config.rows), config, seed)
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn a_wall_shadows_the_floor_from_one_side() {
     let config = TransportConfig { bounces: 0, ..config(32) };
     let transport = plain(&mesh, &config, 0);
     let light_from = |x: f32| {
-        let sky = Sky::even(config.rows).rays(1, 0);
+        let sky = Sky::lat_long(config.rows).rays(1, 0);
         let lit = |cell: usize| {
             let direction = sky[cell].direction;
             let low = direction.y > 0.0 && direction.y < 0.5;
@@ -102,7 +102,7 @@ fn threads_do_not_change_a_bit() {
 fn a_near_lamp_follows_the_inverse_square() {
     let mesh = testing::dome(16);
     let config = TransportConfig { rays_per_cell_side: 8, ..config(32) };
-    let sky = Sky::even(8).at(0.5);
+    let sky = Sky::lat_long(8).at(0.5);
     let transport = Transport::new(&mesh, &sky, &config, 0);
     let centres = sky.centres();
     let front = |a: &usize, b: &usize| centres[*a].z.total_cmp(&centres[*b].z);
@@ -139,18 +139,17 @@ fn a_near_lamp_follows_the_inverse_square() {
 }
 
 #[test]
-fn what_nearness_gains_is_what_a_nearer_sky_gives() {
+fn the_derivative_with_respect_to_nearness_is_the_change_to_a_nearer_sky() {
     let mesh = testing::dome(16);
-    let far = Transport::with_nearness(&mesh, &Sky::even(8), &config(32), 0);
-    let near = Sky::even(8).at(far.near());
+    let far = Transport::with_nearness(&mesh, &Sky::lat_long(8), &config(32), 0);
+    let near = Sky::lat_long(8).at(far.nearness_unit());
     let near = Transport::new(&mesh, &near, &config(32), 0);
     let light: Vec<f32> = (0..CHANNELS * far.cells()).map(|i| 1.0 + (i as f32).sin()).collect();
-    let gain = far.gain(&light).unwrap();
-    let sums = far.shading(&light).into_iter().zip(gain).map(|(s, gain)| s + gain);
-    for (sum, expected) in sums.zip(near.shading(&light)) {
-        assert!((sum - expected).abs() < 0.02, "{sum} {expected}");
+    let (found, _) = far.shading_nearer(&light, 1.0);
+    for (found, expected) in found.into_iter().zip(near.shading(&light)) {
+        assert!((found - expected).abs() < 0.02, "{found} {expected}");
     }
-    assert!(near.gain(&light).is_none());
+    assert!(near.shading_nearer(&light, 1.0).1.is_none());
 }
 
 /// On a convex surface the shading under a bent normal is that of the bent normal.
@@ -158,7 +157,7 @@ fn what_nearness_gains_is_what_a_nearer_sky_gives() {
 fn shading_by_normal_is_the_change_of_shading_with_the_normal() {
     let mesh = testing::dome(16);
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
-    let sky = Sky::even(8);
+    let sky = Sky::lat_long(8);
     let transport = Transport::new(&mesh, &sky, &config, 0);
     // A lamp overhead in front, far above the horizon of the texels that are looked at.
     let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
@@ -187,12 +186,11 @@ fn shading_by_normal_is_the_change_of_shading_with_the_normal() {
     }
 }
 
-/// Light that grazes: of the two cosines, with a direction and with the same made a unit vector, one may
-/// round to zero and the other not.
+/// At grazing angles, the cosine with a direction may round to zero where the cosine with its unit vector does not.
 #[test]
-fn what_is_open_to_grazing_light_is_finite() {
+fn solid_angles_of_grazing_light_are_finite() {
     let mesh = testing::dome(4);
-    let sky = Sky::even(16).at(0.01);
+    let sky = Sky::lat_long(16).at(0.01);
     let rays = sky.rays(4, 0);
     let caster = Caster {
         occluder: Occluder::new(&mesh),
@@ -200,7 +198,7 @@ fn what_is_open_to_grazing_light_is_finite() {
         rays: &rays,
         centre: Vec3::ZERO,
         nearness: sky.nearness,
-        near: 0.0,
+        nearer: 0.0,
         row: &[0; 4],
         size: 2,
     };
@@ -210,10 +208,11 @@ fn what_is_open_to_grazing_light_is_finite() {
         let towards = ray.direction - sky.nearness * origin;
         let (across, up) = towards.normalize().any_orthonormal_pair();
         for normal in [across, up, (across + up).normalize(), (across - up).normalize()] {
-            let [mut direct, mut open] = [(); 2].map(|()| vec![0.0; sky.len()]);
-            let seen = Seen { direct: &mut direct, open: &mut open, gain: &mut [] };
-            caster.texel(origin, normal, seen);
-            assert!(open.iter().all(|open| (0.0..0.1).contains(open)), "{normal}");
+            let [mut direct, mut visible] = [(); 2].map(|()| vec![0.0; sky.len()]);
+            let rows =
+                RowsOfTexel { direct: &mut direct, visible: &mut visible, by_nearness: &mut [] };
+            caster.texel(origin, normal, rows);
+            assert!(visible.iter().all(|v| (0.0..0.1).contains(v)), "{normal}");
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::confidence::{confidence, picture_weight};
 use super::inpainting::inpaint_from_region;
+use super::light::JointEstimate;
 use super::lighting::{Lighting, SHADING_ROWS, bent_shading};
 use super::region_terms::RegionTerms;
 use super::relief::Relief;
@@ -17,36 +18,36 @@ use crate::model::texture::resample;
 use crate::run::Run;
 use crate::run::error::SolveError;
 use crate::semantic::regions::FaceRegions;
-use crate::transport::{CHANNELS, LIGHT_EXPONENT};
+use crate::transport::{CHANNELS, GREEN, LIGHT_EXPONENT};
 
-/// The channel by which a pixel is weighed.
-const GREEN: usize = 1;
-/// Diffuse albedo that counts as the least where errors or highlights are compared with it.
-const DARKEST_ALBEDO: f32 = 0.02;
-/// Weight of the prior in hair that labels call skin, relative to skin's: strands on skin vary more than either.
+/// Least albedo by which errors and highlights are divided.
+const LEAST_DIVISOR: f32 = 0.02;
+/// Weight of the prior in hair that labels call skin, relative to skin: strands on skin vary more than hair or skin
+/// alone. The fit has one weight of the prior for all texels, so the weights of these samples are divided by it.
 const PRIOR_OF_HAIR_IN_SKIN: f32 = 0.33;
-/// Standard deviation of the neighbourhood by which hair, brows and lips begin where pictures hardly show them, texels.
+/// Standard deviation of the neighbourhood from which hair, brows and lips are inpainted, texels.
 const INPAINTING_REACH: f32 = 60.0;
 
-/// The diffuse albedo, in units of 1 / S_d, and the confidence in every texel, 0 to 1.
+/// The unscaled diffuse albedo (see [`JointEstimate::albedo`]) and the confidence of every texel, 0 to 1.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct AlbedoEstimate {
     pub albedo: Vec<f32>,
     pub confidence: Vec<f32>,
 }
 
-/// Shading and highlights of the light on relief, at samples.
+/// Shading and highlights of the light on the relief, at samples.
 pub(super) struct Layers {
     /// S_d, R, G, B.
     pub shading: Planes,
-    /// See [`Lighting::sampled`].
-    changes: Planes,
-    /// R, G, B in its first rows.
+    /// See [`Lighting::shading_with_derivative`].
+    shading_with_derivative: Planes,
+    /// Highlights, R, G, B, in the first rows.
     pub highlights: Planes,
 }
 
 impl Layers {
-    /// Under the normals of the relief, whose side is that of the samples' taps.
+    /// Evaluates the light on the normals of the relief and of its `blurred` deviation, both of the size of the samples'
+    /// taps.
     pub fn new(
         run: &Run,
         lighting: &Lighting,
@@ -58,13 +59,14 @@ impl Layers {
         let sharp = samples.taps.sample::<3>(&relief.deviation);
         let soft = samples.taps.sample::<3>(blurred);
         let highlights = lighting.highlights(run.backend, terms, samples, LIGHT_EXPONENT);
-        let changes = lighting.sampled(samples);
+        let shading_with_derivative = lighting.shading_with_derivative(samples);
         let shading = Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(samples.normal.sample(i, 0));
             let bent = (normal + Vec3::from_array(soft.sample(i, 0))).normalize();
-            bent_shading(&changes.sample(i, 0), normal, bent)
+            bent_shading(&shading_with_derivative.sample(i, 0), normal, bent)
         });
-        Self { shading, highlights: highlights.at(samples, &sharp), changes }
+        let highlights = highlights.at(samples, &sharp);
+        Self { shading, shading_with_derivative, highlights }
     }
 }
 
@@ -76,102 +78,107 @@ pub(super) struct FullPictures<'a> {
     pub regions: &'a [u8],
 }
 
-/// The diffuse albedo on the final texture.
+/// Fits the diffuse albedo on the final texture.
 pub(super) fn fit_albedo(
     run: &mut Run,
+    name: &str,
     config: &UnshadeConfig,
     pictures: &FullPictures,
     lighting: &Lighting,
-    terms: &RegionTerms,
+    joint: &JointEstimate,
     relief: &Relief,
 ) -> Result<AlbedoEstimate, SolveError> {
     let FullPictures { samples, face, regions } = *pictures;
     let size = samples.taps.size();
-    let Layers { shading, changes, highlights } =
-        Layers::new(run, lighting, terms, relief, &relief.blurred(), samples);
+    let Layers { shading, shading_with_derivative, highlights } =
+        Layers::new(run, lighting, &joint.terms, relief, &relief.blurred(), samples);
     let target = Planes::from_fn::<CHANNELS>(samples.len(), |i| {
         std::array::from_fn(|c| samples.target.get(c, i) - highlights.get(c, i))
     });
-    let mut diffuse = resample(&lighting.albedo, lighting.size(), CHANNELS, size);
+    let mut diffuse = resample(&joint.albedo, lighting.size(), CHANNELS, size);
     let albedo = samples.taps.sample::<CHANNELS>(&diffuse);
-    let model = Model { shading: &shading, changes: &changes, albedo: &albedo, target: &target };
-    let weight = model.weights(&config.model_error, lighting.half_disagreement, samples);
+    let model = Model {
+        shading: &shading,
+        shading_with_derivative: &shading_with_derivative,
+        albedo: &albedo,
+        target: &target,
+    };
+    let weight = model.weights(&config.model_error, lighting.fold_disagreement, samples);
     let weight = Planes::from_fn(samples.len(), |i| {
         let hair = face.hair_in_skin.contains(&regions[samples.taps.nearest(i)]);
         [weight.get(0, i) / if hair { PRIOR_OF_HAIR_IN_SKIN } else { 1.0 }]
     });
-    // What the fit reads, and no more.
-    let rest = Samples {
+    // Only what the fit reads.
+    let diffuse_samples = Samples {
         weight,
         target,
         taps: samples.taps.clone(),
         pixel: samples.pixel.clone(),
         ..Samples::none(size)
     };
-    let prior = config.albedo.prior;
-    let picture_weights = picture_weight(prior, &rest, &shading);
+    let prior_weight = config.albedo.prior;
+    let picture_weights = picture_weight(prior_weight, &diffuse_samples, &shading);
     inpaint_from_region(&mut diffuse, regions, &face.skin, &picture_weights, INPAINTING_REACH);
-    let steps = AlbedoSteps { iterations: config.albedo.steps, prior, minimum: 0.0 };
-    let by_albedo = Adam::new(&AdamConfig::default(), config.albedo.rate, diffuse.len());
-    let no_highlights = Planes::from_fn(rest.len(), |i| {
+    let steps = AlbedoSteps { iterations: config.albedo.steps, prior_weight, minimum: 0.0 };
+    let adam = Adam::new(&AdamConfig::default(), config.albedo.rate, diffuse.len());
+    let no_highlights = Planes::from_fn(diffuse_samples.len(), |i| {
         let [r, g, b]: [f32; CHANNELS] = shading.sample(i, 0);
         [r, g, b, 0.0]
     });
-    let mut fit = AlbedoFit::new(steps, by_albedo, &rest, &no_highlights, diffuse);
-    run.fit("albedo", &mut fit)?;
-    let albedo = rest.taps.sample::<CHANNELS>(&fit.albedo);
-    let confidence = confidence(prior, &rest, &samples.target, &shading, &albedo);
+    let mut fit = AlbedoFit::new(steps, adam, &diffuse_samples, &no_highlights, diffuse);
+    run.fit(name, &mut fit)?;
+    let albedo = diffuse_samples.taps.sample::<CHANNELS>(&fit.albedo);
+    let confidence = confidence(prior_weight, &diffuse_samples, &samples.target, &shading, &albedo);
     Ok(AlbedoEstimate { albedo: fit.albedo, confidence })
 }
 
-/// Error of the shading over its mean, in any light. Halves that agree to the bit were not fitted, which is no
-/// evidence.
-fn shadow_error(errors: &ModelErrorConfig, half_disagreement: f32) -> f32 {
-    let apart = errors.disagreement * half_disagreement;
-    if apart > 0.0 { apart.max(errors.shading) } else { errors.shadow }
+/// The error of the shading over its mean, independent of the brightness. Folds that agree to the bit were not fitted,
+/// and carry no information.
+fn shadow_error(errors: &ModelErrorConfig, fold_disagreement: f32) -> f32 {
+    let error = errors.disagreement * fold_disagreement;
+    if error > 0.0 { error.max(errors.shading) } else { errors.shadow }
 }
 
 /// The model of every sample before the albedo is fitted.
 struct Model<'a> {
     shading: &'a Planes,
-    /// See [`Lighting::sampled`].
-    changes: &'a Planes,
+    /// See [`Lighting::shading_with_derivative`].
+    shading_with_derivative: &'a Planes,
     albedo: &'a Planes,
     /// The pictures without highlights.
     target: &'a Planes,
 }
 
 impl Model<'_> {
-    /// The weights of the samples, over the error of the layer that explains them: the albedo times the error of its
-    /// shading. Shading errs by about as much in shadow as in light, and by the more the more the lights of both
-    /// halves of the face disagree ([`super::two_fold`]); by more where normals matter and highlights are strong. So
-    /// the prior is strong where a light explains little, and hair keeps its strands beside skin that is ten times as
-    /// bright.
+    /// The weights of the samples over the error of the diffuse layer, which is the albedo times the error of the
+    /// shading. The error of the shading is about as large in shadow as in light and grows with the disagreement of the
+    /// folds ([`super::two_fold`]), with the shading's derivative and with the highlight. The prior therefore dominates
+    /// where the error is large, and hair keeps its strands next to skin ten times as bright.
     fn weights(
         &self,
         errors: &ModelErrorConfig,
-        half_disagreement: f32,
+        fold_disagreement: f32,
         samples: &Samples,
     ) -> Planes {
         let count = samples.len().max(1) as f32;
         let mean = (0..samples.len()).map(|i| self.shading.get(GREEN, i)).sum::<f32>() / count;
-        let shadow = shadow_error(errors, half_disagreement);
-        let albedo = |i: usize| self.albedo.get(GREEN, i).max(DARKEST_ALBEDO);
-        let usual = (0..samples.len()).map(albedo).sum::<f32>() / count;
+        let shadow = shadow_error(errors, fold_disagreement);
+        let albedo = |i: usize| self.albedo.get(GREEN, i).max(LEAST_DIVISOR);
+        let mean_albedo = (0..samples.len()).map(albedo).sum::<f32>() / count;
         Planes::from_fn(samples.len(), |i| {
             let normal = Vec3::from_array(samples.normal.sample(i, 0));
-            let changes: [f32; SHADING_ROWS] = self.changes.sample(i, 0);
-            let change = Vec3::from_slice(&changes[CHANNELS + 3 * GREEN..]);
-            let change = (change - normal * normal.dot(change)).length();
+            let shading: [f32; SHADING_ROWS] = self.shading_with_derivative.sample(i, 0);
+            let slope = Vec3::from_slice(&shading[CHANNELS + 3 * GREEN..]);
+            let slope = (slope - normal * normal.dot(slope)).length();
             let highlight = samples.target.get(GREEN, i) - self.target.get(GREEN, i);
-            let squares = [
+            let errors_of_parts = [
                 errors.shading * self.shading.get(GREEN, i),
-                errors.normal * change,
+                errors.normal * slope,
                 errors.highlights * highlight / albedo(i),
                 shadow * mean,
             ];
-            let error = squares.map(|error| error * error).iter().sum::<f32>().sqrt();
-            [samples.weight.get(0, i) * errors.shadow * mean / error * usual / albedo(i)]
+            let error = errors_of_parts.map(|error| error * error).iter().sum::<f32>().sqrt();
+            [samples.weight.get(0, i) * errors.shadow * mean / error * mean_albedo / albedo(i)]
         })
     }
 }
@@ -182,7 +189,7 @@ mod tests {
     use crate::config::UnshadeConfig;
 
     /// Weights of two samples, of these shadings and albedos, without highlights.
-    fn weights(shading: [f32; 2], albedo: [f32; 2], half_disagreement: f32) -> [f32; 2] {
+    fn weights(shading: [f32; 2], albedo: [f32; 2], fold_disagreement: f32) -> [f32; 2] {
         let planes = |values: [f32; 2]| Planes::from_fn(2, |i| [values[i]; CHANNELS]);
         let black = planes([0.0; 2]);
         let samples = Samples {
@@ -192,16 +199,21 @@ mod tests {
             pixel: vec![0; 2],
             ..Samples::none(2)
         };
-        let changes = Planes::from_fn(2, |_| [0.0; SHADING_ROWS]);
+        let flat = Planes::from_fn(2, |_| [0.0; SHADING_ROWS]);
         let (shading, albedo) = (planes(shading), planes(albedo));
-        let model = Model { shading: &shading, changes: &changes, albedo: &albedo, target: &black };
+        let model = Model {
+            shading: &shading,
+            shading_with_derivative: &flat,
+            albedo: &albedo,
+            target: &black,
+        };
         let weights =
-            model.weights(&UnshadeConfig::default().model_error, half_disagreement, &samples);
+            model.weights(&UnshadeConfig::default().model_error, fold_disagreement, &samples);
         [0, 1].map(|i| weights.get(0, i))
     }
 
     #[test]
-    fn halves_that_agree_to_the_bit_are_no_evidence() {
+    fn folds_that_agree_to_the_bit_are_no_evidence() {
         let [dark, lit] = weights([0.0, 2.0], [0.2; 2], 0.0);
         assert!((dark - 1.0).abs() < 1e-6 && (0.9..1.0).contains(&lit), "{dark} {lit}");
         // However little they differ, shading is never better known than where it is bright.
@@ -211,7 +223,7 @@ mod tests {
 
     #[test]
     fn disagreement_strengthens_the_prior() {
-        let of = |apart: f32| weights([1.0; 2], [0.2; 2], apart)[0];
+        let of = |disagreement: f32| weights([1.0; 2], [0.2; 2], disagreement)[0];
         assert!(of(0.02) > 1.5 * of(0.06) && of(0.06) > 1.5 * of(0.2));
     }
 

@@ -1,4 +1,4 @@
-//! Maps, views and records from what has been estimated.
+//! Maps, views and records from the estimates.
 
 use capture::Camera;
 use capture::gbuffer::{Atlas, GBuffer};
@@ -7,6 +7,7 @@ use formats::maps::Maps;
 use formats::picture::Picture;
 
 use super::albedo::{AlbedoEstimate, Layers};
+use super::light::JointEstimate;
 use super::lighting::Lighting;
 use super::region_terms::RegionTerms;
 use super::relief::Relief;
@@ -21,21 +22,22 @@ use crate::semantic::regions::FaceRegions;
 use crate::solution::{RecoveredLight, Results, ViewLayers};
 use crate::transport::CHANNELS;
 
-/// Everything that maps and views are made of.
+/// The estimates of all stages.
 pub(super) struct Estimates<'a> {
     pub lighting: &'a Lighting<'a>,
     pub face: &'a FaceRegions,
-    /// With the lobes under which the light was found: it has taken up a part of what differs from them.
-    pub terms: &'a RegionTerms,
-    /// With the measured roughness.
+    /// Its terms have the usual lobes, which belong to the light: it has absorbed a part of the difference to the
+    /// measured roughness. Views use these.
+    pub joint: &'a JointEstimate,
+    /// With the measured roughness, for the maps.
     pub measured_terms: &'a RegionTerms,
     pub relief: Relief,
-    pub albedo: AlbedoEstimate,
+    pub final_albedo: AlbedoEstimate,
     /// The number of samples of the full pictures.
-    pub samples: usize,
+    pub sample_count: usize,
 }
 
-/// Maps, withheld views and records.
+/// Returns maps, withheld views and records.
 pub(super) fn assemble(
     run: &Run,
     scene: &Scene,
@@ -43,17 +45,18 @@ pub(super) fn assemble(
     estimates: Estimates,
     layer_sink: Option<&mut LayerSink>,
 ) -> Result<Results, SolveError> {
-    let Estimates { lighting, face, terms, measured_terms, relief, albedo, samples } = estimates;
+    let Estimates { lighting, face, joint, measured_terms, relief, final_albedo, sample_count } =
+        estimates;
     let (mesh, size, map_size) = (&scene.capture.mesh, scene.size, scene.map_size);
     let seen = scene.seen(&Atlas::new(mesh, size));
-    let diffuse = maps::fill_unseen(albedo.albedo, CHANNELS, &seen);
+    let diffuse = maps::fill_unseen(final_albedo.albedo, CHANNELS, &seen);
     let relief = Relief { deviation: maps::fill_unseen(relief.deviation, 3, &seen), size };
-    let exposure = scene.gain * measured_terms.exposure(&config.reflectance);
-    let scales = Scales { diffuse: lighting.peak / exposure, specular: 1.0 };
+    let total_scale = scene.picture_scale * measured_terms.exposure_error(&config.reflectance);
+    let scales = Scales { diffuse: lighting.peak / total_scale, specular: 1.0 };
     let stages = match config.records.stages {
         true => {
             let snapshots = vec![
-                Snapshot::new("joint").diffuse(&lighting.albedo, lighting.size()),
+                Snapshot::new("joint").diffuse(&joint.albedo, lighting.size()),
                 Snapshot::new("relief").deviation(&relief.deviation, size),
                 Snapshot::new("albedo").diffuse(&diffuse, size),
             ];
@@ -66,15 +69,15 @@ pub(super) fn assemble(
         cancel::check();
         let gbuffer = GBuffer::new(mesh, camera, None);
         let samples = scene.space.withheld(&gbuffer, size);
-        let layers = Layers::new(run, lighting, terms, &relief, &blurred, &samples);
+        let layers = Layers::new(run, lighting, &joint.terms, &relief, &blurred, &samples);
         let albedo = samples.taps.sample::<CHANNELS>(&diffuse);
         let channels = ViewLayers::CHANNELS.len();
         let mut picture = Picture::new(camera.width, camera.height, channels);
         for (i, pixel) in samples.pixel.iter().enumerate() {
             let out = &mut picture.data[*pixel as usize * channels..][..channels];
             for c in 0..CHANNELS {
-                let diffuse = albedo.get(c, i) * layers.shading.get(c, i) / scene.gain;
-                let specular = layers.highlights.get(c, i) / scene.gain;
+                let diffuse = albedo.get(c, i) * layers.shading.get(c, i) / scene.picture_scale;
+                let specular = layers.highlights.get(c, i) / scene.picture_scale;
                 (out[c], out[3 + c], out[6 + c]) = (diffuse + specular, diffuse, specular);
             }
         }
@@ -91,10 +94,10 @@ pub(super) fn assemble(
     let picture = |channels, data| Some(maps::square(data, channels, map_size));
     let relief = relief.resized(map_size);
     let diffuse = resample(&diffuse, size, CHANNELS, map_size);
-    let confidence = resample(&albedo.confidence, size, 1, map_size);
+    let confidence = resample(&final_albedo.confidence, size, 1, map_size);
     let confidence = confidence.iter().zip(&seen).map(|(c, seen)| if *seen { *c } else { 0.0 });
-    let terms: Vec<_> =
-        face.on(scene, map_size).iter().map(|region| measured_terms.of(*region)).collect();
+    let regions = face.region_map(scene, map_size);
+    let terms: Vec<_> = regions.iter().map(|region| measured_terms.of(*region)).collect();
     let lobes = terms.iter().flat_map(|term| {
         let SkinConfig { roughness: [a, b], weights: [of_a, of_b], .. } =
             term.lobes_of(&config.skin);
@@ -102,7 +105,7 @@ pub(super) fn assemble(
     });
     let maps = Maps {
         diffuse_albedo: picture(CHANNELS, maps::scaled(&diffuse, scales.diffuse)),
-        specular_albedo: picture(1, terms.iter().map(|t| t.reflectance / exposure).collect()),
+        specular_albedo: picture(1, terms.iter().map(|t| t.reflectance / total_scale).collect()),
         diffuse_normal: picture(3, maps::bent_normals(&atlas, &relief.blurred())),
         specular_normal: picture(3, maps::bent_normals(&atlas, &relief.deviation)),
         confidence: picture(1, confidence.collect()),
@@ -110,8 +113,16 @@ pub(super) fn assemble(
         coverage: Some(maps::coverage(&seen)),
     };
     let light = RecoveredLight {
-        radiance: maps::scaled(&lighting.light.radiance, scene.gain.recip()),
+        radiance: maps::scaled(&lighting.light.radiance, scene.picture_scale.recip()),
         ..lighting.light.clone()
     };
-    Ok(Results { maps, light: Some(light), views, stages, scales, texture_size: size, samples })
+    Ok(Results {
+        maps,
+        light: Some(light),
+        views,
+        stages,
+        scales,
+        texture_size: size,
+        samples: sample_count,
+    })
 }

@@ -1,32 +1,33 @@
-//! The confidence in the albedo of a texel: it was seen, in light, and what was seen is explained.
+//! The confidence in the albedo of a texel: high where it is visible, lit, and has small residuals.
 
 use crate::model::blur::Blur;
 use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
-/// Residual, relative to the colour, at which the confidence has fallen to 1 / e.
+/// Residual, relative to the colour, at which the confidence falls to 1 / e.
 const MISFIT: f32 = 0.1;
 /// Standard deviation of the blur of the sums over samples, texels.
 const BLUR: f32 = 1.5;
 
-/// The weight of the pictures in every texel of the samples' texture, 0 to 1: q / (1 + q), where q weighs their pull
-/// (the sum of weight x S_d) against that of a prior of this weight. `shading` has S_d of R, G, B.
-pub(super) fn picture_weight(prior: f32, samples: &Samples, shading: &Planes) -> Vec<f32> {
+/// The weight of the pictures against the albedo prior in every texel of the samples' texture, 0 to 1: q / (1 + q),
+/// where q is the sum of weight x S_d over that of a prior of this weight. `shading` has S_d of R, G, B.
+pub(super) fn picture_weight(prior_weight: f32, samples: &Samples, shading: &Planes) -> Vec<f32> {
     let size = samples.taps.size();
     let lights = Planes::from_fn(samples.len(), |i| {
         let shading: [f32; CHANNELS] = shading.sample(i, 0);
         [samples.weight.get(0, i) * shading.iter().sum::<f32>() / 3.0]
     });
-    let pull = (size * size) as f32 / (samples.len().max(1) as f32 * prior.max(f32::MIN_POSITIVE));
+    let pull =
+        (size * size) as f32 / (samples.len().max(1) as f32 * prior_weight.max(f32::MIN_POSITIVE));
     blurred::<1>(samples, &lights).iter().map(|light| pull * light / (1.0 + pull * light)).collect()
 }
 
 /// The confidence in every texel of the samples' texture, 0 to 1: [`picture_weight`] x exp(-r / [`MISFIT`]), r being
-/// the mean absolute residual over the mean colour. The target of `samples` is without highlights, `pictures` are with
-/// them; `diffuse` is the albedo at every sample.
+/// the mean absolute residual over the mean colour. The target of `samples` has no highlights, `pictures` have them;
+/// `diffuse` is the albedo at every sample.
 pub(super) fn confidence(
-    prior: f32,
+    prior_weight: f32,
     samples: &Samples,
     pictures: &Planes,
     shading: &Planes,
@@ -43,11 +44,11 @@ pub(super) fn confidence(
     let sums = blurred::<2>(samples, &parts);
     let explained =
         |[misfit, colour]: &[f32; 2]| (-misfit / colour.max(f32::MIN_POSITIVE) / MISFIT).exp();
-    let weights = picture_weight(prior, samples, shading);
+    let weights = picture_weight(prior_weight, samples, shading);
     sums.as_chunks::<2>().0.iter().zip(weights).map(|(sums, q)| q * explained(sums)).collect()
 }
 
-/// Sums over the samples of every texel, blurred.
+/// The blurred sums over the samples of every texel.
 fn blurred<const N: usize>(samples: &Samples, parts: &Planes) -> Vec<f32> {
     Blur::new(samples.taps.size(), N, BLUR).apply(&samples.taps.gather::<N>(parts, 0))
 }

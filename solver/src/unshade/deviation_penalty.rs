@@ -1,11 +1,10 @@
-//! The penalties on the deviation of the height solve.
+//! The penalties on the deviation in the height problem.
 
 use rayon::prelude::*;
 
 use crate::simd::widened;
 
-/// `flatness` times the deviation, plus `smoothness` times the transpose-times-itself of its forward
-/// differences.
+/// Returns `flatness` d + `smoothness` D^T D d, with the deviation d and its forward differences D d.
 pub(super) fn deviation_penalty(
     deviation: &[f32],
     size: usize,

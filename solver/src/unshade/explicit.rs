@@ -1,30 +1,28 @@
 //! The explicit model of the pictures: diffuse shading and highlights by one light.
 //!
-//! A pixel is A_d S_d + A_s H l. H is the reflection of two GGX lobes over the cells that a sample sees, and the same
-//! light l makes shading and highlights. The position of a highlight constrains the direction of its lamp, its colour
-//! the lamp's colour.
+//! A pixel is A_d S_d + A_s H l. H is the reflection of two GGX lobes over the visible cells, and the same light l
+//! causes shading and highlights. The position of a highlight constrains the direction of its lamp, its colour the
+//! lamp's colour.
 
 use super::grey::grey_prior;
 use super::regression::Regression;
 use crate::backend::Backend;
 use crate::backend::resident::Variable;
 use crate::config::{AdamConfig, LightConfig, ModelErrorConfig, UnshadeConfig};
-use crate::fit::Fit;
 use crate::fit::adam::Adam;
+use crate::fit::{self, Fit};
 use crate::model::planes::Planes;
-use crate::model::prior::prior;
+use crate::model::prior::albedo_prior;
 use crate::model::samples::Samples;
-use crate::transport::{CHANNELS, Reflection, SpecularTerm, Transport, light_colour};
+use crate::transport::{CHANNELS, GREEN, Reflection, SpecularTerm, Transport, light_colour};
 
-/// The channel by which samples are weighed.
-const GREEN: usize = 1;
 /// Least error of the model, radiance.
 const LEAST_ERROR: f32 = 1e-5;
 
 /// The model on the transport's texture.
 pub(super) struct ExplicitModel<'a> {
     config: &'a LightConfig,
-    prior: f32,
+    prior_weight: f32,
     has_grey_prior: bool,
     transport: &'a Transport,
     samples: Samples,
@@ -34,34 +32,36 @@ pub(super) struct ExplicitModel<'a> {
 /// Loss and gradients of an [`ExplicitModel`].
 pub(super) struct Gradient {
     pub loss: f64,
-    /// By the light's logarithm.
-    pub light: Vec<f32>,
-    /// By the nearness, in the transport's unit; 0 of a transport without it.
-    pub nearness: f32,
-    pub albedo: Vec<f32>,
+    /// Gradient with respect to log radiance.
+    pub by_log_light: Vec<f32>,
+    /// Gradient with respect to relative nearness; 0 if the transport has no derivative with respect to it.
+    pub by_relative_nearness: f32,
+    /// Gradient with respect to the albedo.
+    pub by_albedo: Vec<f32>,
 }
 
 impl<'a> ExplicitModel<'a> {
-    /// Highlights are scaled by the [peak](Transport::peak) of `light`, R, G, B per cell, of which `terms`
-    /// ([`SpecularTerm`] per texel) are then reflectances; they come from a sphere of `nearness` per metre. The
-    /// samples' taps and the terms are of the transport's size.
+    /// Highlights are scaled by the [peak](Transport::peak) of `light`, R, G, B per cell, so that `terms`
+    /// ([`SpecularTerm`] per texel) are reflectances under this light; the light of the highlights has this nearness.
+    /// The samples' taps and the terms have the transport's size.
     pub fn new(
         config: &'a UnshadeConfig,
         transport: &'a Transport,
         samples: &Samples,
         terms: &[f32],
         light: &[f32],
-        nearness: f32,
+        nearness_per_metre: f32,
     ) -> Self {
         let samples = samples.thinned(config.light.samples);
         let specular = samples.taps.sample::<{ SpecularTerm::ROWS }>(terms);
         let peak = transport.peak(light);
-        let reflection = transport.reflection(&config.skin, &samples, &specular, peak, nearness);
-        let (config, prior) = (&config.light, config.joint.prior);
-        Self { config, prior, has_grey_prior: false, transport, samples, reflection }
+        let reflection =
+            transport.reflection(&config.skin, &samples, &specular, peak, nearness_per_metre);
+        let (config, prior_weight) = (&config.light, config.joint.prior);
+        Self { config, prior_weight, has_grey_prior: false, transport, samples, reflection }
     }
 
-    /// With or without the prior on coloured shading.
+    /// Adds the prior on coloured shading, or removes it.
     #[must_use]
     pub(super) fn with_grey_prior(self, has_grey_prior: bool) -> Self {
         Self { has_grey_prior, ..self }
@@ -75,26 +75,31 @@ impl<'a> ExplicitModel<'a> {
 
     /// The factor on each channel that gives the light the colour of its highlights, at the same
     /// [peak](Transport::peak); the albedo is to be divided by it.
-    pub(super) fn tint(&self, light: &[f32], nearness: f32, albedo: &[f32]) -> [f32; CHANNELS] {
+    pub(super) fn tint(
+        &self,
+        light: &[f32],
+        relative_nearness: f32,
+        albedo: &[f32],
+    ) -> [f32; CHANNELS] {
         let weight = &self.samples.weight;
-        let tint = self.regression(light, nearness, albedo, weight, None).tint();
+        let tint = self.regression(light, relative_nearness, albedo, weight, None).tint();
         let tinted: Vec<f32> = light.iter().zip(tint.iter().cycle()).map(|(l, t)| l * t).collect();
         let [before, after] = [light, &tinted].map(|light| self.transport.peak(light));
         if before == 0.0 { [1.0; CHANNELS] } else { tint.map(|t| t * before / after) }
     }
 
-    /// The regression of the pictures without the diffuse layer on the highlights. With `errors` a sample weighs by
-    /// the inverse variance of the model there: a strong highlight counts no more than a weak one, of which there are
-    /// many. `weight` is that of the model's samples.
+    /// The regression of the pictures without the diffuse layer on the highlights. `weight` has the weights of the
+    /// model's samples. With `errors` they are divided by the variance of the model, so that the few strong highlights
+    /// do not dominate.
     pub(super) fn regression(
         &self,
         light: &[f32],
-        nearness: f32,
+        relative_nearness: f32,
         albedo: &[f32],
         weight: &Planes,
         errors: Option<&ModelErrorConfig>,
     ) -> Regression {
-        let (shading, _) = self.transport.shading_nearer(light, nearness);
+        let (shading, _) = self.transport.shading_nearer(light, relative_nearness);
         let layer = self.layer(albedo, &shading);
         let observed =
             |i: usize| std::array::from_fn(|c| self.samples.target.get(c, i) - layer.get(c, i));
@@ -113,10 +118,15 @@ impl<'a> ExplicitModel<'a> {
         Regression::new(&self.samples, &weight, rows, observed)
     }
 
-    /// Loss and its gradients; `nearness` is in the transport's unit.
-    pub(super) fn gradient(&self, log_light: &[f32], nearness: f32, albedo: &[f32]) -> Gradient {
+    /// The loss and its gradients.
+    pub(super) fn gradient(
+        &self,
+        log_light: &[f32],
+        relative_nearness: f32,
+        albedo: &[f32],
+    ) -> Gradient {
         let (light, samples) = (exp(log_light), &self.samples);
-        let (shading, gain) = self.transport.shading_nearer(&light, nearness);
+        let (shading, by_nearness) = self.transport.shading_nearer(&light, relative_nearness);
         let product = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).collect();
         let sampled = self.layer(albedo, &shading);
         let scale = 1.0 / (CHANNELS * samples.len()) as f32;
@@ -130,26 +140,29 @@ impl<'a> ExplicitModel<'a> {
             });
             (by, (by, loss))
         };
-        let (more, by_sample) = self.reflection.exchange(&light, residual);
+        let (by_light_of_highlights, by_sample) = self.reflection.exchange(&light, residual);
         let by_layer = Planes::from_fn(samples.len(), |i| by_sample[i].0);
         let by_layer = samples.taps.gather::<CHANNELS>(&by_layer, 0);
         let mut by_albedo: Vec<f32> = product(&by_layer, &shading);
         let mut by_shading: Vec<f32> = product(&by_layer, albedo);
         let grey = if self.has_grey_prior { grey_prior(&shading, &mut by_shading) } else { 0.0 };
-        let smooth = prior(albedo, self.transport.size(), self.prior, &mut by_albedo);
-        let mut by_light = self.transport.adjoint_nearer(&by_shading, nearness);
-        by_light.iter_mut().zip(more).zip(&light).for_each(|((g, m), l)| *g = (*g + m) * l);
+        let size = self.transport.size();
+        let smoothness = albedo_prior(albedo, size, self.prior_weight, &mut by_albedo);
+        let mut by_log_light = self.transport.adjoint_nearer(&by_shading, relative_nearness);
+        let cells = by_log_light.iter_mut().zip(by_light_of_highlights).zip(&light);
+        cells.for_each(|((shading, highlights), light)| *shading = (*shading + highlights) * light);
         let LightConfig { colour, colour_softness, .. } = *self.config;
-        let colour = light_colour(log_light, colour, colour_softness, &mut by_light);
-        let along = |gain: Vec<f32>| {
-            let products = gain.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
+        let colour = light_colour(log_light, colour, colour_softness, &mut by_log_light);
+        let along = |slopes: Vec<f32>| {
+            let products =
+                slopes.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
             products.sum::<f64>() as f32
         };
         Gradient {
-            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smooth + colour + grey,
-            light: by_light,
-            nearness: gain.map_or(0.0, along),
-            albedo: by_albedo,
+            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smoothness + colour + grey,
+            by_log_light,
+            by_relative_nearness: by_nearness.map_or(0.0, along),
+            by_albedo,
         }
     }
 }
@@ -159,81 +172,84 @@ pub(super) fn exp(log_light: &[f32]) -> Vec<f32> {
     log_light.iter().map(|log| log.exp()).collect()
 }
 
-/// The light and its distance under an albedo that stays.
+/// The light and its distance under an albedo that is held fixed.
 pub(super) struct LightFit<'a> {
     pub model: ExplicitModel<'a>,
-    /// Logarithm of the light, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell.
     pub log_light: Vec<f32>,
-    /// Nearness in the transport's unit; one value.
-    pub nearness: Vec<f32>,
+    /// One value; see [`Transport::nearness_unit`].
+    pub relative_nearness: Vec<f32>,
     albedo: &'a [f32],
-    by_light: Adam,
-    by_nearness: Adam,
+    light_adam: Adam,
+    nearness_adam: Adam,
 }
 
 impl<'a> LightFit<'a> {
-    /// From the logarithm of a light, and a nearness in the transport's unit.
+    /// Starts from a log radiance and a nearness.
     pub fn new(
         model: ExplicitModel<'a>,
         albedo: &'a [f32],
         log_light: Vec<f32>,
-        nearness: f32,
+        relative_nearness: f32,
     ) -> Self {
         let (adam, config) = (AdamConfig::default(), model.config);
         Self {
-            by_light: Adam::new(&adam, config.rate, log_light.len()),
-            by_nearness: Adam::new(&adam, config.nearness_rate, 1),
+            light_adam: Adam::new(&adam, config.rate, log_light.len()),
+            nearness_adam: Adam::new(&adam, config.nearness_rate, 1),
             model,
             albedo,
             log_light,
-            nearness: vec![nearness],
+            relative_nearness: vec![relative_nearness],
         }
     }
 
     /// Steps taken.
     pub fn steps(&self) -> usize {
-        self.by_light.steps()
+        self.light_adam.steps()
     }
 
-    /// The loss of another light.
+    /// The loss of the light of another fit.
     pub fn loss_of(&self, other: &Self) -> f64 {
-        self.model.gradient(&other.log_light, other.nearness[0], self.albedo).loss
-    }
-}
-
-impl Fit for LightFit<'_> {
-    fn iterations(&self) -> usize {
-        self.model.config.steps
+        self.model.gradient(&other.log_light, other.relative_nearness[0], self.albedo).loss
     }
 
-    fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
-        let gradient = self.model.gradient(&self.log_light, self.nearness[0], self.albedo);
-        (gradient.loss, vec![gradient.light, vec![gradient.nearness]])
+    /// The loss, and its gradients with respect to [`Self::variables`].
+    pub fn gradient(&self) -> (f64, Vec<Vec<f32>>) {
+        let gradient = self.model.gradient(&self.log_light, self.relative_nearness[0], self.albedo);
+        (gradient.loss, vec![gradient.by_log_light, vec![gradient.by_relative_nearness]])
     }
 
-    fn variables(&mut self) -> Vec<Variable<'_>> {
-        let nearness = Variable::new(&mut self.nearness, &mut self.by_nearness, 0.0);
+    /// The light and its nearness.
+    pub fn variables(&mut self) -> Vec<Variable<'_>> {
+        let nearness = Variable::new(&mut self.relative_nearness, &mut self.nearness_adam, 0.0);
         vec![
-            Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
-            Variable { maximum: self.model.transport.nearest(), ..nearness },
+            Variable::new(&mut self.log_light, &mut self.light_adam, f32::NEG_INFINITY),
+            Variable { maximum: self.model.transport.max_relative_nearness(), ..nearness },
         ]
     }
+
+    /// Takes one step by `decay` of the learning rates, and returns the loss before it.
+    pub fn step(&mut self, decay: f32) -> f64 {
+        let (loss, gradients) = self.gradient();
+        fit::step(self.variables(), &gradients, decay);
+        loss
+    }
 }
 
-/// Light and diffuse albedo together, the distance of the light as it is.
+/// Light and diffuse albedo together; the distance of the light is held fixed.
 pub(super) struct JointFit<'a> {
-    /// Logarithm of the light, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell.
     pub log_light: Vec<f32>,
     /// The diffuse albedo, R, G, B per texel of the transport.
     pub albedo: Vec<f32>,
     model: ExplicitModel<'a>,
     iterations: usize,
-    by_light: Adam,
-    by_albedo: Adam,
+    light_adam: Adam,
+    albedo_adam: Adam,
 }
 
 impl<'a> JointFit<'a> {
-    /// From a light and an albedo.
+    /// Starts from a log radiance and an albedo.
     pub fn new(
         config: &UnshadeConfig,
         model: ExplicitModel<'a>,
@@ -244,8 +260,8 @@ impl<'a> JointFit<'a> {
         let (joint, adam) = (&config.joint, AdamConfig::default());
         Self {
             iterations,
-            by_light: Adam::new(&adam, joint.light_rate, log_light.len()),
-            by_albedo: Adam::new(&adam, joint.albedo_rate, albedo.len()),
+            light_adam: Adam::new(&adam, joint.light_rate, log_light.len()),
+            albedo_adam: Adam::new(&adam, joint.albedo_rate, albedo.len()),
             log_light,
             albedo,
             model,
@@ -259,14 +275,16 @@ impl Fit for JointFit<'_> {
     }
 
     fn gradient(&self, _: &dyn Backend) -> (f64, Vec<Vec<f32>>) {
-        let gradient = self.model.gradient(&self.log_light, 0.0, &self.albedo);
-        (gradient.loss, vec![gradient.light, gradient.albedo])
+        // The transport was cast at the light's distance already.
+        let relative_nearness = 0.0;
+        let gradient = self.model.gradient(&self.log_light, relative_nearness, &self.albedo);
+        (gradient.loss, vec![gradient.by_log_light, gradient.by_albedo])
     }
 
     fn variables(&mut self) -> Vec<Variable<'_>> {
         vec![
-            Variable::new(&mut self.log_light, &mut self.by_light, f32::NEG_INFINITY),
-            Variable::new(&mut self.albedo, &mut self.by_albedo, 0.0),
+            Variable::new(&mut self.log_light, &mut self.light_adam, f32::NEG_INFINITY),
+            Variable::new(&mut self.albedo, &mut self.albedo_adam, 0.0),
         ]
     }
 }

@@ -1,4 +1,4 @@
-//! The prior on coloured shading. Without it a tint could move between light and albedo at no cost.
+//! The prior on grey shading, which resolves the ambiguity of a tint of the light and a tint of the albedo.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ const MEAN: f64 = 1.0;
 /// Weight of the mean absolute deviation of each texel's shading from grey.
 const TEXEL: f64 = 0.001;
 
-/// The penalty of a shading, R, G, B per texel, whose gradient is added.
+/// Returns the penalty on a shading, R, G, B per texel, and adds its gradient to `gradient`.
 pub(super) fn grey_prior(shading: &[f32], gradient: &mut [f32]) -> f64 {
     let (texels, _) = shading.as_chunks::<CHANNELS>();
     let count = texels.len() as f64;
@@ -38,7 +38,7 @@ pub(super) fn grey_prior(shading: &[f32], gradient: &mut [f32]) -> f64 {
                 let inverse = if grey > 0.0 { 1.0 / grey } else { 0.0 };
                 for c in 0..CHANNELS {
                     sum += f64::from((texel[c] - grey).abs() * inverse);
-                    // The divisor counts as given.
+                    // The divisor is treated as a constant.
                     gradient[c] += by_mean[c] + scale * (signs[c] - mean_sign) * inverse;
                 }
             }

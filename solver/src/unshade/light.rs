@@ -1,47 +1,47 @@
-//! The light, its distance, and what each region reflects of it.
+//! The light, its distance, and the specular reflectance per region.
 
 use serde::{Deserialize, Serialize};
 
 use super::explicit::{ExplicitModel, JointFit, exp};
-use super::first_colours::FirstColours;
-use super::recolour::recoloured;
-use super::region_terms::{RegionTerms, evenness};
-use super::two_fold::{TwoFoldLightFit, half_disagreement, mean};
+use super::light_fit_data::LightFitData;
+use super::region_terms::{RegionTerms, uniformity};
+use super::tint::without_tint;
+use super::two_fold::{TwoFoldLightFit, fold_disagreement, mean};
 use crate::config::UnshadeConfig;
 use crate::model::samples::Samples;
 use crate::run::Run;
 use crate::run::error::SolveError;
 use crate::transport::{CHANNELS, Transport, contrast};
 
-/// The light under albedos that stay.
+/// The light under albedos that are held fixed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct LightEstimate {
-    /// Logarithm of the light, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell.
     pub log_light: Vec<f32>,
-    /// Likewise, by either half of the face; see [`super::two_fold`].
-    pub halves: [Vec<f32>; 2],
-    /// The mean absolute difference of the shadings by both halves over their mean; 0 before they are fitted.
-    pub half_disagreement: f32,
+    /// The log radiance fitted to each fold of the face; see [`super::two_fold`].
+    pub folds: [Vec<f32>; 2],
+    /// The mean absolute deviation of the shadings of both folds from their mean, over that mean; 0 before the fit.
+    pub fold_disagreement: f32,
     /// Inverse distance from the head's centre, per metre.
-    pub nearness: f32,
-    /// Reflectance, 0 to 1, off which light bounces: that of most of the face.
+    pub nearness_per_metre: f32,
+    /// The albedo of bounces, 0 to 1: the median of the face.
     pub bounce_albedo: f32,
     /// The specular terms of the regions.
     pub terms: RegionTerms,
-    /// R, G, B by which the light has been multiplied to give it the colour of its highlights; the albedo that it was
-    /// found with is to be divided by it.
+    /// The factors on R, G, B that gave the light the colour of its highlights. The albedo of the fit is still to be
+    /// divided by them.
     pub tint: [f32; CHANNELS],
 }
 
 impl LightEstimate {
     /// A sky of radiance 1 at infinity.
-    pub fn even(cells: usize, bounce_albedo: f32, terms: RegionTerms) -> Self {
+    pub fn uniform(cells: usize, bounce_albedo: f32, terms: RegionTerms) -> Self {
         let log_light = vec![0.0; CHANNELS * cells];
         Self {
-            halves: [log_light.clone(), log_light.clone()],
+            folds: [log_light.clone(), log_light.clone()],
             log_light,
-            half_disagreement: 0.0,
-            nearness: 0.0,
+            fold_disagreement: 0.0,
+            nearness_per_metre: 0.0,
             bounce_albedo,
             terms,
             tint: [1.0; CHANNELS],
@@ -49,63 +49,61 @@ impl LightEstimate {
     }
 }
 
-/// One round of the light and its distance from an estimate, `round` from 1. After each, the regions' reflectance is
-/// measured by their highlights; after the last, the colour of the light.
+/// Fits the light and its distance in one round from an estimate, `round` from 1. After each round the reflectance of
+/// the regions is estimated from their highlights; after the last, the colour of the light.
 pub(super) fn fit_light(
     run: &mut Run,
+    name: &str,
     config: &UnshadeConfig,
     far: &Transport,
-    colours: &FirstColours,
+    data: &LightFitData,
     estimate: &LightEstimate,
     round: usize,
 ) -> Result<LightEstimate, SolveError> {
-    if run.is_interrupted() {
-        return Ok(estimate.clone());
-    }
-    let samples = colours.of_skin();
-    let terms = estimate.terms.texture(colours.regions);
-    let nearness = estimate.nearness;
+    let samples = data.samples_of_skin();
+    let terms = estimate.terms.texture(data.regions);
+    let nearness_per_metre = estimate.nearness_per_metre;
     let model = |samples: &Samples, log_light: &[f32]| {
-        ExplicitModel::new(config, far, samples, &terms, &exp(log_light), nearness)
+        ExplicitModel::new(config, far, samples, &terms, &exp(log_light), nearness_per_metre)
     };
     let mut fit = TwoFoldLightFit::new(
         config,
         &samples,
-        colours.albedo,
-        &estimate.halves,
-        nearness / far.near(),
+        data.region_colours,
+        &estimate.folds,
+        nearness_per_metre / far.nearness_unit(),
         config.light.steps_of(round),
         model,
     );
-    run.fit(&format!("light {round}"), &mut fit)?;
-    let (halves, nearer) = fit.best();
-    let log_light = mean(&halves);
+    run.fit(name, &mut fit)?;
+    let (folds, relative_nearness) = fit.into_best();
+    let log_light = mean(&folds);
     let light = exp(&log_light);
     let model = model(&samples, &estimate.log_light);
-    let weight = colours.samples.thinned(config.light.samples).weight;
-    let evenness = evenness(contrast(config.transport.rows, &light));
+    // The weights of all regions. They align with the model's samples, since `samples_of_skin` changes weights alone
+    // and `thinned` chooses samples by their number alone.
+    let weight = data.samples.thinned(config.light.samples).weight;
     let errors = Some(&config.model_error);
-    let regression = model.regression(&light, nearer, colours.albedo, &weight, errors);
+    let regression =
+        model.regression(&light, relative_nearness, data.region_colours, &weight, errors);
     let factor = relative_peak(far, &light, &exp(&estimate.log_light));
     let terms = estimate.terms.relative_to(factor).with_reflectance(
         &config.reflectance,
-        evenness,
+        uniformity(contrast(config.transport.rows, &light)),
         &regression,
-        colours.regions,
+        data.regions,
     );
     let tint = match round == config.light.rounds {
-        true => model.tint(&light, nearer, colours.albedo),
+        true => model.tint(&light, relative_nearness, data.region_colours),
         false => [1.0; CHANNELS],
     };
-    let tinted = |values: &[f32], apply: &dyn Fn(f32, f32) -> f32| -> Vec<f32> {
-        values.iter().zip(tint.iter().cycle()).map(|(value, tint)| apply(*value, *tint)).collect()
-    };
-    let log_light = tinted(&log_light, &|log, tint| log + tint.ln());
-    let albedo = tinted(colours.albedo, &|albedo, tint| albedo / tint);
+    let cells = log_light.iter().zip(tint.iter().cycle());
+    let log_light: Vec<f32> = cells.map(|(log, tint)| log + tint.ln()).collect();
+    let albedo = without_tint(data.region_colours, &tint);
     Ok(LightEstimate {
-        half_disagreement: half_disagreement(far, &halves, nearer),
-        halves,
-        nearness: nearer * far.near(),
+        fold_disagreement: fold_disagreement(far, &folds, relative_nearness),
+        folds,
+        nearness_per_metre: relative_nearness * far.nearness_unit(),
         bounce_albedo: bounce_albedo(far, &exp(&log_light), &albedo),
         log_light,
         terms,
@@ -113,7 +111,7 @@ pub(super) fn fit_light(
     })
 }
 
-/// The median over texels of the mean reflectance of R, G and B under a light: what light bounces off.
+/// The albedo of bounces under a light: the median over texels of the mean reflectance of R, G and B.
 fn bounce_albedo(transport: &Transport, light: &[f32], albedo: &[f32]) -> f32 {
     let mut means: Vec<f32> =
         albedo.chunks_exact(CHANNELS).map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect();
@@ -131,71 +129,48 @@ fn relative_peak(transport: &Transport, light: &[f32], other: &[f32]) -> f32 {
 /// Light and diffuse albedo together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct JointEstimate {
-    /// Logarithm of the light, R, G, B per cell.
+    /// Logarithm of the radiance, R, G, B per cell.
     pub log_light: Vec<f32>,
-    /// R, G, B per texel of the transport.
+    /// The unscaled diffuse albedo, R, G, B per texel of the transport. Radiance x
+    /// [`Scene::picture_scale`](crate::scene::Scene::picture_scale) = albedo x S_d; times
+    /// [`Scales::diffuse`](crate::maps::Scales::diffuse) the albedo is a reflectance.
     pub albedo: Vec<f32>,
     /// The specular terms relative to this light.
     pub terms: RegionTerms,
 }
 
-/// Light and diffuse albedo under the transport from the light's distance, with a prior on grey light: a tint of the
-/// light and one of the skin look alike in diffuse shading, until highlights are explained.
-pub(super) fn fit_light_and_albedo(
+impl JointEstimate {
+    /// The estimated light, and the colours of the regions without its tint.
+    pub fn new(light: &LightEstimate, region_colours: &[f32]) -> Self {
+        Self {
+            log_light: light.log_light.clone(),
+            albedo: without_tint(region_colours, &light.tint),
+            terms: light.terms.clone(),
+        }
+    }
+}
+
+/// Fits light and diffuse albedo under the transport from the light's distance. The grey prior is for the first fit: a
+/// tint of the light and one of the skin look alike in diffuse shading until highlights are explained.
+pub(super) fn fit_joint(
     run: &mut Run,
+    name: &str,
     config: &UnshadeConfig,
     near: &Transport,
-    colours: &FirstColours,
-    estimate: &LightEstimate,
+    data: &LightFitData,
+    start: JointEstimate,
+    has_grey_prior: bool,
 ) -> Result<JointEstimate, SolveError> {
-    let light = exp(&estimate.log_light);
-    let tint = estimate.tint.iter().cycle();
-    let albedo: Vec<f32> = colours.albedo.iter().zip(tint).map(|(a, tint)| a / tint).collect();
-    if run.is_interrupted() {
-        let (log_light, terms) = (estimate.log_light.clone(), estimate.terms.clone());
-        return Ok(JointEstimate { log_light, albedo, terms });
-    }
-    let albedo =
-        recoloured(run.backend, &config.skin, near, colours, &light, &estimate.terms, albedo);
-    let terms = estimate.terms.texture(colours.regions);
+    let JointEstimate { log_light, albedo, terms } = start;
+    let (light, texture) = (exp(&log_light), terms.texture(data.regions));
+    let nearness_per_metre = near.nearness_per_metre();
     let model =
-        ExplicitModel::new(config, near, colours.samples, &terms, &light, estimate.nearness);
-    let model = model.with_grey_prior(true);
-    let (steps, log_light) = (config.joint.grey_steps, estimate.log_light.clone());
+        ExplicitModel::new(config, near, data.samples, &texture, &light, nearness_per_metre);
+    let steps = if has_grey_prior { config.joint.grey_steps } else { config.joint.steps };
+    let model = model.with_grey_prior(has_grey_prior);
     let mut fit = JointFit::new(config, model, steps, log_light, albedo);
-    run.fit("joint, grey light", &mut fit)?;
-    Ok(joint_estimate(near, fit, &light, &estimate.terms))
-}
-
-/// Light and diffuse albedo from an estimate of both, without a prior on the light's colour.
-pub(super) fn refit_light_and_albedo(
-    run: &mut Run,
-    config: &UnshadeConfig,
-    near: &Transport,
-    colours: &FirstColours,
-    estimate: &LightEstimate,
-    joint: &JointEstimate,
-) -> Result<JointEstimate, SolveError> {
-    if run.is_interrupted() {
-        return Ok(joint.clone());
-    }
-    let (light, terms) = (exp(&joint.log_light), joint.terms.texture(colours.regions));
-    let model =
-        ExplicitModel::new(config, near, colours.samples, &terms, &light, estimate.nearness);
-    let (log_light, albedo) = (joint.log_light.clone(), joint.albedo.clone());
-    let mut fit = JointFit::new(config, model, config.joint.steps, log_light, albedo);
-    run.fit("joint", &mut fit)?;
-    Ok(joint_estimate(near, fit, &light, &joint.terms))
-}
-
-/// The estimate of a fit from a `light` with these terms.
-fn joint_estimate(
-    near: &Transport,
-    fit: JointFit,
-    light: &[f32],
-    terms: &RegionTerms,
-) -> JointEstimate {
+    run.fit(name, &mut fit)?;
     let JointFit { log_light, albedo, .. } = fit;
-    let terms = terms.relative_to(relative_peak(near, &exp(&log_light), light));
-    JointEstimate { log_light, albedo, terms }
+    let terms = terms.relative_to(relative_peak(near, &exp(&log_light), &light));
+    Ok(JointEstimate { log_light, albedo, terms })
 }

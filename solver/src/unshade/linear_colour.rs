@@ -1,17 +1,17 @@
-//! How the colour of a sample changes with its unknowns: the linear model of the height solve.
+//! The linear model of the height problem: the change of a sample's colour with its unknowns.
 
 use crate::model::planes::{BLOCK, Row};
 use crate::simd::widened;
 
 /// Rows of the sampled unknowns: specular and diffuse deviation, albedo.
 pub(super) const UNKNOWNS: usize = 9;
-/// Rows of what a sample's colour gains from changes of its texels: by n_s (3, of every channel), by
-/// n_d (3 of R, then of G and B), by the diffuse albedo (the diffuse layer of R, G, B).
+/// Rows of the derivatives of a sample's colour: with respect to n_s (3, the same in every channel), n_d (3 of R, then of
+/// G and B) and the diffuse albedo (the diffuse layer, R, G, B).
 pub(super) const SLOPES: usize = 15;
-/// Least square of a diffuse layer's colour that has a direction.
+/// Least squared norm of a diffuse layer's colour, by which is divided.
 const LEAST_SQUARE: f32 = 1e-12;
 
-/// The change of a sample's colour by its unknowns.
+/// The change of a sample's colour with slopes `s` by its unknowns `q`.
 #[inline(always)]
 pub(super) fn explained(s: &[f32; SLOPES], q: &[f32; UNKNOWNS]) -> [f32; 3] {
     let highlight = s[0] * q[0] + s[1] * q[1] + s[2] * q[2];
@@ -22,9 +22,8 @@ pub(super) fn explained(s: &[f32; SLOPES], q: &[f32; UNKNOWNS]) -> [f32; 3] {
     })
 }
 
-/// A difference of colours less the share `share` of its part in the colour of the diffuse layer, which is
-/// mostly what the model gets wrong of that layer: light between skin and skin, shadows, the albedo. A
-/// symmetric matrix between the identity (0) and a projection (1).
+/// Removes the share `share` of the component of a colour difference `z` along the diffuse layer, which is mostly an error
+/// of that layer: bounce light, shadows, the albedo. A symmetric matrix between the identity (0) and a projection (1).
 #[inline(always)]
 pub(super) fn without_diffuse_share(z: [f32; 3], s: &[f32; SLOPES], share: f32) -> [f32; 3] {
     let [r, g, b] = [s[12], s[13], s[14]];
@@ -47,7 +46,7 @@ pub(super) fn transposed(s: &[f32; SLOPES], z: [f32; 3]) -> [f32; UNKNOWNS] {
 }
 
 widened! {
-    /// Weighted part of the residuals that a block's unknowns explain, as gradients by the unknowns.
+    /// The normal equations' matrix times the unknowns of a block of samples.
     pub(super) fn normal_block(
         slopes: &[Row; SLOPES],
         weight: &[Row; 1],
@@ -84,11 +83,11 @@ mod tests {
     }
 
     #[test]
-    fn the_colour_of_the_diffuse_layer_is_doubted() {
+    fn a_share_along_the_diffuse_layer_is_removed() {
         let near = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
         let skin = [S[12], S[13], S[14]];
         assert!(near(without_diffuse_share(skin, &S, 0.6), skin.map(|x| 0.4 * x)));
-        // No part of this has skin's colour.
+        // Orthogonal to the colour of skin.
         let other = [0.3, -0.6, 0.0];
         assert!(near(without_diffuse_share(other, &S, 0.6), other));
         assert_eq!(without_diffuse_share([0.1, 0.2, 0.3], &S, 0.0), [0.1, 0.2, 0.3]);

@@ -5,11 +5,11 @@ mod assemble;
 mod confidence;
 mod deviation_penalty;
 mod explicit;
-mod first_colours;
 mod grey;
 mod height_solve;
 mod inpainting;
 mod light;
+mod light_fit_data;
 mod lighting;
 mod linear_colour;
 mod neighbourhood;
@@ -29,11 +29,12 @@ use capture::Capture;
 
 use self::albedo::{FullPictures, fit_albedo};
 use self::assemble::{Estimates, assemble};
-use self::first_colours::FirstColours;
-use self::light::{LightEstimate, fit_light, fit_light_and_albedo, refit_light_and_albedo};
+use self::light::{JointEstimate, LightEstimate, fit_joint, fit_light};
+use self::light_fit_data::LightFitData;
 use self::lighting::Lighting;
+use self::recolour::recoloured;
 use self::region_terms::RegionTerms;
-use self::relief::fit_relief;
+use self::relief::{Relief, fit_relief};
 use self::roughness::measure_roughness;
 use crate::config::{TransportConfig, UnshadeConfig};
 use crate::model::samples::SampleSpace;
@@ -52,94 +53,112 @@ pub(crate) fn solve(
     run: &mut Run,
     layer_sink: Option<&mut LayerSink>,
 ) -> Result<Results, SolveError> {
-    let space = SampleSpace::new(&capture.mesh, 1.0).rounded(config.rendering.rounding_seed);
-    let exposure = Some(config.rendering.exposure);
-    let scene = Scene::new(capture, space, exposure, config.maps.texture_size)?;
-    let (cast, chart) = (&config.transport, config.transport.texture_size);
+    let space = SampleSpace::new().with_perturbed_pictures(config.rendering.rounding_seed);
+    let target_luminance = Some(config.rendering.exposure);
+    let scene = Scene::new(capture, space, target_luminance, config.maps.texture_size)?;
+    let coarse_size = config.transport.texture_size;
 
     let face = FaceRegions::new(&scene, config);
-    let regions = face.on(&scene, chart);
-    let albedo = face.mean_albedo(&scene, chart);
+    let coarse_regions = face.region_map(&scene, coarse_size);
+    let region_colours = face.mean_colours(&scene, &coarse_regions);
     run.record_time("regions");
 
-    let far = Transport::with_nearness(&capture.mesh, &Sky::even(cast.rows), cast, config.seed);
+    let sky = Sky::lat_long(config.transport.rows);
+    let far = Transport::with_nearness(&capture.mesh, &sky, &config.transport, config.seed);
     run.record_time("rays");
-    let samples = scene.half_samples(None, chart);
-    let (labelled_skin, skin) = (&face.labelled_skin, &face.skin);
-    let colours =
-        FirstColours { samples: &samples, regions: &regions, labelled_skin, skin, albedo: &albedo };
-    let expected = RegionTerms::expected(scene.gain * config.skin.reflectance, skin, &regions);
-    let mut light = LightEstimate::even(far.cells(), cast.bounce_albedo, expected);
+    let coarse_samples = scene.samples_at_half_resolution(None, coarse_size);
+    let data = LightFitData {
+        samples: &coarse_samples,
+        face: &face,
+        regions: &coarse_regions,
+        region_colours: &region_colours,
+    };
+    let reflectance = scene.picture_scale * config.skin.reflectance;
+    let terms = RegionTerms::prior(reflectance, &face.skin, &coarse_regions);
+    let mut light = LightEstimate::uniform(far.cells(), config.transport.bounce_albedo, terms);
     for round in 1..=config.light.rounds {
-        light = run.stage(&format!("light {round}"), |run| {
-            fit_light(run, config, &far, &colours, &light, round)
+        light = run.stage_from(&format!("light {round}"), light, |run, name, light| {
+            fit_light(run, name, config, &far, &data, &light, round)
         })?;
     }
 
-    let near = if run.is_interrupted() { far } else { at_distance(capture, config, &light, far) };
+    let near = if run.is_interrupted() {
+        far
+    } else {
+        // Both transports do not fit into memory.
+        drop(far);
+        transport_at_distance(capture, config, &light)
+    };
     run.record_time("rays at the light's distance");
-    let joint = run.stage("joint, grey light", |run| {
-        fit_light_and_albedo(run, config, &near, &colours, &light)
+    let start = JointEstimate::new(&light, &region_colours);
+    let grey = run.stage_from("joint, grey light", start, |run, name, start| {
+        let start = recoloured(run.backend, &config.skin, &near, &data, start);
+        fit_joint(run, name, config, &near, &data, start, true)
     })?;
-    let joint = run.stage("joint", |run| {
-        refit_light_and_albedo(run, config, &near, &colours, &light, &joint)
+    let joint = run.stage_from("joint", grey, |run, name, grey| {
+        fit_joint(run, name, config, &near, &data, grey, false)
     })?;
-    drop(samples);
-    let terms = &joint.terms.clone();
-    let lighting = Lighting::new(config, &near, &regions, &light, joint);
+    drop(coarse_samples);
+    let lighting = Lighting::new(config, &near, &coarse_regions, &light, &joint);
 
-    let relief =
-        run.stage("relief", |run| fit_relief(run, &config.relief, &scene, &lighting, terms))?;
-    let samples = scene.samples(None, scene.size);
-    let regions = face.on(&scene, scene.size);
-    let pictures = FullPictures { samples: &samples, face: &face, regions: &regions };
-    let albedo =
-        run.stage("albedo", |run| fit_albedo(run, config, &pictures, &lighting, terms, &relief))?;
-    let measured_terms = &run.stage("roughness", |run| {
-        if run.is_interrupted() {
-            return Ok(terms.clone());
-        }
+    let relief = run.stage_from("relief", Relief::none(scene.size), |run, name, _| {
+        fit_relief(run, name, &config.relief, &scene, &lighting, &joint)
+    })?;
+    let full_samples = scene.samples(None, scene.size);
+    let full_regions = face.region_map(&scene, scene.size);
+    let pictures = FullPictures { samples: &full_samples, face: &face, regions: &full_regions };
+    let final_albedo = run.stage("albedo", |run, name| {
+        fit_albedo(run, name, config, &pictures, &lighting, &joint, &relief)
+    })?;
+    let terms = joint.terms.clone();
+    let measured_terms = run.stage_from("roughness", terms, |run, _, terms| {
         let config = &config.roughness;
-        Ok(measure_roughness(run.backend, config, &lighting, &samples, &regions, &relief, terms))
+        Ok(measure_roughness(run.backend, config, &lighting, &pictures, &relief, &terms))
     })?;
     run.record_time("roughness");
-    let (lighting, face, samples) = (&lighting, &face, samples.len());
-    let estimates = Estimates { lighting, face, terms, measured_terms, relief, albedo, samples };
+    let estimates = Estimates {
+        lighting: &lighting,
+        face: &face,
+        joint: &joint,
+        measured_terms: &measured_terms,
+        relief,
+        final_albedo,
+        sample_count: full_samples.len(),
+    };
     assemble(run, &scene, config, estimates, layer_sink)
 }
 
-/// The transport from the light's distance, with bounces off the face's own reflectance.
-fn at_distance(
+/// Casts the rays from the estimated distance of the light, with bounces by the face's own reflectance.
+fn transport_at_distance(
     capture: &Capture,
     config: &UnshadeConfig,
     light: &LightEstimate,
-    far: Transport,
 ) -> Transport {
-    // Its memory is needed.
-    drop(far);
-    let sky = Sky::even(config.transport.rows).at(light.nearness);
-    let cast = TransportConfig { bounce_albedo: light.bounce_albedo, ..config.transport.clone() };
-    Transport::new(&capture.mesh, &sky, &cast, config.seed)
+    let sky = Sky::lat_long(config.transport.rows).at(light.nearness_per_metre);
+    let transport_config =
+        TransportConfig { bounce_albedo: light.bounce_albedo, ..config.transport.clone() };
+    Transport::new(&capture.mesh, &sky, &transport_config, config.seed)
 }
 
-/// The steps and costs of the stages, measured on two cores with AVX-512.
+/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls in
+/// [`solve`], with the maps at the end.
 pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
     let square = |side: usize| (side * side) as f64;
     let Extent { views, pixels, texture_size: size } = *extent;
-    let (all, few) = (pixels as f64, 0.25 * pixels as f64);
-    let cast = &config.transport;
-    let cells = (2 * cast.rows * cast.rows) as f64;
-    let entries = cells * square(cast.texture_size);
-    let rays = 45e-9 * entries * square(cast.rays_per_cell_side);
-    let followed = cells * few.min(config.light.samples as f64);
+    let (full_samples, coarse_samples) = (pixels as f64, 0.25 * pixels as f64);
+    let transport = &config.transport;
+    let cells = (2 * transport.rows * transport.rows) as f64;
+    let entries = cells * square(transport.texture_size);
+    let rays = 45e-9 * entries * square(transport.rays_per_cell_side);
+    let highlights = cells * coarse_samples.min(config.light.samples as f64);
     let light = |preparation: f64, steps: usize| Work {
-        preparation: preparation + 25e-9 * followed,
-        step: 1e-9 * (0.4 * followed + 0.1 * entries),
+        preparation: preparation + 25e-9 * highlights,
+        step: 1e-9 * (0.4 * highlights + 0.1 * entries),
         steps,
     };
     let work = |sample: f64, texel: f64, side: f64, steps: usize| Work {
         preparation: 0.0,
-        step: 1e-9 * (sample * all + texel * side * side),
+        step: 1e-9 * (sample * full_samples + texel * side * side),
         steps,
     };
     let heights = size as f64 * f64::from(config.relief.texture_scale);
@@ -152,9 +171,9 @@ pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
     plan.push(work(25.0, 15.0, heights, relief::steps(&config.relief, size, views)));
     plan.push(work(6.0, 6.0, size as f64, config.albedo.steps));
     let roughness =
-        2e-6 * all.min(config.roughness.samples as f64) * config.roughness.rounds as f64;
+        2e-6 * full_samples.min(config.roughness.samples as f64) * config.roughness.rounds as f64;
     plan.push(Work { preparation: roughness, ..Work::default() });
-    let maps = square(config.maps.texture_size.maps(size)) + all;
+    let maps = square(config.maps.texture_size.maps(size)) + full_samples;
     plan.push(Work { preparation: 1e-6 * maps, ..Work::default() });
     plan
 }

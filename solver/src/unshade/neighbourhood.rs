@@ -1,4 +1,5 @@
-//! Residuals in the neighbourhood of every sample: those that are too coarse for relief, and those that are too large.
+//! Residuals in the neighbourhood of every sample: removal of components too coarse for relief, and lower weights where
+//! residuals are too large for it.
 
 use capture::gbuffer::GBuffer;
 use glam::Vec3;
@@ -10,22 +11,22 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::view_weights::blurred;
 
-/// Residuals below this radiance count squared.
+/// Residuals below this radiance are penalised by their squares.
 pub(super) const RESIDUAL_FLOOR: f32 = 0.002;
 /// Standard deviation of the neighbourhood in which residuals are compared, pixels.
 const NEIGHBOURHOOD: f32 = 3.0;
-/// Residuals coarser than this are no relief: a standard deviation, over the side of a square as large as the mesh in
-/// the view.
+/// Standard deviation of the blur that gives the components too coarse for relief, over the side of a square as large as
+/// the mesh in the view.
 const COARSEST: f32 = 0.075;
-/// Pixels this close to where the mesh ends in a view carry no information on relief: they see two surfaces.
+/// Pixels this close to the silhouette are left out: they mix two surfaces.
 const RIM: usize = 2;
 
-/// The samples in the pictures that they come from.
+/// The samples at their pixels in the views.
 pub(super) struct Neighbourhood<'a> {
     config: &'a ReliefConfig,
     samples: &'a Samples,
     views: &'a [GBuffer],
-    /// Whether a sample lies farther inside its view's samples than [`RIM`].
+    /// Whether a sample lies farther than [`RIM`] from pixels without samples.
     inner: Vec<bool>,
 }
 
@@ -34,27 +35,27 @@ impl<'a> Neighbourhood<'a> {
         Self { config, samples, views, inner: inner(samples, views, RIM) }
     }
 
-    /// The share of `left` around every sample that relief and paint of the usual strength would explain,
-    /// at most 1: the rest is what the model gets wrong, along shadow edges and hairlines and in the ears.
-    /// 0 on the rim.
-    pub fn trust(&self, slopes: &Planes, left: &Planes) -> Planes {
+    /// The share of the mean squared residual around every sample that relief and paint of the usual strength can cause,
+    /// at most 1. It is small at model errors: shadow edges, hairlines, ears. 0 on the rim.
+    pub fn trust(&self, slopes: &Planes, residual: &Planes) -> Planes {
         let ReliefConfig { usual_deviation, usual_albedo_detail, .. } = *self.config;
         let floor = RESIDUAL_FLOOR;
         let squares = self.each(|i| {
-            let (s, left): ([f32; SLOPES], [f32; 3]) = (slopes.sample(i, 0), left.sample(i, 0));
+            let s: [f32; SLOPES] = slopes.sample(i, 0);
+            let residual: [f32; 3] = residual.sample(i, 0);
             let usual = |c: usize| {
                 let slope = Vec3::from_slice(&s) + Vec3::from_slice(&s[3 + 3 * c..]);
-                // Half of a deviation's square lies along the slope.
+                // On average, half of the squared deviation is along the slope.
                 0.5 * usual_deviation * usual_deviation * slope.length_squared()
                     + (usual_albedo_detail * s[12 + c]).powi(2)
                     + floor * floor
             };
-            [left.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
+            [residual.iter().map(|z| z * z).sum(), (0..3).map(usual).sum(), 0.0]
         });
         let around = self.around(&squares, |_| NEIGHBOURHOOD);
         Planes::from_fn(self.samples.len(), |i| {
-            let [left, usual]: [f32; 2] = around.sample(i, 0);
-            let share = (usual / left.max(f32::MIN_POSITIVE)).min(1.0);
+            let [residual, usual]: [f32; 2] = around.sample(i, 0);
+            let share = (usual / residual.max(f32::MIN_POSITIVE)).min(1.0);
             [if self.inner[i] { share } else { 0.0 }]
         })
     }
@@ -72,9 +73,9 @@ impl<'a> Neighbourhood<'a> {
         Planes::from_fn(self.samples.len(), values)
     }
 
-    /// Three rows of values, blurred over the inner pixels of every view by `sigma` pixels of its.
+    /// Three rows of values, blurred over the inner pixels of each view; `sigma` in pixels of the view.
     fn around(&self, values: &Planes, sigma: impl Fn(&GBuffer) -> f32) -> Planes {
-        // The values and the cover of every view.
+        // The values and the coverage of every view.
         let shape = |view: &GBuffer| Shape { width: view.width, height: view.height, channels: 4 };
         let mut pictures: Vec<Vec<f32>> =
             self.views.iter().map(|view| vec![0.0; 4 * view.width * view.height]).collect();
@@ -88,8 +89,8 @@ impl<'a> Neighbourhood<'a> {
         self.each(|i| {
             let (view, pixel) = (self.samples.view_index[i], self.samples.pixel[i]);
             let sums = &pictures[view as usize][4 * pixel as usize..][..4];
-            let cover = sums[3].max(f32::MIN_POSITIVE);
-            std::array::from_fn(|row| sums[row] / cover)
+            let coverage = sums[3].max(f32::MIN_POSITIVE);
+            std::array::from_fn(|row| sums[row] / coverage)
         })
     }
 }
@@ -100,17 +101,17 @@ fn places(samples: &Samples) -> impl Iterator<Item = (usize, usize)> {
     pairs.map(|(view, pixel)| (*view as usize, *pixel as usize))
 }
 
-/// Whether all pixels of a view within `rim` of a sample's, to the sides and diagonally, are samples too.
-/// The picture's own edge is no rim.
+/// Whether all pixels within `rim` of a sample's, horizontally, vertically and diagonally, are samples too. The picture's
+/// border is not a rim.
 fn inner(samples: &Samples, views: &[GBuffer], rim: usize) -> Vec<bool> {
     let mut covered: Vec<Vec<bool>> =
         views.iter().map(|view| vec![false; view.width * view.height]).collect();
     places(samples).for_each(|(view, pixel)| covered[view][pixel] = true);
-    let alone = |(view, pixel): (usize, usize)| {
+    let is_inner = |(view, pixel): (usize, usize)| {
         let (width, height) = (views[view].width, views[view].height);
         let within = |at: usize, size: usize| at.saturating_sub(rim)..(at + rim + 1).min(size);
         within(pixel / width, height)
             .all(|y| within(pixel % width, width).all(|x| covered[view][y * width + x]))
     };
-    places(samples).map(alone).collect()
+    places(samples).map(is_inner).collect()
 }

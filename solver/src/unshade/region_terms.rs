@@ -1,30 +1,30 @@
-//! Specular reflectance and roughness per region, by highlights. Diffuse radiance does not depend on the view, so
-//! view-to-view variation at a texel is specular: the slope of the observed on the predicted highlights is a factor of
-//! the reflectance, and that on their derivative by the roughness a step of it.
+//! Specular reflectance and roughness per region, from highlights. Diffuse radiance does not depend on the view, so
+//! view-to-view variation at a texel is specular. The slope of the observed on the predicted highlights is a factor on
+//! the reflectance; the slope on their derivative with respect to roughness is a step of the roughness.
 
 use serde::{Deserialize, Serialize};
 
-use super::regression::{Fit, Regression};
+use super::regression::{Regression, RegressionSums};
 use crate::config::{ReflectanceConfig, RoughnessConfig};
 use crate::transport::{CHANNELS, SpecularTerm};
 
-/// Contrast of a light that is half even.
-const HALF_EVEN_CONTRAST: f32 = 0.3;
+/// Contrast of a light with a uniformity of one half.
+const HALF_UNIFORM_CONTRAST: f32 = 0.3;
 
 /// The specular term per region.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct RegionTerms {
-    /// By the id of the region.
+    /// The term of each region, by its id.
     regions: Vec<SpecularTerm>,
-    /// The expected term of skin.
-    expected: SpecularTerm,
-    /// The regions that are skin and have one term; if none is named, the largest alone.
+    /// The prior mean of skin.
+    prior: SpecularTerm,
+    /// The regions of skin, which share one term; the largest region if no skin is named.
     skin: Vec<u8>,
 }
 
 impl RegionTerms {
-    /// The expected term of skin everywhere; `regions` are those of a texture.
-    pub fn expected(reflectance: f32, skin: &[u8], regions: &[u8]) -> Self {
+    /// The prior mean of skin in every region; `regions` has the region of every texel.
+    pub fn prior(reflectance: f32, skin: &[u8], regions: &[u8]) -> Self {
         let mut skin = skin.to_vec();
         if skin.is_empty() {
             let mut counts = [0usize; 256];
@@ -32,22 +32,22 @@ impl RegionTerms {
             let largest = (0..=u8::MAX).max_by_key(|region| counts[usize::from(*region)]);
             skin.extend(largest);
         }
-        let expected = SpecularTerm::usual(reflectance);
-        Self { regions: vec![expected; 256], expected, skin }
+        let prior = SpecularTerm::usual(reflectance);
+        Self { regions: vec![prior; 256], prior, skin }
     }
 
-    /// That of a region.
+    /// The specular term of a region.
     pub fn of(&self, region: u8) -> SpecularTerm {
         self.regions[usize::from(region)]
     }
 
-    /// As a texture of these regions, of [`SpecularTerm::channels`].
+    /// The [`SpecularTerm::channels`] of every texel, by its region.
     pub fn texture(&self, regions: &[u8]) -> Vec<f32> {
         regions.iter().flat_map(|region| self.of(*region).channels()).collect()
     }
 
-    /// The terms relative to the [peak](crate::transport::Transport::peak) of another light, by its peak over that of
-    /// this one: highlights are as strong as before. The expected term does not change.
+    /// Multiplies the reflectances by a factor: the [peak](crate::transport::Transport::peak) of another light over that
+    /// of this one, which preserves the strength of highlights. The prior does not change.
     #[must_use]
     pub fn relative_to(&self, factor: f32) -> Self {
         let scaled =
@@ -59,37 +59,39 @@ impl RegionTerms {
         self.of(self.skin[0])
     }
 
-    /// The factor of the pictures' exposure over the light's peak. Skin's measured reflectance is the expected one
-    /// times this factor and that of the person; both have a prior, and this is the most probable.
-    pub fn exposure(&self, config: &ReflectanceConfig) -> f32 {
+    /// The most probable error x of the exposure, a factor relative to the convention that the light's peak sets it.
+    /// The measured reflectance of skin is its prior mean times x times a factor of the person; both factors have a
+    /// prior.
+    pub fn exposure_error(&self, config: &ReflectanceConfig) -> f32 {
         if config.exposure_deviation == 0.0 {
             return 1.0;
         }
-        let shown = self.of_skin().reflectance / self.expected.reflectance;
+        let observed = self.of_skin().reflectance / self.prior.reflectance;
         let misfit = |log: &f32| {
-            let of_skin = (shown / log.exp() - 1.0) / config.skin_deviation;
-            (log / config.exposure_deviation).powi(2) + of_skin.powi(2)
+            let of_person = (observed / log.exp() - 1.0) / config.skin_deviation;
+            (log / config.exposure_deviation).powi(2) + of_person.powi(2)
         };
         let logs = (-100..=100).map(|hundredths: i32| 0.01 * hundredths as f32);
         let least = logs.min_by(|a, b| misfit(a).total_cmp(&misfit(b)));
         least.map_or(1.0, f32::exp)
     }
 
-    /// The terms after a regression on the highlights that these terms predict, on a texture of the `regions`.
-    /// Measurement and prior weigh by their variances; a region without highlights keeps the term of skin. Under an
-    /// even light (`evenness` up to 1) highlights vary at grazing angles alone, where normals and visibility err most.
+    /// Returns the terms with the posterior reflectances after a regression on the highlights that these terms predict,
+    /// on a texture with these `regions`. Measurement and prior are weighted by the inverse variances; a region without
+    /// highlights gets the reflectance of skin. In a light of `uniformity` 1, highlights vary only at grazing angles,
+    /// where the model is least accurate.
     #[must_use]
     pub fn with_reflectance(
         &self,
         config: &ReflectanceConfig,
-        evenness: f32,
+        uniformity: f32,
         regression: &Regression,
         regions: &[u8],
     ) -> Self {
-        let inflation = error_inflation(evenness);
+        let inflation = error_inflation(uniformity);
         self.revised(regression, regions, |measured, prior, is_skin| {
-            // Under an even light, errors of skin, which has the stronger prior, are inflated twice; elsewhere the
-            // light was found by other highlights, and errors are larger throughout.
+            // In uniform light the slope of skin's highlights is underestimated, so its error is inflated twice. The
+            // light was not fitted to highlights of other regions, whose errors are larger in any light.
             let (error, floor, deviation) = match is_skin {
                 true => (config.skin_error * inflation * inflation, 0.0, config.skin_deviation),
                 false => {
@@ -97,40 +99,40 @@ impl RegionTerms {
                 }
             };
             let reflectance = measured.reflectance(prior, error, floor, deviation);
-            SpecularTerm { reflectance, ..measured.now }
+            SpecularTerm { reflectance, ..measured.current }
         })
     }
 
-    /// Likewise with the roughness.
+    /// Returns the terms with the posterior roughness, by the same rules as [`Self::with_reflectance`].
     #[must_use]
     pub fn with_roughness(
         &self,
         config: &RoughnessConfig,
-        evenness: f32,
+        uniformity: f32,
         regression: &Regression,
         regions: &[u8],
     ) -> Self {
-        let error = config.error * error_inflation(evenness);
+        let error = config.error * error_inflation(uniformity);
         self.revised(regression, regions, |measured, prior, _| {
             let roughness = measured.roughness(prior, error, config.deviation);
-            SpecularTerm { roughness, ..measured.now }
+            SpecularTerm { roughness, ..measured.current }
         })
     }
 
-    /// Every term by its measurement and its prior: of skin, which has one term (`true`), the expected term; of any
-    /// other region the new term of skin.
+    /// Returns the posterior of every term. The prior mean of skin (`true`), which has one term, is [`Self::prior`]; that
+    /// of other regions is the posterior of skin.
     fn revised(
         &self,
         regression: &Regression,
         regions: &[u8],
         revised: impl Fn(Measurement, SpecularTerm, bool) -> SpecularTerm,
     ) -> Self {
-        let measured = |now: SpecularTerm, within: &dyn Fn(u8) -> bool| Measurement {
-            now,
-            fit: regression.fit(|texel| within(regions[texel]), 0..CHANNELS),
+        let measured = |current: SpecularTerm, within: &dyn Fn(u8) -> bool| Measurement {
+            current,
+            sums: regression.sums(|texel| within(regions[texel]), 0..CHANNELS),
         };
         let is_skin = |region: u8| self.skin.contains(&region);
-        let skin = revised(measured(self.of_skin(), &is_skin), self.expected, true);
+        let skin = revised(measured(self.of_skin(), &is_skin), self.prior, true);
         let of = |region: u8| match is_skin(region) {
             true => skin,
             false => revised(measured(self.of(region), &|other| other == region), skin, false),
@@ -139,25 +141,25 @@ impl RegionTerms {
     }
 }
 
-/// 1 of a light without contrast, 0 of lamps in the dark.
-pub(super) fn evenness(contrast: f32) -> f32 {
-    1.0 / (1.0 + (contrast / HALF_EVEN_CONTRAST).powi(2))
+/// 1 for a light without contrast, near 0 for lamps in the dark.
+pub(super) fn uniformity(contrast: f32) -> f32 {
+    1.0 / (1.0 + (contrast / HALF_UNIFORM_CONTRAST).powi(2))
 }
 
-/// Factor on the errors of measurements by highlights under an even light.
-fn error_inflation(evenness: f32) -> f32 {
-    (1.0 - evenness).max(1e-3).recip()
+/// The factor on the errors of measurements from highlights in a light of this uniformity.
+fn error_inflation(uniformity: f32) -> f32 {
+    (1.0 - uniformity).max(1e-3).recip()
 }
 
-/// The regression of a region whose term was taken to be `now`.
+/// The regression of a region with its current term.
 struct Measurement {
-    now: SpecularTerm,
-    fit: Fit,
+    current: SpecularTerm,
+    sums: RegressionSums,
 }
 
 impl Measurement {
-    /// The posterior reflectance. The measurement has the relative `error` of the model and `floor` of the prior as
-    /// its errors besides that of the regression; the prior has the relative `deviation`.
+    /// The posterior mean of the reflectance. The errors of the measurement are those of the regression, a relative
+    /// `model_error`, and a `floor` relative to the prior mean. The prior has a relative standard `deviation`.
     fn reflectance(
         &self,
         prior: SpecularTerm,
@@ -165,27 +167,28 @@ impl Measurement {
         floor: f32,
         deviation: f32,
     ) -> f32 {
-        let Some((slope, error)) = self.fit.slope() else { return prior.reflectance };
-        let now = f64::from(self.now.reflectance);
-        let measured = now * slope.max(0.0);
+        let Some((slope, error)) = self.sums.slope() else { return prior.reflectance };
+        let current = f64::from(self.current.reflectance);
+        let measured = current * slope.max(0.0);
         let prior = f64::from(prior.reflectance);
-        let error = (now * error).hypot(f64::from(model_error) * measured);
+        let error = (current * error).hypot(f64::from(model_error) * measured);
         let error = error.hypot(f64::from(floor) * prior);
         posterior((measured, error), (prior, f64::from(deviation) * prior)) as f32
     }
 
-    /// The posterior roughness, likewise, by its logarithm.
+    /// The posterior of the roughness, whose logarithm has these errors.
     fn roughness(&self, prior: SpecularTerm, model_error: f32, deviation: f32) -> f32 {
-        let Some((step, error)) = self.fit.rougher() else { return prior.roughness };
+        let Some((step, error)) = self.sums.log_roughness_step() else { return prior.roughness };
         let error = error.hypot(f64::from(model_error));
-        let measured = f64::from(self.now.roughness.ln()) + step.clamp(-LARGEST, LARGEST);
+        let measured =
+            f64::from(self.current.roughness.ln()) + step.clamp(-LARGEST_STEP, LARGEST_STEP);
         let prior = f64::from(prior.roughness.ln());
         posterior((measured, error), (prior, f64::from(deviation))).exp() as f32
     }
 }
 
-/// Largest step of the logarithm of the roughness: farther than that its derivative does not hold.
-const LARGEST: f64 = 0.3;
+/// Largest step of the logarithm of the roughness, beyond which the linear model does not hold.
+const LARGEST_STEP: f64 = 0.3;
 
 /// The posterior mean of a measurement and a prior with their standard deviations.
 fn posterior((measured, error): (f64, f64), (prior, deviation): (f64, f64)) -> f64 {
@@ -202,26 +205,26 @@ mod tests {
     const SKIN: f32 = 0.028;
 
     fn everywhere(reflectance: f32) -> RegionTerms {
-        RegionTerms::expected(reflectance, &[1], &[])
+        RegionTerms::prior(reflectance, &[1], &[])
     }
 
-    /// Terms whose measured reflectance is the expected one times a factor.
+    /// Terms whose measured reflectance is the prior mean times a factor.
     fn measured(factor: f32) -> RegionTerms {
         let regions = vec![SpecularTerm::usual(factor * SKIN); 256];
         RegionTerms { regions, ..everywhere(SKIN) }
     }
 
-    /// The reflectances of two halves of a texture whose highlights are `factors` of the predicted ones.
+    /// The reflectances of the two halves of a texture whose highlights are the predicted ones times `factors`.
     fn found(factors: [f32; 2]) -> [f32; 2] {
         let (samples, predicted) = scene();
         let texels = samples.taps.size() * samples.taps.size();
         let regions: Vec<u8> = (0..texels).map(|at| 1 + u8::from(2 * at > texels)).collect();
         let factor = |i: usize| factors[usize::from(regions[samples.taps.nearest(i)]) - 1];
-        let shown = |i: usize| {
+        let observed = |i: usize| {
             std::array::from_fn::<f32, CHANNELS, _>(|c| 3.0 + factor(i) * predicted[i][c])
         };
         let rows = |i: usize| [predicted[i], [0.0; CHANNELS]];
-        let regression = Regression::new(&samples, &samples.weight, rows, shown);
+        let regression = Regression::new(&samples, &samples.weight, rows, observed);
         let config = UnshadeConfig::default().reflectance;
         let all = everywhere(SKIN).with_reflectance(&config, 0.0, &regression, &regions);
         [1, 2].map(|region| all.of(region).reflectance)
@@ -230,28 +233,27 @@ mod tests {
     #[test]
     fn stronger_highlights_of_skin_are_partly_exposure() {
         let config = UnshadeConfig::default().reflectance;
-        let exposure = |factor: f32| measured(factor).exposure(&config);
-        assert_eq!(exposure(1.0), 1.0);
+        let error = |factor: f32| measured(factor).exposure_error(&config);
+        assert_eq!(error(1.0), 1.0);
         // The share of the exposure's variance in both.
         let [own, skin] = [config.exposure_deviation, config.skin_deviation].map(|d| d * d);
         let expected = 1.1_f32.powf(own / (own + skin));
-        assert!((exposure(1.1) - expected).abs() < 0.011, "{}", exposure(1.1));
-        assert_eq!(exposure(0.0), 1.0);
+        assert!((error(1.1) - expected).abs() < 0.011, "{}", error(1.1));
+        assert_eq!(error(0.0), 1.0);
         let peak = ReflectanceConfig { exposure_deviation: 0.0, ..config.clone() };
-        assert_eq!(measured(0.5).exposure(&peak), 1.0);
+        assert_eq!(measured(0.5).exposure_error(&peak), 1.0);
     }
 
     #[test]
     fn reflectance_lies_between_highlights_and_prior() {
         let [skin, hair] = found([1.3, 0.4]);
-        // A tenth of error of the model against half of deviation; for hair .3 of the little that it mirrors, and
-        // .15 of what skin does.
+        // The model error is 0.1, or 0.3 for hair with a floor of 0.15; the deviation of the prior is 0.5.
         assert!((skin / (1.3 * SKIN) - 1.0).abs() < 0.02, "{skin}");
-        let weight = |said: f32| 0.25 / (0.25 + 0.15_f32.powi(2) + (0.3 * said).powi(2));
-        let said = 0.4 / 1.3;
-        let expected = weight(said) * 0.4 + (1.0 - weight(said)) * 1.3;
+        let weight = |ratio: f32| 0.25 / (0.25 + 0.15_f32.powi(2) + (0.3 * ratio).powi(2));
+        let ratio = 0.4 / 1.3;
+        let expected = weight(ratio) * 0.4 + (1.0 - weight(ratio)) * 1.3;
         assert!((hair / (expected * SKIN) - 1.0).abs() < 0.03, "{hair} {expected}");
-        // What seems to mirror nothing still mirrors a little: the light may be a little off.
+        // A region without measured highlights keeps a part of the prior, since the light may be slightly wrong.
         let [skin, hair] = found([1.0, -0.5]);
         assert!((skin / SKIN - 1.0).abs() < 1e-4, "{skin}");
         assert!((hair / ((1.0 - weight(0.0)) * SKIN) - 1.0).abs() < 0.1, "{hair}");
@@ -263,20 +265,20 @@ mod tests {
         let regions = vec![1; samples.taps.size() * samples.taps.size()];
         let slope = |i: usize| predicted[i].map(|p| (40.0 * p).sin());
         let rows = |i: usize| [predicted[i], slope(i)];
-        let shown =
+        let observed =
             |i: usize| std::array::from_fn(|c| 3.0 + 1.7 * (predicted[i][c] + 0.2 * slope(i)[c]));
-        let regression = Regression::new(&samples, &samples.weight, rows, shown);
-        let found = |config: &RoughnessConfig, evenness: f32| {
-            let all = everywhere(SKIN).with_roughness(config, evenness, &regression, &regions);
+        let regression = Regression::new(&samples, &samples.weight, rows, observed);
+        let found = |config: &RoughnessConfig, uniformity: f32| {
+            let all = everywhere(SKIN).with_roughness(config, uniformity, &regression, &regions);
             assert_eq!(all.of(1).reflectance, SKIN);
             all.of(1).roughness.ln()
         };
         let config = UnshadeConfig::default().roughness;
         let exact = RoughnessConfig { error: 0.0, ..config.clone() };
         assert!((found(&exact, 0.0) - 0.2).abs() < 1e-3, "{}", found(&exact, 0.0));
-        // Between what is expected and what is shown, by their variances; an even light shows nothing.
-        let doubtful = RoughnessConfig { error: config.deviation, ..config };
-        assert!((found(&doubtful, 0.0) - 0.1).abs() < 1e-3, "{}", found(&doubtful, 0.0));
-        assert!(found(&doubtful, 1.0).abs() < 1e-3);
+        // Half of the step, with equal variances of prior and measurement; none in uniform light.
+        let uncertain = RoughnessConfig { error: config.deviation, ..config };
+        assert!((found(&uncertain, 0.0) - 0.1).abs() < 1e-3, "{}", found(&uncertain, 0.0));
+        assert!(found(&uncertain, 1.0).abs() < 1e-3);
     }
 }

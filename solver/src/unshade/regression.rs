@@ -1,7 +1,7 @@
-//! What pictures show, on the highlights that are predicted and on how these change with what is solved for: a step
-//! of Gauss and Newton for the specular term of every region.
+//! Regression of the observed on the predicted highlights and on their derivatives: a Gauss-Newton step for the specular
+//! term of every region.
 //!
-//! Within a texel, what varies from view to view is hardly diffuse, so that what all its samples share is left out.
+//! Diffuse radiance does not depend on the view, so the mean over the samples of a texel is subtracted.
 
 use std::ops::Range;
 
@@ -9,140 +9,142 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{CHANNELS, SpecularTerm};
 
-/// Predicted highlights, R, G, B: by reflectance, and their derivatives by the logarithms of the other parts of a
+/// Predicted highlights, R, G, B, and their derivatives with respect to the logarithms of the other parts of a
 /// [`SpecularTerm`].
 pub(super) type Predicted = [[f32; CHANNELS]; SpecularTerm::ROWS];
 
 /// Sums over the samples of a texel.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct TexelSums {
     count: f64,
     weight: f64,
-    /// Moments of predicted and shown highlights, channel by channel.
+    /// Moments of predicted and observed highlights, channel by channel.
     moments: [Moments; CHANNELS],
     view: u32,
-    /// Whether more than one view sees it.
-    shared: bool,
+    has_several_views: bool,
 }
 
 #[derive(Clone, Copy, Default)]
 struct Moments {
     predicted: [f64; SpecularTerm::ROWS],
-    shown: f64,
+    observed: f64,
     products: [[f64; SpecularTerm::ROWS]; SpecularTerm::ROWS],
-    both: [f64; SpecularTerm::ROWS],
-    shown_squared: f64,
+    cross: [f64; SpecularTerm::ROWS],
+    observed_squared: f64,
 }
 
-/// The regression, within the texels that several views see, without the samples where the sensor was full. What is
-/// shown may hold what is the same all over a texel.
+/// The regression within the texels that several views see, without saturated samples. A constant within a texel, such
+/// as its diffuse radiance, does not change it.
 pub(super) struct Regression {
-    /// In the order of the texels; those without samples are left out.
-    texels: Vec<(usize, Sums)>,
+    /// Texels with samples, ascending.
+    texels: Vec<(usize, TexelSums)>,
 }
 
 impl Regression {
-    /// Both in linear radiance; the samples count by `weight`.
+    /// Predicted and observed radiance of every sample, linear, with the weight of every sample.
     pub fn new(
         samples: &Samples,
         weight: &Planes,
         predicted: impl Fn(usize) -> Predicted,
-        shown: impl Fn(usize) -> [f32; CHANNELS],
+        observed: impl Fn(usize) -> [f32; CHANNELS],
     ) -> Self {
-        let full = full(samples);
+        let saturation = saturation_level(samples);
         let is_used = |i: &usize| {
             let target: [f32; CHANNELS] = samples.target.sample(*i, 0);
-            weight.get(0, *i) != 0.0 && target.iter().all(|t| *t < full)
+            weight.get(0, *i) != 0.0 && target.iter().all(|t| *t < saturation)
         };
         let mut order: Vec<usize> = (0..samples.len()).filter(is_used).collect();
         order.sort_by_key(|i| samples.taps.nearest(*i));
-        let mut texels: Vec<(usize, Sums)> = vec![];
+        let mut texels: Vec<(usize, TexelSums)> = vec![];
         for i in order {
             let (weight, view) = (f64::from(weight.get(0, i)), samples.view_index[i]);
             let at = samples.taps.nearest(i);
             if texels.last().is_none_or(|(last, _)| *last != at) {
-                texels.push((at, Sums::default()));
+                texels.push((at, TexelSums::default()));
             }
             let Some((_, sums)) = texels.last_mut() else { continue };
-            sums.shared |= sums.count > 0.0 && sums.view != view;
+            sums.has_several_views |= sums.count > 0.0 && sums.view != view;
             sums.view = view;
             sums.count += 1.0;
             sums.weight += weight;
-            let (predicted, shown) = (predicted(i), shown(i));
+            let (predicted, observed) = (predicted(i), observed(i));
             for (c, moments) in sums.moments.iter_mut().enumerate() {
-                let s = f64::from(shown[c]);
+                let o = f64::from(observed[c]);
                 let p = predicted.map(|row| f64::from(row[c]));
                 for k in 0..SpecularTerm::ROWS {
                     moments.predicted[k] += weight * p[k];
-                    moments.both[k] += weight * (p[k] * s);
+                    moments.cross[k] += weight * (p[k] * o);
                     (0..SpecularTerm::ROWS)
                         .for_each(|l| moments.products[k][l] += weight * (p[k] * p[l]));
                 }
-                moments.shown += weight * s;
-                moments.shown_squared += weight * (s * s);
+                moments.observed += weight * o;
+                moments.observed_squared += weight * (o * o);
             }
         }
         Self { texels }
     }
 
-    /// Over the texels `within` and some channels.
-    pub fn fit(&self, within: impl Fn(usize) -> bool, channels: Range<usize>) -> Fit {
-        let mut fit = Fit { freedom: -1.0, ..Fit::default() };
-        let shared = self.texels.iter().filter(|(at, sums)| sums.shared && within(*at));
-        for (_, Sums { count, weight, moments, .. }) in shared {
-            fit.freedom += count - 1.0;
+    /// Sums over the texels `within`, in some channels.
+    pub fn sums(&self, within: impl Fn(usize) -> bool, channels: Range<usize>) -> RegressionSums {
+        let mut sums = RegressionSums { degrees_of_freedom: -1.0, ..RegressionSums::default() };
+        let texels = self.texels.iter().filter(|(at, t)| t.has_several_views && within(*at));
+        for (_, TexelSums { count, weight, moments, .. }) in texels {
+            sums.degrees_of_freedom += count - 1.0;
             for m in &moments[channels.clone()] {
                 for k in 0..SpecularTerm::ROWS {
-                    fit.both[k] += m.both[k] - m.predicted[k] * m.shown / weight;
+                    sums.cross[k] += m.cross[k] - m.predicted[k] * m.observed / weight;
                     for l in 0..SpecularTerm::ROWS {
-                        fit.products[k][l] +=
+                        sums.products[k][l] +=
                             m.products[k][l] - m.predicted[k] * m.predicted[l] / weight;
                     }
                 }
-                fit.shown += m.shown_squared - m.shown * m.shown / weight;
+                sums.observed += m.observed_squared - m.observed * m.observed / weight;
             }
         }
-        fit
+        sums
     }
 }
 
-/// Sums of squares and products around the means of the texels.
+/// Sums of squares and products of the differences to the means of the texels.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Fit {
+pub(super) struct RegressionSums {
     products: [[f64; SpecularTerm::ROWS]; SpecularTerm::ROWS],
-    both: [f64; SpecularTerm::ROWS],
-    shown: f64,
-    freedom: f64,
+    cross: [f64; SpecularTerm::ROWS],
+    observed: f64,
+    degrees_of_freedom: f64,
 }
 
-impl Fit {
-    /// Slope on the highlights themselves and its standard error; `None` of too little.
+impl RegressionSums {
+    /// The slope on the predicted highlights and its standard error; `None` without enough data.
     pub fn slope(&self) -> Option<(f64, f64)> {
-        let (both, predicted) = (self.both[0], self.products[0][0]);
-        let slope = both / predicted;
-        let error = ((self.shown - slope * both).max(0.0) / (self.freedom * predicted)).sqrt();
+        let (cross, predicted) = (self.cross[0], self.products[0][0]);
+        let slope = cross / predicted;
+        let residual = (self.observed - slope * cross).max(0.0);
+        let error = (residual / (self.degrees_of_freedom * predicted)).sqrt();
         (slope.is_finite() && error.is_finite()).then_some((slope, error))
     }
 
-    /// What the logarithm of the roughness is to be moved by and its standard error, with the reflectance free;
-    /// `None` of too little. Far from the true roughness the derivative explains nearly all that is shown, and the
-    /// highlights themselves nothing: they count as a tenth of what they explain alone, so that the step is long.
-    pub fn rougher(&self) -> Option<(f64, f64)> {
+    /// The step of the logarithm of the roughness and its standard error, for any reflectance; `None` without enough
+    /// data. Far from the true roughness, the derivative explains nearly all variation and the slope on the highlights
+    /// is close to 0. The slope is then a tenth of its value without the derivative, which gives a long step.
+    pub fn log_roughness_step(&self) -> Option<(f64, f64)> {
         let [[hh, hr], [_, rr]] = self.products;
-        let [h, r] = self.both;
+        let [h, r] = self.cross;
         let determinant = hh * rr - hr * hr;
         let (by_h, by_r) = ((rr * h - hr * r) / determinant, (hh * r - hr * h) / determinant);
-        let left = (self.shown - by_h * h - by_r * r).max(0.0) / self.freedom;
+        let residual_variance =
+            (self.observed - by_h * h - by_r * r).max(0.0) / self.degrees_of_freedom;
         let strength = by_h.max(0.1 * h / hh);
-        let (step, error) = (by_r / strength, (left * hh / determinant).sqrt() / strength);
+        let error = (residual_variance * hh / determinant).sqrt() / strength;
+        let step = by_r / strength;
         (strength > 0.0 && step.is_finite() && error.is_finite()).then_some((step, error))
     }
 }
 
-/// The value of a full sensor in the pictures: their largest one, if it occurs more than once.
-fn full(samples: &Samples) -> f32 {
+/// The value of saturated pixels: the largest value of the pictures, if it occurs more than once.
+fn saturation_level(samples: &Samples) -> f32 {
     let values = || (0..samples.len()).flat_map(|i| samples.target.sample::<CHANNELS>(i, 0));
     let largest = values().fold(f32::MIN, f32::max);
-    let more = values().filter(|value| *value == largest).nth(1);
-    more.unwrap_or(f32::INFINITY)
+    let second = values().filter(|value| *value == largest).nth(1);
+    second.unwrap_or(f32::INFINITY)
 }

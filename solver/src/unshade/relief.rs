@@ -1,12 +1,12 @@
-//! Relief from heights, coarse to fine: every linearisation on a texture of twice the side of the one before, whose
-//! coarse part conjugate gradients would not fill in as many steps.
+//! Relief from heights, coarse to fine. Each linearisation is on a texture of twice the side of the previous one, since
+//! a step of conjugate gradients propagates information by one texel.
 
 use capture::gbuffer::Atlas;
 use serde::{Deserialize, Serialize};
 
-use super::height_solve::{BLUR, HeightSolve};
+use super::height_solve::{BLUR, HeightProblem};
+use super::light::JointEstimate;
 use super::lighting::Lighting;
-use super::region_terms::RegionTerms;
 use crate::backend::Backend;
 use crate::config::ReliefConfig;
 use crate::model::planes::Planes;
@@ -16,12 +16,11 @@ use crate::model::texture::{interleave, part, resample};
 use crate::run::Run;
 use crate::run::error::SolveError;
 use crate::scene::Scene;
-use crate::transport::LIGHT_EXPONENT;
 
 /// Least side of a texture of heights, texels.
 const LEAST_SIDE: usize = 16;
 
-/// Least number of views on a side: the means of fewer over a texel leave too little.
+/// Least number of views on a side: with fewer, little is left after the mean over a texel's views is subtracted.
 const LEAST_VIEWS: usize = 3;
 
 /// The deviation of the specular normals from the mesh normals.
@@ -29,71 +28,71 @@ const LEAST_VIEWS: usize = 3;
 pub(super) struct Relief {
     /// Side of the texture, texels.
     pub size: usize,
-    /// x, y, z per texel, unit normals being 1 long.
+    /// The difference to the unit mesh normal, x, y, z per texel.
     pub deviation: Vec<f32>,
 }
 
 impl Relief {
-    /// The mesh as it is.
+    /// No deviation.
     pub fn none(size: usize) -> Self {
         Self { size, deviation: vec![0.0; 3 * size * size] }
     }
 
-    /// The deviation of the diffuse normals, which are smoother.
+    /// The deviation of the diffuse normals, which are smoother. [`Pyramid`] approximates the Gaussian of the solve's
+    /// [`Blur`](crate::model::blur::Blur) to about 2 %, and is faster on the larger textures of the maps.
     pub fn blurred(&self) -> Vec<f32> {
         let texels = self.size * self.size;
         let packed = interleave::<4>(&[(&self.deviation, 3), (&vec![0.0; texels], 1)]);
         part::<4, 3>(&Pyramid::new(self.size, BLUR * self.size as f32).apply(&packed), 0)
     }
 
-    /// The same on a texture of another side.
+    /// Resamples the relief to a texture of another side.
     #[must_use]
     pub fn resized(self, size: usize) -> Self {
         Self { deviation: resample(&self.deviation, self.size, 3, size), size }
     }
 }
 
-/// Relief by the pictures under a light. After an interrupt it is as fine as it is then.
+/// Fits the relief to the pictures under a light. An interrupt ends it at the current texture size.
 pub(super) fn fit_relief(
     run: &mut Run,
+    name: &str,
     config: &ReliefConfig,
     scene: &Scene,
     lighting: &Lighting,
-    terms: &RegionTerms,
+    joint: &JointEstimate,
 ) -> Result<Relief, SolveError> {
-    if run.is_interrupted() {
-        return Ok(Relief::none(scene.size));
-    }
     let (backend, steps) = (run.backend, steps(config, scene.size, scene.capture.train.len()));
-    run.foreign_steps("relief", steps, |step| {
+    run.foreign_steps(name, steps, |step| {
         let mut unknowns: Option<(usize, Vec<f32>)> = None;
-        let mut relief = Relief::none(sides(config, scene.size)[0]);
+        let sizes = texture_sizes(config, scene.size);
+        let mut relief = Relief::none(sizes[0]);
         let mut share = 1.0;
-        for side in sides(config, scene.size) {
-            let level = Level::new(backend, config, scene, lighting, terms, side);
-            let solve = level.solve(&level.samples);
+        for size in sizes {
+            let level = Level::new(backend, config, scene, lighting, joint, size);
+            let problem = level.height_problem(&level.samples);
             let coarsest = unknowns.is_none();
             let mut x = match unknowns.take() {
-                None => vec![0.0; solve.unknowns()],
-                Some((of, coarser)) => enlarged(&coarser, of, side),
+                None => vec![0.0; problem.unknowns()],
+                Some((of, coarser)) => enlarged(&coarser, of, size),
             };
-            let mut last = 0.0;
-            let done = solve.solve(&mut x, &mut |residual| {
-                last = residual;
+            let mut last_residual = 0.0;
+            let outcome = problem.minimise(&mut x, &mut |residual| {
+                last_residual = residual;
                 step(residual)
             });
-            relief = Relief { size: side, deviation: solve.deviation(&x) };
-            unknowns = Some((side, x));
-            drop(solve);
-            let done = done.and_then(|()| {
+            relief = Relief { size, deviation: problem.deviation(&x) };
+            unknowns = Some((size, x));
+            drop(problem);
+            let outcome = outcome.and_then(|()| {
                 if coarsest {
-                    share = level.plausible_share(&mut |_| step(last))?;
+                    share = level.plausible_share(&mut |_| step(last_residual))?;
                 }
                 Ok(())
             });
-            match done {
+            match outcome {
                 Err(SolveError::Interrupted) => break,
-                done => done?,
+                outcome => outcome?,
             }
         }
         let mut relief = relief.resized(scene.size);
@@ -102,13 +101,13 @@ pub(super) fn fit_relief(
     })
 }
 
-/// The problem on a texture of one side.
+/// The height problem on a texture of one size.
 struct Level<'a> {
     backend: &'a dyn Backend,
     config: &'a ReliefConfig,
     scene: &'a Scene<'a>,
     lighting: &'a Lighting<'a>,
-    terms: &'a RegionTerms,
+    joint: &'a JointEstimate,
     atlas: Atlas,
     samples: Samples,
 }
@@ -119,54 +118,51 @@ impl<'a> Level<'a> {
         config: &'a ReliefConfig,
         scene: &'a Scene,
         lighting: &'a Lighting,
-        terms: &'a RegionTerms,
-        side: usize,
+        joint: &'a JointEstimate,
+        size: usize,
     ) -> Self {
-        let (atlas, samples) = (Atlas::new(&scene.capture.mesh, side), scene.samples(None, side));
-        Self { backend, config, scene, lighting, terms, atlas, samples }
+        let (atlas, samples) = (Atlas::new(&scene.capture.mesh, size), scene.samples(None, size));
+        Self { backend, config, scene, lighting, joint, atlas, samples }
     }
 
-    fn solve<'b>(&'b self, samples: &'b Samples) -> HeightSolve<'b> {
-        let highlights =
-            self.lighting.highlights(self.backend, self.terms, samples, LIGHT_EXPONENT);
-        let views = &self.scene.gbuffers;
-        let (config, backend) = (self.config, self.backend);
-        HeightSolve::new(config, backend, samples, views, &self.atlas, self.lighting, highlights)
+    fn height_problem<'b>(&'b self, samples: &'b Samples) -> HeightProblem<'b> {
+        let Self { backend, config, scene, lighting, joint, ref atlas, .. } = *self;
+        HeightProblem::new(config, backend, samples, &scene.gbuffers, atlas, lighting, joint)
     }
 
-    /// The share of the relief that is plausible: 1 where the views of either side show all of the relief that those
-    /// of the other find, or more, since flatness finds too little; 0 where they show
-    /// [`ReliefConfig::minimum_agreement`] of it, as they do of errors of the model that repeat from view to view. 1
-    /// with fewer than three views on a side.
+    /// The plausible share of the relief. The views of each side yield a relief, which is compared with the pictures
+    /// of the other side. The share is 1 if the slope of the pictures on that relief is 1 or more (the flatness penalty
+    /// underestimates relief), and 0 if it is [`ReliefConfig::minimum_agreement`], as for model errors that repeat from
+    /// view to view. It is 1 with fewer than three views on a side.
     fn plausible_share(
         &self,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<f32, SolveError> {
         let least = f64::from(self.config.minimum_agreement);
-        let sides = self.sides();
-        if least == 0.0 || sides.len() < 2 * LEAST_VIEWS {
+        let side_of_view = self.split_views();
+        if least == 0.0 || side_of_view.len() < 2 * LEAST_VIEWS {
             return Ok(1.0);
         }
-        let (mut common, mut relief) = (0.0, 0.0);
+        let (mut product_sum, mut square_sum) = (0.0, 0.0);
         for side in [false, true] {
-            // One side at a time, for their memory.
-            let samples = self.one_side(&sides, side);
-            let solve = self.solve(&samples);
-            let mut unknowns = vec![0.0; solve.unknowns()];
-            solve.solve(&mut unknowns, step)?;
-            drop(solve);
+            // Both sides do not fit into memory.
+            let samples = self.samples_of_side(&side_of_view, side);
+            let problem = self.height_problem(&samples);
+            let mut unknowns = vec![0.0; problem.unknowns()];
+            problem.minimise(&mut unknowns, step)?;
+            drop(problem);
             drop(samples);
-            let other = self.one_side(&sides, !side);
-            let [product, square] = self.solve(&other).agreement(&unknowns);
-            common += product;
-            relief += square;
+            let other = self.samples_of_side(&side_of_view, !side);
+            let [product, square] = self.height_problem(&other).agreement(&unknowns);
+            product_sum += product;
+            square_sum += square;
         }
-        let observed = if relief > 0.0 { common / relief } else { 1.0 };
-        Ok(((observed - least) / (1.0 - least)).clamp(0.0, 1.0) as f32)
+        let slope = if square_sum > 0.0 { product_sum / square_sum } else { 1.0 };
+        Ok(((slope - least) / (1.0 - least)).clamp(0.0, 1.0) as f32)
     }
 
-    /// For every training view the side that it is on, along the axis over which they spread most.
-    fn sides(&self) -> Vec<bool> {
+    /// Splits the training views into two sides along the axis of the largest spread of cameras; `true` is the second.
+    fn split_views(&self) -> Vec<bool> {
         let places: Vec<[f32; 3]> =
             self.scene.capture.train.iter().map(|v| v.camera.position().to_array()).collect();
         let spread = |axis: usize| {
@@ -177,43 +173,43 @@ impl<'a> Level<'a> {
         let axis = (0..3).find(|axis| widest(*axis)).unwrap_or(0);
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by(|a, b| places[*a][axis].total_cmp(&places[*b][axis]));
-        let mut sides = vec![false; places.len()];
-        order[places.len() / 2..].iter().for_each(|view| sides[*view] = true);
-        sides
+        let mut side_of_view = vec![false; places.len()];
+        order[places.len() / 2..].iter().for_each(|view| side_of_view[*view] = true);
+        side_of_view
     }
 
-    /// The samples, with weight 0 for those of the other side's views.
-    fn one_side(&self, sides: &[bool], side: bool) -> Samples {
+    /// The samples, with weight 0 in the views of the other side.
+    fn samples_of_side(&self, side_of_view: &[bool], side: bool) -> Samples {
         let samples = &self.samples;
         let weight = Planes::from_fn(samples.len(), |i| {
-            let counts = sides[samples.view_index[i] as usize] == side;
+            let counts = side_of_view[samples.view_index[i] as usize] == side;
             [if counts { samples.weight.get(0, i) } else { 0.0 }]
         });
         Samples { weight, ..samples.clone() }
     }
 }
 
-/// Conjugate-gradient steps for textures of side `size` and so many training views.
+/// The largest number of conjugate-gradient steps for textures of side `size` and this number of training views.
 pub(super) fn steps(config: &ReliefConfig, size: usize, views: usize) -> usize {
-    let sides = sides(config, size);
-    let of_side = |side: &usize| config.reweightings * config.steps_on(*side);
-    let tested = config.minimum_agreement > 0.0 && views >= 2 * LEAST_VIEWS;
-    sides.iter().map(of_side).sum::<usize>() + if tested { 2 * of_side(&sides[0]) } else { 0 }
+    let sizes = texture_sizes(config, size);
+    let of_size = |size: &usize| config.reweightings * config.steps_on(*size);
+    let has_test = config.minimum_agreement > 0.0 && views >= 2 * LEAST_VIEWS;
+    sizes.iter().map(of_size).sum::<usize>() + if has_test { 2 * of_size(&sizes[0]) } else { 0 }
 }
 
-/// The sides of the textures of heights, one for every linearisation.
-fn sides(config: &ReliefConfig, size: usize) -> Vec<usize> {
+/// The sides of the textures of heights, one for every linearisation, ascending.
+fn texture_sizes(config: &ReliefConfig, size: usize) -> Vec<usize> {
     let finest = (size as f32 * config.texture_scale) as usize;
     (0..config.linearisations).rev().map(|halved| (finest >> halved).max(LEAST_SIDE)).collect()
 }
 
-/// Heights, which count texels, and changes of the albedo on a texture of another side.
-fn enlarged(unknowns: &[f32], of: usize, side: usize) -> Vec<f32> {
+/// Resamples the unknowns, heights in texels and changes of the albedo, from side `of` to a larger side.
+fn enlarged(unknowns: &[f32], of: usize, size: usize) -> Vec<f32> {
     let (height, albedo) = unknowns.split_at(of * of);
-    let mut enlarged = resample(height, of, 1, side);
-    let more = side as f32 / of as f32;
-    enlarged.iter_mut().for_each(|height| *height *= more);
-    enlarged.append(&mut resample(albedo, of, 3, side));
+    let mut enlarged = resample(height, of, 1, size);
+    let ratio = size as f32 / of as f32;
+    enlarged.iter_mut().for_each(|height| *height *= ratio);
+    enlarged.append(&mut resample(albedo, of, 3, size));
     enlarged
 }
 

@@ -1,4 +1,4 @@
-//! The highlights of the light on normals that relief deviates.
+//! The highlights of the light on the normals of relief.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::model::planes::Planes;
 use crate::model::samples::Samples;
 use crate::transport::{HIGHLIGHT_ROWS, SkinHighlights, SpecularTerm};
 
-/// A light, and the specular terms of samples.
+/// The highlights of a light on samples with their specular terms.
 pub(super) struct ReliefHighlights<'a> {
     backend: &'a dyn Backend,
     highlights: SkinHighlights<'a>,
@@ -20,8 +20,8 @@ impl<'a> ReliefHighlights<'a> {
         Self { backend, highlights, specular }
     }
 
-    /// On skin that is rougher by this factor.
-    pub fn rougher(&self, factor: f32) -> Self {
+    /// Multiplies the roughness of the samples by a factor.
+    pub fn with_rougher_skin(&self, factor: f32) -> Self {
         let term = |i: usize| {
             let term = SpecularTerm::at(&self.specular, i);
             SpecularTerm { roughness: factor * term.roughness, ..term }.channels()
@@ -30,7 +30,8 @@ impl<'a> ReliefHighlights<'a> {
         Self { specular, highlights: self.highlights.clone(), ..*self }
     }
 
-    /// Highlights with normals bent by the first rows of `deviations`, R, G, B, and their change with those.
+    /// The highlights, R, G, B, with normals bent by the first rows of `deviations`, and the derivative of their luminance
+    /// with respect to the deviation.
     pub fn at(&self, samples: &Samples, deviations: &Planes) -> Planes {
         let bent = |i: usize| {
             Vec3::from_array(samples.normal.sample(i, 0))

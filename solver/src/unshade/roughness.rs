@@ -1,43 +1,42 @@
-//! The roughness of regions, by the view-to-view change of highlights on the found relief. Relief that is not yet in
-//! the normals would be taken for roughness, so that it is measured once the heights are found.
+//! The roughness of regions, from the view-to-view variation of highlights on the estimated relief. Unresolved relief
+//! would appear as roughness, so the heights are fitted first.
 
+use super::albedo::FullPictures;
 use super::lighting::Lighting;
 use super::region_terms::RegionTerms;
 use super::regression::Regression;
 use super::relief::Relief;
 use crate::backend::Backend;
 use crate::config::RoughnessConfig;
-use crate::model::samples::Samples;
 use crate::transport::CHANNELS;
 
-/// Factor on the roughness for its derivative.
+/// Factor on the roughness in the finite difference of the derivative.
 const ROUGHER: f32 = 1.1;
-/// Exponent of the cosine lobe through which the light is seen: next to none, since lamps are often smaller than the
-/// cells that stand for them, and skin would seem sharper than it is.
-const LIGHT_EXPONENT: i32 = 512;
+/// Exponent of the cosine lobe that filters the light: almost no filter. Lamps are often smaller than cells, and a wider
+/// filter would reduce the estimated roughness further.
+const NEARLY_UNFILTERED_EXPONENT: i32 = 512;
 
-/// The terms with the roughness that the samples show; `regions` are those of the samples' texture.
+/// Returns the terms with the estimated roughness.
 pub(super) fn measure_roughness(
     backend: &dyn Backend,
     config: &RoughnessConfig,
     lighting: &Lighting,
-    samples: &Samples,
-    regions: &[u8],
+    pictures: &FullPictures,
     relief: &Relief,
     terms: &RegionTerms,
 ) -> RegionTerms {
-    let samples = &samples.thinned_in_runs(config.samples);
+    let samples = &pictures.samples.thinned_in_runs(config.samples);
     let sharp = samples.taps.sample::<3>(&relief.deviation);
     let round = |terms: RegionTerms, _| {
-        let highlights = lighting.highlights(backend, &terms, samples, LIGHT_EXPONENT);
+        let highlights = lighting.highlights(backend, &terms, samples, NEARLY_UNFILTERED_EXPONENT);
         let predicted = highlights.at(samples, &sharp);
-        let rougher = highlights.rougher(ROUGHER).at(samples, &sharp);
+        let rougher = highlights.with_rougher_skin(ROUGHER).at(samples, &sharp);
         let change = |c: usize, i: usize| rougher.get(c, i) - predicted.get(c, i);
         let slope = |i: usize| std::array::from_fn(|c| change(c, i) / ROUGHER.ln());
         let rows = |i: usize| [predicted.sample::<CHANNELS>(i, 0), slope(i)];
         let observed = |i: usize| samples.target.sample(i, 0);
         let regression = Regression::new(samples, &samples.weight, rows, observed);
-        terms.with_roughness(config, lighting.evenness(), &regression, regions)
+        terms.with_roughness(config, lighting.uniformity(), &regression, pictures.regions)
     };
     (0..config.rounds).fold(terms.clone(), round)
 }

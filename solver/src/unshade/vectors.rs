@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::simd::widened;
 
-/// Values that one task works through.
+/// Values per task.
 const CHUNK: usize = 1 << 14;
 
 /// `sum` += `values`.
@@ -28,7 +28,7 @@ widened! {
     }
 }
 
-/// The inner product, in f64 and in fixed chunks, so that threads do not matter.
+/// The inner product, in f64 and in fixed chunks, so that the result does not depend on the number of threads.
 pub(super) fn dot(a: &[f32], b: &[f32]) -> f64 {
     let parts: Vec<f64> =
         a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).map(|(a, b)| dot_part(a, b)).collect();

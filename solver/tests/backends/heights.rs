@@ -1,4 +1,5 @@
-//! The height solve's conjugate gradients, against the same written out with the processor's operators.
+//! The conjugate gradients of the height problem on a device, against an independent loop with the processor's
+//! operators.
 
 use capture::gbuffer::Atlas;
 use solver::backend::Backend;
@@ -15,7 +16,7 @@ use super::testing;
 const SIDE: usize = 32;
 const TEXELS: usize = SIDE * SIDE;
 const STEPS: usize = 12;
-/// Share of the part in the diffuse layer's colour that counts for nothing.
+/// The removed share of the component along the diffuse layer's colour.
 const DIFFUSE_SHARE: f32 = 0.6;
 /// Weights of flatness, smoothness, heights, albedo.
 const WEIGHTS: [f32; 4] = [30.0, 60.0, 1e-3, 30.0];
@@ -25,8 +26,8 @@ fn channels(values: &[f32], first: usize) -> Vec<f32> {
 }
 
 /// The product with the matrix.
-fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32> {
-    let [flatness, smoothness, rest, damping] = WEIGHTS;
+fn product_with_matrix(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32> {
+    let [flatness, smoothness, height_damping, albedo_damping] = WEIGHTS;
     let deviation = field.deviation(&x[..TEXELS]);
     let soft = equations.blur.apply(&deviation);
     let texture: Vec<f32> = (0..TEXELS)
@@ -71,9 +72,10 @@ fn image(equations: &NormalEquations, field: &HeightField, x: &[f32]) -> Vec<f32
             sharp[at] + soft[at] + flatness * deviation[at] + smoothness * pull
         })
         .collect();
-    let heights = field.adjoint(&by_deviation).into_iter().zip(x).map(|(g, x)| g + rest * x);
+    let heights =
+        field.adjoint(&by_deviation).into_iter().zip(x).map(|(g, x)| g + height_damping * x);
     let albedo = channels(&gathered, 6).into_iter().zip(&x[TEXELS..]);
-    heights.chain(albedo.map(|(g, x)| g + damping * x)).collect()
+    heights.chain(albedo.map(|(g, x)| g + albedo_damping * x)).collect()
 }
 
 fn dot(a: &[f32], b: &[f32]) -> f64 {
@@ -88,23 +90,23 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
     let blur = Blur::new(SIDE, 3, 1.5);
     let slopes = Planes::from_fn::<15>(len, |i| std::array::from_fn(|row| noise(row, i) - 0.3));
     let weight = Planes::from_fn(len, |i| [0.5 + noise(20, i)]);
-    let goal: Vec<f32> = (0..4 * TEXELS).map(|i| noise(30, i) - 0.5).collect();
+    let right_hand_side: Vec<f32> = (0..4 * TEXELS).map(|i| noise(30, i) - 0.5).collect();
     let start: Vec<f32> = (0..4 * TEXELS).map(|i| 0.01 * noise(40, i)).collect();
-    let [flatness, smoothness, rest, damping] = WEIGHTS;
+    let [flatness, smoothness, height_damping, albedo_damping] = WEIGHTS;
     let equations = NormalEquations {
         taps: &samples.taps,
         slopes: &slopes,
         weight: &weight,
-        goal: &goal,
+        right_hand_side: &right_hand_side,
         x: &start,
         basis: field.basis(),
         blur: &blur,
         flatness,
         smoothness,
-        rest,
-        damping,
+        height_damping,
+        albedo_damping,
         diffuse_share: DIFFUSE_SHARE,
-        enough: 1e-12,
+        tolerance: 1e-12,
     };
     let mut descent = backend.descent(&equations).unwrap();
     descent.steps(5).unwrap();
@@ -112,18 +114,18 @@ pub fn conjugate_gradients(backend: &dyn Backend) {
     let found = descent.unknowns().unwrap();
 
     let mut x = start.clone();
-    let first = image(&equations, &field, &x);
-    let mut left: Vec<f32> = goal.iter().zip(&first).map(|(b, ax)| b - ax).collect();
-    let (mut direction, mut energy) = (left.clone(), dot(&left, &left));
+    let a_x = product_with_matrix(&equations, &field, &x);
+    let mut residual: Vec<f32> = right_hand_side.iter().zip(&a_x).map(|(b, a_x)| b - a_x).collect();
+    let (mut direction, mut norm2) = (residual.clone(), dot(&residual, &residual));
     for _ in 0..STEPS {
-        let image = image(&equations, &field, &direction);
-        let length = (energy / dot(&direction, &image)) as f32;
-        x.iter_mut().zip(&direction).for_each(|(x, d)| *x += length * d);
-        left.iter_mut().zip(&image).for_each(|(r, a)| *r -= length * a);
-        let next = dot(&left, &left);
-        let turn = (next / energy) as f32;
-        direction.iter_mut().zip(&left).for_each(|(d, r)| *d = r + turn * *d);
-        energy = next;
+        let a_direction = product_with_matrix(&equations, &field, &direction);
+        let alpha = (norm2 / dot(&direction, &a_direction)) as f32;
+        x.iter_mut().zip(&direction).for_each(|(x, d)| *x += alpha * d);
+        residual.iter_mut().zip(&a_direction).for_each(|(r, a)| *r -= alpha * a);
+        let next = dot(&residual, &residual);
+        let beta = (next / norm2) as f32;
+        direction.iter_mut().zip(&residual).for_each(|(d, r)| *d = r + beta * *d);
+        norm2 = next;
     }
     for (what, part) in [("heights", 0..TEXELS), ("albedo", TEXELS..4 * TEXELS)] {
         let [found, x, start] = [&found, &x, &start].map(|values| &values[part.clone()]);

@@ -13,7 +13,7 @@ use solver::model::planes::Planes;
 use solver::paper::diffuse::diffuse as diffuse_fit;
 use solver::paper::normals::Normals;
 use solver::paper::warm_up::WarmUp;
-use solver::transport::{HIGHLIGHT_ROWS, Sky, SpecularTerm, Transport};
+use solver::transport::{HIGHLIGHT_ROWS, LIGHT_EXPONENT, Sky, SpecularTerm, Transport};
 
 use super::scene::problem;
 use super::testing;
@@ -108,11 +108,11 @@ pub fn skin_highlights(backend: &dyn Backend) {
     config.transport.texture_size = 32;
     let (samples, _) = problem(&PaperConfig::default());
     let mesh = testing::dome(24);
-    let sky = Sky::even(6).at(0.3);
+    let sky = Sky::lat_long(6).at(0.3);
     let transport = Transport::new(&mesh, &sky, &config.transport, 0);
     let light = (0..3 * transport.cells()).map(|i| (0.3 * (i as f32 * 0.37).sin()).exp());
     let light: Vec<f32> = light.collect();
-    let skin_highlights = transport.skin_highlights(&config.skin, &light);
+    let skin_highlights = transport.skin_highlights(&config.skin, &light, LIGHT_EXPONENT);
     let tilted = |i: usize| {
         let tilt = [0.37, 0.51, 0.73].map(|k| 0.2 * (i as f32 * k).sin());
         (Vec3::from_array(samples.normal.sample(i, 0)) + Vec3::from_array(tilt)).normalize()

@@ -1,4 +1,4 @@
-//! The conjugate gradients of the height solve.
+//! The conjugate gradients of the height problem, on a device.
 
 use glam::Vec3;
 
@@ -21,33 +21,34 @@ pub(super) struct Heights<'a> {
 }
 
 impl<'a> Heights<'a> {
-    /// Uploads everything and takes the first look at what is left of the goal.
+    /// Uploads the problem and computes the initial residual.
     pub fn new(gpu: &'a Gpu, problem: &NormalEquations) -> Result<Self, DeviceError> {
         let device = &gpu.device;
         let count = problem.x.len();
-        let goal: f64 = problem.goal.iter().map(|goal| f64::from(*goal).powi(2)).sum();
+        let norm2: f64 = problem.right_hand_side.iter().map(|b| f64::from(*b).powi(2)).sum();
+        let tolerance = (problem.tolerance * norm2) as f32;
         let vectors = Vectors {
             device,
             count,
-            scalars: device.filled("scalars", &[0.0, (problem.enough * goal) as f32, 0.0, 0.0]),
+            scalars: device.filled("scalars", &[0.0, tolerance, 0.0, 0.0]),
             parts: device.floats("parts", count.div_ceil(THREADS)),
             x: device.filled("unknowns", problem.x),
-            rest: device.filled("rest", problem.goal),
+            residual: device.filled("residual", problem.right_hand_side),
             direction: device.filled("direction", problem.x),
-            image: device.floats("image", count),
+            a_direction: device.floats("product with direction", count),
         };
-        let image = image(device, problem, &vectors.direction, &vectors.image);
-        let Vectors { rest, direction, image: imaged, .. } = &vectors;
-        let mut step = image;
+        let mut step =
+            product_with_matrix(device, problem, &vectors.direction, &vectors.a_direction);
+        let Vectors { residual, direction, a_direction, .. } = &vectors;
         let begin = step.len();
         step.push(vectors.update(0));
-        step.extend(vectors.product(0, rest, rest));
-        // Everything up to here happens once, on the unknowns in the direction's place.
+        step.extend(vectors.dot(0, residual, residual));
+        // The passes so far run once, with the unknowns in place of the direction.
         device.submit(&step, None, 1);
         step.truncate(begin);
-        step.extend(vectors.product(1, direction, imaged));
+        step.extend(vectors.dot(1, direction, a_direction));
         step.push(vectors.update(1));
-        step.extend(vectors.product(2, rest, rest));
+        step.extend(vectors.dot(2, residual, residual));
         step.push(vectors.update(2));
         device.check()?;
         Ok(Self { gpu, x: vectors.x, step })
@@ -74,13 +75,13 @@ struct Vectors<'a> {
     scalars: wgpu::Buffer,
     parts: wgpu::Buffer,
     x: wgpu::Buffer,
-    rest: wgpu::Buffer,
+    residual: wgpu::Buffer,
     direction: wgpu::Buffer,
-    image: wgpu::Buffer,
+    a_direction: wgpu::Buffer,
 }
 
 impl Vectors<'_> {
-    fn product(&self, what: u32, a: &wgpu::Buffer, b: &wgpu::Buffer) -> [Pass; 2] {
+    fn dot(&self, what: u32, a: &wgpu::Buffer, b: &wgpu::Buffer) -> [Pass; 2] {
         let kernel = self.device.kernel("product", include_str!("wgsl/dot.wgsl"), &[], "urrw");
         let parameters = self.device.uniform(&[self.count as u32]);
         let parts = Pass::over(self.device, &kernel, &[&parameters, a, b, &self.parts], self.count);
@@ -95,14 +96,14 @@ impl Vectors<'_> {
         let source = include_str!("wgsl/step.wgsl");
         let kernel = self.device.kernel("vectors", source, &[("WHAT", what)], "urrwww");
         let parameters = self.device.uniform(&[self.count as u32]);
-        let buffers =
-            [&parameters, &self.scalars, &self.image, &self.x, &self.rest, &self.direction];
+        let Self { scalars, a_direction, x, residual, direction, .. } = self;
+        let buffers = [&parameters, scalars, a_direction, x, residual, direction];
         Pass::over(self.device, &kernel, &buffers, self.count)
     }
 }
 
 /// The product of the normal equations' matrix with `from`.
-fn image(
+fn product_with_matrix(
     device: &Device,
     problem: &NormalEquations,
     from: &wgpu::Buffer,
@@ -157,8 +158,8 @@ fn image(
     ));
     let source = include_str!("wgsl/height_adjoint.wgsl");
     let kernel = device.kernel("heights' adjoint", source, &[], "urrrw");
-    let [rest, damping] = [problem.rest, problem.damping].map(f32::to_bits);
-    let parameters = device.uniform(&[size as u32, rest, damping]);
+    let dampings = [problem.height_damping, problem.albedo_damping].map(f32::to_bits);
+    let parameters = device.uniform(&[size as u32, dampings[0], dampings[1]]);
     let buffers = [&parameters, &basis, &by_deviation, from, to];
     passes.push(Pass::over(device, &kernel, &buffers, 4 * texels));
     passes

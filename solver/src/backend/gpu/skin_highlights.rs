@@ -1,4 +1,4 @@
-//! Highlights of a light on any normals.
+//! Highlights of a light on any normals, on a device.
 
 use super::device::Device;
 use super::pass::Pass;
@@ -17,12 +17,12 @@ pub(super) fn highlights(
     specular: &Planes,
 ) -> Result<Planes, DeviceError> {
     let parts = skin_highlights.parts(samples);
-    let cells = parts.open.len() / parts.from.len().max(1);
+    let cells = parts.visible_solid_angle.len() / parts.from.len().max(1);
     let pieces = Pieces::new(device, samples.len(), HIGHLIGHT_ROWS);
     let surface = pieces.upload(device, "surface", &[normals, &samples.view, specular]);
     let out = pieces.zeros(device, "highlights", HIGHLIGHT_ROWS);
     let lit = device.filled("cells", parts.cells);
-    let open = device.filled("open", parts.open);
+    let visible = device.filled("visible", parts.visible_solid_angle);
     let from: Vec<[f32; 3]> = parts.from.iter().map(|from| from.to_array()).collect();
     let from = device.filled("places", &from);
     let kernel =
@@ -35,7 +35,8 @@ pub(super) fn highlights(
     let pass = |(at, piece): (usize, &std::ops::Range<usize>)| {
         let row = device.filled("rows", &parts.row[piece.clone()]);
         let words = [&[piece.len() as u32, cells as u32], floats.as_slice()].concat();
-        let buffers = [&device.uniform(&words), &lit, &open, &row, &from, &surface[at], &out[at]];
+        let words = device.uniform(&words);
+        let buffers = [&words, &lit, &visible, &row, &from, &surface[at], &out[at]];
         Pass::over(device, &kernel, &buffers, piece.len())
     };
     let passes: Vec<Pass> = pieces.0.iter().enumerate().map(pass).collect();

@@ -1,24 +1,24 @@
-//! The agreement of relief with views from which it was not found.
+//! Cross-validation of relief with views to which it was not fitted.
 
 use super::super::neighbourhood::RESIDUAL_FLOOR;
-use super::HeightSolve;
+use super::HeightProblem;
 use crate::model::planes::Planes;
 use crate::unshade::linear_colour::UNKNOWNS;
 
-/// Sums over samples, by texel: both highlights of R, G, B, and the weight.
+/// Weighted sums per texel: the relief's highlights (R, G, B), the pictures' specular part (R, G, B), the weight.
 const MEANS: usize = 7;
 
-impl HeightSolve<'_> {
-    /// The agreement of the samples with the relief `x`, which other views found: the product of its highlights and of
-    /// the pictures' residual without them, and the square of its highlights, both weighed and summed. Each is less
-    /// its mean over the views of a texel: paint is in all of them, highlights move.
+impl HeightProblem<'_> {
+    /// The agreement of the samples with relief `x` that was fitted to other views: the weighted sums of p r and p^2,
+    /// with the change p of the highlights by the relief and the specular part r of the pictures. From both, the mean
+    /// over the views of a texel is subtracted, which removes paint: only highlights move with the view.
     pub(in crate::unshade) fn agreement(&self, x: &[f32]) -> [f64; 2] {
-        let light = &self.highlights;
+        let highlights = &self.highlights;
         let samples = self.samples;
         let (slopes, _) = self.linearise(x);
         let unknowns = self.sampled(x);
-        let flat = light.at(samples, &Planes::new(UNKNOWNS, samples.len()));
-        let bent = light.at(samples, &unknowns);
+        let flat = highlights.at(samples, &Planes::new(UNKNOWNS, samples.len()));
+        let bent = highlights.at(samples, &unknowns);
         let relief = Planes::from_fn(samples.len(), |i| {
             std::array::from_fn::<f32, 3, _>(|c| bent.get(c, i) - flat.get(c, i))
         });
@@ -33,10 +33,10 @@ impl HeightSolve<'_> {
             self.neighbourhood.without_coarse(&relief),
             self.neighbourhood.without_coarse(&picture),
         );
-        let left = Planes::from_fn(samples.len(), |i| {
+        let residual = Planes::from_fn(samples.len(), |i| {
             std::array::from_fn::<f32, 3, _>(|c| picture.get(c, i) - relief.get(c, i))
         });
-        let trust = self.neighbourhood.trust(&slopes, &left);
+        let trust = self.neighbourhood.trust(&slopes, &residual);
         let weight = |i: usize| trust.get(0, i) * samples.weight.get(0, i);
         let rows = Planes::from_fn(samples.len(), |i| {
             let (relief, picture): ([f32; 3], [f32; 3]) =
@@ -51,8 +51,8 @@ impl HeightSolve<'_> {
         for i in 0..samples.len() {
             let means: [f32; MEANS] = means.sample(i, 0);
             let mean = |row: usize| means[row] / means[6].max(f32::MIN_POSITIVE);
-            let left = left.sample::<3>(i, 0).iter().map(|z| z.abs()).sum::<f32>() / 3.0;
-            let weight = weight(i) / left.max(RESIDUAL_FLOOR);
+            let residual = residual.sample::<3>(i, 0).iter().map(|z| z.abs()).sum::<f32>() / 3.0;
+            let weight = weight(i) / residual.max(RESIDUAL_FLOOR);
             for c in 0..3 {
                 let relief = relief.get(c, i) - mean(c);
                 sums[0] += f64::from(weight * relief * (picture.get(c, i) - mean(3 + c)));

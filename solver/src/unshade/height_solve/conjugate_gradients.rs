@@ -1,8 +1,8 @@
-//! Conjugate gradients on the normal equations of the height solve, on the processor or on a device.
+//! Conjugate gradients on the normal equations of the height problem, on the processor or on a device.
 
 use rayon::prelude::*;
 
-use super::{HeightSolve, TOLERANCE, UNSEEN_DAMPING};
+use super::{HeightProblem, TOLERANCE, UNSEEN_DAMPING};
 use crate::backend::resident::NormalEquations;
 use crate::model::planes::Planes;
 use crate::run::error::SolveError;
@@ -12,24 +12,24 @@ use crate::unshade::linear_colour::{
 };
 use crate::unshade::vectors::{add_scaled, dot};
 
-/// Steps that a device takes between two words with the caller.
+/// Steps of one submission to a device.
 const SUBMITTED: usize = 5;
 
-impl HeightSolve<'_> {
+impl HeightProblem<'_> {
     pub(super) fn conjugate_gradients(
         &self,
         slopes: &Planes,
         weight: &Planes,
         target: &Planes,
         x: &mut [f32],
-        residual: f64,
+        mean_residual: f64,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<(), SolveError> {
         let taps = &self.samples.taps;
         let texels = self.size * self.size;
         let share = self.config.diffuse_share;
-        // One pass over the samples: 16 values and the place of each, 76 bytes.
-        let normal = |x: &[f32]| {
+        // A, in one pass over the samples: 16 values and the place of each, 76 bytes.
+        let a_times = |x: &[f32]| {
             let (height, albedo) = x.split_at(texels);
             let deviation = self.field.deviation(height);
             let (gathered, _) =
@@ -42,10 +42,10 @@ impl HeightSolve<'_> {
                 self.config.flatness,
                 self.config.smoothness,
             );
-            let mut out = self.carried(&gathered, Some(&penalty));
-            let (by_height, by_albedo) = out.split_at_mut(texels);
-            add_scaled(by_height, height, UNSEEN_DAMPING);
-            add_scaled(by_albedo, albedo, self.config.albedo_damping);
+            let mut out = self.transpose_to_unknowns(&gathered, Some(&penalty));
+            let (of_height, of_albedo) = out.split_at_mut(texels);
+            add_scaled(of_height, height, UNSEEN_DAMPING);
+            add_scaled(of_albedo, albedo, self.config.albedo_damping);
             out
         };
         let rows = Planes::from_fn(self.samples.len(), |i| {
@@ -56,72 +56,74 @@ impl HeightSolve<'_> {
                 without_diffuse_share(target, &slopes, share).map(|z| weight.get(0, i) * z),
             )
         });
-        let goal = self.carried(&taps.gather::<UNKNOWNS>(&rows, 0), None);
+        let right_hand_side = self.transpose_to_unknowns(&taps.gather::<UNKNOWNS>(&rows, 0), None);
         drop(rows);
-        // Steps that were lost with a device are reported once.
-        let heard = match self.on_device(slopes, weight, &goal, x, residual, step) {
-            Ok(done) => return done,
-            Err(heard) => heard,
-        };
-        let start = normal(x);
-        let mut rest: Vec<f32> = goal.iter().zip(&start).map(|(b, ax)| b - ax).collect();
-        let mut direction = rest.clone();
-        let enough = TOLERANCE * dot(&goal, &goal);
-        let mut energy = dot(&rest, &rest);
+        // After a device failed, its steps are repeated, but not reported again.
+        let steps_reported =
+            match self.on_device(slopes, weight, &right_hand_side, x, mean_residual, step) {
+                Ok(outcome) => return outcome,
+                Err(steps_reported) => steps_reported,
+            };
+        let a_x = a_times(x);
+        let mut residual: Vec<f32> =
+            right_hand_side.iter().zip(&a_x).map(|(b, a_x)| b - a_x).collect();
+        let mut direction = residual.clone();
+        let tolerance = TOLERANCE * dot(&right_hand_side, &right_hand_side);
+        let mut residual_norm2 = dot(&residual, &residual);
         for number in 0..self.steps {
-            if number >= heard {
-                step(residual)?;
+            if number >= steps_reported {
+                step(mean_residual)?;
             }
-            if energy <= enough {
+            if residual_norm2 <= tolerance {
                 continue;
             }
-            let image = normal(&direction);
-            let length = (energy / dot(&direction, &image)) as f32;
-            add_scaled(x, &direction, length);
-            add_scaled(&mut rest, &image, -length);
-            let next = dot(&rest, &rest);
-            let turn = (next / energy) as f32;
-            direction.par_iter_mut().zip(&rest).for_each(|(d, r)| *d = r + turn * *d);
-            energy = next;
+            let a_direction = a_times(&direction);
+            let alpha = (residual_norm2 / dot(&direction, &a_direction)) as f32;
+            add_scaled(x, &direction, alpha);
+            add_scaled(&mut residual, &a_direction, -alpha);
+            let next = dot(&residual, &residual);
+            let beta = (next / residual_norm2) as f32;
+            direction.par_iter_mut().zip(&residual).for_each(|(d, r)| *d = r + beta * *d);
+            residual_norm2 = next;
         }
         Ok(())
     }
 
-    /// These steps on a device. If there is none or it fails, the unknowns are as they were, and the error
-    /// is the number of steps that `step` has heard of.
+    /// Takes these steps on a device. Without a device, or after its failure, the unknowns are unchanged, and the error
+    /// is the number of steps already reported to `step`.
     fn on_device(
         &self,
         slopes: &Planes,
         weight: &Planes,
-        goal: &[f32],
+        right_hand_side: &[f32],
         x: &mut [f32],
-        residual: f64,
+        mean_residual: f64,
         step: &mut dyn FnMut(f64) -> Result<(), SolveError>,
     ) -> Result<Result<(), SolveError>, usize> {
         let problem = NormalEquations {
             taps: &self.samples.taps,
             slopes,
             weight,
-            goal,
+            right_hand_side,
             x,
             basis: self.field.basis(),
             blur: &self.blur,
             flatness: self.config.flatness,
             smoothness: self.config.smoothness,
-            rest: UNSEEN_DAMPING,
-            damping: self.config.albedo_damping,
+            height_damping: UNSEEN_DAMPING,
+            albedo_damping: self.config.albedo_damping,
             diffuse_share: self.config.diffuse_share,
-            enough: TOLERANCE,
+            tolerance: TOLERANCE,
         };
         let mut descent = self.backend.descent(&problem).ok_or(0usize)?;
-        let (mut heard, mut told) = (0, Ok(()));
-        while heard < self.steps && told.is_ok() {
-            let batch = SUBMITTED.min(self.steps - heard);
-            told = (0..batch).try_for_each(|_| step(residual));
-            heard += batch;
-            descent.steps(batch).map_err(|_| heard)?;
+        let (mut steps_reported, mut outcome) = (0, Ok(()));
+        while steps_reported < self.steps && outcome.is_ok() {
+            let batch = SUBMITTED.min(self.steps - steps_reported);
+            outcome = (0..batch).try_for_each(|_| step(mean_residual));
+            steps_reported += batch;
+            descent.steps(batch).map_err(|_| steps_reported)?;
         }
-        x.copy_from_slice(&descent.unknowns().map_err(|_| heard)?);
-        Ok(told)
+        x.copy_from_slice(&descent.unknowns().map_err(|_| steps_reported)?);
+        Ok(outcome)
     }
 }

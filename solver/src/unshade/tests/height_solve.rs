@@ -7,7 +7,7 @@ use crate::config::ReliefConfig;
 use crate::model::height::HeightField;
 use crate::model::planes::Planes;
 use crate::transport::{CHANNELS, LIGHT_EXPONENT};
-use crate::unshade::height_solve::HeightSolve;
+use crate::unshade::height_solve::HeightProblem;
 use crate::unshade::light::JointEstimate;
 use crate::unshade::lighting::bent_shading;
 use crate::unshade::relief::Relief;
@@ -53,23 +53,21 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let mesh = testing::dome(24);
     let views = views(5, 64);
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    let mut samples = SampleSpace::new(&mesh, 1.0).training(&views, &gbuffers, None, SIDE);
-    let transport = Transport::new(&mesh, &Sky::even(8), &config.transport, 0);
+    let mut samples = SampleSpace::new().training(&views, &gbuffers, None, SIDE);
+    let transport = Transport::new(&mesh, &Sky::lat_long(8), &config.transport, 0);
     let towards = |centre: &Vec3| centre.dot(Vec3::new(0.3, 0.4, 0.87)).max(0.0).powi(8);
-    let cells = Sky::even(8).centres();
+    let cells = Sky::lat_long(8).centres();
     let lamp = cells.iter().flat_map(|centre| [(0.1 + 4.0 * towards(centre)).ln(); CHANNELS]);
-    let terms = RegionTerms::expected(0.05, &[1], &[1]);
+    let terms = RegionTerms::prior(0.05, &[1], &[1]);
     let joint = JointEstimate {
         log_light: lamp.collect(),
         albedo: vec![0.5; 3 * TEXELS],
         terms: terms.clone(),
     };
-    let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
+    let estimate = LightEstimate::uniform(transport.cells(), 0.4, terms.clone());
     let regions = vec![1; TEXELS];
-    let lighting = Lighting::new(&config, &transport, &regions, &estimate, joint);
+    let lighting = Lighting::new(&config, &transport, &regions, &estimate, &joint);
     let backend = Cpu::new();
-    let highlights =
-        |samples: &Samples| lighting.highlights(&backend, &terms, samples, LIGHT_EXPONENT);
 
     let atlas = Atlas::new(&mesh, SIDE);
     let wave = |at: usize| {
@@ -80,12 +78,13 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let truth = Relief { size: SIDE, deviation: HeightField::new(&atlas, 6.0).deviation(&heights) };
     let sharp = samples.taps.sample::<3>(&truth.deviation);
     let soft = samples.taps.sample::<3>(&truth.blurred());
-    let (specular, sampled) =
-        (highlights(&samples).at(&samples, &sharp), lighting.sampled(&samples));
+    let highlights = lighting.highlights(&backend, &terms, &samples, LIGHT_EXPONENT);
+    let specular = highlights.at(&samples, &sharp);
+    let derivative = lighting.shading_with_derivative(&samples);
     samples.target = Planes::from_fn(samples.len(), |i| {
         let normal = Vec3::from_array(samples.normal.sample(i, 0));
         let bent = (normal + Vec3::from_array(soft.sample(i, 0))).normalize();
-        let shading = bent_shading(&sampled.sample(i, 0), normal, bent);
+        let shading = bent_shading(&derivative.sample(i, 0), normal, bent);
         let factor = match fault {
             Fault::Stripe(factor) if is_striped(samples.taps.nearest(i)) => factor,
             Fault::Mixed if beside_nothing(&gbuffers, &samples, i) => 0.5,
@@ -96,18 +95,17 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
         })
     });
     let config: &ReliefConfig = &config.relief;
-    let highlights = highlights(&samples);
-    let solve =
-        HeightSolve::new(config, &backend, &samples, &gbuffers, &atlas, &lighting, highlights);
-    let (mut unknowns, mut residuals) = (vec![0.0; solve.unknowns()], vec![]);
+    let problem =
+        HeightProblem::new(config, &backend, &samples, &gbuffers, &atlas, &lighting, &joint);
+    let (mut unknowns, mut residuals) = (vec![0.0; problem.unknowns()], vec![]);
     for _ in 0..3 {
         let mut step = |residual| {
             residuals.push(residual);
             Ok(())
         };
-        solve.solve(&mut unknowns, &mut step).unwrap();
+        problem.minimise(&mut unknowns, &mut step).unwrap();
     }
-    let found = solve.deviation(&unknowns);
+    let found = problem.deviation(&unknowns);
     let ones = Planes::from_fn(samples.len(), |_| [1.0]);
     let seen = samples.taps.gather::<1>(&ones, 0);
     let (mut missed, mut energy) = ([0.0; 2], [0.0; 2]);

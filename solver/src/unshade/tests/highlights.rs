@@ -28,13 +28,13 @@ fn gradients_reach_light_distance_and_albedo() {
     // No residual is near the kink of |x|.
     samples.target = Planes::from_fn(samples.len(), |_| [0.0; 3]);
     let mesh = testing::dome(12);
-    let transport = Transport::with_nearness(&mesh, &Sky::even(4), &config.transport, 0);
+    let transport = Transport::with_nearness(&mesh, &Sky::lat_long(4), &config.transport, 0);
     let cells = CHANNELS * transport.cells();
     let light: Vec<f32> = (0..cells).map(|i| (i as f32 * 0.37).sin()).collect();
     let albedo: Vec<f32> =
         (0..3 * SIDE * SIDE).map(|i| 0.1 + 0.8 * (i as f32 * 12.9898).sin().abs()).collect();
     let terms = SpecularTerm::usual(0.2).channels().repeat(SIDE * SIDE);
-    let nearness = 0.4 * transport.near();
+    let nearness = 0.4 * transport.nearness_unit();
     let model = ExplicitModel::new(&config, &transport, &samples, &terms, &exp(&light), nearness);
     let model = model.with_grey_prior(true);
     let found = model.gradient(&light, 0.4, &albedo);
@@ -51,13 +51,13 @@ fn gradients_reach_light_distance_and_albedo() {
         moved[at] += step;
         moved
     };
-    check("light", &found.light, 3e-3, &|at, step| {
+    check("light", &found.by_log_light, 3e-3, &|at, step| {
         model.gradient(&moved(&light, at, step), 0.4, &albedo).loss
     });
-    check("albedo", &found.albedo, 2e-3, &|at, step| {
+    check("albedo", &found.by_albedo, 2e-3, &|at, step| {
         model.gradient(&light, 0.4, &moved(&albedo, at, step)).loss
     });
-    check("nearness", &[found.nearness], 1e-2, &|_, step| {
+    check("nearness", &[found.by_relative_nearness], 1e-2, &|_, step| {
         model.gradient(&light, 0.4 + step, &albedo).loss
     });
 }
@@ -120,8 +120,8 @@ fn lamp(rougher: f32) -> Lamp {
     let views: Vec<View> = testing::rig(6, 96).iter().map(view).collect();
     let gbuffers = GBuffer::of_views(&mesh, &views);
     let size = config.transport.texture_size;
-    let samples = SampleSpace::new(&mesh, 1.0).training(&views, &gbuffers, None, size);
-    let sky = Sky::even(config.transport.rows);
+    let samples = SampleSpace::new().training(&views, &gbuffers, None, size);
+    let sky = Sky::lat_long(config.transport.rows);
     let transport = Transport::with_nearness(&mesh, &sky, &config.transport, 0);
     let albedo = ALBEDO.to_array().repeat(size * size);
     Lamp { config, sky, transport, samples, albedo, direction }
@@ -138,10 +138,10 @@ impl Lamp {
     fn found<'a>(&'a self, albedo: &'a [f32], reflectance: f32, rate: f32) -> LightFit<'a> {
         let log_light = vec![0.0; CHANNELS * self.sky.len()];
         let model = self.model(reflectance, &self.samples, &exp(&log_light));
-        let nearness = 0.1 / self.transport.near();
+        let nearness = 0.1 / self.transport.nearness_unit();
         let mut fit = LightFit::new(model, albedo, log_light, nearness);
         for _ in 0..400 {
-            fit.step(&Cpu::new(), rate);
+            fit.step(rate);
         }
         fit
     }
@@ -155,7 +155,7 @@ static LAMP: LazyLock<Lamp> = LazyLock::new(|| lamp(1.0));
 /// The logarithm of its light and its nearness in the transport's unit, by an albedo and highlights that are right.
 static FOUND: LazyLock<(Vec<f32>, f32)> = LazyLock::new(|| {
     let fit = LAMP.found(&LAMP.albedo, SPECULAR, SLOW);
-    (fit.log_light.clone(), fit.nearness[0])
+    (fit.log_light.clone(), fit.relative_nearness[0])
 });
 
 #[test]
@@ -164,10 +164,11 @@ fn highlights_locate_the_lamp() {
         let luminance = |cell: &usize| (1e6 * log_light[CHANNELS * cell + 1]) as i64;
         let brightest = (0..LAMP.sky.len()).max_by_key(luminance).unwrap();
         let angle = LAMP.sky.centres()[brightest].angle_between(LAMP.direction).to_degrees();
-        (1.0 / (nearness * LAMP.transport.near()), angle)
+        (1.0 / (nearness * LAMP.transport.nearness_unit()), angle)
     };
     let matt = LAMP.found(&LAMP.albedo, 0.0, SLOW);
-    let (with, without) = (place(&FOUND.0, FOUND.1), place(&matt.log_light, matt.nearness[0]));
+    let (with, without) =
+        (place(&FOUND.0, FOUND.1), place(&matt.log_light, matt.relative_nearness[0]));
     // A cell is 11 degrees wide, and shading is taken as linear in the inverse distance.
     assert!(with.1 < 12.0 && (with.0 - RADIUS).abs() < 0.35 * RADIUS, "{with:?}");
     assert!(without.1 > 45.0 && without.0 < 0.6 * RADIUS, "shading alone would do: {without:?}");
@@ -177,22 +178,22 @@ fn highlights_locate_the_lamp() {
 #[test]
 fn cross_validation_keeps_mottled_skin_out_of_the_light() {
     let lamp = &*LAMP;
-    let even = vec![1.0; CHANNELS * lamp.sky.len()];
-    let (shading, _) = lamp.transport.shading_nearer(&even, 0.0);
+    let uniform = vec![1.0; CHANNELS * lamp.sky.len()];
+    let (shading, _) = lamp.transport.shading_nearer(&uniform, 0.0);
     let layer: Vec<f32> = shading.iter().zip(&lamp.albedo).map(|(s, a)| s * a).collect();
     let layer = lamp.samples.taps.sample::<CHANNELS>(&layer);
     let mut mottled = lamp.samples.clone();
     mottled.target = Planes::from_fn::<CHANNELS>(mottled.len(), |i| {
-        let [x, y, z]: [f32; 3] = mottled.position.sample(i, 0);
+        let [x, y, z]: [f32; 3] = mottled.normal.sample(i, 0);
         let pigment = 1.0 + 0.3 * (7.0 * x + 3.0 * z).sin() * (8.0 * y - 2.0 * x).sin();
         layer.sample::<CHANNELS>(i, 0).map(|colour| pigment * colour)
     });
     let contrasts = |reflectance: f32, samples: &Samples| {
-        let log_light = vec![0.0; even.len()];
-        let (nearness, steps) = (0.1 / lamp.transport.near(), 200);
+        let log_light = vec![0.0; uniform.len()];
+        let (nearness, steps) = (0.1 / lamp.transport.nearness_unit(), 200);
         let lights = [log_light.clone(), log_light.clone()];
         let model = |samples: &Samples, log: &[f32]| lamp.model(reflectance, samples, &exp(log));
-        let mut halves = TwoFoldLightFit::new(
+        let mut folds = TwoFoldLightFit::new(
             &lamp.config,
             samples,
             &lamp.albedo,
@@ -201,21 +202,21 @@ fn cross_validation_keeps_mottled_skin_out_of_the_light() {
             steps,
             model,
         );
-        let whole = lamp.model(reflectance, samples, &even);
+        let whole = lamp.model(reflectance, samples, &uniform);
         let mut whole = LightFit::new(whole, &lamp.albedo, log_light, nearness);
         for _ in 0..steps {
-            halves.step(&Cpu::new(), 1.0);
-            whole.step(&Cpu::new(), 1.0);
+            folds.step(&Cpu::new(), 1.0);
+            whole.step(1.0);
         }
-        [mean(&halves.best().0), whole.log_light]
+        [mean(&folds.into_best().0), whole.log_light]
             .map(|log_light| contrast(lamp.config.transport.rows, &exp(&log_light)))
     };
     let dark = mean(&[vec![3.0f32.ln(), -200.0], vec![0.0, -200.0]]);
     assert!((dark[0] - 2.0f32.ln()).abs() < 1e-6 && dark[1] == -200.0, "{dark:?}");
-    let [halves, whole] = contrasts(0.0, &mottled);
-    assert!(halves < 0.5 * whole, "an even sky: {halves}, by the whole face {whole}");
-    let [halves, whole] = contrasts(SPECULAR, &lamp.samples);
-    assert!(halves > 0.9 * whole, "a lamp: {halves}, by the whole face {whole}");
+    let [folds, whole] = contrasts(0.0, &mottled);
+    assert!(folds < 0.5 * whole, "a uniform sky: {folds}, by the whole face {whole}");
+    let [folds, whole] = contrasts(SPECULAR, &lamp.samples);
+    assert!(folds > 0.9 * whole, "a lamp: {folds}, by the whole face {whole}");
 }
 
 /// The albedo is less red and more blue than skin, and so the light comes out too red.
@@ -231,7 +232,7 @@ fn highlights_correct_the_colour_of_the_light() {
     };
     let fit = lamp.found(&albedo, SPECULAR, SLOW);
     let light = exp(&fit.log_light);
-    let tint = fit.model.tint(&light, fit.nearness[0], &albedo);
+    let tint = fit.model.tint(&light, fit.relative_nearness[0], &albedo);
     let before = colour(&light);
     assert!(before[0] > 1.1 && before[2] < 0.9, "{before:?}");
     for c in [0, 2] {
@@ -250,7 +251,7 @@ fn strong_highlights_count_no_more_than_weak_ones() {
     let slope = |samples: &Samples, errors| {
         let model = lamp.model(SPECULAR, samples, &light);
         let regression = model.regression(&light, nearness, &lamp.albedo, &weight, errors);
-        regression.fit(|_| true, 0..CHANNELS).slope().unwrap().0
+        regression.sums(|_| true, 0..CHANNELS).slope().unwrap().0
     };
     let all = |i: usize| lamp.samples.target.sample::<CHANNELS>(i, 0);
     let brightest = (0..lamp.samples.len()).map(|i| all(i)[1]).fold(0.0, f32::max);
@@ -268,25 +269,25 @@ fn highlights_show_the_roughness_of_skin() {
     for truth in [0.6f32, 1.6] {
         let lamp = lamp(truth);
         let fit = lamp.found(&lamp.albedo, SPECULAR, SLOW);
-        let nearness = fit.nearness[0] * lamp.transport.near();
+        let nearness = fit.relative_nearness[0] * lamp.transport.nearness_unit();
         let side = lamp.transport.size();
         let regions = vec![1; side * side];
-        let terms = RegionTerms::expected(SPECULAR, &[1], &regions);
-        let sky = Sky::even(lamp.config.transport.rows).at(nearness);
+        let terms = RegionTerms::prior(SPECULAR, &[1], &regions);
+        let sky = Sky::lat_long(lamp.config.transport.rows).at(nearness);
         let transport = Transport::new(&testing::dome(24), &sky, &lamp.config.transport, 0);
-        let estimate = LightEstimate::even(transport.cells(), 0.4, terms.clone());
-        let estimate = LightEstimate { nearness, ..estimate };
+        let estimate = LightEstimate::uniform(transport.cells(), 0.4, terms.clone());
+        let estimate = LightEstimate { nearness_per_metre: nearness, ..estimate };
         let joint = JointEstimate {
             log_light: fit.log_light.clone(),
             albedo: lamp.albedo.clone(),
             terms: terms.clone(),
         };
-        let lighting = Lighting::new(&lamp.config, &transport, &regions, &estimate, joint);
+        let lighting = Lighting::new(&lamp.config, &transport, &regions, &estimate, &joint);
         let config = RoughnessConfig { rounds: 3, error: 0.0, ..lamp.config.roughness.clone() };
         let (flat, backend) = (Relief::none(side), Cpu::new());
-        let samples = &lamp.samples;
-        let measured =
-            measure_roughness(&backend, &config, &lighting, samples, &regions, &flat, &terms);
+        let face = FaceRegions::default();
+        let pictures = FullPictures { samples: &lamp.samples, face: &face, regions: &regions };
+        let measured = measure_roughness(&backend, &config, &lighting, &pictures, &flat, &terms);
         let found = measured.of(1).roughness;
         let error = |roughness: f32| (roughness / truth).ln().abs();
         assert!(error(found) < 0.7 * error(1.0) && found < truth, "{found} instead of {truth}");

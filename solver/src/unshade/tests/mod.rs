@@ -44,7 +44,7 @@ fn samples(size: usize) -> Samples {
     let mesh = testing::dome(12);
     let views = views(2, 24);
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    SampleSpace::new(&mesh, 1.0).training(&views, &gbuffers, None, size)
+    SampleSpace::new().training(&views, &gbuffers, None, size)
 }
 
 /// Mean squared error to decibels.

@@ -26,24 +26,26 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     config.transport.texture_size = 128;
     config.regions.hair_in_skin = false;
     let (size, rows) = (config.transport.texture_size, config.transport.rows);
-    let space = SampleSpace::new(&mesh, 1.0);
-    let exposure = Some(config.rendering.exposure);
-    let scene = Scene::new(&capture, space, exposure, config.maps.texture_size).unwrap();
+    let luminance = Some(config.rendering.exposure);
+    let scene =
+        Scene::new(&capture, SampleSpace::new(), luminance, config.maps.texture_size).unwrap();
     let face = FaceRegions::new(&scene, &config);
-    let (regions, before) = (face.on(&scene, size), face.mean_albedo(&scene, size));
-    let transport = Transport::new(&mesh, &Sky::even(rows), &config.transport, 0);
-    let light: Vec<f32> =
-        Sky::even(rows).centres().iter().flat_map(|w| [1.0 + FALL.dot(*w); 3]).collect();
-    let terms = RegionTerms::expected(0.0, &face.skin, &regions);
-    let colours = FirstColours {
-        samples: &scene.half_samples(None, size),
-        regions: &regions,
-        labelled_skin: &face.labelled_skin,
-        skin: &face.skin,
-        albedo: &before,
+    let regions = face.region_map(&scene, size);
+    let before = face.mean_colours(&scene, &regions);
+    let transport = Transport::new(&mesh, &Sky::lat_long(rows), &config.transport, 0);
+    let cells = Sky::lat_long(rows).centres();
+    let estimate = JointEstimate {
+        log_light: cells.iter().flat_map(|w| [(1.0 + FALL.dot(*w)).ln(); 3]).collect(),
+        albedo: before.clone(),
+        terms: RegionTerms::prior(0.0, &face.skin, &regions),
     };
-    let (backend, skin) = (Cpu::new(), &config.skin);
-    let after = recoloured(&backend, skin, &transport, &colours, &light, &terms, before.clone());
+    let data = LightFitData {
+        samples: &scene.samples_at_half_resolution(None, size),
+        face: &face,
+        regions: &regions,
+        region_colours: &before,
+    };
+    let after = recoloured(&Cpu::new(), &config.skin, &transport, &data, estimate).albedo;
     let atlas = Atlas::new(&mesh, size);
     let of = |albedo: &[f32], label: u8| -> Vec<Vec3> {
         let inside = (0..atlas.positions.len()).filter(|at| {
@@ -55,7 +57,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     };
     let [(skin, _), _, (shaded, albedo)] = REGIONS;
     let error = |texels: &[Vec3]| {
-        let of_texel = |a: &Vec3| (*a / (scene.gain * albedo) - 1.0).abs().max_element();
+        let of_texel = |a: &Vec3| (*a / (scene.picture_scale * albedo) - 1.0).abs().max_element();
         texels.iter().map(of_texel).fold(0.0, f32::max)
     };
     let [first, last] = [&before, &after].map(|albedo| error(&of(albedo, shaded)));

@@ -1,12 +1,12 @@
-// The numbers of the conjugate gradients, by one workgroup from the parts of a product. WHAT: 0 the first
-// energy, 1 the length of a step, 2 the energy after it and the turn of the direction.
+// The scalars of the conjugate gradients, by one workgroup from the parts of a dot product. WHAT: 0 the initial squared
+// norm, 1 alpha, 2 the next squared norm and beta.
 
 struct Scalars {
-    // Squared norm of what is left, and that which is small enough to stop.
-    energy: f32,
-    enough: f32,
-    length: f32,
-    turn: f32,
+    // Squared norm of the residual, and its value at convergence.
+    residual_norm2: f32,
+    tolerance: f32,
+    alpha: f32,
+    beta: f32,
 }
 
 struct Parameters {
@@ -36,14 +36,14 @@ fn main(@builtin(local_invocation_index) t: u32) {
     if t > 0u {
         return;
     }
-    // Once the rest is small enough, nothing moves any more.
-    let moves = scalars.energy > scalars.enough;
+    // After convergence, steps change nothing.
+    let moves = scalars.residual_norm2 > scalars.tolerance;
     if WHAT == 0u {
-        scalars.energy = sums[0];
+        scalars.residual_norm2 = sums[0];
     } else if WHAT == 1u {
-        scalars.length = select(0.0, scalars.energy / sums[0], moves);
+        scalars.alpha = select(0.0, scalars.residual_norm2 / sums[0], moves);
     } else {
-        scalars.turn = select(0.0, sums[0] / scalars.energy, moves);
-        scalars.energy = select(scalars.energy, sums[0], moves);
+        scalars.beta = select(0.0, sums[0] / scalars.residual_norm2, moves);
+        scalars.residual_norm2 = select(scalars.residual_norm2, sums[0], moves);
     }
 }

@@ -3,8 +3,8 @@
 
 struct Parameters {
     size: u32,
-    rest: f32,
-    damping: f32,
+    height_damping: f32,
+    albedo_damping: f32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
@@ -36,7 +36,7 @@ fn main(
         return;
     }
     if at >= texels {
-        image[at] += parameters.damping * unknowns[at];
+        image[at] += parameters.albedo_damping * unknowns[at];
         return;
     }
     let x = at % size;
@@ -55,5 +55,5 @@ fn main(
     if y + 2u < size {
         sum -= along(at + size, 3u);
     }
-    image[at] = 0.5 * sum + parameters.rest * unknowns[at];
+    image[at] = 0.5 * sum + parameters.height_damping * unknowns[at];
 }

@@ -18,7 +18,7 @@ struct Parameters {
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 // In blocks of 16 cells seven rows: direction from the sky's centre, R, G, B, luminance.
 @group(0) @binding(1) var<storage, read> lit: array<f32>;
-@group(0) @binding(2) var<storage, read> open: array<f32>;
+@group(0) @binding(2) var<storage, read> visible: array<f32>;
 // Row of every sample; and place of every row.
 @group(0) @binding(3) var<storage, read> row: array<u32>;
 @group(0) @binding(4) var<storage, read> places: array<f32>;
@@ -86,7 +86,7 @@ fn main(
         let at = cell / 16u * 112u + cell % 16u;
         let l = unit(vec3(lit[at], lit[at + 16u], lit[at + 32u]) - seen_from);
         let nl = dot(n, l);
-        let towards = open[row[i] * parameters.cells + cell];
+        let towards = visible[row[i] * parameters.cells + cell];
         if nl <= 0.0 || towards == 0.0 {
             continue;
         }

@@ -1,11 +1,11 @@
-// The vectors of the conjugate gradients. WHAT: 0 their start, where `rest` is the goal; 1 a step; 2 the next
-// direction.
+// The vectors of the conjugate gradients. WHAT: 0 the initial residual, from the right-hand side in `residual`; 1 a
+// step; 2 the next direction.
 
 struct Scalars {
-    energy: f32,
-    enough: f32,
-    length: f32,
-    turn: f32,
+    residual_norm2: f32,
+    tolerance: f32,
+    alpha: f32,
+    beta: f32,
 }
 
 struct Parameters {
@@ -14,9 +14,9 @@ struct Parameters {
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-@group(0) @binding(2) var<storage, read> image: array<f32>;
+@group(0) @binding(2) var<storage, read> a_direction: array<f32>;
 @group(0) @binding(3) var<storage, read_write> x: array<f32>;
-@group(0) @binding(4) var<storage, read_write> rest: array<f32>;
+@group(0) @binding(4) var<storage, read_write> residual: array<f32>;
 @group(0) @binding(5) var<storage, read_write> direction: array<f32>;
 
 @compute @workgroup_size(256)
@@ -30,12 +30,12 @@ fn main(
         return;
     }
     if WHAT == 0u {
-        rest[at] -= image[at];
-        direction[at] = rest[at];
+        residual[at] -= a_direction[at];
+        direction[at] = residual[at];
     } else if WHAT == 1u {
-        x[at] += scalars.length * direction[at];
-        rest[at] -= scalars.length * image[at];
+        x[at] += scalars.alpha * direction[at];
+        residual[at] -= scalars.alpha * a_direction[at];
     } else {
-        direction[at] = rest[at] + scalars.turn * direction[at];
+        direction[at] = residual[at] + scalars.beta * direction[at];
     }
 }
