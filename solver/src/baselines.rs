@@ -1,4 +1,4 @@
-//! Baselines that need no optimisation; every method must beat them. The other one is
+//! Baselines without optimisation, which every method must beat. Another one is
 //! [`capture::mean_texture`].
 
 use capture::gbuffer::{Atlas, GBuffer};
@@ -24,8 +24,8 @@ pub fn semantic_initialisation(capture: &Capture, size: usize) -> Result<Maps, C
     with_mesh_normals(capture, &atlas, albedo, &seen)
 }
 
-/// The picture of a camera of `capture` with the diffuse albedo `texture` as radiance: a baseline has no light,
-/// and its albedo still contains the shading. Black beside the mesh.
+/// Renders a camera of `capture` with the diffuse albedo `texture` as radiance: a baseline has no light, and its albedo
+/// contains the shading. Black outside of the mesh.
 pub fn unlit_view(capture: &Capture, texture: &Picture, camera: &Camera) -> Picture {
     let gbuffer = GBuffer::new(&capture.mesh, camera, None);
     let (taps, order) = Taps::sorted(texture.width, &gbuffer.uvs);

@@ -1,4 +1,4 @@
-//! Separable convolution with a symmetric kernel; what lies outside the picture is zero.
+//! Separable convolution with a symmetric kernel; zero outside the picture.
 //!
 //! A task works downwards: every row is convolved once, into a ring of as many lines as the kernel reaches
 //! over, and the columns of the ring are summed up. A value is read from memory about once, in the order in
@@ -34,8 +34,8 @@ pub fn gaussian(sigma: f32) -> Vec<f32> {
     (0..=(3.0 * sigma).ceil() as usize).map(weight).collect()
 }
 
-/// Convolves with `kernel`, the weights from the centre outwards (1 at the centre), rows that `read` fills in.
-/// The result is passed to `after`. Both are given a row's number and its values.
+/// Convolves rows that `read` fills with `kernel`, the weights from the centre outwards (1 at the centre). Rows of the
+/// result are passed to `after`. Both get a row's number and its values.
 pub fn convolve(
     kernel: &[f32],
     shape: Shape,
@@ -214,7 +214,7 @@ mod tests {
 
     /// A picture with more rows than a task and than the ring has lines.
     #[test]
-    fn it_is_the_sum_written_out() {
+    fn it_is_the_explicit_sum() {
         let (width, height, channels) = (300, 70, 2);
         let shape = Shape { width, height, channels };
         let picture: Vec<f32> = (0..width * height * 2).map(|i| (i as f32 * 0.7).sin()).collect();

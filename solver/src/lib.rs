@@ -1,7 +1,7 @@
 //! Decomposes pictures of a known mesh into reflectance maps.
 //!
-//! [`unshade`] is the default method, [`paper`] the published one (Neural Shading Fields). Each is a pipeline of values:
-//! a stage takes what the stages before it returned, and returns a value that is stored for a resume.
+//! [`unshade`] is the default method, [`paper`] the published one (Neural Shading Fields). Each is a pipeline of
+//! values: a stage takes what the stages before it returned, and returns a value that is stored for a resume.
 
 pub mod backend;
 pub mod baselines;

@@ -1,11 +1,11 @@
-//! From solved textures to maps.
+//! Conversion of solved textures to maps.
 
 use std::collections::BTreeMap;
 
 use capture::gbuffer::Atlas;
 use formats::fill;
 use formats::maps::Maps;
-use formats::picture::{GrayImage, Picture};
+use formats::picture::Picture;
 use glam::Vec3;
 
 use crate::model::texture::resample;
@@ -16,11 +16,11 @@ use crate::scene::Scene;
 pub struct StageMaps {
     /// The stage's name.
     pub stage: String,
-    /// Absent are the maps that it did not change.
+    /// The maps that the stage changed.
     pub maps: Maps,
 }
 
-/// Gives texels that no view sees the values of the nearest one that is seen.
+/// Fills unseen texels with the values of the nearest seen ones.
 pub(crate) fn fill_unseen(texture: Vec<f32>, channels: usize, seen: &[bool]) -> Vec<f32> {
     let size = seen.len().isqrt();
     let mut picture = square(texture, channels, size);
@@ -42,13 +42,6 @@ pub(crate) fn scaled(texture: &[f32], factor: f32) -> Vec<f32> {
 pub(crate) fn bent_normals(atlas: &Atlas, deviation: &[f32]) -> Vec<f32> {
     let normals = atlas.normals.iter().zip(deviation.chunks_exact(3));
     normals.flat_map(|(n, d)| (n + Vec3::from_slice(d)).normalize().to_array()).collect()
-}
-
-/// 255 where a view shows a texel.
-pub(crate) fn coverage(seen: &[bool]) -> GrayImage {
-    let size = seen.len().isqrt();
-    let data = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
-    GrayImage { width: size, height: size, data }
 }
 
 /// Factors from the solved albedos to reflectances.
@@ -78,7 +71,7 @@ struct Small {
 impl Small {
     fn of(texture: &[f32], channels: usize, size: usize) -> Self {
         let (mut texture, mut size) = (texture.to_vec(), size);
-        // Halving averages 2 x 2 texels; a longer jump would leave texels out.
+        // Halving averages 2 x 2 texels; a larger step would skip texels.
         while size > SIDE {
             let next = (size / 2).max(SIDE);
             texture = resample(&texture, size, channels, next);

@@ -1,27 +1,27 @@
-//! How much memory a solve takes, before it begins.
+//! The memory of a solve, estimated before it begins.
 //!
-//! Everything large is an array over the pixels or over the texels, so that the peak follows from
-//! their numbers. Counted are 32-bit values as the code holds them at the fullest moment of each
-//! phase; the phases come one after the other and give back what they took.
+//! All large arrays are over pixels or texels, so the peak follows from their numbers. The constants count 32-bit values
+//! at the peak of each phase; a phase frees its memory at the end.
 //!
 //! - Always: picture, mask and labels of every training view (14 bytes a pixel of the frame); the
 //!   G-buffer of what is covered (52 bytes a covered pixel).
-//! - Samples: 14 values and 5 words of place, 76 bytes; 190 more while they are sorted.
+//! - Samples: 14 values and 5 words of place, 76 bytes; 190 more while they are sorted. (Those of `unshade` have 10
+//!   values; the estimates of `unshade` were measured with 14, and are upper bounds.)
 //! - Warm-up and transport work on a quarter of the pixels (if `warm_up.half_resolution`), whose
 //!   pictures and G-buffers come on top; transport holds its samples twice, and six copies of its
 //!   matrix (texels inside the chart x cells of the sky) while bounces are added; or three, and as many
 //!   cells for each of the samples whose highlights are followed.
-//! - Heights: 490 bytes a sample while the slopes are found (samples, light vector, directions,
-//!   highlights, slopes, residuals and unknowns), 100 bytes a texel of the height texture; 100 bytes a sample more
-//!   where one side's views are asked what they show of the other's relief.
+//! - Heights: 490 bytes a sample during the linearisation (samples, light vector, directions, highlights, slopes,
+//!   residuals and unknowns), 100 bytes a texel of the height texture; 100 bytes a sample more if relief is tested on
+//!   the views of the other side.
 //! - Fine-tuning: 190 bytes a sample (samples, light vector, albedos; the rest is what the allocator
 //!   keeps) and 190 bytes a texel (7 values of the state, 8 moments, 8 as samples see them, 8 gradients, 12 of
-//!   the blur; the rest again the allocator's); 170 where heights have been before and nothing is moved.
+//!   the blur; the rest again the allocator's).
 //! - Maps: 130 bytes a texel of the maps (state, surface, maps, and the copies that are written),
 //!   while the samples of the fine-tuning are still there.
 //!
 //! Estimated and measured peaks (largest resident set of `unshade solve --backend cpu`, ten views; those of
-//! `unshade` but the first without what sides of views need):
+//! `unshade` except the first without the test of relief on views of the other side):
 //!
 //! | configuration | pixels | textures | estimate | measured |
 //! |---|---|---|---|---|
@@ -65,18 +65,18 @@ const MAP_TEXEL: f64 = 130.0;
 /// Share of the square that a chart covers.
 const CHART: f64 = 0.8;
 
-/// The size of a solve, and the memory that it takes.
+/// The size of a solve, and its memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Training views.
     pub views: usize,
-    /// Their pixels inside the masks.
+    /// Pixels inside the masks of these views.
     pub pixels: usize,
     /// Side of the textures, texels.
     pub texture_size: usize,
     /// Bytes at the peak.
     pub peak: u64,
-    /// Bytes of these that the open capture takes already.
+    /// Bytes of the peak that the open capture already uses.
     pub taken: u64,
 }
 
@@ -90,9 +90,9 @@ pub struct Estimate {
 pub struct NotEnoughMemory {
     /// The size of the solve.
     pub estimate: Estimate,
-    /// Bytes on top of what is taken already.
+    /// Bytes in addition to those already used.
     pub needed: u64,
-    /// Bytes that there are.
+    /// Available bytes.
     pub available: u64,
 }
 
@@ -147,7 +147,7 @@ impl Estimate {
         Self { views, pixels, texture_size: size, peak: (base + most) as u64, taken: taken as u64 }
     }
 
-    /// Refuses a solve that would need more than `available` bytes on top of what is taken.
+    /// Refuses a solve that needs more than `available` bytes in addition to those already used.
     pub fn fits(&self, available: Option<u64>) -> Result<(), NotEnoughMemory> {
         let needed = self.peak.saturating_sub(self.taken);
         match available {
@@ -180,7 +180,7 @@ fn count(number: usize) -> String {
     }
 }
 
-/// In the unit that people say.
+/// Bytes as text, in MB or GB.
 pub(crate) fn bytes(bytes: u64) -> String {
     match bytes {
         0..1_000_000_000 => format!("{} MB", bytes.div_ceil(1_000_000)),
@@ -188,8 +188,8 @@ pub(crate) fn bytes(bytes: u64) -> String {
     }
 }
 
-/// Bytes that can be had without swapping, where the system says so: of the machine, or of the
-/// control group (a container) if that leaves less.
+/// Bytes available without swapping, of the machine or of the control group (a container), whichever has less; `None`
+/// if the system does not report them.
 pub fn available() -> Option<u64> {
     let info = fs::read_to_string("/proc/meminfo").ok()?;
     let line = info.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
@@ -214,7 +214,7 @@ const USUAL: [i32; 2] = [65_536, 128 * 1024];
 pub struct KeepFreedMemory(());
 
 impl KeepFreedMemory {
-    /// From now on.
+    /// Starts to keep freed memory.
     pub fn begin() -> Self {
         Self::set(KEEPING);
         Self(())
@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn more_of_anything_needs_more_and_the_refusal_says_what_to_do() {
+    fn larger_solves_need_more_memory_and_the_refusal_names_fixes() {
         let config = Config::default();
         let of = |frame, pixels, size| Estimate::of(10, frame, pixels, size, &config);
         let small = of(655_360, 250_000, 512).peak;
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     #[cfg(target_os = "linux")]
-    fn the_system_says_what_is_available() {
+    fn available_memory_is_reported() {
         assert!(available().unwrap() > 1 << 20);
     }
 }

@@ -1,5 +1,4 @@
-//! Semantic initialisation of the diffuse albedo (paper, section 5.3): the mean colour of every
-//! face region, painted over the region.
+//! Semantic initialisation of the diffuse albedo (paper, section 5.3): every region of the face has its mean colour.
 
 mod cell_light;
 mod chart;
@@ -24,15 +23,15 @@ use glam::{DVec3, Vec3};
 use crate::config::ViewWeightConfig;
 use crate::view_weights::view_weights;
 
-/// Added to every pixel's weight, so that a region seen only at its rim still has a mean.
+/// Added to every pixel's weight, so that a region of pixels with zero weight still has a mean.
 const LEAST_WEIGHT: f32 = 1e-4;
 
-/// The diffuse albedo to start from: linear RGB on a square map of `size` texels, in the unit of
-/// the pictures (radiance, not reflectance). The G-buffers are those of the views.
+/// The initial diffuse albedo: linear RGB on a square map of `size` texels, in the unit of the pictures (radiance, not
+/// reflectance). The G-buffers are those of the views.
 ///
-/// A texel belongs to the region that most views see there (weighted by the cosine); a texel that
-/// none sees or labels takes the nearest texel's region. Without labels the face is one region. The
-/// labels `alike` have the colour of that one of them that the views see most of.
+/// A texel has the label with the largest sum of cosines over the views; a texel without a label in any view has that
+/// of the nearest labelled texel. Without labels the face is one region. All labels `alike` have the colour of the one
+/// with the largest weight in the views.
 pub fn initial_diffuse_albedo(
     mesh: &Mesh,
     views: &[View],
@@ -57,7 +56,7 @@ pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
             let [x, y] = observation.at.map(|value| value as usize);
             votes[view.label(y * view.camera.width + x) as usize] += observation.cosine;
         }
-        // Ascending ids, and a later one must have more: the smaller id wins a tie.
+        // The smaller id wins a tie.
         (1..=255_u8).fold(0, |best, id| {
             let (most, votes) = (votes[best as usize], votes[id as usize]);
             if votes > 0.0 && (best == 0 || votes > most) { id } else { best }
@@ -69,8 +68,8 @@ pub fn region_map(atlas: &Atlas, projections: &[Projection]) -> Vec<u8> {
     nearest.into_iter().map(|texel| regions[texel as usize]).collect()
 }
 
-/// Mean colour of the pixels of every region, weighted by the form factor; region 0 is the mean
-/// over all pixels. The regions `alike` have the colour of the most seen of them.
+/// The mean colour of the pixels of every region, weighted by the form factor; region 0 is the mean over all pixels.
+/// The regions `alike` have the colour of the one with the largest weight.
 fn region_colours(
     views: &[View],
     gbuffers: &[GBuffer],

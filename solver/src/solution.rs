@@ -16,19 +16,19 @@ use crate::maps::{Scales, StageMaps};
 pub struct Solution {
     /// The reflectance maps, normalised.
     pub maps: Maps,
-    /// The light, if explicit transport had a part.
+    /// The light of the default method.
     pub light: Option<RecoveredLight>,
-    /// Every withheld view as the model sees it.
+    /// Every withheld view, rendered by the model.
     pub views: Vec<ViewLayers>,
-    /// The maps after every stage, small; empty if the configuration wants no record of them.
+    /// The maps after every stage, small; empty if the configuration disables them.
     pub stages: Vec<StageMaps>,
-    /// Everything needed to get the same solution again, and the losses.
+    /// All inputs that determine the solution, and the losses.
     pub record: Record,
     /// Wall times.
     pub timing: Timing,
 }
 
-/// What a method returns: a solution without its record.
+/// The results of a method: a solution without its record.
 pub(crate) struct Results {
     pub maps: Maps,
     pub light: Option<RecoveredLight>,
@@ -66,7 +66,7 @@ impl ViewLayers {
 }
 
 impl ViewLayers {
-    /// Writes a training view below `layers/` of a maps folder, to be looked at: 16-bit floats.
+    /// Writes a training view into `layers/` of a maps folder, for viewing: 16-bit floats.
     pub fn write_layers(&self, maps: &Path) -> Result<(), MapsError> {
         let file = place(maps, "layers", &self.name)?;
         Ok(picture::write_exr_half(&file, &self.picture, &Self::CHANNELS)?)
@@ -86,17 +86,15 @@ pub struct Record {
     pub config: Config,
     /// Device and instruction set.
     pub backend: String,
-    /// BLAKE3 of all files that were read.
+    /// BLAKE3 hash of all input files.
     pub input: String,
-    /// Where the caller stopped the solve, as in "warm-up at step 3 of 500"; nothing if it came to
-    /// its end.
+    /// Where the caller interrupted the solve, such as "warm-up at step 3 of 500"; `None` for a finished solve.
     pub interrupted: Option<String>,
-    /// Distance of the light from the head's centre, metres; nothing at infinity, or if explicit
-    /// transport had no part.
+    /// Distance of the light from the head's centre, metres; `None` at infinity, and for the published method.
     pub light_distance: Option<f32>,
     /// Side of the textures that were solved for, texels.
     pub texture_size: usize,
-    /// Pixels of the fine-tuning.
+    /// The number of samples of the full pictures.
     pub samples: usize,
     /// Factor on the solved diffuse albedo.
     pub diffuse_scale: f32,
@@ -106,7 +104,7 @@ pub struct Record {
     pub stages: Vec<StageRecord>,
 }
 
-/// The light that explicit transport found: cells of equal angles on a sphere around the head.
+/// The estimated light: cells of equal angles on a sphere around the head.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecoveredLight {
     /// Rows of cells; twice as many columns.
@@ -118,19 +116,19 @@ pub struct RecoveredLight {
 }
 
 impl RecoveredLight {
-    /// How much it differs with direction; see [`crate::transport::contrast`].
+    /// The contrast of the light; see [`crate::transport::contrast`].
     pub fn contrast(&self) -> f32 {
         crate::transport::contrast(self.rows, &self.radiance)
     }
 
-    /// One pixel per cell.
+    /// The radiance as a picture with one pixel per cell.
     pub fn picture(&self) -> Picture {
         let (width, height) = (2 * self.rows, self.rows);
         Picture { width, height, channels: 3, data: self.radiance.clone() }
     }
 }
 
-/// One stage of the record.
+/// A stage of the record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageRecord {
     /// Name of the stage, as in the log and the timing.
@@ -155,7 +153,7 @@ impl Solution {
         Ok(partial.commit()?)
     }
 
-    /// Writes the files into a folder that exists, for callers that add files of their own.
+    /// Writes the files into an existing folder, for callers that add files.
     pub fn write_into(&self, folder: &Path) -> Result<(), MapsError> {
         self.maps.write_into(folder)?;
         if let Some(light) = &self.light {
@@ -181,14 +179,14 @@ fn create(folder: &Path) -> Result<(), MapsError> {
     std::fs::create_dir_all(folder).map_err(io)
 }
 
-/// The file of a frame in one of the folders of a maps folder, which is made if it is not there.
+/// Creates one of the folders of a maps folder if necessary, and returns the path of a frame in it.
 fn place(maps: &Path, folder: &str, frame: &str) -> Result<PathBuf, MapsError> {
     let folder = maps.join(folder);
     create(&folder)?;
     Ok(folder.join(format!("{frame}.exr")))
 }
 
-/// Where the solve of a maps folder was stopped, if it was ours and was.
+/// Where the solve of a maps folder was interrupted; `None` if it was finished, or if unshade did not write the folder.
 pub fn interrupted(maps: &Path) -> Option<String> {
     let record: Value =
         serde_json::from_slice(&std::fs::read(maps.join("solve.json")).ok()?).ok()?;

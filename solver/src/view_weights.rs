@@ -1,13 +1,11 @@
-//! How much an observation counts: the form factor of the paper (section 5.3), after Unstructured
-//! Lumigraph Rendering: cosine between view and normal, times the inverse of the blurred depth
-//! derivative.
+//! Weights of pixels: the form factor of the paper (section 5.3), after Unstructured Lumigraph Rendering: cosine
+//! between view and normal, times the inverse of the blurred depth derivative.
 //!
-//! With g the magnitude of the depth's gradient by central differences (metres per pixel) and d/f
-//! the metres a pixel spans at depth d, the slope is s = min(g / (d/f), `edge_slope`), and
-//! `edge_slope` where a neighbour is not covered (silhouette, occluder, edge of the mask). With s̄
-//! the slope blurred by a Gaussian over the covered pixels,
-//! w = max(cos, 0) / (1 + `slope_falloff` · s̄), which is in 0 to 1 and does not depend on the unit of
-//! length. The paper names the factors but neither their scale nor the blur; these are ours.
+//! With g the magnitude of the depth's gradient by central differences (metres per pixel) and d/f the metres a pixel
+//! spans at depth d, the slope is s = min(g / (d/f), `edge_slope`), and `edge_slope` where a neighbour is not covered
+//! (silhouette, occluder, edge of the mask). With s̄ the slope blurred by a Gaussian over the covered pixels, w =
+//! max(cos, 0) / (1 + `slope_falloff` · s̄), which is in 0 to 1 and does not depend on the unit of length. The paper
+//! names the factors but neither their scale nor the blur; these are ours.
 
 use capture::gbuffer::GBuffer;
 
@@ -49,14 +47,13 @@ fn slopes(gbuffer: &GBuffer, edge_slope: f32) -> Vec<f32> {
         let at = |x: usize, y: usize| depth[y * width + x];
         let across = (at(x + 1, y) - at(x - 1, y)) / 2.0;
         let down = (at(x, y + 1) - at(x, y - 1)) / 2.0;
-        // Two uncovered neighbours give inf - inf; min passes over NaN, so this is an edge too.
+        // Two uncovered neighbours give inf - inf; min ignores NaN, so this is an edge too.
         (across.hypot(down) * gbuffer.focal / here).min(edge_slope)
     };
     gbuffer.pixels.iter().zip(&gbuffer.depths).map(slope).collect()
 }
 
-/// Gaussian blur to three standard deviations, not normalised; nothing comes in from outside the
-/// picture.
+/// A Gaussian blur to three standard deviations, not normalised; zero outside the picture.
 pub(crate) fn blurred(picture: &[f32], shape: Shape, sigma: f32) -> Vec<f32> {
     let line = shape.width * shape.channels;
     let read = |row: usize, out: &mut [f32]| out.copy_from_slice(&picture[row * line..][..line]);

@@ -46,6 +46,13 @@ pub fn mean_texture(capture: &Capture, size: usize) -> Result<Maps, CaptureError
     with_mesh_normals(capture, &atlas, mean, &seen)
 }
 
+/// The coverage of a square texture: 255 in the texels `seen` by a view.
+pub fn coverage(seen: &[bool]) -> GrayImage {
+    let size = seen.len().isqrt();
+    let data = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
+    GrayImage { width: size, height: size, data }
+}
+
 /// Maps of a diffuse albedo and the normals of the mesh, without a specular albedo. Coverage: `seen`.
 ///
 /// # Errors
@@ -59,8 +66,6 @@ pub fn with_mesh_normals(
     if !seen.contains(&true) {
         return Err(CaptureError::NothingVisible(capture.folder.clone()));
     }
-    let size = atlas.size;
-    let data = seen.iter().map(|seen| if *seen { 255 } else { 0 }).collect();
     Ok(Maps {
         diffuse_albedo: Some(diffuse_albedo),
         specular_albedo: None,
@@ -68,6 +73,6 @@ pub fn with_mesh_normals(
         specular_normal: Some(atlas.normal_map()),
         confidence: None,
         roughness: None,
-        coverage: Some(GrayImage { width: size, height: size, data }),
+        coverage: Some(coverage(seen)),
     })
 }

@@ -1,4 +1,4 @@
-//! Which backend a solve runs on.
+//! The choice of a backend.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,15 +8,15 @@ use super::cpu::Cpu;
 use super::error::BackendError;
 use super::gpu::{Adapter, Gpu};
 
-/// The backend that the user asks for.
+/// The requested backend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// A real GPU if there is one, else the processor; never a software adapter.
+    /// A hardware GPU if there is one, else the processor; never a software adapter.
     #[default]
     Auto,
     /// The processor.
     Cpu,
-    /// A real GPU, or the adapter that the environment names; an error without one.
+    /// A hardware GPU, or the adapter named by the environment; an error without one.
     Gpu,
 }
 

@@ -1,32 +1,32 @@
-//! Backends that cannot be had.
+//! Errors of opening a backend.
 
-/// Names the adapter to take, by a part of its name: the only way to a software adapter.
+/// The environment variable with a part of the adapter's name; required for a software adapter.
 pub const VARIABLE: &str = "UNSHADE_ADAPTER";
 
-/// A backend that cannot be had.
+/// A backend cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum BackendError {
-    /// There are no real GPUs.
+    /// There is no hardware GPU.
     #[error(
         "no GPU was found ({}); install its Vulkan driver, or take the backend cpu or auto",
         listed(there)
     )]
     NoGpu {
-        /// Adapters that there are.
+        /// The existing adapters.
         there: Vec<String>,
     },
-    /// The environment names an adapter that is not there.
+    /// The environment names an adapter that does not exist.
     #[error(
         "no adapter is called {named:?} ({}); correct {VARIABLE} or take it away",
         listed(there)
     )]
     NotThere {
-        /// The name that was asked for.
+        /// The requested name.
         named: String,
-        /// Adapters that there are.
+        /// The existing adapters.
         there: Vec<String>,
     },
-    /// The adapter gives no device.
+    /// The adapter cannot open a device.
     #[error("{name} cannot be used: {reason}; take the backend cpu")]
     Refused {
         /// The adapter.

@@ -1,12 +1,11 @@
-//! Devices for the arithmetic. The boundary is narrow: samples, directions and albedos already
-//! sampled from their textures go in; losses, gradients and shading come out. A device with memory of
-//! its own may besides take in whole stages, see [`resident`].
+//! Backends for the arithmetic. The interface is narrow: inputs are samples, directions and sampled albedos; outputs
+//! are losses, gradients and shading. A device with its own memory may run whole fits, see [`resident`].
 //!
-//! The processor's kernels are compiled for AVX-512, AVX2 with FMA, and plain SSE2 on x86-64, chosen at run
-//! time, and for NEON on aarch64. The portable ones, all there is elsewhere, are arrays of eight floats whose
-//! loops compilers make vectors of. They index slices, without `unsafe`; every other level is compared with
-//! them, on numbers of samples around all widths too (`solver/tests/backends`; `make neon` does it in an
-//! emulator). `make miri` interprets planes and taps.
+//! The processor's kernels are compiled for AVX-512, AVX2 with FMA, and plain SSE2 on x86-64, chosen at run time, and
+//! for NEON on aarch64. The portable ones, for all other processors, are loops over arrays of eight floats, which
+//! compilers vectorise. They index slices, without `unsafe`. Tests compare all other levels with them, also on numbers
+//! of samples around all vector widths (`solver/tests/backends`; `make neon` runs them in an emulator). `make miri`
+//! interprets planes and taps.
 
 mod choice;
 pub mod cpu;

@@ -1,6 +1,6 @@
 //! Errors of configurations.
 
-/// A configuration that cannot be used.
+/// An invalid configuration.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
     /// No preset has this name.
@@ -11,12 +11,12 @@ pub enum ConfigError {
     /// The text is not TOML, has an unknown key, or a value of the wrong type.
     #[error("configuration: {0}")]
     Toml(String),
-    /// A key has another name or no use any more.
+    /// A key was renamed or removed.
     #[error("configuration: {old} {fix}")]
     Renamed {
-        /// Dotted key that was given.
+        /// The given dotted key.
         old: String,
-        /// What became of it, and the fix.
+        /// The reason and the fix.
         fix: String,
     },
     /// A value is out of its range.
@@ -24,9 +24,9 @@ pub enum ConfigError {
     Range {
         /// Dotted key.
         key: String,
-        /// The value that was given.
+        /// The given value.
         value: String,
-        /// The range, in words.
+        /// The range, as text.
         range: String,
     },
 }

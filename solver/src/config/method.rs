@@ -1,4 +1,4 @@
-//! The methods that are configured.
+//! The two methods.
 
 /// The method that a preset configures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -44,8 +44,8 @@ impl Config {
         Self::read(method, table)
     }
 
-    /// Reads a configuration. `base = "paper"` names the preset (default `unshade`) whose values hold where the
-    /// text is silent. Unknown keys, and values outside their ranges, are errors.
+    /// Reads a configuration. `base = "paper"` names the preset (default `unshade`) of the values that the text does
+    /// not set. Unknown keys, and values outside their ranges, are errors.
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         let mut given: Table = toml::from_str(text).map_err(|error| toml_error(&error))?;
         let base = match given.remove("base") {
@@ -106,7 +106,7 @@ impl Config {
         }
     }
 
-    /// Records that are kept for the report.
+    /// The records for the report.
     pub fn records(&self) -> RecordConfig {
         match self {
             Self::Unshade(config) => config.records,
@@ -152,12 +152,12 @@ fn toml_error(error: &dyn std::fmt::Display) -> ConfigError {
     ConfigError::Toml(lines.join(" "))
 }
 
-/// Replaces what `above` names; tables are merged, everything else is replaced.
+/// Merges tables, and replaces all other values by those of `above`.
 fn overlay(below: &mut Table, above: Table) {
     for (key, value) in above {
         match (below.get_mut(&key), value) {
             (Some(Value::Table(old)), Value::Table(new)) => overlay(old, new),
-            // A rate written as `1` is as good as `1.0`.
+            // An integer is accepted where a float is expected.
             (Some(old @ Value::Float(_)), Value::Integer(number)) => {
                 *old = Value::Float(number as f64)
             }

@@ -88,12 +88,12 @@ pub struct NormalisationConfig {
 }
 
 impl PaperConfig {
-    /// The least that an optimiser leaves of an albedo.
+    /// The least albedo after a step.
     pub fn minimum_albedo(&self) -> f32 {
         if self.rendering.positive_albedo { 0.0 } else { f32::NEG_INFINITY }
     }
 
-    /// The view weights' depth term; `None` weighs by the cosine alone.
+    /// The settings of the depth term of view weights; `None` for weights by the cosine only.
     pub fn depth_weights(&self) -> Option<&ViewWeightConfig> {
         Some(&self.view_weights).filter(|weights| weights.depth)
     }

@@ -4,11 +4,11 @@ use toml::{Table, Value};
 
 use super::error::ConfigError;
 
-/// What a number may be.
+/// The range of a number.
 enum Range {
-    /// From the first to the second.
+    /// From the first to the second number.
     Within(f64, f64),
-    /// Above the first, to the second.
+    /// Above the first number, up to the second.
     Above(f64, f64),
     /// At least 0 and below 1.
     BelowOne,

@@ -1,4 +1,4 @@
-//! Keys that have other names now, or no use.
+//! Renamed and removed keys.
 
 use toml::{Table, Value};
 
@@ -42,7 +42,7 @@ const RENAMED_IN_UNSHADE: &[(&str, &str)] = &[
     ("height", "relief"),
 ];
 
-/// Tables of the published method alone.
+/// Tables of the published method only.
 const OF_PAPER: &[&str] = &[
     "networks",
     "view_weights",
@@ -52,7 +52,7 @@ const OF_PAPER: &[&str] = &[
     "adam",
     "normalisation",
 ];
-/// Tables of the default method alone, today's and earlier ones.
+/// Tables of the default method only, of this version and earlier ones.
 const OF_UNSHADE: &[&str] = &[
     "regions",
     "transport",
@@ -69,7 +69,7 @@ const OF_UNSHADE: &[&str] = &[
     "height",
 ];
 
-/// Refuses keys that were renamed, with their new names, and tables of the other method.
+/// Refuses renamed keys, with their new names, and tables of the other method.
 pub(super) fn refuse_renamed(method: Method, given: &Table) -> Result<(), ConfigError> {
     let of_method = if method == Method::Unshade { RENAMED_IN_UNSHADE } else { &[] };
     for (old, new) in RENAMED.iter().chain(of_method) {

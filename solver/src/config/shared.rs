@@ -63,11 +63,11 @@ pub struct RecordConfig {
 pub enum TextureSize {
     /// Texels.
     Side(usize),
-    /// From the pictures' sampling of the surface.
+    /// Chosen by the pictures' sampling of the surface.
     Rule(TextureRule),
 }
 
-/// How to choose the side of the textures.
+/// The rule for the side of the textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TextureRule {

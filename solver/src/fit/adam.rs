@@ -67,8 +67,8 @@ impl Adam {
         (self.steps, self.first, self.second) = (steps as i32, first, second);
     }
 
-    /// The factors on the first moment and on the root of the second moment at step `number`, from 1, with `decay` of the
-    /// learning rate.
+    /// The factors on the first moment and on the root of the second moment at step `number`, from 1, with `decay` of
+    /// the learning rate.
     pub(crate) fn factors(&self, number: i32, decay: f32) -> [f32; 2] {
         let correction = |beta: f32| 1.0 - f64::from(beta).powi(number);
         let rate = (f64::from(decay * self.rate) / correction(self.config.beta1)) as f32;

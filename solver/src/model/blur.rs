@@ -3,8 +3,7 @@
 use crate::convolution::{Shape, convolve, gaussian};
 use crate::simd::widened;
 
-/// Gaussian blur of square interleaved textures; near the border the weights that remain are
-/// scaled to sum to one.
+/// A Gaussian blur of square interleaved textures; near the border the remaining weights are scaled to sum to one.
 #[derive(Clone, Debug)]
 pub struct Blur {
     size: usize,

@@ -1,4 +1,4 @@
-//! The deviation texture: from what is optimised to what bends the normals, and back.
+//! The deviation texture: from the parameters to the deviation of the normals, and the adjoint.
 
 use std::borrow::Cow;
 
@@ -8,7 +8,7 @@ use super::blur::Blur;
 use super::deviation_textures::{BLURRED, DeviationTextures, PackedDeviations, ROWS, SPECULAR};
 use super::normals::DirectionScale;
 use super::pyramid::Pyramid;
-use super::texels::CHANNELS;
+use super::texels::TEXEL_VALUES;
 use super::texture::part;
 use crate::backend::cpu::exp;
 use crate::config::PaperConfig;
@@ -20,17 +20,17 @@ const AXES: usize = 3;
 
 /// Deviations from the mesh normal: d = range x tanh(B t) for the specular normal, blurred for the
 /// diffuse one (sections 4.3.2 and 5.3). B is the identity in the paper; otherwise a band-pass, the
-/// difference of a narrow and a wide blur: coarse relief is the mesh's, the finest is noise.
+/// difference of a narrow and a wide blur: the mesh has the coarse relief, and the finest is noise.
 #[derive(Clone, Debug)]
 pub struct Deviation {
-    /// Without it, the texture is d itself.
+    /// Largest deviation.
     range: f32,
     size: usize,
     narrow: Blur,
     wide: Option<Blur>,
-    /// The blur of d, with the specular albedo beside it.
+    /// The blur of d, packed with the specular albedo.
     blur: Pyramid,
-    /// How directions are scaled.
+    /// The scales of the directions.
     pub scale: DirectionScale,
 }
 
@@ -42,22 +42,22 @@ pub(crate) struct Parts<'a> {
     pub blur: &'a Pyramid,
 }
 
-/// Gradients of the loss by the textures that are optimised.
+/// Gradients of the loss with respect to the textures.
 pub struct TextureGradients {
-    /// By the deviation texture t, 3 values a texel.
+    /// Gradient with respect to the deviation texture t, 3 values per texel.
     pub deviation: Vec<f32>,
-    /// By the specular albedo.
+    /// Gradient with respect to the specular albedo.
     pub specular: Vec<f32>,
 }
 
 impl Deviation {
-    /// For a device that does the same.
+    /// The parts, for a device.
     pub(crate) fn parts(&self) -> Parts<'_> {
         let Self { range, narrow, wide, blur, .. } = self;
         Parts { range: *range, narrow, wide: wide.as_ref(), blur }
     }
 
-    /// For textures of side `size`.
+    /// The deviation of textures of side `size`.
     pub fn new(config: &PaperConfig, size: usize) -> Self {
         let fine = &config.fine_tuning;
         let blur = |sigma: f32| Blur::new(size, AXES, sigma * size as f32);
@@ -71,34 +71,35 @@ impl Deviation {
         }
     }
 
-    /// d and its blur, of a deviation texture.
+    /// d and its blur, from a deviation texture.
     pub fn textures(&self, deviation: &[f32]) -> DeviationTextures {
         let PackedDeviations { sharp, blurred } =
             self.packed(deviation, &vec![0.0; self.size * self.size]);
-        let [sharp, blurred] = [sharp, blurred].map(|texture| part::<CHANNELS, AXES>(&texture, 0));
+        let [sharp, blurred] =
+            [sharp, blurred].map(|texture| part::<TEXEL_VALUES, AXES>(&texture, 0));
         DeviationTextures { sharp, blurred }
     }
 
-    /// d and its blur beside the specular albedo, packed as samples read them.
+    /// d and its blur, packed with the specular albedo.
     pub fn packed(&self, deviation: &[f32], specular: &[f32]) -> PackedDeviations {
         let (band, size, range) = (self.band(deviation), self.size, self.range);
         let task = |row: usize, sharp: &mut [f32]| {
             let band = &band[AXES * row * size..][..AXES * size];
             squash(sharp.as_chunks_mut().0, band.as_chunks().0, &specular[row * size..], range);
         };
-        let sharp = from_parts(CHANNELS * size * size, CHANNELS * size, task).0;
+        let sharp = from_parts(TEXEL_VALUES * size * size, TEXEL_VALUES * size, task).0;
         let blurred = self.blur.apply(&sharp);
         PackedDeviations { sharp, blurred }
     }
 
-    /// Carries gradients by what samples see of these textures ([`ROWS`] values a texel) to the textures that
-    /// they are made of.
+    /// The adjoint of [`Self::packed`]: gradients with respect to the textures, from those with respect to the packed
+    /// values ([`ROWS`] per texel).
     pub fn adjoint(&self, bent: &PackedDeviations, gradient: &[f32]) -> TextureGradients {
         let (size, range) = (self.size, self.range);
-        let [row_of_gradient, row_of_texels] = [ROWS, CHANNELS].map(|values| values * size);
+        let [row_of_gradient, row_of_texels] = [ROWS, TEXEL_VALUES].map(|values| values * size);
         let by_blurred = |row: usize, out: &mut [f32]| {
             let texels = gradient[row * row_of_gradient..].as_chunks::<ROWS>().0;
-            for (out, texel) in out.as_chunks_mut::<CHANNELS>().0.iter_mut().zip(texels) {
+            for (out, texel) in out.as_chunks_mut::<TEXEL_VALUES>().0.iter_mut().zip(texels) {
                 out.copy_from_slice(&texel[BLURRED..]);
             }
         };
@@ -143,8 +144,8 @@ impl Deviation {
 }
 
 widened! {
-    /// Makes d of B t, and puts the specular albedo beside it.
-    fn squash(sharp: &mut [[f32; CHANNELS]], band: &[[f32; AXES]], specular: &[f32], range: f32) {
+    /// Computes d from B t, and packs it with the specular albedo.
+    fn squash(sharp: &mut [[f32; TEXEL_VALUES]], band: &[[f32; AXES]], specular: &[f32], range: f32) {
         for (sharp, (band, specular)) in sharp.iter_mut().zip(band.iter().zip(specular)) {
             for c in 0..AXES {
                 sharp[c] = range * tanh(band[c]);
@@ -155,12 +156,13 @@ widened! {
 }
 
 widened! {
-    /// Gradients by d, its own and those through the blur, times its derivatives by B t: range (1 - tanh(B t)^2).
+    /// The gradients with respect to d, direct and through the blur, times the derivative of d: range (1 - tanh(B
+    /// t)^2).
     fn unsquash(
         by_band: &mut [[f32; AXES]],
         own: &[[f32; ROWS]],
-        blurred: &[[f32; CHANNELS]],
-        sharp: &[[f32; CHANNELS]],
+        blurred: &[[f32; TEXEL_VALUES]],
+        sharp: &[[f32; TEXEL_VALUES]],
         range: f32,
     ) {
         // A range of zero leaves no deviation, and no gradient.

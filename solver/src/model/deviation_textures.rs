@@ -1,44 +1,42 @@
-//! The textures by which normals deviate from the mesh's, and the specular albedo, as samples see them; and
-//! gradients by them.
+//! The deviation textures packed with the specular albedo, sampled together; and gradients with respect to them.
 
 use super::planes::{Planes, Row};
 use super::taps::Taps;
-use super::texels::CHANNELS;
+use super::texels::TEXEL_VALUES;
 
-/// Rows at a sample: d (3), specular albedo, blur(d) (3), and one that fills up two vectors; or gradients by
-/// them.
-pub const ROWS: usize = 2 * CHANNELS;
+/// Rows of a sample: d (3), specular albedo, blur(d) (3), padding to two vectors; or gradients with respect to them.
+pub const ROWS: usize = 2 * TEXEL_VALUES;
 /// The row of the specular albedo.
 pub const SPECULAR: usize = 3;
 /// The first row of blur(d).
-pub const BLURRED: usize = CHANNELS;
+pub const BLURRED: usize = TEXEL_VALUES;
 
 /// The textures d and blur(d), 3 channels each.
 pub struct DeviationTextures {
-    /// For the specular normal.
+    /// d, of the specular normal.
     pub sharp: Vec<f32>,
-    /// For the diffuse normal.
+    /// blur(d), of the diffuse normal.
     pub blurred: Vec<f32>,
 }
 
-/// [`DeviationTextures`] in texels of four values, which samples read as whole vectors.
+/// [`DeviationTextures`] in texels of four values, which are read as whole vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedDeviations {
     /// d, and the specular albedo.
     pub sharp: Vec<f32>,
-    /// Their blur, of which the last value has no use.
+    /// Their blur; the last value is unused.
     pub blurred: Vec<f32>,
 }
 
 impl PackedDeviations {
-    /// At every sample ([`ROWS`] rows).
+    /// The values at every sample ([`ROWS`] rows).
     pub fn sample(&self, taps: &Taps) -> Planes {
         Planes::from_blocks(ROWS, taps.cells().len(), |block, out| {
             self.sample_block(taps, block, out);
         })
     }
 
-    /// At the samples of a block.
+    /// The values at the samples of a block.
     pub fn sample_block(&self, taps: &Taps, block: usize, out: &mut [Row]) {
         let (sharp, blurred) = out.split_at_mut(BLURRED);
         taps.sample_vectors_of(&self.sharp, block, sharp);

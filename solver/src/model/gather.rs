@@ -1,4 +1,4 @@
-//! From the gradients of samples to those of texels, the transpose of sampling.
+//! The transpose of sampling: gradients of texels from those of samples.
 
 use super::planes::{BLOCK, Planes, Row};
 use super::strips::{Strip, blocks};
@@ -6,7 +6,7 @@ use super::taps::{Taps, sample_block};
 
 impl Taps {
     /// The adjoint of [`Taps::sample`]: sums the samples' gradients (rows `first..first + C`) into
-    /// the texels they were interpolated from.
+    /// the texels from which they were interpolated.
     pub fn gather<const C: usize>(&self, gradient: &Planes, first: usize) -> Vec<f32> {
         let rows = |block: usize| gradient.block(block)[first..].first_chunk::<C>();
         let add = |strip: &mut Strip<C>| {
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn of_thinned_samples_every_one_is_sampled_and_gathered_where_it_was() {
+    fn thinned_samples_keep_their_places() {
         let (size, step) = (16, 3);
         let taps = Taps::sorted(size, &points(1000)).0;
         let texture: Vec<f32> = (0..size * size).map(|i| (i as f32 * 0.7).sin()).collect();

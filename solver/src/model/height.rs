@@ -9,20 +9,20 @@ use rayon::prelude::*;
 
 use capture::gbuffer::Atlas;
 
-/// Smallest squared area of a texel, over that of a typical one.
+/// Least squared area of a texel, over that of a typical texel.
 const LEAST_AREA: f32 = 1e-4;
 
 /// The linear map from a height per texel, in lengths of a typical texel, to deviations of the normal.
 pub struct HeightField {
     size: usize,
-    /// Deviation by the height's change to the right and downwards.
+    /// Derivatives of the deviation with respect to the height's difference to the right and downwards.
     right: Vec<Vec3>,
     down: Vec<Vec3>,
 }
 
 impl HeightField {
-    /// The heights of a chart. Texels in which a unit step of the height would turn the normal by more than
-    /// `steepest` hold none.
+    /// The heights of a chart. Texels where a unit step of the height would deviate the normal by more than `steepest`
+    /// have no height.
     pub fn new(atlas: &Atlas, steepest: f32) -> Self {
         let size = atlas.size;
         let step = |at: usize, stride: usize, place: usize| {
@@ -53,12 +53,12 @@ impl HeightField {
         Self { size, right, down }
     }
 
-    /// Deviation by the height's change to the right and downwards, of every texel.
+    /// Derivatives of the deviation with respect to the height's difference to the right and downwards, per texel.
     pub fn basis(&self) -> [&[Vec3]; 2] {
         [&self.right, &self.down]
     }
 
-    /// Texels.
+    /// The number of texels.
     pub fn len(&self) -> usize {
         self.right.len()
     }
@@ -95,7 +95,7 @@ impl HeightField {
         let along = |basis: &[Vec3], at: usize| basis[at].dot(Vec3::from_array(by_deviation[at]));
         let texel = |at: usize| {
             let (x, y) = (at % size, at / size);
-            // A texel's height counts where it is the neighbour of one that has both neighbours.
+            // A texel's height also contributes at neighbours that have both of their neighbours.
             let sum = |basis: &[Vec3], stride: usize, place: usize| {
                 let after = if place >= 2 { along(basis, at - stride) } else { 0.0 };
                 let before = if place + 2 < size { along(basis, at + stride) } else { 0.0 };
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bump_on_a_sphere_bends_normals_as_the_displaced_surface_has_them() {
+    fn a_bump_on_a_sphere_has_the_normals_of_the_displaced_surface() {
         let atlas = Atlas::new(&testing::dome(64), 128);
         let field = HeightField::new(&atlas, 6.0);
         let bump =

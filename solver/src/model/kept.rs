@@ -1,43 +1,43 @@
-//! Which of many samples are kept.
+//! Selections of samples.
 
-/// The numbers of the samples that are kept, ascending.
+/// The indices of selected samples, ascending.
 #[derive(Clone, Debug)]
 pub struct Kept(Vec<usize>);
 
 impl Kept {
-    /// Of `samples` about `count`, or all: of every so many runs of `run` samples the first. Long runs keep samples
-    /// of a texel together.
+    /// Selects every n-th run of `run` of the `samples`, with the least n that leaves about `count` of them. Long runs
+    /// keep the samples of a texel together.
     pub fn spread(count: usize, samples: usize, run: usize) -> Self {
         let step = samples.div_ceil(count.max(1)).max(1);
         Self::those(samples, |i| (i / run).is_multiple_of(step))
     }
 
-    /// Of `samples` those that are `wanted`.
-    pub fn those(samples: usize, wanted: impl Fn(usize) -> bool) -> Self {
-        Self((0..samples).filter(|i| wanted(*i)).collect())
+    /// Selects the samples with a property.
+    pub fn those(samples: usize, has_property: impl Fn(usize) -> bool) -> Self {
+        Self((0..samples).filter(|i| has_property(*i)).collect())
     }
 
-    /// How many are kept.
+    /// The number of selected samples.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether none is kept.
+    /// Whether no sample is selected.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// How many of the first `samples` are kept.
+    /// The number of selected samples among the first `samples`.
     pub fn before(&self, samples: usize) -> usize {
         self.0.partition_point(|i| *i < samples)
     }
 
-    /// The number that the kept sample `i` had.
+    /// The index of the selected sample `i` among all samples.
     pub fn source(&self, i: usize) -> usize {
         self.0[i]
     }
 
-    /// What is kept of `values`.
+    /// The values of the selected samples.
     pub fn of<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.0.iter().map(|i| values[*i]).collect()
     }
@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn those_that_are_wanted() {
+    fn samples_with_a_property_are_selected() {
         let kept = Kept::those(10, |i| i % 4 == 1);
         assert_eq!([kept.source(0), kept.source(2), kept.len()], [1, 9, 3]);
         assert_eq!([0, 1, 2, 9, 10].map(|samples| kept.before(samples)), [0, 0, 1, 2, 3]);

@@ -1,4 +1,4 @@
-//! A layer that is known but for its texture: loss and gradient of the texture alone, in one pass.
+//! A layer that is linear in one texture: its loss, and the gradient with respect to the texture, in one pass.
 
 use glam::{Vec4, Vec4Swizzles};
 use rayon::prelude::*;
@@ -8,16 +8,15 @@ use super::samples::Samples;
 use super::strips::Strip;
 use crate::simd::{prefetch, widened};
 
-/// Samples that memory is asked for ahead of the one at hand: some processors do not see by themselves
-/// early enough that they will be needed.
+/// Distance of the prefetch, samples: the prefetchers of some processors are too late.
 const AHEAD: usize = 64;
 
-/// Known values of every sample, 32 bytes: the texture's factor of R, G, B and the addend; the target's R, G,
-/// B and the weight.
+/// The constants of every sample, 32 bytes: the factors on the texture's R, G, B and the addend; the target's R, G, B
+/// and the weight.
 pub struct Layer(Vec<[Vec4; 2]>);
 
 impl Layer {
-    /// `shading` has the rows of the factors and of what is added.
+    /// `shading` has the rows of the factors and of the addend.
     pub fn new(samples: &Samples, shading: &Planes) -> Self {
         let known = |i: usize| {
             let [r, g, b, added]: [f32; 4] = shading.sample(i, 0);
@@ -28,12 +27,13 @@ impl Layer {
         Self((0..samples.len()).into_par_iter().map(known).collect())
     }
 
-    /// Known values of a sample.
+    /// The constants of a sample.
     pub fn known(&self, sample: usize) -> [Vec4; 2] {
         self.0[sample]
     }
 
-    /// The weighted mean absolute difference from the target, and its gradient by the texture (R, G, B).
+    /// The weighted mean absolute residual, and its gradient with respect to the texture (R, G, B). A residual is
+    /// carried back to the four texels that the sample blends, with the same weights.
     pub fn gradient(&self, samples: &Samples, texture: &[f32]) -> (f64, Vec<f32>) {
         let taps = &samples.taps;
         let scale = 1.0 / (3.0 * samples.len() as f32);
@@ -43,7 +43,7 @@ impl Layer {
     }
 }
 
-/// Two texels beside each other; the fourth value is none of theirs.
+/// Two adjacent texels; the fourth value belongs to neither.
 #[inline(always)]
 fn pair(texels: &[[f32; 3]], at: usize) -> [Vec4; 2] {
     let both = texels[at..at + 2].as_flattened();
@@ -60,8 +60,8 @@ fn add(texels: &mut [[f32; 3]], at: usize, sums: [Vec4; 2]) {
 }
 
 widened! {
-    /// Adds the gradients of a strip's samples to its texels, and returns the sum of the loss. A cell's four
-    /// texels and their sums stay in registers while its samples pass, whose channels lie side by side.
+    /// Adds the gradients of a strip's samples to its texels, and returns the sum of the loss. The four texels of a
+    /// cell and their sums stay in registers during its samples.
     fn strip_gradient(
         strip: &mut Strip<3>,
         texels: &[[f32; 3]],
@@ -136,7 +136,7 @@ mod tests {
 
     /// More samples than a block, and cells with many of them, few and none, on more rows than a strip has.
     #[test]
-    fn its_gradient_is_that_of_samples_apart_from_each_other() {
+    fn the_gradient_is_the_sum_over_independent_samples() {
         const SIDE: usize = 300;
         let uv = |i: usize| Vec2::new(noise(i, 12.9898).powi(3), noise(i, 78.233));
         let taps = Taps::sorted(SIDE, &(0..COUNT).map(uv).collect::<Vec<_>>()).0;

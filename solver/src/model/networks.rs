@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::NetworkConfig;
 
-/// Which of the three networks.
+/// One of the three networks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Network {
     /// Position to light vector; last activation exp.
@@ -20,7 +20,7 @@ pub enum Network {
 }
 
 impl Network {
-    /// In the order in which their parameters are stored.
+    /// The networks in the order of their parameters.
     pub const ALL: [Self; 3] = [Self::Light, Self::Diffuse, Self::Specular];
 }
 
@@ -34,8 +34,7 @@ pub struct Networks {
 }
 
 impl Networks {
-    /// Every weight and bias uniform in +-1/sqrt(inputs), as the framework of the paper
-    /// initialises linear layers.
+    /// Draws every weight and bias uniformly from +-1/sqrt(inputs), as PyTorch initialises linear layers.
     pub fn new(config: &NetworkConfig, seed: u64) -> Self {
         let mut shape = vec![3];
         shape.extend(vec![config.width; config.hidden_layers]);
@@ -65,7 +64,7 @@ impl Networks {
         self.shape[self.layers()]
     }
 
-    /// Where a layer's weights and biases are among the parameters.
+    /// The ranges of a layer's weights and biases in the parameters.
     pub fn place(&self, network: Network, layer: usize) -> (Range<usize>, Range<usize>) {
         let sizes = self.shape.windows(2).map(|l| (l[0] * l[1], l[1]));
         let one: usize = sizes.clone().map(|(weights, biases)| weights + biases).sum();

@@ -1,4 +1,4 @@
-//! From deviations to the directions that the kernels see, and back (section 4.3.2).
+//! Directions of the kernels from deviations, and the adjoint (section 4.3.2).
 //!
 //! n_s = normalize(n + d), r = 2 (n_s.v) n_s - v; n_d = normalize(n + blur(d)).
 
@@ -15,9 +15,9 @@ pub const DIRECTIONS: usize = 6;
 /// Scales of the two directional inputs.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionScale {
-    /// On the diffuse normal.
+    /// Scale of the diffuse normal.
     pub normal: f32,
-    /// On the reflected direction.
+    /// Scale of the reflected direction.
     pub reflection: f32,
 }
 
@@ -37,8 +37,8 @@ impl DirectionScale {
         })
     }
 
-    /// Carries gradients of the directions (the first six rows of `gradient`) to the deviations: rows by d (3) and
-    /// by blur(d) (3).
+    /// The adjoint of [`Self::directions`]: gradients with respect to d (3 rows) and blur(d) (3 rows), from those with
+    /// respect to the directions (the first six rows of `gradient`).
     pub fn adjoint(&self, samples: &Samples, deviations: Deviations, gradient: &Planes) -> Planes {
         Planes::from_blocks(DIRECTIONS, samples.len(), |block, out| {
             let [sharp, blurred] = deviations.block(block);
@@ -51,7 +51,7 @@ impl DirectionScale {
 /// Sampled deviations among other rows.
 #[derive(Clone, Copy)]
 pub struct Deviations<'a> {
-    /// The rows; those of d come first.
+    /// The rows, those of d first.
     pub planes: &'a Planes,
     /// The first row of blur(d).
     pub blurred: usize,

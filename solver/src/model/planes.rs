@@ -9,11 +9,11 @@ use super::kept::Kept;
 use super::rows::Rows;
 pub use super::rows::{BLOCK, Row, first_rows, first_rows_mut};
 
-/// Blocks that one task works through; sums are formed per chunk and added in chunk order, so that
-/// results do not depend on the number of threads.
+/// Blocks per task. Sums are formed per chunk and added in chunk order, so that results do not depend on the number of
+/// threads.
 pub const CHUNK_BLOCKS: usize = 32;
 
-/// `rows` quantities of `len` samples; the samples that fill up the last block are zero.
+/// `rows` quantities of `len` samples; the last block is padded with zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planes {
     rows: usize,
@@ -22,12 +22,12 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// Zeros.
+    /// Planes of zeros.
     pub fn new(rows: usize, len: usize) -> Self {
         Self { rows, len, data: Rows::zeros(rows * len.div_ceil(BLOCK)) }
     }
 
-    /// `value(sample)[row]`, computed in parallel.
+    /// Planes with the values `value(sample)[row]`, computed in parallel.
     pub fn from_fn<const R: usize>(len: usize, value: impl Fn(usize) -> [f32; R] + Sync) -> Self {
         Self::from_blocks(R, len, |block, rows| {
             let first = block * BLOCK;
@@ -78,7 +78,7 @@ impl Planes {
         (Self { rows, len, data }, results)
     }
 
-    /// The samples that are kept.
+    /// The selected samples.
     pub fn kept(&self, kept: &Kept) -> Self {
         let len = kept.len();
         Self::from_blocks(self.rows, len, |block, rows| {
@@ -91,12 +91,12 @@ impl Planes {
         })
     }
 
-    /// Number of quantities.
+    /// The number of quantities.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Number of samples.
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -106,7 +106,7 @@ impl Planes {
         self.len == 0
     }
 
-    /// One value.
+    /// The value of one quantity of one sample.
     pub fn get(&self, row: usize, sample: usize) -> f32 {
         self.data[sample / BLOCK * self.rows + row].0[sample % BLOCK]
     }
@@ -122,7 +122,7 @@ impl Planes {
         &self.data[block * self.rows..][..self.rows]
     }
 
-    /// The rows of block number `block`, of which there are `R` or more.
+    /// The first `R` rows of block number `block`.
     pub fn rows_of<const R: usize>(&self, block: usize) -> &[Row; R] {
         first_rows(self.block(block))
     }
@@ -132,7 +132,7 @@ impl Planes {
         &mut self.data
     }
 
-    /// Copies one quantity of other planes of as many samples.
+    /// Copies one quantity from planes with the same number of samples.
     pub fn copy_row(&mut self, row: usize, from: &Self, from_row: usize) {
         let blocks = self.data.chunks_exact_mut(self.rows).zip(from.data.chunks_exact(from.rows));
         blocks.for_each(|(to, from)| to[row] = from[from_row]);

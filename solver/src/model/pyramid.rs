@@ -1,21 +1,21 @@
-//! A wide Gaussian blur on a texture that is as coarse as the blur allows.
+//! A wide Gaussian blur, computed on a coarser texture.
 //!
-//! A texture is halved (each coarse texel is the mean of 4 x 4 fine ones by 1, 3, 3, 1) until the blur's
-//! standard deviation is less than four texels, convolved there, and interpolated back: the pyramid of Burt
-//! and Adelson ("The Laplacian Pyramid as a Compact Image Code", 1983). Halving and interpolation blur by three
-//! quarters of a squared texel each, by which the convolution is narrower. What comes out is within .6 % of the
-//! Gaussian that is not cut off (root mean square, white noise; 2 % with the borders), as a convolution to three
-//! standard deviations is within .4 %. A value costs 8 operations and its share of a coarse convolution, instead
-//! of 12 multiply-adds for every texel of the standard deviation.
+//! A texture is halved (each coarse texel is the mean of 4 x 4 fine ones by 1, 3, 3, 1) until the blur's standard
+//! deviation is less than four texels, convolved there, and interpolated back: the pyramid of Burt and Adelson ("The
+//! Laplacian Pyramid as a Compact Image Code", 1983). Halving and interpolation blur by three quarters of a squared
+//! texel each, by which the convolution is narrower. The result is within 0.6 % of the untruncated Gaussian (root mean
+//! square, white noise; 2 % with the borders), as a convolution to three standard deviations is within 0.4 %. A value
+//! costs 8 operations and its share of a coarse convolution, instead of 12 multiply-adds for every texel of the
+//! standard deviation.
 
 use glam::Vec4;
 
-use super::texels::{CHANNELS, Texel};
+use super::texels::{TEXEL_VALUES, Texel};
 use crate::convolution::{Shape, convolve, gaussian};
 use crate::parallel::from_parts;
 use crate::simd::widened;
 
-/// Texels of the blur's standard deviation, at least, where it is convolved on a coarser texture.
+/// Least standard deviation of the blur on a coarser texture, texels.
 const LEAST_SIGMA: f32 = 2.0;
 /// Variance of the blur by halving and interpolating once, squared texels of the finer texture.
 const VARIANCE: f32 = 1.5;
@@ -30,7 +30,7 @@ const FAR: f32 = 0.25;
 #[derive(Clone, Debug)]
 pub struct Pyramid {
     size: usize,
-    /// How often a texture is halved before it is convolved.
+    /// The number of halvings before the convolution.
     levels: usize,
     /// Weights of the coarsest level's blur, from the centre outwards.
     kernel: Vec<f32>,
@@ -56,11 +56,11 @@ impl Pyramid {
             Self { size, levels, kernel: gaussian(rest), norms: vec![], scales: vec![] };
         let sums = pyramid.line(&vec![1.0; size], 0);
         pyramid.norms = sums.into_iter().map(|sum| 1.0 / sum).collect();
-        pyramid.scales = pyramid.norms.iter().flat_map(|norm| [*norm; CHANNELS]).collect();
+        pyramid.scales = pyramid.norms.iter().flat_map(|norm| [*norm; TEXEL_VALUES]).collect();
         pyramid
     }
 
-    /// K of one row of one channel, from a level on.
+    /// K of a row of one channel, from a level on.
     fn line(&self, line: &[f32], level: usize) -> Vec<f32> {
         if level < self.levels {
             let mut coarse = vec![0.0; line.len() / 2];
@@ -82,7 +82,7 @@ impl Pyramid {
         self.size
     }
 
-    /// How often they are halved.
+    /// The number of halvings.
     pub fn levels(&self) -> usize {
         self.levels
     }
@@ -109,7 +109,7 @@ impl Pyramid {
 
     /// The transpose of [`Pyramid::apply`], of a gradient whose rows `read` fills in.
     pub fn adjoint(&self, read: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
-        let line = CHANNELS * self.size;
+        let line = TEXEL_VALUES * self.size;
         let scaled = |row: usize, out: &mut [f32]| {
             read(row, out);
             self.scale(row, out);
@@ -125,14 +125,14 @@ impl Pyramid {
             let coarse = self.symmetric(&halve(texture, size), level + 1, &|_, _| {});
             return double(&coarse, size, after);
         }
-        let line = CHANNELS * size;
-        let shape = Shape { width: size, height: size, channels: CHANNELS };
+        let line = TEXEL_VALUES * size;
+        let shape = Shape { width: size, height: size, channels: TEXEL_VALUES };
         let read =
             |row: usize, out: &mut [f32]| out.copy_from_slice(&texture[row * line..][..line]);
         convolve(&self.kernel, shape, read, after)
     }
 
-    /// Multiplies a row as N does.
+    /// Multiplies a row by N.
     fn scale(&self, row: usize, values: &mut [f32]) {
         scale(values, &self.scales, self.norms[row]);
     }
@@ -141,7 +141,7 @@ impl Pyramid {
 /// The blur of one row's values.
 type After<'a> = dyn Fn(usize, &mut [f32]) + Sync + 'a;
 
-/// The coarse row that a row lies in, and the nearest other one, of `count`; beyond the border, the last one.
+/// The coarse row that contains a row, and the nearest other one, of `count`; clamped at the border.
 fn neighbours(row: usize, count: usize) -> [usize; 2] {
     let near = row / 2;
     [near, if row.is_multiple_of(2) { near.saturating_sub(1) } else { (near + 1).min(count - 1) }]
@@ -149,24 +149,24 @@ fn neighbours(row: usize, count: usize) -> [usize; 2] {
 
 /// A texture of side `size` at half its side, the transpose of [`double`]: weighted means of 4 x 4 texels.
 fn halve(texture: &[f32], size: usize) -> Vec<f32> {
-    let (half, line) = (size / 2, CHANNELS * size);
+    let (half, line) = (size / 2, TEXEL_VALUES * size);
     let task = |row: usize, out: &mut [f32]| {
         let rows = [(2 * row).saturating_sub(1), 2 * row, 2 * row + 1, (2 * row + 2).min(size - 1)];
         let rows = rows.map(|row| &texture[row * line..][..line]);
-        let mut padded = vec![[0.0; CHANNELS]; size + 2];
+        let mut padded = vec![[0.0; TEXEL_VALUES]; size + 2];
         mean(padded[1..=size].as_flattened_mut(), rows);
         (padded[0], padded[size + 1]) = (padded[1], padded[size]);
         halve_row(out.as_chunks_mut().0, &padded);
     };
-    from_parts(half * half * CHANNELS, half * CHANNELS, task).0
+    from_parts(half * half * TEXEL_VALUES, half * TEXEL_VALUES, task).0
 }
 
 /// A texture interpolated bilinearly to twice its side, `size`. Rows of the result are passed to `after`.
 fn double(coarse: &[f32], size: usize, after: &After) -> Vec<f32> {
-    let (half, line) = (size / 2, CHANNELS * size);
+    let (half, line) = (size / 2, TEXEL_VALUES * size);
     let task = |row: usize, out: &mut [f32]| {
         let rows = neighbours(row, half).map(|row| &coarse[row * line / 2..][..line / 2]);
-        let mut padded = vec![[0.0; CHANNELS]; half + 2];
+        let mut padded = vec![[0.0; TEXEL_VALUES]; half + 2];
         between(padded[1..=half].as_flattened_mut(), rows);
         (padded[0], padded[half + 1]) = (padded[1], padded[half]);
         double_row(out.as_chunks_mut().0.as_chunks_mut().0, &padded);
@@ -186,7 +186,7 @@ widened! {
 }
 
 widened! {
-    /// Between a near row and a far one.
+    /// Interpolates between a near row and a far one.
     fn between(out: &mut [f32], rows: [&[f32]; 2]) {
         for ((out, near), far) in out.iter_mut().zip(rows[0]).zip(rows[1]) {
             *out = NEAR * near + FAR * far;
@@ -217,7 +217,7 @@ widened! {
 }
 
 widened! {
-    /// Multiplies with what the row and the columns are scaled by.
+    /// Multiplies by the scales of the row and of the columns.
     fn scale(values: &mut [f32], columns: &[f32], row: f32) {
         for (value, column) in values.iter_mut().zip(columns) {
             *value *= row * column;
@@ -235,7 +235,7 @@ mod tests {
             let mixed = (mixed ^ mixed >> 15).wrapping_mul(0x85eb_ca6b);
             ((mixed ^ mixed >> 13) as f32 / u32::MAX as f32) - 0.5
         };
-        (0..CHANNELS * size * size).map(value).collect()
+        (0..TEXEL_VALUES * size * size).map(value).collect()
     }
 
     fn dot(a: &[f32], b: &[f32]) -> f64 {
@@ -243,13 +243,13 @@ mod tests {
     }
 
     #[test]
-    fn it_is_the_gaussian_that_is_not_cut_off() {
+    fn it_is_the_untruncated_gaussian() {
         for (size, sigma, levels) in [(96, 3.9, 0), (96, 4.1, 1), (96, 7.0, 1), (128, 8.2, 2)] {
             let pyramid = Pyramid::new(size, sigma);
             assert_eq!(pyramid.levels(), levels);
             let texture = noise(size, 0);
             let blurred = pyramid.apply(&texture);
-            let [texture, blurred] = [&texture, &blurred].map(|t| t.as_chunks::<CHANNELS>().0);
+            let [texture, blurred] = [&texture, &blurred].map(|t| t.as_chunks::<TEXEL_VALUES>().0);
             let weight = |d: usize| (-0.5 * (d as f64 / f64::from(sigma)).powi(2)).exp();
             let axis = |at: usize| -> Vec<f64> {
                 let weights: Vec<_> = (0..size).map(|other| weight(at.abs_diff(other))).collect();
@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn constants_stay_and_zero_sigma_is_the_identity() {
         for (size, sigma) in [(9, 1.5), (40, 5.0), (64, 9.0)] {
-            let blurred = Pyramid::new(size, sigma).apply(&vec![0.7; CHANNELS * size * size]);
+            let blurred = Pyramid::new(size, sigma).apply(&vec![0.7; TEXEL_VALUES * size * size]);
             assert!(blurred.iter().all(|v| (v - 0.7).abs() < 1e-6), "{size}");
         }
         assert_eq!(Pyramid::new(5, 0.0).apply(&noise(5, 0)), noise(5, 0));
@@ -286,7 +286,7 @@ mod tests {
         for (size, sigma) in [(7, 1.3), (42, 4.1), (64, 8.5)] {
             let pyramid = Pyramid::new(size, sigma);
             let (x, y) = (noise(size, 0), noise(size, 1));
-            let line = CHANNELS * size;
+            let line = TEXEL_VALUES * size;
             let adjoint = pyramid.adjoint(|row, out| out.copy_from_slice(&y[row * line..][..line]));
             let (left, right) = (dot(&pyramid.apply(&x), &y), dot(&x, &adjoint));
             assert!((left - right).abs() < 1e-5 * size as f64, "{size}: {left} {right}");

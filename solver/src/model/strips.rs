@@ -1,5 +1,5 @@
-//! Texels that samples add to, strip by strip of rows or chunk by chunk of samples, in an order that does not
-//! depend on the number of threads.
+//! Sums of samples into texels, by strips of rows or by chunks of samples, in an order that does not depend on the
+//! number of threads.
 
 use std::ops::Range;
 
@@ -10,9 +10,9 @@ use super::taps::Taps;
 use crate::parallel::from_parts;
 use crate::simd::widened;
 
-/// A gather is cut into about this many strips, whatever the number of threads.
+/// The approximate number of strips of a gather, for any number of threads.
 const STRIPS: usize = 64;
-/// Rows of a strip, at least.
+/// Least number of rows of a strip.
 const LEAST_ROWS: usize = 4;
 
 impl Taps {
@@ -21,9 +21,8 @@ impl Taps {
         self.size().div_ceil(STRIPS).max(LEAST_ROWS)
     }
 
-    /// Texels of `D` channels that `work` adds to, strip by strip of rows, whose samples are
-    /// contiguous; and its results, in order. The row below a strip's last, which the next strip begins
-    /// with, is added at the end.
+    /// Runs `work` for each strip of rows, whose samples are contiguous, and returns the summed texels of `D` channels
+    /// and the results in order. The row below a strip's last row, the first of the next strip, is added at the end.
     pub(super) fn by_strip<const D: usize, T: Send>(
         &self,
         work: impl Fn(&mut Strip<D>) -> T + Sync,
@@ -38,7 +37,7 @@ impl Taps {
         (texels, results)
     }
 
-    /// `by_strip` in whole blocks: a block belongs to the strip that its first sample begins in.
+    /// [`Self::by_strip`] in whole blocks: a block belongs to the strip of its first sample.
     pub fn by_blocks<const D: usize, S, T: Send>(
         &self,
         scratch: impl Fn() -> S + Send + Sync,
@@ -57,8 +56,8 @@ impl Taps {
         (texels, results)
     }
 
-    /// Texels of `D` channels that `work` adds to, chunk by chunk of whole blocks of samples; and its
-    /// results, in order. Chunks have texels of their own, which are added in their order.
+    /// Runs `work` for each chunk of whole blocks of samples, and returns the summed texels of `D` channels and the
+    /// results in order. Each chunk has its own texels, which are added in the order of the chunks.
     pub fn by_chunk<const D: usize, S, T: Send>(
         &self,
         scratch: impl Fn() -> S + Send + Sync,
@@ -83,21 +82,20 @@ impl Taps {
         (from_parts(self.size() * line, self.strip() * line, add).0, results)
     }
 
-    /// The blocks of samples whose first one's upper texels are in some rows.
+    /// The blocks of samples whose first sample has its upper texels in some rows.
     fn blocks_of(&self, rows: Range<usize>) -> Range<usize> {
         let Range { start, end } = self.samples_in(rows);
         let whole = |sample: usize| sample.next_multiple_of(BLOCK).min(self.cells().len());
         whole(start)..whole(end)
     }
 
-    /// The samples whose upper texels are in a strip of so many rows.
+    /// The samples with their upper texels in a strip of this number of rows.
     fn samples_of(&self, strip: usize, rows: usize) -> Range<usize> {
         let first = strip * self.strip();
         self.samples_in(first..first + rows)
     }
 
-    /// Work on samples that begin in a strip; the rows below that they reach, where these begin, and the
-    /// result.
+    /// Runs `work` on the samples of a strip; returns the rows below that it changed, their start, and the result.
     fn in_strip<const D: usize, T>(
         &self,
         number: usize,
@@ -118,7 +116,7 @@ impl Taps {
         ((end * line, below), result)
     }
 
-    /// Adds the rows below; the results.
+    /// Adds the rows below, and returns the results.
     fn join<const D: usize, T: Send>(
         &self,
         texels: &mut [f32],
@@ -136,8 +134,7 @@ fn slices(parts: &[(usize, Vec<f32>)]) -> impl Iterator<Item = (usize, &[f32])> 
     parts.iter().map(|(first, part)| (*first, part.as_slice()))
 }
 
-/// Adds to values, of which the first has number `start`, what parts have of them: the first one's number, and
-/// values.
+/// Adds parts to values, which begin at index `start`. A part is the index of its first value, and its values.
 fn add_parts<'a>(
     start: usize,
     values: &mut [f32],
@@ -153,7 +150,7 @@ fn add_parts<'a>(
     }
 }
 
-/// The blocks that a range of samples lies in, with its lanes of each.
+/// The blocks of a range of samples, with the lanes of the range in each.
 pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize>)> {
     let first = samples.start / BLOCK;
     let end = if samples.is_empty() { first } else { samples.end.div_ceil(BLOCK) };
@@ -163,7 +160,7 @@ pub fn blocks(samples: Range<usize>) -> impl Iterator<Item = (usize, Range<usize
     })
 }
 
-/// Some rows of a texture of `D` channels, and those below that its samples reach.
+/// Some rows of a texture of `D` channels, and the rows below that their samples reach.
 pub struct Strip<'a, const D: usize> {
     /// Taps of all samples.
     pub taps: &'a Taps,
@@ -173,12 +170,12 @@ pub struct Strip<'a, const D: usize> {
     pub samples: Range<usize>,
     /// The rows' texels.
     pub texels: &'a mut [[f32; D]],
-    /// Those of the rows below.
+    /// The texels of the rows below.
     pub below: &'a mut [[f32; D]],
 }
 
 impl<const D: usize> Strip<'_, D> {
-    /// Adds some lanes of a block.
+    /// Adds the values of some lanes of a block.
     pub(super) fn add(&mut self, block: usize, lanes: Range<usize>, rows: &[Row; D]) {
         let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
         let cells = &self.taps.cells()[samples.clone()];
@@ -188,8 +185,7 @@ impl<const D: usize> Strip<'_, D> {
 }
 
 widened! {
-    /// Adds the gradients of samples that begin at a lane. The sums of a cell stay in registers while its
-    /// samples pass.
+    /// Adds the gradients of samples from a lane on. The sums of a cell stay in registers during its samples.
     fn add_lanes<const D: usize>(
         strip: &mut Strip<D>,
         cell: &[u32],

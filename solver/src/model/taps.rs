@@ -26,7 +26,7 @@ pub struct Taps {
 }
 
 impl Taps {
-    /// Sorts samples by texel: returns the taps, and for each of them which `uvs` it came from.
+    /// Sorts samples by texel; returns the taps, and the index of each in `uvs`.
     pub fn sorted(size: usize, uvs: &[Vec2]) -> (Self, Vec<usize>) {
         let place = |uv: &Vec2| {
             let clamp = |x: f32| (x * size as f32 - 0.5).clamp(0.0, (size - 1) as f32);
@@ -45,7 +45,7 @@ impl Taps {
         (Self { size, cell, fraction, row_start }, order)
     }
 
-    /// The samples that are kept.
+    /// The selected samples.
     pub fn kept(&self, kept: &Kept) -> Self {
         Self {
             size: self.size,
@@ -55,7 +55,7 @@ impl Taps {
         }
     }
 
-    /// Texture side, texels.
+    /// Side of the texture, texels.
     pub fn size(&self) -> usize {
         self.size
     }
@@ -76,7 +76,7 @@ impl Taps {
         &self.fraction
     }
 
-    /// Where a sample lies: column and row, counted in texels from the first texel's centre.
+    /// The column and row of a sample, in texels from the centre of the first texel.
     pub fn place(&self, sample: usize) -> [f32; 2] {
         let (cell, [fx, fy]) = (self.cell[sample] as usize, self.fraction[sample]);
         [(cell % self.size) as f32 + fx, (cell / self.size) as f32 + fy]

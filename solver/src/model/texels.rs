@@ -10,18 +10,18 @@ use super::strips::{Strip, blocks};
 use super::taps::Taps;
 use crate::simd::{prefetch, widened};
 
-/// Number of values of a texel.
-pub const CHANNELS: usize = 4;
+/// The number of values of a texel.
+pub const TEXEL_VALUES: usize = 4;
 /// The values of a texel, one vector of the processor.
-pub type Texel = [f32; CHANNELS];
+pub type Texel = [f32; TEXEL_VALUES];
 
-/// Samples whose texels are asked for ahead of those of the one at hand.
+/// Distance of the prefetch, samples.
 const AHEAD: usize = 32;
 
 impl Taps {
     /// A texture at every sample (4 rows).
     pub fn sample_vectors(&self, texture: &[f32]) -> Planes {
-        Planes::from_blocks(CHANNELS, self.cells().len(), |block, rows| {
+        Planes::from_blocks(TEXEL_VALUES, self.cells().len(), |block, rows| {
             self.sample_vectors_of(texture, block, rows);
         })
     }
@@ -37,7 +37,7 @@ impl Taps {
 
     /// The adjoint of [`Taps::sample_vectors`].
     pub fn gather_vectors(&self, gradient: &Planes) -> Vec<f32> {
-        let add = |strip: &mut Strip<CHANNELS>| {
+        let add = |strip: &mut Strip<TEXEL_VALUES>| {
             for (block, lanes) in blocks(strip.samples.clone()) {
                 strip.add_vectors(block, lanes, gradient.block(block));
             }
@@ -53,8 +53,8 @@ impl<const D: usize> Strip<'_, D> {
         let samples = block * BLOCK + lanes.start..block * BLOCK + lanes.end;
         let here = self.texels.as_flattened_mut().as_chunks_mut().0;
         let below = self.below.as_flattened_mut().as_chunks_mut().0;
-        let stride = D / CHANNELS;
-        for (part, rows) in rows.chunks_exact(CHANNELS).enumerate() {
+        let stride = D / TEXEL_VALUES;
+        for (part, rows) in rows.chunks_exact(TEXEL_VALUES).enumerate() {
             let mut values = [Vec4::ZERO; BLOCK];
             side_by_side(rows, &mut values);
             let values = &values[lanes.clone()];
@@ -71,7 +71,7 @@ widened! {
         let (cells, fractions) = (&taps.cells()[samples.clone()], &taps.fractions()[samples]);
         assert!(values.len() >= cells.len() && fractions.len() == cells.len());
         let mut sample = 0;
-        // A cell's texels stay in registers while its samples pass.
+        // The texels of a cell stay in registers during its samples.
         while sample < cells.len() {
             let cell = cells[sample];
             if let Some(next) = later.get(sample) {
@@ -103,21 +103,21 @@ fn pair(texels: &[Texel]) -> [Vec4; 2] {
 widened! {
     /// The samples' values, row by row.
     fn deinterleave(values: &[Vec4; BLOCK], rows: &mut [Row]) {
-        for (at, values) in values.as_chunks::<CHANNELS>().0.iter().enumerate() {
+        for (at, values) in values.as_chunks::<TEXEL_VALUES>().0.iter().enumerate() {
             for (row, values) in rows.iter_mut().zip(transposed(*values)) {
-                row.0[CHANNELS * at..][..CHANNELS].copy_from_slice(&values.to_array());
+                row.0[TEXEL_VALUES * at..][..TEXEL_VALUES].copy_from_slice(&values.to_array());
             }
         }
     }
 }
 
 widened! {
-    /// The reverse.
+    /// The inverse of [`deinterleave`].
     fn side_by_side(rows: &[Row], values: &mut [Vec4; BLOCK]) {
-        for (at, values) in values.as_chunks_mut::<CHANNELS>().0.iter_mut().enumerate() {
-            let mut four = [Vec4::ZERO; CHANNELS];
+        for (at, values) in values.as_chunks_mut::<TEXEL_VALUES>().0.iter_mut().enumerate() {
+            let mut four = [Vec4::ZERO; TEXEL_VALUES];
             for (four, row) in four.iter_mut().zip(rows) {
-                *four = Vec4::from_slice(&row.0[CHANNELS * at..][..CHANNELS]);
+                *four = Vec4::from_slice(&row.0[TEXEL_VALUES * at..][..TEXEL_VALUES]);
             }
             *values = transposed(four);
         }
@@ -126,15 +126,15 @@ widened! {
 
 /// Four values of four samples.
 #[inline(always)]
-fn transposed([x, y, z, w]: [Vec4; CHANNELS]) -> [Vec4; CHANNELS] {
+fn transposed([x, y, z, w]: [Vec4; TEXEL_VALUES]) -> [Vec4; TEXEL_VALUES] {
     let Mat4 { x_axis, y_axis, z_axis, w_axis } = Mat4::from_cols(x, y, z, w).transpose();
     [x_axis, y_axis, z_axis, w_axis]
 }
 
 widened! {
-    /// Adds what samples have to the texels of their cells, in rows of a texture from `first` on and in
-    /// those below; to number `part` of each `stride` texels in a place. The sums of a cell stay in registers
-    /// while its samples pass.
+    /// Adds the values of samples to the texels of their cells, in rows of a texture from `first` on and in the rows
+    /// below; to the texel with index `part` of each group of `stride`. The sums of a cell stay in registers during its
+    /// samples.
     fn gather(
         taps: &Taps,
         first: usize,
@@ -185,7 +185,7 @@ mod tests {
 
     use super::*;
 
-    /// Bit for bit what any texture's sums are, on more rows than a strip has.
+    /// The sums are bit for bit those of any texture, on more rows than a strip has.
     #[test]
     fn vectors_are_four_channels() {
         let (size, count) = (300, 5000);
@@ -193,9 +193,9 @@ mod tests {
         let uvs: Vec<_> =
             (0..count).map(|i| Vec2::new(noise(i, 12.9898), noise(i, 78.233))).collect();
         let taps = Taps::sorted(size, &uvs).0;
-        let texture: Vec<f32> = (0..size * size * CHANNELS).map(|i| noise(i, 0.37)).collect();
-        let planes = taps.sample::<CHANNELS>(&texture);
+        let texture: Vec<f32> = (0..size * size * TEXEL_VALUES).map(|i| noise(i, 0.37)).collect();
+        let planes = taps.sample::<TEXEL_VALUES>(&texture);
         assert_eq!(taps.sample_vectors(&texture), planes);
-        assert_eq!(taps.gather_vectors(&planes), taps.gather::<CHANNELS>(&planes, 0));
+        assert_eq!(taps.gather_vectors(&planes), taps.gather::<TEXEL_VALUES>(&planes, 0));
     }
 }

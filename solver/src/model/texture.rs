@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::parallel::from_parts;
 
-/// The texture at another size, interpolated bilinearly between texel centres.
+/// Resamples a texture to another size, bilinearly between texel centres.
 pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec<f32> {
     let ratio = size as f32 / to as f32;
     let axis = |at: usize| {
@@ -27,10 +27,10 @@ pub fn resample(texture: &[f32], size: usize, channels: usize, to: usize) -> Vec
     out
 }
 
-/// Texels that one task works through.
+/// Texels per task.
 const CHUNK: usize = 1 << 12;
 
-/// Puts the channels of several textures side by side: `(texture, its channels)`, `C` in all.
+/// Interleaves the channels of several textures, given as `(texture, its channels)`, `C` in total.
 pub fn interleave<const C: usize>(parts: &[(&[f32], usize)]) -> Vec<f32> {
     let texels = parts.first().map_or(0, |(texture, channels)| texture.len() / channels);
     let fill = |task: usize, out: &mut [f32]| {
@@ -47,7 +47,7 @@ pub fn interleave<const C: usize>(parts: &[(&[f32], usize)]) -> Vec<f32> {
     from_parts(texels * C, C * CHUNK, fill).0
 }
 
-/// The reverse of [`interleave`]: `D` channels from `first` on, of `C`.
+/// The inverse of [`interleave`]: `D` channels from `first` on, of `C`.
 pub fn part<const C: usize, const D: usize>(texture: &[f32], first: usize) -> Vec<f32> {
     let (texels, _) = texture.as_chunks::<C>();
     let fill = |task: usize, out: &mut [f32]| {

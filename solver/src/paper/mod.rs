@@ -10,6 +10,7 @@ mod tests;
 pub mod warm_up;
 
 use capture::gbuffer::{Atlas, GBuffer};
+use capture::mean_texture::coverage;
 use capture::{Camera, Capture, Mesh, View};
 use formats::cancel;
 use formats::maps::Maps;
@@ -82,7 +83,8 @@ pub(crate) fn solve(
     assemble(&scene, config, run, &samples, fields, snapshots, layer_sink)
 }
 
-/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls.
+/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`]
+/// calls.
 pub(crate) fn plan(config: &PaperConfig, extent: &Extent) -> Vec<Work> {
     let square = |side: usize| (side * side) as f64;
     let Extent { pixels, texture_size: size, .. } = *extent;
@@ -190,7 +192,7 @@ fn assemble(
         specular_albedo: picture(1, maps::scaled(&fields.specular, scales.specular)),
         diffuse_normal: picture(3, maps::bent_normals(&atlas, &blurred)),
         specular_normal: picture(3, maps::bent_normals(&atlas, &sharp)),
-        coverage: Some(maps::coverage(&seen)),
+        coverage: Some(coverage(&seen)),
         ..Maps::default()
     };
     Ok(Results {

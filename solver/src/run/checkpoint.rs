@@ -1,8 +1,8 @@
-//! Checkpoints: what a solve needs to continue after an interrupt or a crash, to the same bytes.
+//! Checkpoints, from which a solve continues after an interrupt or a crash, to the same bytes.
 //!
-//! A folder beside the maps with the value of every stage that is made, and `fit`, written about every half minute
-//! within a long fit. Each file begins with the format and a key of everything that the result depends on, so that
-//! none is ever used for another solve.
+//! A folder next to the maps has the value of every finished stage, and `fit`, written about every half minute within a
+//! long fit. Each file begins with the format and a key of all inputs of the solve, so that a file is never used for
+//! another solve.
 
 use std::fs;
 use std::io;
@@ -20,17 +20,17 @@ use crate::config::Config;
 use crate::fit::Fit;
 use crate::fit::adam::Adam;
 
-/// Counts the changes of what is written.
+/// The version of the file format.
 const FORMAT: u32 = 4;
 /// Time between two checkpoints of a stage.
 const INTERVAL: Duration = Duration::from_secs(30);
-/// A checkpoint may take this share of the time: large textures on a slow disk are kept less often.
+/// Largest share of the time for checkpoints: on a slow disk, large textures are stored less often.
 const LARGEST_SHARE: f64 = 0.05;
-/// The file of the fit at work, without its extension; no stage has this name.
+/// The file of the current fit, without its extension; no stage has this name.
 const FIT: &str = "fit";
 const EXTENSION: &str = "postcard";
 
-/// Where a solve keeps its checkpoints.
+/// The folder of a solve's checkpoints.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     folder: PathBuf,
@@ -39,8 +39,8 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Beside the folder `maps`. `program` names the program that solves, down to its sources if
-    /// they may change: a checkpoint of another program is not used.
+    /// A folder next to the folder `maps`. `program` identifies the program, with its sources if they may change: a
+    /// checkpoint of another program is not used.
     pub fn beside(maps: &Path, program: &str) -> Self {
         let mut name = maps.file_name().unwrap_or_default().to_os_string();
         name.push(".checkpoint");
@@ -53,14 +53,13 @@ impl Checkpoint {
         &self.folder
     }
 
-    /// Time between two checkpoints of a stage, zero for one after every step; half a minute if
-    /// nothing is said.
+    /// Sets the time between two checkpoints of a fit; zero stores one after every step. The default is half a minute.
     #[must_use]
     pub fn every(self, interval: Duration) -> Self {
         Self { interval, ..self }
     }
 
-    /// Removes the checkpoint. One that stays does no harm, so a failure is only logged.
+    /// Removes the checkpoint. A failure is only logged, since a remaining checkpoint is harmless.
     pub fn remove(folder: &Path) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -70,7 +69,7 @@ impl Checkpoint {
             let _ = fs::remove_file(&path);
             let _ = fs::remove_file(atomic::partial_path(&path));
         }
-        // A folder that holds other files stays.
+        // A folder with other files is not removed.
         match fs::remove_dir(folder) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 tracing::warn!("{}: cannot be removed: {error}", folder.display());
@@ -101,12 +100,12 @@ pub(crate) struct Open {
     folder: PathBuf,
     key: String,
     interval: Duration,
-    /// Until the next checkpoint of a fit.
+    /// Time from one checkpoint of a fit to the next.
     wait: Duration,
     last: Instant,
 }
 
-/// A file of another solve, or a damaged one.
+/// The file belongs to another solve, or is damaged.
 struct Stale;
 
 /// A fit between two steps.
@@ -114,7 +113,7 @@ struct Stale;
 pub(super) struct FitMemory {
     pub name: String,
     pub losses: Vec<f64>,
-    /// Seconds that it has run.
+    /// Seconds of the fit so far.
     pub seconds: f64,
     variables: Vec<(Vec<f32>, Adam)>,
     memory: Vec<Vec<f32>>,
@@ -131,7 +130,7 @@ struct BorrowedMemory<'a> {
 }
 
 impl FitMemory {
-    /// Puts everything back in its place and returns the losses; `None` if the places differ.
+    /// Restores the fit and returns its losses; `None` if the lengths of the arrays differ.
     pub fn restore(self, fit: &mut dyn Fit) -> Option<Vec<f64>> {
         let fits = fit
             .variables()
@@ -151,8 +150,7 @@ impl FitMemory {
 }
 
 impl Open {
-    /// Looks for the checkpoint of an earlier run, and returns the fit that it was in. Files of another solve are
-    /// removed.
+    /// Opens the checkpoint of an earlier run, and returns its unfinished fit. Files of another solve are removed.
     pub(super) fn open(&mut self) -> Option<FitMemory> {
         let fit = self.read_file::<FitMemory>(FIT);
         let names = fs::read_dir(&self.folder).ok().into_iter().flatten().flatten();
@@ -187,7 +185,7 @@ impl Open {
     /// Stores the value of a stage and the log after it.
     pub(super) fn store(&mut self, stage: &str, log: &Log, value: &impl Serialize) {
         self.write_file(&file_name(stage), &(log, value));
-        // It belongs to a fit that is over.
+        // This file belongs to a finished fit.
         let _ = fs::remove_file(self.path(FIT));
     }
 
@@ -214,7 +212,7 @@ impl Open {
         head.is_ok_and(|(head, _)| head == (FORMAT, self.key.clone()))
     }
 
-    /// A file's content; nothing if there is none.
+    /// Reads a file's content; `None` without the file.
     fn read_file<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Stale> {
         let Ok(bytes) = fs::read(self.path(name)) else { return Ok(None) };
         let (head, rest) = postcard::take_from_bytes::<(u32, String)>(&bytes).map_err(|_| Stale)?;
@@ -224,7 +222,7 @@ impl Open {
         postcard::from_bytes(rest).map(Some).map_err(|_| Stale)
     }
 
-    /// Writes a file. A solve is as good without a checkpoint, so a full disk does not stop it.
+    /// Writes a file. A failure, such as a full disk, does not stop the solve.
     fn write_file(&mut self, name: &str, content: &impl Serialize) {
         let start = Instant::now();
         let path = self.path(name);

@@ -1,16 +1,16 @@
-//! The time that a solve still takes.
+//! The remaining time of a solve.
 //!
-//! The steps of different stages differ in cost. The plan states the cost of each on one machine; the speed of this
-//! machine is measured while the solve runs, and the rest of the stage at work follows that stage's own pace.
+//! The plan states the cost of each stage's steps on one machine. The speed of this machine relative to it is measured
+//! during the solve; the rest of the current stage is estimated by that stage's own pace.
 
 use std::time::Instant;
 
-/// Seconds that the machine's speed is trusted before anything is measured.
+/// Weight of the prior that this machine is as fast as that of the plan, seconds.
 const PRIOR: f64 = 0.2;
-/// Steps after which a stage goes by its own pace.
+/// Steps after which a stage's own pace is used.
 const SETTLED: usize = 5;
 
-/// How much there is to solve, as far as the cost of a step depends on it.
+/// The size of a solve, on which the cost of a step depends.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     /// Training views.
@@ -21,7 +21,7 @@ pub struct Extent {
     pub texture_size: usize,
 }
 
-/// The cost of a part of the solve on the machine where it was measured.
+/// The cost of a stage on the machine where it was measured.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
     /// Seconds before its first step.
@@ -32,24 +32,24 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// All of it.
+    /// Seconds of the whole stage.
     pub fn seconds(&self) -> f64 {
         self.preparation + self.step * self.steps as f64
     }
 }
 
-/// Estimates the time that a solve still takes.
+/// Estimates the remaining time of a solve.
 pub(super) struct Clock {
     parts: Vec<Work>,
-    /// The part at work.
+    /// The current stage.
     at: usize,
-    /// Its steps that are done, and how many of these this process did.
+    /// The finished steps of the current stage, and how many of these this process took.
     done: usize,
     own: usize,
-    /// The cost of all before it, as far as this process did them.
+    /// The cost of the earlier stages, as far as this process ran them.
     expected: f64,
     start: Instant,
-    /// When the first step of the part at work was done.
+    /// The time of the first step of the current stage.
     first: Instant,
 }
 
@@ -59,12 +59,12 @@ impl Clock {
         Self { parts, at: 0, done: 0, own: 0, expected: 0.0, start: now, first: now }
     }
 
-    /// Skips a stage that another process did.
+    /// Skips a stage whose value is stored.
     pub fn skip(&mut self) {
         self.at += 1;
     }
 
-    /// Skips steps of the stage at work that another process did.
+    /// Skips steps of the current stage that another process took.
     pub fn skip_steps(&mut self, steps: usize) {
         self.done += steps;
     }
@@ -76,7 +76,7 @@ impl Clock {
         (self.done, self.own) = (0, 0);
     }
 
-    /// Counts a step, and returns the seconds that are left.
+    /// Counts a step, and returns the remaining seconds.
     pub fn tick(&mut self) -> f64 {
         self.tick_at(Instant::now())
     }
@@ -121,11 +121,11 @@ mod tests {
             for step in 0..steps {
                 now += Duration::from_secs_f64(seconds);
                 left -= seconds;
-                let said = clock.tick_at(now);
-                // A few seconds show the machine's pace, a few steps a stage's.
+                let estimate = clock.tick_at(now);
+                // The machine's pace is known after a few seconds, a stage's after a few steps.
                 if whole - left > 3.0 && step > SETTLED {
-                    let off = (said - left).abs();
-                    assert!(off < 0.25 * left + 0.5, "{said} s instead of {left} s");
+                    let off = (estimate - left).abs();
+                    assert!(off < 0.25 * left + 0.5, "{estimate} s instead of {left} s");
                 }
             }
             clock.next();
@@ -139,11 +139,11 @@ mod tests {
         clock.skip();
         clock.skip_steps(40);
         let mut now = clock.start;
-        let mut said = 0.0;
+        let mut estimate = 0.0;
         for _ in 0..10 {
             now += Duration::from_secs(1);
-            said = clock.tick_at(now);
+            estimate = clock.tick_at(now);
         }
-        assert!((said - 150.0).abs() < 1.0, "{said}");
+        assert!((estimate - 150.0).abs() < 1.0, "{estimate}");
     }
 }

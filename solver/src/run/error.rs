@@ -6,7 +6,7 @@ use formats::maps::MapsError;
 use crate::config::ConfigError;
 use crate::memory::NotEnoughMemory;
 
-/// A solve that did not end.
+/// The reason why a solve failed.
 #[derive(Debug, thiserror::Error)]
 pub enum SolveError {
     /// The configuration is out of range.
@@ -32,7 +32,7 @@ pub enum SolveError {
         /// NaN or infinity.
         loss: f64,
     },
-    /// A step's report was answered by an interrupt; the solve as a whole then ends with what it has.
+    /// The caller interrupted at a step. It never leaves a solve, which ends with maps of the current estimates.
     #[error("interrupted")]
     Interrupted,
     /// Not enough memory.

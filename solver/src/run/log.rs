@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::solution::StageRecord;
 
-/// Losses and times so far.
+/// The losses and times so far.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Log {
-    /// Steps done.
+    /// The number of steps taken.
     pub done: usize,
-    /// Steps that turned out not to be needed.
+    /// Planned steps that were not needed.
     pub skipped: usize,
     pub stages: Vec<StageRecord>,
     pub seconds: Vec<(String, f64)>,
@@ -21,7 +21,7 @@ pub(super) struct Log {
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub stage: String,
-    /// Steps of the stage that were done, of how many.
+    /// The finished steps of the stage, and their planned number.
     pub step: usize,
     pub of: usize,
 }

@@ -1,4 +1,4 @@
-//! Progress of a solve as its caller sees it, and the caller's options.
+//! The progress of a solve for its caller, and the caller's options.
 
 use std::ops::ControlFlow;
 
@@ -7,36 +7,36 @@ use formats::maps::MapsError;
 use super::checkpoint::Checkpoint;
 use crate::solution::ViewLayers;
 
-/// Where a solve stands.
+/// The progress of a solve after a step.
 #[derive(Clone, Debug)]
 pub struct Progress<'a> {
-    /// The stage at work.
+    /// The current stage.
     pub stage: &'a str,
-    /// Steps done of the stage.
+    /// The finished steps of the stage.
     pub step: usize,
-    /// Steps of the stage.
+    /// The planned steps of the stage.
     pub steps: usize,
-    /// Steps done over all stages.
+    /// The finished steps of all stages.
     pub iteration: usize,
-    /// Steps of all stages; fewer from where the light proves to need no further rounds.
+    /// The planned steps of all stages, without those of fits that converged early.
     pub total: usize,
     /// The loss before the last step.
     pub loss: f64,
-    /// Seconds until the maps are there, as far as one can tell.
+    /// The estimated seconds until the maps are finished.
     pub seconds_left: f64,
 }
 
 pub(crate) type Callback<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
 
-/// Takes the layers of a training view.
+/// Receives the layers of a training view.
 pub type LayerSink<'a> = dyn FnMut(&ViewLayers) -> Result<(), MapsError> + 'a;
 
-/// How a solve is run. Nothing in it changes a map.
+/// Options of a run; none of them changes a map.
 #[derive(Default)]
 pub struct Options<'a> {
-    /// Where to keep what is needed to go on after an interrupt or a fall.
+    /// The checkpoint from which the solve can continue after an interrupt or a crash.
     pub checkpoint: Option<Checkpoint>,
-    /// Takes the layers of the training views one after the other, if the configuration wants them:
-    /// of many large views, memory has no room.
+    /// Receives the layers of the training views one after the other, if the configuration enables them. Many large
+    /// views do not fit into memory.
     pub layers: Option<&'a mut LayerSink<'a>>,
 }

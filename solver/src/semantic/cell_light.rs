@@ -1,4 +1,4 @@
-//! The light of all cells that explains a chart best with one reflectance for each of its regions.
+//! The light of free cells with the least residual on a chart, given one reflectance for each region.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -7,30 +7,29 @@ use super::chart::{Chart, largest, luminance, means};
 use super::settings::ColourSettings;
 use crate::transport::add_scaled;
 
-/// Tasks that sum the normal equations of as many texels each, in their order.
+/// Tasks that sum the normal equations, each of an equal number of texels, in order.
 const TASKS: usize = 16;
-/// Sweeps over all cells for each of the normal equations.
+/// Sweeps over all cells of the solver of the normal equations.
 const SWEEPS: usize = 60;
 
-/// A light of R, G, B per cell, and the chart that it shines on.
+/// A light of R, G, B per cell, and the lit chart.
 pub(super) struct CellLight<'a> {
     chart: &'a Chart,
     config: &'a ColourSettings,
     light: Vec<DVec3>,
-    /// The colours of the texels seen divided by their shading, of mean 1.
+    /// The colours of the visible texels divided by their shading, of mean 1.
     pub divided: Vec<Vec3>,
 }
 
 impl<'a> CellLight<'a> {
-    /// 1 from everywhere.
+    /// Starts from a light of 1 in every cell.
     pub fn new(chart: &'a Chart, config: &'a ColourSettings) -> Self {
         let light = vec![DVec3::ONE; chart.cells()];
         Self { chart, config, light, divided: chart.colours.clone() }
     }
 
-    /// Finds the light that explains the chart best with one albedo for each of the `regions`, and from it the albedo
-    /// of every texel seen. The less light a texel gets, the more it is taken for the largest region, whose colour
-    /// counts as much as its own at a shading of `shading_prior`.
+    /// Fits the light with one albedo for each of the `regions`, and returns the albedo of every visible texel. In low
+    /// light it tends to the albedo of the largest region, with half of the weight at a shading of `shading_prior`.
     pub fn albedo(&mut self, regions: &[u8]) -> Vec<Vec3> {
         let ColourSettings { dark, shading_floor, shading_prior: prior, .. } = *self.config;
         let of_regions = means(&self.divided, regions, dark);
@@ -42,8 +41,8 @@ impl<'a> CellLight<'a> {
         self.chart.colours.iter().copied().zip(shading).map(texel).collect()
     }
 
-    /// Least squares with weights towards L1, over light that is not negative: of the normal equations, one cell
-    /// after the other. Gives the shading of the texels seen.
+    /// Fits non-negative light by least squares reweighted towards L1, with coordinate descent over the cells, and
+    /// returns the shading of the visible texels.
     fn solve(&mut self, of_regions: &[Vec3], regions: &[u8]) -> Vec<Vec3> {
         let (chart, config) = (self.chart, self.config);
         let mean = |region: &u8| of_regions[usize::from(*region)];
@@ -71,7 +70,7 @@ impl<'a> CellLight<'a> {
         found.into_iter().map(|shading| shading / mean).collect()
     }
 
-    /// The shading of the texels seen.
+    /// The shading of the visible texels.
     fn shading(&self) -> Vec<Vec3> {
         let light: Vec<Vec3> = self.light.iter().map(|light| light.as_vec3()).collect();
         let texel = |at: usize| self.chart.row(at).iter().zip(&light).map(|(c, l)| *c * *l).sum();
@@ -86,7 +85,7 @@ struct Equations {
 }
 
 impl Equations {
-    /// Of so many texels: what every cell adds to each, its weight, and the shading wanted.
+    /// Sums over texels, each with the share of every cell in its shading, its weight, and its target shading.
     fn new<'a>(
         cells: usize,
         texels: usize,
@@ -120,7 +119,7 @@ impl Equations {
             for at in 0..cells {
                 let row = &self.matrix[at * cells..][..cells];
                 let found: DVec3 = row.iter().zip(&*light).map(|(m, l)| *m * *l).sum();
-                // A cell that no texel sees stays as it is.
+                // A cell that lights no texel does not change.
                 if row[at] > 0.0 {
                     light[at] = (light[at] + (self.right[at] - found) / row[at]).max(DVec3::ZERO);
                 }
@@ -133,17 +132,17 @@ impl Equations {
 mod tests {
     use super::*;
 
-    /// A row of values that look random, 0 to 1.
+    /// A row of pseudo-random values, 0 to 1.
     fn row(at: usize) -> Vec<f32> {
         (0..12)
             .map(|i| ((at as f32 * 12.9898 + i as f32 * 78.233).sin() * 43758.547).fract().abs())
             .collect()
     }
 
-    /// Optimality of what is not negative (Karush, Kuhn and Tucker): the gradient is 0 where there is light, and
-    /// nowhere would more light be better; within half a percent of what a light of 1 in the cell adds.
+    /// The Karush-Kuhn-Tucker conditions of non-negative light: the gradient is 0 in cells with light and not negative
+    /// in others, within half a percent of the share of a light of 1 in the cell.
     #[test]
-    fn the_light_is_the_best_that_is_not_negative() {
+    fn the_light_is_the_optimal_non_negative_one() {
         let rows: Vec<Vec<f32>> = (0..90).map(row).collect();
         let weight = |at: usize| 0.5 + (at % 3) as f32;
         let wanted = |at: usize| Vec3::new(rows[at][1], rows[at][0] - 0.4 * rows[at][3], 1.0);

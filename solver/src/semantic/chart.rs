@@ -1,4 +1,4 @@
-//! The mean colours of a face on a chart, and the light that explains them with one reflectance for each region.
+//! The mean colours of a face on a chart, and a light fitted to them with one reflectance for each region.
 
 use capture::Mesh;
 use capture::gbuffer::Atlas;
@@ -11,11 +11,11 @@ use super::settings::{ColourSettings, TransportConfig};
 use crate::model::blur::Blur;
 use crate::transport::{self, CHANNELS, Sky, Transport};
 
-/// What the pictures show of a chart.
+/// The visible texels of a chart with their colours.
 pub(super) struct Chart {
-    /// The texels that they show.
+    /// The visible texels.
     pub seen: Vec<usize>,
-    /// Mean colours of these, linear RGB in the unit of the pictures.
+    /// The mean colours of the visible texels, linear RGB in the unit of the pictures.
     pub colours: Vec<Vec3>,
     /// Side of the chart, texels.
     pub side: usize,
@@ -50,8 +50,7 @@ impl Chart {
         }
     }
 
-    /// The colours divided by the shading of the light that explains them best with one reflectance for each of
-    /// the `regions`.
+    /// The colours divided by the shading of the light that is fitted with one reflectance for each of the `regions`.
     pub fn albedo(&self, config: &ColourSettings, lobes: &Lobes, regions: &[u8]) -> Vec<Vec3> {
         let mut albedo = self.colours.clone();
         for _ in 0..config.rounds {
@@ -61,7 +60,7 @@ impl Chart {
         albedo
     }
 
-    /// Of texels seen, those that have all others within so many texels in both directions among them, of those seen.
+    /// Erosion: the texels whose visible neighbours up to `reach` texels away in both directions are all in the set.
     pub fn eroded(&self, of: &[bool], reach: usize) -> Vec<bool> {
         let mut outside = vec![false; self.side * self.side];
         self.seen.iter().zip(of).for_each(|(at, of)| outside[*at] = !of);
@@ -73,7 +72,8 @@ impl Chart {
         self.seen.iter().map(|at| near(at).all(|(x, y)| !outside[y * self.side + x])).collect()
     }
 
-    /// What is known of the texels seen that are `known`, on the whole chart: any other takes the nearest one's.
+    /// Extends the values of the `known` visible texels to the whole chart: every other texel has the value of the
+    /// nearest known one.
     pub fn filled<T: Copy>(&self, values: &[T], known: &[bool]) -> Vec<T> {
         let mut map = vec![None; self.side * self.side];
         let some = self.seen.iter().zip(values).zip(known).filter(|(_, known)| **known);
@@ -83,18 +83,18 @@ impl Chart {
         nearest.into_iter().filter_map(|at| map[at as usize]).collect()
     }
 
-    /// Cells of the light.
+    /// The number of cells of the light.
     pub fn cells(&self) -> usize {
         self.transport.cells()
     }
 
-    /// What a light of 1 from every cell adds to the shading of a texel, by its place among those seen.
+    /// The share of every cell of radiance 1 in the shading of a texel, by its index among the visible texels.
     pub fn row(&self, at: usize) -> &[f32] {
         self.transport.cells_of(self.seen[at])
     }
 
-    /// The shading of the texels seen under a light of 1 from everywhere.
-    pub fn even(&self) -> Vec<f32> {
+    /// The shading of the visible texels under a uniform light of radiance 1.
+    pub fn uniform_shading(&self) -> Vec<f32> {
         let all = self.transport.shading(&vec![1.0; CHANNELS * self.transport.cells()]);
         self.seen.iter().map(|at| all[CHANNELS * at]).collect()
     }
@@ -104,12 +104,11 @@ impl Chart {
         self.colours.iter().zip(shading).map(|(colour, shading)| *colour / *shading).collect()
     }
 
-    /// The shading of the texels seen under the light that explains their colours best, of mean 1 in
-    /// every channel, as far as so many updates reach. Hair's thresholds were found with it, regions by colour
-    /// start from it; [`super::cell_light`] solves for that light.
+    /// The shading of the visible texels under the fitted light, of mean 1 in every channel, after a fixed number of
+    /// updates. The thresholds of hair are for this shading, and regions by colour start from it; [`super::cell_light`]
+    /// solves to convergence.
     ///
-    /// Least squares with weights towards L1, over light that is not negative, by multiplicative updates
-    /// (Lee and Seung 2001).
+    /// Non-negative least squares reweighted towards L1, by multiplicative updates (Lee and Seung 2001).
     pub fn shading(
         &self,
         config: &ColourSettings,
@@ -151,20 +150,20 @@ impl Chart {
         let shading = of(&light);
         let mean = shading.iter().map(|s| s.as_dvec3()).sum::<DVec3>() / shading.len() as f64;
         let mean = mean.as_vec3().max(Vec3::splat(f32::MIN_POSITIVE));
-        // What the light hardly reaches says nothing of its colour.
+        // Texels with little light carry no information on its colour.
         shading.into_iter().map(|s| (s / mean).max(Vec3::splat(config.shading_floor))).collect()
     }
 }
 
-/// What the light of a [`Chart`] is made of: its cells, or lobes around them.
+/// The basis of the light of a [`Chart`]: its cells, or lobes around them.
 pub(super) struct Lobes {
-    /// By lobe and cell, the radiance of a lobe there; empty if every lobe is a cell.
+    /// The radiance of each lobe in each cell, lobe by lobe; empty if every lobe is a cell.
     radiance: Vec<f32>,
     cells: usize,
 }
 
 impl Lobes {
-    /// Lobes as wide as `width` radians on a sky of `rows` rows; 0 for the cells.
+    /// Lobes of a `width` in radians on a sky of `rows` rows; 0 for the cells.
     pub fn new(rows: usize, width: f32) -> Self {
         let cells = Sky::lat_long(rows).centres();
         let radiance = |lobe: &Vec3| -> Vec<f32> {
@@ -175,13 +174,13 @@ impl Lobes {
         Self { radiance, cells: cells.len() }
     }
 
-    /// The radiance of the cells, R, G, B each, of that of the lobes.
+    /// The radiance of the cells, R, G, B each, from that of the lobes.
     fn light(&self, lobes: &[f32]) -> Vec<f32> {
-        // Lobes are as wide in one direction as in the other.
+        // The matrix of the lobes is symmetric.
         self.adjoint(lobes.to_vec())
     }
 
-    /// The derivative by the lobes' radiances of one by the cells'.
+    /// The gradient with respect to the radiances of the lobes, from that with respect to the cells.
     fn adjoint(&self, by_cell: Vec<f32>) -> Vec<f32> {
         if self.radiance.is_empty() {
             return by_cell;
@@ -206,7 +205,7 @@ pub(super) fn log(colour: Vec3, dark: f32) -> Vec3 {
     (colour.max(Vec3::ZERO) + dark).map(f32::ln)
 }
 
-/// `relative` to the median luminance, in the unit of the colours; `None` of nothing but black.
+/// A luminance `relative` to the median, in the unit of the colours; `None` if the median is black.
 pub(super) fn dark(colours: &[Vec3], relative: f32) -> Option<f32> {
     let mut sorted: Vec<f32> = colours.iter().map(luminance).collect();
     sorted.sort_by(f32::total_cmp);
@@ -219,7 +218,7 @@ pub(super) fn largest(regions: &[u8]) -> u8 {
     (0..=u8::MAX).max_by_key(texels).unwrap_or(0)
 }
 
-/// The mean colour of every region; logarithmic, so that highlights have little say.
+/// The geometric mean colour of every region, on which highlights have little influence.
 pub(super) fn means(colours: &[Vec3], regions: &[u8], relative: f32) -> Vec<Vec3> {
     let dark = dark(colours, relative).unwrap_or(f32::MIN_POSITIVE);
     let logs: Vec<Vec3> = colours.iter().map(|colour| log(*colour, dark)).collect();

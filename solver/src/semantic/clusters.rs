@@ -3,11 +3,11 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Rounds of Lloyd's algorithm from new centres, and from clusters that there are.
+/// Rounds of Lloyd's algorithm from new centres, and from existing clusters.
 const ROUNDS: [usize; 2] = [50, 3];
 
-/// The cluster of every point. A new centre starts at the point that is farthest from the others, the
-/// first at the mean.
+/// The cluster of every point. The first centre starts at the mean, each further one at the point that is farthest from
+/// the others.
 pub fn clusters(points: &[Vec3], count: usize) -> Vec<u8> {
     let mut all = centres(points, &vec![0; points.len()], 1);
     while all.len() < count {
@@ -20,12 +20,12 @@ pub fn clusters(points: &[Vec3], count: usize) -> Vec<u8> {
     rounds(points, all, ROUNDS[0])
 }
 
-/// Better clusters, from those that there are; one may become empty.
+/// Improves existing clusters; a cluster may become empty.
 pub fn lloyd(points: &[Vec3], clusters: Vec<u8>, count: usize) -> Vec<u8> {
     rounds(points, centres(points, &clusters, count), ROUNDS[1])
 }
 
-/// The mean of every cluster; far away from everything if it is empty.
+/// The mean of every cluster; far from all points for an empty one.
 pub fn centres(points: &[Vec3], clusters: &[u8], count: usize) -> Vec<Vec3> {
     let mut sums = vec![(DVec3::ZERO, 0.0_f64); count];
     for (point, cluster) in points.iter().zip(clusters) {
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn three_heaps_are_three_clusters() {
+    fn three_groups_are_three_clusters() {
         let heaps = [Vec3::ZERO, Vec3::new(4.0, 0.0, 1.0), Vec3::new(0.0, 5.0, -1.0)];
         let points: Vec<Vec3> = (0..60)
             .map(|i| heaps[i % 3] + 0.3 * Vec3::new((i as f32).sin(), (i as f32).cos(), 0.0))

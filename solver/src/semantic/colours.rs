@@ -1,9 +1,8 @@
-//! Regions of a face without labels: texels of like reflectance.
+//! Regions of a face without labels: texels of similar reflectance.
 //!
-//! Hair, brows and skin are told apart in the pictures' colours divided by the shading of a light that
-//! explains them with one reflectance for each region; regions and light are found in turn. What parts
-//! two regions must be an edge: where colours change slowly it is the light that changes, and the two
-//! are one.
+//! The colours of the pictures are divided by the shading of a light that is fitted with one reflectance for each
+//! region; regions and light are fitted alternately. Two regions must have an edge between them: where colours change
+//! slowly, the light changes, and the two are one region.
 
 use capture::Mesh;
 use formats::picture::Picture;
@@ -33,7 +32,8 @@ impl ColourRegions {
     /// Under a light of cells, or of one lamp where that leaves less. `None` if the pictures are mostly black.
     ///
     /// The cells' light and regions are found in turn, from two starts: the pictures' colours, and these divided by the
-    /// shading of all cells on one reflectance, since between lamps of two colours skin in the pictures has two as well.
+    /// shading of all cells on one reflectance, since between lamps of two colours skin in the pictures has two as
+    /// well.
     pub(super) fn new(mesh: &Mesh, chart: &Chart, config: &Settings) -> Option<Self> {
         let whole = vec![1; chart.side * chart.side];
         let one = Explanation::new(mesh, chart, config, &whole, &[1])?;
@@ -67,8 +67,8 @@ impl ColourRegions {
     }
 }
 
-/// The regions of the texels seen, by their colours under a light of cells, and these colours divided by its shading.
-/// The first regions are clusters of `start`, linear RGB in any unit.
+/// The regions of the visible texels under a light of cells, and the colours divided by its shading. The first regions
+/// are clusters of `start`, linear RGB in any unit.
 pub(super) fn by_cells(
     chart: &Chart,
     config: &ColourSettings,
@@ -87,16 +87,17 @@ pub(super) fn by_cells(
     Some((regions, light.divided))
 }
 
-/// The regions of the texels seen under one light.
+/// The regions of the visible texels under one light.
 struct Under {
     regions: Vec<u8>,
     means: Vec<Vec3>,
-    /// Whether the light tells something of a texel.
+    /// Whether a texel is lit.
     known: Vec<bool>,
 }
 
 impl Under {
-    /// From the start that leaves the smaller sum of [`residuals`]: the pictures' colours, or these under one reflectance.
+    /// From the start that leaves the smaller sum of [`residuals`]: the pictures' colours, or these under one
+    /// reflectance.
     fn cells(chart: &Chart, config: &ColourSettings, under_one: &[Vec3]) -> Option<Self> {
         let from = |start: &[Vec3]| {
             let (regions, albedo) = by_cells(chart, config, start)?;
@@ -108,8 +109,8 @@ impl Under {
         Some(found.min_by(|a, b| a.0.total_cmp(&b.0))?.1)
     }
 
-    /// First the lamp explains all that it shines on, then its largest region alone. What it does not shine on has
-    /// no say.
+    /// Fits the lamp to all lit texels first, then to their largest region alone. Texels that it does not light have no
+    /// influence.
     fn lamp(
         mesh: &Mesh,
         chart: &Chart,
@@ -142,7 +143,7 @@ impl Under {
         let mut regions = vec![0; known.len()];
         lit.iter().zip(&of_lit).for_each(|(at, region)| regions[*at] = *region);
         // In the unit of the pictures, for a shading of mean 1, as under the cells.
-        // What has nothing of a channel says nothing of its light.
+        // Texels without light in a channel carry no information on that channel.
         let finite = |shading: f32| if shading.is_finite() { shading } else { 0.0 };
         let shading = |(at, albedo): (&usize, &Vec3)| (chart.colours[*at] / *albedo).map(finite);
         let shading = lit.iter().zip(&albedo).map(shading);
@@ -152,7 +153,7 @@ impl Under {
     }
 }
 
-/// Points whose distances say how alike colours are.
+/// Points whose distances measure the differences of colours.
 fn features(colours: &[Vec3], weight: f32, relative: f32) -> Option<Vec<Vec3>> {
     let dark = dark(colours, relative)?;
     let feature = |colour: &Vec3| {
@@ -204,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn shading_makes_no_regions() {
+    fn shading_does_not_split_regions() {
         let regions = found(|_| SKIN).unwrap().map(64);
         let first = regions[64 * 32 + 32];
         assert!(inside().all(|(at, ..)| regions[at] == first));
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_dark_side_under_a_lamp_is_no_region() {
+    fn the_dark_side_under_a_lamp_is_not_a_region() {
         let lit = |p: Vec3| Vec3::splat(lamp(p));
         let found = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lit).unwrap();
         let regions = found.map(64);
@@ -247,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn lamps_of_two_colours_make_no_regions_and_hide_no_hair() {
+    fn lamps_of_two_colours_split_no_region_and_hide_no_hair() {
         let [warm, cool] = [Vec3::new(1.0, 0.42, 0.16), Vec3::new(0.22, 0.48, 1.0)];
         let lit = |p: Vec3| warm * p.x.max(0.0) + cool * (-p.x).max(0.0) + 0.02;
         let regions = found_in(|p| if p.y > 0.4 { HAIR } else { SKIN }, lit).unwrap().map(64);
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn of_black_pictures_nothing_is_known() {
+    fn black_pictures_have_no_regions() {
         assert!(found(|_| Vec3::ZERO).is_none());
     }
 }

@@ -1,5 +1,4 @@
-//! How well one reflectance for the skin, and another for a part of it, explain a chart under the light that
-//! does it best.
+//! The residual of a chart under the best light, with one reflectance for the skin and another for a part of it.
 
 use capture::Mesh;
 use glam::Vec3;
@@ -9,35 +8,35 @@ use super::lamps::Lamps;
 use super::settings::ColourSettings;
 use super::settings::Settings;
 
-/// A light, and the skin that it tells something of.
+/// A light, and the skin that it lights.
 pub(super) struct Explanation<'a> {
     chart: &'a Chart,
     regions: &'a ColourSettings,
     cells: Lobes,
     lamps: Option<Lamps>,
-    /// Of the texels seen.
+    /// The label of every visible texel.
     pub labels: Vec<u8>,
-    /// Whether they are skin that the light shines on.
+    /// Whether a visible texel is lit skin.
     pub is_skin: Vec<bool>,
-    /// The label of skin, and one that no texel has.
+    /// The label of skin, and an unused one.
     pub skin_and_free: [u8; 2],
     /// With these labels.
     pub before: Explained,
 }
 
-/// What a light makes of a chart with some labels.
+/// The fit of a light to a chart with some labels.
 #[derive(Default)]
 pub(super) struct Explained {
-    /// Of the texels seen, linear R, G, B, up to one factor each.
+    /// The albedo of every visible texel, linear R, G, B, up to one factor per channel.
     pub albedo: Vec<Vec3>,
-    /// Of every label.
+    /// The mean albedo of every label.
     pub means: Vec<Vec3>,
-    /// Of the texels seen, see [`residuals`].
+    /// The [`residuals`] of the visible texels.
     pub residuals: Vec<f32>,
 }
 
 impl<'a> Explanation<'a> {
-    /// By free cells, or by one lamp in an even surrounding if that leaves less. `None` without skin.
+    /// Fits free cells, or one lamp with uniform ambient light if that has a smaller residual. `None` without skin.
     pub fn new(
         mesh: &Mesh,
         chart: &'a Chart,
@@ -72,7 +71,7 @@ impl<'a> Explanation<'a> {
         if sum(&it.with(&it.labels).residuals, &it.is_skin) >= left {
             return Some(Self { lamps: None, ..it });
         }
-        // Where the lamp does not shine nothing is known; nor at the edges, which it blurs.
+        // Texels outside of the lamp's light carry no information, nor do its blurred edges.
         let dark = it.labels.iter_mut().zip(&lit).filter(|(label, lit)| **label == first && !**lit);
         dark.for_each(|(label, _)| *label = unlit);
         it.is_skin = lit;
@@ -80,7 +79,7 @@ impl<'a> Explanation<'a> {
         Some(it)
     }
 
-    /// The lamps, and the skin that they shine on, if they explain it best.
+    /// The lamps and the skin that they light, if their residual is the smallest.
     pub fn lamps(&self) -> Option<(&Lamps, &[bool])> {
         self.lamps.as_ref().map(|lamps| (lamps, self.is_skin.as_slice()))
     }
@@ -99,7 +98,7 @@ impl<'a> Explanation<'a> {
         Explained { residuals: residuals(&albedo, &means, labels), means, albedo }
     }
 
-    /// With a part of the skin that has a reflectance of its own, and that over skin's.
+    /// The fit with a separate reflectance for a part of the skin, and its ratio to that of skin.
     pub fn with_part(&self, inside: &[bool]) -> (Explained, Vec3) {
         let [first, free] = self.skin_and_free;
         let own = |(label, inside): (&u8, &bool)| if *inside { free } else { *label };
@@ -108,16 +107,21 @@ impl<'a> Explanation<'a> {
         (explained, ratio)
     }
 
-    /// As [`Self::with_part`], if that leaves at most so much of the residuals: of all skin's, and of the part's. A
-    /// light of all unknowns explains what light makes as it is, of whatever colour.
-    pub fn bears_out(&self, inside: &[bool], most_left: [f32; 2]) -> Option<(Explained, Vec3)> {
+    /// [`Self::with_part`], if it reduces the residuals to at most these shares: of all skin, and of the part. Colours
+    /// that are caused by the light have small residuals under free cells already.
+    pub fn with_plausible_part(
+        &self,
+        inside: &[bool],
+        most_left: [f32; 2],
+    ) -> Option<(Explained, Vec3)> {
         let (after, ratio) = self.with_part(inside);
         let left = |of: &[bool]| sum(&after.residuals, of) / sum(&self.before.residuals, of);
-        let borne_out = left(&self.is_skin) < most_left[0] && left(inside) < most_left[1];
-        borne_out.then_some((after, ratio))
+        let is_plausible = left(&self.is_skin) < most_left[0] && left(inside) < most_left[1];
+        is_plausible.then_some((after, ratio))
     }
 
-    /// The albedo of one skin under a light of few unknowns: the lamp's, or lobes so wide, radians.
+    /// The albedo with one reflectance for the skin under a light of few unknowns: the lamp, or lobes of this width in
+    /// radians.
     pub fn smooth_albedo(&self, lobe_width: f32) -> Vec<Vec3> {
         match &self.lamps {
             Some(_) => self.before.albedo.clone(),
@@ -128,7 +132,8 @@ impl<'a> Explanation<'a> {
         }
     }
 
-    /// What is known of skin that the light shines on, on the whole chart: any other texel takes the nearest one's.
+    /// Extends a set of visible texels to the whole chart: every other texel follows the nearest visible one, of lit
+    /// skin under a lamp.
     pub fn filled(&self, inside: &[bool]) -> Vec<bool> {
         match &self.lamps {
             Some(_) => self.chart.filled(inside, &self.is_skin),
@@ -137,12 +142,12 @@ impl<'a> Explanation<'a> {
     }
 }
 
-/// The sum of the residuals `of` some texels.
+/// The sum of the residuals of the texels in `of`.
 pub(super) fn sum(residuals: &[f32], of: &[bool]) -> f32 {
     residuals.iter().zip(of).filter(|(_, of)| **of).map(|(residual, _)| residual).sum()
 }
 
-/// How far every texel is from the mean of its region: the mean relative difference of its channels, at most 1.
+/// The mean relative difference of every texel's channels from the mean of its region, at most 1.
 pub(super) fn residuals(albedo: &[Vec3], means: &[Vec3], labels: &[u8]) -> Vec<f32> {
     let residual = |(albedo, label): (&Vec3, &u8)| {
         ((*albedo / means[usize::from(*label)] - 1.0).abs().element_sum() / 3.0).min(1.0)

@@ -1,9 +1,9 @@
-//! Hair inside of what labels call skin: a beard.
+//! Hair in labelled skin: a beard.
 //!
-//! Where skin is darker than it should be under a light of few unknowns, either light is missing or skin is
-//! covered by hair. A light of all unknowns tells the two apart: it explains a shadow, but hair only where no
-//! bare skin is turned the same way. And what little light a shadow gets has come from skin and is red, while
-//! hair takes all colours alike. Under a flash no sky of cells does this; there the light is one lamp.
+//! Skin that is dark under a light of few unknowns is in shadow or covered by hair. A light of free cells separates the
+//! two: it fits shadows, but hair only where no bare skin has the same normal. Shadows are also redder, since their
+//! light has been reflected by skin, while hair absorbs all colours. A flash cannot be fitted by a sky of cells; there
+//! the light is one lamp.
 
 use glam::Vec3;
 
@@ -13,10 +13,10 @@ use super::part_of_skin::{PartOfSkin, large_parts};
 use super::settings::HairSettings;
 use crate::model::blur::Blur;
 
-/// Times that hair may grow; it comes to rest before.
+/// Largest number of growth steps; hair converges earlier.
 const GROWTH: usize = 8;
 
-/// The hair of a chart's skin. `None` if no part of it is hair.
+/// The hair in the skin of a chart; `None` without hair.
 pub(super) fn hair_in_skin(
     explanation: &Explanation,
     chart: &Chart,
@@ -30,7 +30,8 @@ pub(super) fn hair_in_skin(
     for depth in config.depths {
         let dark: Vec<bool> = darkness.iter().map(|darkness| *darkness > depth).collect();
         for inside in large_parts(chart, is_skin, &dark, config.least_share * count as f32) {
-            let Some((after, ratio)) = explanation.bears_out(&inside, config.most_left) else {
+            let Some((after, ratio)) = explanation.with_plausible_part(&inside, config.most_left)
+            else {
                 continue;
             };
             let left = sum(&after.residuals, is_skin);
@@ -43,8 +44,8 @@ pub(super) fn hair_in_skin(
     Some(PartOfSkin { side: chart.side, inside: explanation.filled(&inside), ratio })
 }
 
-/// Hair with what is joined to it and nearer to it than to bare skin, and its ratio to that: what was called skin
-/// had darkened the light there.
+/// Grows hair by the connected texels whose luminance is closer to hair than to bare skin, and returns its ratio to
+/// skin. Before, the light was darkened to fit all of the hair that is not in the part.
 fn grown(
     explanation: &Explanation,
     chart: &Chart,
@@ -74,8 +75,8 @@ fn grown(
     Some((inside, ratio))
 }
 
-/// By how much the log luminance of every texel seen, blurred within the skin, is below its median where it is
-/// `bare`; negative infinity outside of the skin.
+/// The difference of the median log luminance of `bare` skin to that of every visible texel, blurred within the skin;
+/// negative infinity outside of the skin.
 fn darkness(
     chart: &Chart,
     config: &HairSettings,
@@ -112,7 +113,7 @@ mod tests {
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
 
-    /// Hair in the skin of a dome in light from one side, whose skin is as dark as `share` says.
+    /// Hair in the skin of a dome in light from one side, with the albedo of skin times `share`.
     fn found(share: impl Fn(Vec3) -> Vec3) -> Option<PartOfSkin> {
         found_in(share, |p| 0.625 + 0.375 * p.y)
     }
@@ -145,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_patch_that_no_light_explains_is_hair_of_its_own_colour() {
+    fn a_patch_that_no_light_fits_is_hair_with_its_own_colour() {
         let hair = found(|p| Vec3::splat(if is_patch(p) { 0.4 } else { 1.0 })).unwrap();
         assert!((hair.ratio - 0.4).abs().max_element() < 0.08, "{}", hair.ratio);
         let inside = hair.map(64);
@@ -181,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn neither_a_lack_of_light_nor_a_red_shadow_is_hair() {
+    fn neither_a_shadow_nor_a_red_shadow_is_hair() {
         assert!(found(|p| Vec3::splat(1.0 - 0.6 * (p.x + 0.2).clamp(0.0, 1.0))).is_none());
         let red = Vec3::new(0.5, 0.35, 0.25);
         assert!(found(|p| if is_patch(p) { red } else { Vec3::ONE }).is_none());

@@ -1,5 +1,4 @@
-//! A light of one lamp in an even surrounding, which explains pictures with a flash by fewer unknowns than any
-//! sky.
+//! One lamp with uniform ambient light, which fits pictures with a flash by fewer unknowns than a sky.
 
 use capture::Mesh;
 use capture::gbuffer::Atlas;
@@ -11,56 +10,56 @@ use super::chart::{Chart, luminance};
 use super::settings::HairSettings;
 use crate::transport::{RAY_OFFSET, Sky};
 
-/// Directions that are tried first: rows of an even sky.
+/// Rows of the sky whose cells are the first candidate directions.
 const ROWS: usize = 8;
-/// Directions along each axis that are tried around the best of these.
+/// Candidate directions along each axis around the best of these.
 const AROUND: usize = 5;
 /// Rounds of weights towards L1, and of the skin's two reflectances.
 const ROUNDS: [usize; 2] = [6, 3];
-/// Residual, relative to the median, below which weights grow no more.
+/// Residual, relative to the median, below which weights are constant.
 const FLOOR: f32 = 0.1;
-/// Shading, relative to the median, below which a texel says nothing of its reflectance.
+/// Shading, relative to the median, below which a texel carries no information on its reflectance.
 const SHADED: f32 = 0.1;
 
-/// Lamps that are close to the one that explains the skin best.
+/// Lamps next to the one with the least residual on skin.
 pub(super) struct Lamps {
-    /// Of each lamp, what comes straight from it: the shading of the texels seen.
+    /// The direct shading of the visible texels, lamp by lamp.
     direct: Vec<Vec<f32>>,
-    /// The shading of a surrounding of radiance 1.
-    even: Vec<f32>,
-    /// What the best of them lights, of the skin.
+    /// The shading of ambient light of radiance 1.
+    ambient: Vec<f32>,
+    /// The skin that the best lamp lights.
     pub lit: Vec<bool>,
 }
 
-/// A lamp's share of the light and the surrounding's, for wanted shadings of one channel.
+/// The fitted radiances of a lamp and of ambient light in one channel.
 #[derive(Clone, Copy)]
-struct Fit {
+struct LampFit {
     light: [f32; 2],
-    /// Reflectance of the second part over that of the first.
+    /// The reflectance of the second part over that of the first.
     ratio: f32,
-    /// Mean relative difference, at most 1 a texel.
+    /// The mean relative difference, at most 1 per texel.
     residual: f32,
 }
 
 impl Lamps {
-    /// `None` if no lamp explains more of the skin than the surrounding does.
+    /// Fits the lamps to skin; `None` if ambient light alone has as small a residual.
     pub fn new(
         mesh: &Mesh,
         chart: &Chart,
         config: &HairSettings,
         is_skin: &[bool],
     ) -> Option<Self> {
-        let scene = Scene::new(mesh, chart);
+        let lit_mesh = LitMesh::new(mesh, chart);
         let skin = Part::new(is_skin, chart, |_| false);
-        let even = chart.even();
+        let ambient = chart.uniform_shading();
         let best = |directions: &[Vec3]| {
             let lamps: Vec<(Vec3, f32)> = directions
                 .iter()
                 .flat_map(|direction| config.lamp_nearness.map(|nearness| (*direction, nearness)))
                 .collect();
             let residual = |lamp: &(Vec3, f32)| {
-                let direct = scene.direct(lamp.0, lamp.1);
-                skin.fit(&skin.of(&direct), &skin.of(&even), &skin.luminance).residual
+                let direct = lit_mesh.direct(lamp.0, lamp.1);
+                skin.fit(&skin.of(&direct), &skin.of(&ambient), &skin.luminance).residual
             };
             let residuals: Vec<f32> = lamps.par_iter().map(residual).collect();
             least(&residuals).map(|at| (lamps[at], lamps))
@@ -68,41 +67,41 @@ impl Lamps {
         let ((first, _), _) = best(&Sky::lat_long(ROWS).centres())?;
         let ((direction, nearness), lamps) = best(&around(first))?;
         let direct: Vec<Vec<f32>> =
-            lamps.par_iter().map(|lamp| scene.direct(lamp.0, lamp.1)).collect();
-        let found = scene.direct(direction, nearness);
-        if skin.fit(&skin.of(&found), &skin.of(&even), &skin.luminance).light[0] <= 0.0 {
+            lamps.par_iter().map(|lamp| lit_mesh.direct(lamp.0, lamp.1)).collect();
+        let found = lit_mesh.direct(direction, nearness);
+        if skin.fit(&skin.of(&found), &skin.of(&ambient), &skin.luminance).light[0] <= 0.0 {
             return None;
         }
         let mut sorted = skin.of(&found);
         sorted.sort_by(f32::total_cmp);
         let least = config.lit * sorted.get(sorted.len() * 19 / 20)?;
         let lit = found.iter().zip(is_skin).map(|(light, skin)| *skin && *light > least).collect();
-        Some(Self { direct, even, lit })
+        Some(Self { direct, ambient, lit })
     }
 
-    /// The colours divided by the shading under the lamp that explains best the texels that are `counted`, with
-    /// one reflectance for those of the `second` part and another for the rest.
+    /// The colours divided by the shading of the lamp with the least residual on the `counted` texels, with one
+    /// reflectance for the `second` part and another for the rest.
     pub fn albedo(&self, chart: &Chart, counted: &[bool], second: &[bool]) -> Vec<Vec3> {
         let part = Part::new(counted, chart, |at| second[at]);
-        let even = part.of(&self.even);
+        let ambient = part.of(&self.ambient);
         let residual =
-            |direct: &Vec<f32>| part.fit(&part.of(direct), &even, &part.luminance).residual;
+            |direct: &Vec<f32>| part.fit(&part.of(direct), &ambient, &part.luminance).residual;
         let residuals: Vec<f32> = self.direct.par_iter().map(residual).collect();
         let Some(best) = least(&residuals) else { return chart.colours.clone() };
         let direct = &self.direct[best];
         let light: [[f32; 2]; 3] = std::array::from_fn(|channel| {
             let wanted: Vec<f32> =
                 part.texels.iter().map(|at| chart.colours[*at][channel]).collect();
-            part.fit(&part.of(direct), &even, &wanted).light
+            part.fit(&part.of(direct), &ambient, &wanted).light
         });
-        let shading = direct.iter().zip(&self.even).map(|(direct, even)| {
-            Vec3::from_array(light.map(|light| light[0] * direct + light[1] * even))
+        let shading = direct.iter().zip(&self.ambient).map(|(direct, ambient)| {
+            Vec3::from_array(light.map(|light| light[0] * direct + light[1] * ambient))
         });
         chart.divided(&shading.map(|s| s.max(Vec3::splat(f32::MIN_POSITIVE))).collect::<Vec<_>>())
     }
 }
 
-/// Texels that count.
+/// The texels of a fit.
 struct Part {
     texels: Vec<usize>,
     /// Whether each has the second reflectance.
@@ -121,16 +120,16 @@ impl Part {
         self.texels.iter().map(|at| values[*at]).collect()
     }
 
-    fn fit(&self, direct: &[f32], even: &[f32], wanted: &[f32]) -> Fit {
+    fn fit(&self, direct: &[f32], ambient: &[f32], wanted: &[f32]) -> LampFit {
         let two = self.second.contains(&true);
-        let mut fit = Fit { light: [0.0; 2], ratio: 1.0, residual: f32::INFINITY };
+        let mut fit = LampFit { light: [0.0; 2], ratio: 1.0, residual: f32::INFINITY };
         for _ in 0..if two { ROUNDS[1] } else { 1 } {
             let own = |second: &bool| if *second { fit.ratio } else { 1.0 };
             let bare: Vec<f32> = wanted.iter().zip(&self.second).map(|(w, s)| w / own(s)).collect();
-            fit.light = least_absolute(direct, even, &bare);
-            let [lamp, surrounding] = fit.light;
+            fit.light = least_absolute(direct, ambient, &bare);
+            let [lamp, ambient_light] = fit.light;
             let shading: Vec<f32> =
-                direct.iter().zip(even).map(|(d, e)| lamp * d + surrounding * e).collect();
+                direct.iter().zip(ambient).map(|(d, e)| lamp * d + ambient_light * e).collect();
             let shaded = SHADED * median(shading.clone());
             let reflectance = |of: bool| {
                 let lit =
@@ -151,17 +150,17 @@ impl Part {
     }
 }
 
-/// The mesh as a lamp sees it.
-struct Scene {
+/// The visible texels and their occluder.
+struct LitMesh {
     occluder: Occluder,
-    /// From the head's centre, of the texels seen, metres.
+    /// The positions of the visible texels from the head's centre, metres.
     places: Vec<Vec3>,
     normals: Vec<Vec3>,
     centre: Vec3,
     lift: f32,
 }
 
-impl Scene {
+impl LitMesh {
     fn new(mesh: &Mesh, chart: &Chart) -> Self {
         let atlas = Atlas::new(mesh, chart.side);
         let (low, high) = mesh.bounds();
@@ -175,8 +174,8 @@ impl Scene {
         }
     }
 
-    /// What comes straight from a lamp in a direction, of a nearness per metre, turned to the head's centre: 1
-    /// for a texel in the centre that is turned to it.
+    /// The direct shading by a lamp in a direction at a nearness per metre, which faces the head's centre: 1 for a
+    /// texel at the centre that faces the lamp.
     fn direct(&self, direction: Vec3, nearness: f32) -> Vec<f32> {
         let texel = |(place, normal): (&Vec3, &Vec3)| {
             let towards = direction - nearness * *place;
@@ -194,7 +193,7 @@ impl Scene {
     }
 }
 
-/// Directions around one, a quarter of a row of the first ones apart.
+/// Directions around one, spaced by a quarter of a row of the first directions.
 fn around(direction: Vec3) -> Vec<Vec3> {
     let step = std::f32::consts::PI / (2 * ROWS * (AROUND / 2)) as f32;
     let (across, up) = direction.any_orthonormal_pair();
@@ -203,14 +202,14 @@ fn around(direction: Vec3) -> Vec<Vec3> {
     (0..AROUND * AROUND).map(|i| one(i).normalize()).collect()
 }
 
-/// Factors of two shadings, not negative, of least absolute difference, by least squares with weights.
-fn least_absolute(direct: &[f32], even: &[f32], wanted: &[f32]) -> [f32; 2] {
+/// The non-negative factors of two shadings with the least absolute difference, by reweighted least squares.
+fn least_absolute(direct: &[f32], ambient: &[f32], wanted: &[f32]) -> [f32; 2] {
     let floor = FLOOR * median(wanted.to_vec());
     let mut light = [0.0; 2];
     let mut weights = vec![1.0_f32; wanted.len()];
     for _ in 0..ROUNDS[0] {
         let mut sums = [0.0_f64; 5];
-        for (((d, e), w), weight) in direct.iter().zip(even).zip(wanted).zip(&weights) {
+        for (((d, e), w), weight) in direct.iter().zip(ambient).zip(wanted).zip(&weights) {
             let [d, e, w, weight] = [*d, *e, *w, *weight].map(f64::from);
             let products = [d * d, d * e, e * e, d * w, e * w];
             sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += weight * product);
@@ -219,26 +218,26 @@ fn least_absolute(direct: &[f32], even: &[f32], wanted: &[f32]) -> [f32; 2] {
         let determinant = dd * ee - de * de;
         let both = [(ee * dw - de * ew) / determinant, (dd * ew - de * dw) / determinant];
         let found = match both {
-            [lamp, surrounding] if lamp >= 0.0 && surrounding >= 0.0 => both,
-            [_, surrounding] if surrounding < 0.0 && dd > 0.0 => [dw / dd, 0.0],
+            [lamp, ambient_light] if lamp >= 0.0 && ambient_light >= 0.0 => both,
+            [_, ambient_light] if ambient_light < 0.0 && dd > 0.0 => [dw / dd, 0.0],
             _ if ee > 0.0 => [0.0, ew / ee],
             _ => [0.0; 2],
         };
         light = found.map(|x| x as f32);
         let residual = |((d, e), w): ((&f32, &f32), &f32)| (w - light[0] * d - light[1] * e).abs();
-        let residuals = direct.iter().zip(even).zip(wanted).map(residual);
+        let residuals = direct.iter().zip(ambient).zip(wanted).map(residual);
         weights =
             residuals.map(|residual| (residual + floor).max(f32::MIN_POSITIVE).recip()).collect();
     }
     light
 }
 
-/// The index of the least value, the first of equal ones; `None` of nothing.
+/// The index of the least value, the first of equal ones; `None` without values.
 fn least(values: &[f32]) -> Option<usize> {
     (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b]))
 }
 
-/// The upper median; 0 of nothing.
+/// The upper median; 0 without values.
 fn median(mut values: Vec<f32>) -> f32 {
     if values.is_empty() {
         return 0.0;
@@ -251,7 +250,8 @@ fn median(mut values: Vec<f32>) -> f32 {
 pub(super) mod testing {
     use glam::Vec3;
 
-    /// The shading by one lamp 2.5 m from the dome's centre, at its side, in an even surrounding: half of the dome is in the dark.
+    /// The shading by one lamp 2.5 m from the dome's centre, at its side, with uniform ambient light: half of the dome
+    /// is in the dark.
     pub fn lamp(p: Vec3) -> f32 {
         let (direction, place) = (Vec3::new(0.8, 0.3, 0.5).normalize(), p - 0.6 * Vec3::Z);
         let towards = direction - 0.4 * place;

@@ -1,4 +1,4 @@
-//! Regions without boundaries that are no edges.
+//! Merging of regions whose boundaries are not edges.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +8,10 @@ use super::chart::{dark, log};
 use super::parts::parts;
 use super::settings::ColourSettings;
 
-/// The regions of a chart, of the texels `seen`, without boundaries that are no edges.
-///
-/// What is tested are the connected parts of regions: hair ends in an edge where the shadow of a chin, of the same
-/// region so far, does not. The smaller of two parts takes the region of the larger one, and specks that of a
-/// neighbour. Each time `relit` may give a better albedo by the parts that are left.
+/// Merges connected parts of regions, of the texels `seen`, whose boundary is not an edge. Hair has an edge; the shadow
+/// of a chin, in the same region so far, has none. The smaller of two parts takes the region of the larger one, and
+/// parts that are too small that of a neighbour. After each merge, `relit` may return a better albedo for the remaining
+/// parts.
 pub(super) fn merged(
     config: &ColourSettings,
     seen: &[usize],
@@ -42,10 +41,10 @@ pub(super) fn merged(
     seen.iter().map(|at| region[part[*at]].unwrap_or(0)).collect()
 }
 
-/// What lies across a boundary.
+/// The differences across a boundary.
 #[derive(Clone, Copy, Default)]
 struct Boundary {
-    /// The sum of the differences in log colour, of the second part from the first.
+    /// The sum of the differences in log colour, second part minus first part.
     jump: Vec3,
     /// Pairs of texels.
     pairs: usize,
@@ -63,11 +62,11 @@ impl Boundary {
     }
 }
 
-/// The boundaries of connected parts, which are named by one of their texels.
+/// The boundaries of connected parts; a part is named by one of its texels.
 struct Boundaries {
-    /// By first and second part.
+    /// The boundaries by first and second part.
     between: BTreeMap<(usize, usize), Boundary>,
-    /// Texels of every part.
+    /// The number of texels of every part.
     sizes: BTreeMap<usize, usize>,
 }
 
@@ -98,7 +97,7 @@ impl Boundaries {
         }
     }
 
-    /// The lowest of the boundaries that `of` picks by the texels of both parts and by what lies across.
+    /// The weakest of the boundaries that `of` accepts, given the numbers of texels of both parts and the boundary.
     fn least(&self, of: impl Fn([usize; 2], &Boundary) -> bool) -> Option<(usize, usize)> {
         let some = self
             .between
@@ -107,7 +106,7 @@ impl Boundaries {
         some.min_by(|a, b| a.1.height().total_cmp(&b.1.height())).map(|(pair, _)| *pair)
     }
 
-    /// The smaller part becomes one with the larger.
+    /// Merges the smaller part into the larger one.
     fn join(&mut self, (a, b): (usize, usize), part: &mut [usize]) {
         let (into, from) = if self.sizes[&a] < self.sizes[&b] { (b, a) } else { (a, b) };
         part.iter_mut().filter(|part| **part == from).for_each(|part| *part = into);
@@ -119,7 +118,7 @@ impl Boundaries {
         }
     }
 
-    /// The part of every texel seen by its size, the largest first; the smallest share one name.
+    /// The rank of every visible texel's part by size, the largest first; the smallest parts share one rank.
     fn named(&self, seen: &[usize], part: &[usize]) -> Vec<u8> {
         let mut parts: Vec<(usize, usize)> =
             self.sizes.iter().map(|(part, size)| (*size, *part)).collect();
@@ -143,7 +142,7 @@ mod tests {
 
     /// Hair ends in an edge at the right, skin grows as dark as hair to the left, with a speck in the middle.
     #[test]
-    fn a_shadow_is_no_hair_where_no_edge_parts_it_from_skin() {
+    fn a_shadow_without_an_edge_is_merged_with_skin() {
         let side = 32;
         let texture_size = side;
         let config = ColourSettings { texture_size, ..Settings::default().colour_regions };

@@ -1,4 +1,4 @@
-//! Parts of what labels call skin.
+//! Parts of labelled skin that are not skin.
 
 use glam::Vec3;
 
@@ -8,33 +8,33 @@ use super::explanation::Explanation;
 use super::parts::parts;
 use super::settings::Settings;
 
-/// A part of the skin of a chart that is none.
+/// A part of labelled skin that is not skin, on a chart.
 #[derive(Clone, Debug)]
 pub struct PartOfSkin {
     /// Side of the chart, texels.
     pub(super) side: usize,
-    /// Whether a texel is in it, if it is skin by its label.
+    /// Whether a texel is in the part, if its label is skin.
     pub(super) inside: Vec<bool>,
-    /// Its reflectance over that of skin: linear R, G, B.
+    /// The reflectance over that of skin, linear R, G, B.
     pub ratio: Vec3,
 }
 
 impl PartOfSkin {
-    /// Of the `regions` of a chart of side `size`, those that are `skin` in this part become `label`.
+    /// Sets `label` in the `regions` of a chart of side `size` wherever this part has a label of `skin`.
     pub(super) fn name(&self, regions: &mut [u8], size: usize, skin: &[u8], label: u8) {
         let inside = regions.iter_mut().zip(self.map(size)).filter(|(_, inside)| *inside);
         inside.filter(|(region, _)| skin.contains(region)).for_each(|(region, _)| *region = label);
     }
 
-    /// Whether every texel of a chart of side `size` is in it, if it is skin by its label.
+    /// Whether each texel of a chart of side `size` is in the part, if its label is skin.
     pub(super) fn map(&self, size: usize) -> Vec<bool> {
         let at = |i: usize| (2 * i + 1) * self.side / (2 * size);
         (0..size * size).map(|i| self.inside[at(i / size) * self.side + at(i % size)]).collect()
     }
 }
 
-/// The parts of the `skin` of the chart's `labels` that are of another colour than most of it, one for each colour.
-/// Lights of several colours give skin several, too: a part counts only if the light does not explain it.
+/// The parts of `skin` in `labels` with another colour than most of the skin, one for each colour. Lights of several
+/// colours cause several colours of skin as well, so a part must have a large residual under the fitted light.
 pub(super) fn other_colours(
     explanation: &Explanation,
     chart: &Chart,
@@ -42,7 +42,7 @@ pub(super) fn other_colours(
     labels: &[u8],
     skin: &[u8],
 ) -> Vec<PartOfSkin> {
-    // From the pictures' colours alone: what a light of all colours explains is asked of every part below.
+    // Candidates are from the pictures' colours; each is tested against a coloured light below.
     let Some((regions, albedo)) = by_cells(chart, &config.colour_regions, &chart.colours) else {
         return vec![];
     };
@@ -57,8 +57,8 @@ pub(super) fn other_colours(
             return None;
         }
         let inside: Vec<bool> = (0..of.len()).map(|at| large.iter().any(|part| part[at])).collect();
-        explanation.bears_out(&inside, config.hair_in_skin.most_left)?;
-        // By what is called skin alone: what has a label of its own may be of another colour still.
+        explanation.with_plausible_part(&inside, config.hair_in_skin.most_left)?;
+        // Only labelled skin is compared: other labels may have any colour.
         let kind = |at: usize| match (inside[at], is_skin[at] && regions[at] == most) {
             (true, _) => 2,
             (_, true) => 1,
@@ -73,8 +73,8 @@ pub(super) fn other_colours(
     others.filter_map(part).collect()
 }
 
-/// The connected parts of what is skin and `of` something, of at least `least` texels: which of the texels seen
-/// are in each.
+/// The connected parts of skin within a set `of` texels, of at least `least` texels; each says which visible texels are
+/// in it.
 pub(super) fn large_parts(
     chart: &Chart,
     is_skin: &[bool],
@@ -103,7 +103,7 @@ mod tests {
 
     const SKIN: Vec3 = Vec3::new(0.5, 0.3, 0.2);
 
-    /// The parts of a dome that is all called skin, of such a `colour`; `asked`: if the light does not explain them.
+    /// The parts of a dome with the label of skin and this `colour`; `asked`: tested against the light.
     fn found(colour: impl Fn(Vec3) -> Vec3, asked: bool) -> Vec<PartOfSkin> {
         let mesh = testing::dome(24);
         let pictured = |p: Vec3| (colour(p), 1);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lights_of_two_colours_make_of_skin_is_none() {
+    fn lights_of_two_colours_make_no_part() {
         let [warm, cool] = [Vec3::new(1.0, 0.42, 0.16), Vec3::new(0.22, 0.48, 1.0)];
         let lit = |p: Vec3| SKIN * (warm * p.x.max(0.0) + cool * (-p.x).max(0.0) + 0.02);
         assert!(!found(lit, false).is_empty(), "their edge would be one of colours");

@@ -1,6 +1,6 @@
 //! Connected parts of regions.
 
-/// The connected part of its region that every texel belongs to, named by its first texel.
+/// Labels every texel with the connected part of its region, named by the part's first texel.
 pub fn parts(region: &[Option<u8>], side: usize) -> Vec<usize> {
     let mut part: Vec<usize> = (0..region.len()).collect();
     for first in 0..region.len() {

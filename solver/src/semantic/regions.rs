@@ -121,9 +121,9 @@ impl FaceRegions {
         regions
     }
 
-    /// The mean colour of the region of every texel, for the [`Self::region_map`] of a square texture: linear R, G, B in
-    /// the unit of the scene's pictures, times [`Scene::picture_scale`]. All labelled skin has the colour of the largest
-    /// of its regions.
+    /// The mean colour of the region of every texel, for the [`Self::region_map`] of a square texture: linear R, G, B
+    /// in the unit of the scene's pictures, times [`Scene::picture_scale`]. All labelled skin has the colour of the
+    /// largest of its regions.
     pub fn mean_colours(&self, scene: &Scene, regions: &[u8]) -> Vec<f32> {
         let size = regions.len().isqrt();
         let by_labels = || -> Picture {

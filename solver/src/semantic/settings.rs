@@ -1,9 +1,9 @@
-//! The numbers of the segmentation, all found on rendered faces.
+//! The settings of the segmentation, tuned on rendered faces.
 
 pub(super) use crate::config::TransportConfig;
 use crate::config::UnshadeConfig;
 
-/// Everything that the segmentation goes by.
+/// All settings of the segmentation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Settings {
     pub colour_regions: ColourSettings,
@@ -22,39 +22,39 @@ impl Settings {
     }
 }
 
-/// Regions of like reflectance by colour.
+/// Regions of similar reflectance, by colour.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ColourSettings {
     /// The largest number of regions.
     pub count: usize,
-    /// Side of the chart on which they are found, texels.
+    /// Side of the chart of the segmentation, texels.
     pub texture_size: usize,
-    /// Rows of the environment whose light is found on the way.
+    /// Rows of the environment whose light is fitted.
     pub rows: usize,
-    /// Standard deviation of the blur that keeps noise out, texels.
+    /// Standard deviation of the blur against noise, texels.
     pub blur: f32,
-    /// Weight of a difference in log luminance against one in the log ratios of the colours, which white light
-    /// leaves alone: for the first clusters under cells, and for all others.
+    /// Weight of a difference in log luminance, relative to one in the log ratios of the colours, which white light
+    /// does not change: for the first clusters under cells, and for all others.
     pub luminance_weights: [f32; 2],
     /// Radiance below which ratios are noise, relative to the median luminance.
     pub dark: f32,
-    /// Times that the light is found, and the regions under it.
+    /// Rounds of fitting the light and then the regions under it.
     pub rounds: usize,
-    /// Weighted least squares of the light in each, and after each joining of two parts.
+    /// Reweightings of the least squares of the light in each round, and after each merge of two parts.
     pub reweightings: usize,
     /// Multiplicative updates of the light of few unknowns.
     pub light_steps: usize,
-    /// Residuals of the shading below this count squared.
+    /// Residuals of the shading below this are penalised by their squares.
     pub residual_floor: f32,
     /// Shading, relative to the mean, below which the light carries no information on a colour.
     pub shading_floor: f32,
     /// Shading, relative to the mean, at which a texel's own colour counts as much as that of the largest region.
     pub shading_prior: f32,
-    /// Distance over which a boundary is looked at, texels.
+    /// Distance across a boundary over which colours are compared, texels.
     pub edge_distance: usize,
     /// Smallest mean difference in the three log colours, as a vector, across the boundary of two connected parts.
     pub edge: f32,
-    /// Pairs of texels that a boundary needs to be judged, and texels of the smallest region.
+    /// Least number of pairs of texels of a tested boundary, and of texels of a region.
     pub edge_pairs: usize,
 }
 
@@ -80,26 +80,26 @@ impl Default for ColourSettings {
     }
 }
 
-/// Hair inside of what labels call skin.
+/// Hair in labelled skin.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct HairSettings {
-    /// Inverse distances of a lamp from the head's centre that are tried, per metre.
+    /// Candidate inverse distances of a lamp from the head's centre, per metre.
     pub lamp_nearness: [f32; 4],
-    /// Least light of a texel on which a lamp shines, relative to skin in full light.
+    /// Least light of a texel that counts as lit by a lamp, relative to skin in full light.
     pub lit: f32,
     /// Width of the lobes of the light of few unknowns, radians.
     pub lobe_width: f32,
-    /// Standard deviation of the blur before anything is called dark, texels.
+    /// Standard deviation of the blur before texels are classified as dark, texels.
     pub blur: f32,
-    /// Log luminances below the median of skin from which on a texel is dark. All are tried; the one with the least
-    /// residual is used.
+    /// Candidate thresholds of dark texels, as log luminance below the median of skin. The one with the least residual
+    /// is used.
     pub depths: [f32; 4],
     /// Texels of the smallest part, relative to those of the skin.
     pub least_share: f32,
-    /// Largest share of the residual that a part leaves with its own colour under a light of all unknowns: of all
+    /// Largest share of the residual that remains if a part has its own colour under a light of free cells: of all
     /// skin, and of the part.
     pub most_left: [f32; 2],
-    /// Least ratio of blue to red of its colour over skin's: shadows are redder.
+    /// Least ratio of blue to red in a part's colour over that of skin: shadows are redder.
     pub least_blue: f32,
 }
 

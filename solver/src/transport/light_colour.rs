@@ -1,12 +1,12 @@
-//! The colour of a light varies little from one direction to the next: cells that pictures tell little of would
-//! take up whatever colour the model gets wrong.
+//! The prior on a smooth colour of the light. Without it, cells that few pixels constrain absorb colour errors of the
+//! model.
 
 use super::CHANNELS;
 
-/// `weight` times the sum over neighbouring cells of edge x sum_c (sqrt(d_c^2 + s^2) - s), over the number of
-/// cells. d_c is how much channel c of the logarithm differs between the two, less the mean of the three; the edge
-/// is its length over that on the equator; s is `softness`, below which differences cost next to nothing. The
-/// gradient is added to `gradient`. Cells are those of [`super::sky::Sky::lat_long`], R, G, B each.
+/// Returns `weight` times the sum over neighbouring cells of edge x sum_c (sqrt(d_c^2 + s^2) - s), over the number of
+/// cells, and adds its gradient to `gradient`. d_c is the difference of log radiance in channel c, minus its mean over
+/// channels; the edge is the length of the common border over that on the equator; s is `softness`, below which
+/// differences are hardly penalised. Cells are those of [`super::sky::Sky::lat_long`], R, G, B each.
 pub fn light_colour(log_light: &[f32], weight: f32, softness: f32, gradient: &mut [f32]) -> f64 {
     if weight == 0.0 {
         return 0.0;

@@ -6,12 +6,12 @@ use super::CHANNELS;
 use crate::config::TransportConfig;
 use crate::simd::widened;
 
-/// Weights of what lies behind the rays of a texel that meet the mesh: row and weight, by row.
+/// The weights of the rows that a texel's blocked rays hit, by row.
 pub(super) type Bounces = Vec<(u32, f32)>;
 
-/// Rows whose contributions to the gradient are summed by one task, in their order.
+/// Rows per task of the gradient, summed in order.
 const CHUNK: usize = 256;
-/// Independent sums of a product, which a compiler turns into vectors.
+/// Independent sums of a product, which the compiler vectorises.
 const LANES: usize = 16;
 
 /// Rows of `cells` weights.
@@ -22,7 +22,7 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// Rows of `direct` light with those of its bounces added.
+    /// The rows of `direct` light plus those of its bounces.
     pub fn with_bounces(
         direct: Vec<f32>,
         bounces: &[Bounces],
@@ -47,13 +47,13 @@ impl Matrix {
         self.rows.par_chunks(self.cells).map(|row| dots(row, planes)).collect()
     }
 
-    /// The adjoint of [`Self::product`]: the gradient by the light.
+    /// The adjoint of [`Self::product`]: the gradient with respect to the light.
     pub fn adjoint(&self, by_row: &[[f32; CHANNELS]]) -> Vec<f32> {
         self.summed(|i, _| (by_row[i], ())).0
     }
 
-    /// The product with a light, and the adjoint of what `value` makes of it, with every row read once; and
-    /// what else it makes.
+    /// [`Self::product`] with a light and [`Self::adjoint`] in one pass over the rows: `value` returns the gradient
+    /// with respect to a row's product, and another result, which is returned in order.
     pub fn exchange<T: Send>(
         &self,
         light: &[f32],
@@ -64,7 +64,7 @@ impl Matrix {
         self.summed(|i, row| value(i, dots(row, planes)))
     }
 
-    /// The sum of the rows by what `value` gives them, R, G, B per cell; and what else it gives.
+    /// The sum of the rows with the factors from `value`, R, G, B per cell; and the other results of `value`.
     fn summed<T: Send>(
         &self,
         value: impl Fn(usize, &[f32]) -> ([f32; CHANNELS], T) + Sync,
@@ -88,7 +88,7 @@ impl Matrix {
     }
 }
 
-/// A light of R, G, B per cell, channel by channel.
+/// Splits a light of R, G, B per cell into channels.
 fn planes(light: &[f32]) -> [Vec<f32>; CHANNELS] {
     std::array::from_fn(|c| light.iter().skip(c).step_by(CHANNELS).copied().collect())
 }
@@ -133,7 +133,7 @@ widened! {
     fn dots(row: &[f32], light: [&[f32]; CHANNELS]) -> [f32; CHANNELS] {
         let (whole, rest) = row.as_chunks::<LANES>();
         let mut dots = [0.0; CHANNELS];
-        // Channel by channel: given all at once, the compiler makes narrow vectors of the channels.
+        // Channel by channel: otherwise the compiler uses narrow vectors of the three channels.
         for (dot, light) in dots.iter_mut().zip(light) {
             let (parts, last) = light[..row.len()].as_chunks::<LANES>();
             let mut lanes = [0.0f32; LANES];

@@ -1,12 +1,12 @@
 //! The specular reflection of skin: two GGX lobes with Smith's masking (Walter et al. 2007, equations 33 and 34)
-//! under Schlick's term. Its numbers are [`SkinConfig`]; `wgsl/skin_highlights.wgsl` says the same to a GPU, and
-//! `skin_bsdf.py` to Mitsuba. Tests hold both to this file.
+//! under Schlick's term. Its parameters are [`SkinConfig`]; `wgsl/skin_highlights.wgsl` has the same for a GPU, and
+//! `skin_bsdf.py` for Mitsuba. Tests compare both with this file.
 
 use glam::Vec3;
 
 use crate::config::SkinConfig;
 
-/// Smallest cosine between normal and view that is divided by.
+/// Least cosine between normal and view in a division.
 pub(super) const GRAZING: f32 = 1e-3;
 
 /// Schlick's approximation, equation (1).
@@ -34,8 +34,8 @@ pub fn reflected(skin: &SkinConfig, normal: Vec3, view: Vec3, light: Vec3) -> f3
     lobes / (4.0 * towards_view) * schlick(skin.f0, view.dot(half))
 }
 
-/// [`reflected`] over Schlick's term, and its derivatives by n.h, n.v and n.l, in a form that loops over lights
-/// are made vectors of: with r(x) for the root in Smith's term 2 x / (x + r(x)), a lobe is
+/// [`reflected`] over Schlick's term, and its derivatives with respect to n.h, n.v and n.l, in a form that compilers
+/// vectorise: with r(x) for the root in Smith's term 2 x / (x + r(x)), a lobe is
 /// D(n.h) / (2 (n.v + r(n.v))) x 2 n.l / (n.l + r(n.l)).
 #[inline(always)]
 pub(super) fn lobe_slopes(skin: &SkinConfig, nh: f32, nv: f32, nl: f32) -> [f32; 4] {
@@ -66,7 +66,7 @@ mod tests {
         UnshadeConfig::default().skin
     }
 
-    /// Share of an even light of radiance 1 that is reflected to a view.
+    /// The share of a uniform light of radiance 1 that is reflected to a view.
     fn under_a_dome(cosine: f32) -> f32 {
         let (skin, view) = (skin(), Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine));
         let (rings, sectors) = (400, 400);

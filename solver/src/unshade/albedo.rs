@@ -46,8 +46,8 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// Evaluates the light on the normals of the relief and of its `blurred` deviation, both of the size of the samples'
-    /// taps.
+    /// Evaluates the light on the normals of the relief and of its `blurred` deviation, both of the size of the
+    /// samples' taps.
     pub fn new(
         run: &Run,
         lighting: &Lighting,

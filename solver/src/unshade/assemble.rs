@@ -2,6 +2,7 @@
 
 use capture::Camera;
 use capture::gbuffer::{Atlas, GBuffer};
+use capture::mean_texture::coverage;
 use formats::cancel;
 use formats::maps::Maps;
 use formats::picture::Picture;
@@ -110,7 +111,7 @@ pub(super) fn assemble(
         specular_normal: picture(3, maps::bent_normals(&atlas, &relief.deviation)),
         confidence: picture(1, confidence.collect()),
         roughness: picture(3, lobes.collect()).filter(|_| config.roughness.rounds > 0),
-        coverage: Some(maps::coverage(&seen)),
+        coverage: Some(coverage(&seen)),
     };
     let light = RecoveredLight {
         radiance: maps::scaled(&lighting.light.radiance, scene.picture_scale.recip()),

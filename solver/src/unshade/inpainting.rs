@@ -10,9 +10,9 @@ const ENOUGH: f32 = 1.0 / 3.0;
 /// Least weight of a texel in the mean, which decides only if no texel nearby has pictures.
 const LEAST: f32 = 1e-6;
 
-/// Blends every texel of `albedo` (R, G, B on a square texture) outside of `skin` with the mean of its region nearby. The
-/// share of the mean falls from 1 to 0 with the weight of the pictures (0 to 1); its square is the weight in the mean.
-/// `reach` is the standard deviation of the neighbourhood, texels. Without named skin nothing changes.
+/// Blends every texel of `albedo` (R, G, B on a square texture) outside of `skin` with the mean of its region nearby.
+/// The share of the mean falls from 1 to 0 with the weight of the pictures (0 to 1); its square is the weight in the
+/// mean. `reach` is the standard deviation of the neighbourhood, texels. Without named skin nothing changes.
 pub(super) fn inpaint_from_region(
     albedo: &mut [f32],
     regions: &[u8],

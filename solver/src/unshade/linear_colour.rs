@@ -5,8 +5,8 @@ use crate::simd::widened;
 
 /// Rows of the sampled unknowns: specular and diffuse deviation, albedo.
 pub(super) const UNKNOWNS: usize = 9;
-/// Rows of the derivatives of a sample's colour: with respect to n_s (3, the same in every channel), n_d (3 of R, then of
-/// G and B) and the diffuse albedo (the diffuse layer, R, G, B).
+/// Rows of the derivatives of a sample's colour: with respect to n_s (3, the same in every channel), n_d (3 of R, then
+/// of G and B) and the diffuse albedo (the diffuse layer, R, G, B).
 pub(super) const SLOPES: usize = 15;
 /// Least squared norm of a diffuse layer's colour, by which is divided.
 const LEAST_SQUARE: f32 = 1e-12;
@@ -22,8 +22,9 @@ pub(super) fn explained(s: &[f32; SLOPES], q: &[f32; UNKNOWNS]) -> [f32; 3] {
     })
 }
 
-/// Removes the share `share` of the component of a colour difference `z` along the diffuse layer, which is mostly an error
-/// of that layer: bounce light, shadows, the albedo. A symmetric matrix between the identity (0) and a projection (1).
+/// Removes the share `share` of the component of a colour difference `z` along the diffuse layer, which is mostly an
+/// error of that layer: bounce light, shadows, the albedo. A symmetric matrix between the identity (0) and a projection
+/// (1).
 #[inline(always)]
 pub(super) fn without_diffuse_share(z: [f32; 3], s: &[f32; SLOPES], share: f32) -> [f32; 3] {
     let [r, g, b] = [s[12], s[13], s[14]];

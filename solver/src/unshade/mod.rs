@@ -140,8 +140,8 @@ fn transport_at_distance(
     Transport::new(&capture.mesh, &sky, &transport_config, config.seed)
 }
 
-/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls in
-/// [`solve`], with the maps at the end.
+/// The steps and costs of the stages, measured on two cores with AVX-512. The order is that of the [`Run::stage`] calls
+/// in [`solve`], with the maps at the end.
 pub(crate) fn plan(config: &UnshadeConfig, extent: &Extent) -> Vec<Work> {
     let square = |side: usize| (side * side) as f64;
     let Extent { views, pixels, texture_size: size } = *extent;

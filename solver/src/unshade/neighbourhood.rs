@@ -15,8 +15,8 @@ use crate::view_weights::blurred;
 pub(super) const RESIDUAL_FLOOR: f32 = 0.002;
 /// Standard deviation of the neighbourhood in which residuals are compared, pixels.
 const NEIGHBOURHOOD: f32 = 3.0;
-/// Standard deviation of the blur that gives the components too coarse for relief, over the side of a square as large as
-/// the mesh in the view.
+/// Standard deviation of the blur that gives the components too coarse for relief, over the side of a square as large
+/// as the mesh in the view.
 const COARSEST: f32 = 0.075;
 /// Pixels this close to the silhouette are left out: they mix two surfaces.
 const RIM: usize = 2;
@@ -35,8 +35,8 @@ impl<'a> Neighbourhood<'a> {
         Self { config, samples, views, inner: inner(samples, views, RIM) }
     }
 
-    /// The share of the mean squared residual around every sample that relief and paint of the usual strength can cause,
-    /// at most 1. It is small at model errors: shadow edges, hairlines, ears. 0 on the rim.
+    /// The share of the mean squared residual around every sample that relief and paint of the usual strength can
+    /// cause, at most 1. It is small at model errors: shadow edges, hairlines, ears. 0 on the rim.
     pub fn trust(&self, slopes: &Planes, residual: &Planes) -> Planes {
         let ReliefConfig { usual_deviation, usual_albedo_detail, .. } = *self.config;
         let floor = RESIDUAL_FLOOR;
@@ -101,8 +101,8 @@ fn places(samples: &Samples) -> impl Iterator<Item = (usize, usize)> {
     pairs.map(|(view, pixel)| (*view as usize, *pixel as usize))
 }
 
-/// Whether all pixels within `rim` of a sample's, horizontally, vertically and diagonally, are samples too. The picture's
-/// border is not a rim.
+/// Whether all pixels within `rim` of a sample's, horizontally, vertically and diagonally, are samples too. The
+/// picture's border is not a rim.
 fn inner(samples: &Samples, views: &[GBuffer], rim: usize) -> Vec<bool> {
     let mut covered: Vec<Vec<bool>> =
         views.iter().map(|view| vec![false; view.width * view.height]).collect();

@@ -46,8 +46,8 @@ impl RegionTerms {
         regions.iter().flat_map(|region| self.of(*region).channels()).collect()
     }
 
-    /// Multiplies the reflectances by a factor: the [peak](crate::transport::Transport::peak) of another light over that
-    /// of this one, which preserves the strength of highlights. The prior does not change.
+    /// Multiplies the reflectances by a factor: the [peak](crate::transport::Transport::peak) of another light over
+    /// that of this one, which preserves the strength of highlights. The prior does not change.
     #[must_use]
     pub fn relative_to(&self, factor: f32) -> Self {
         let scaled =
@@ -119,8 +119,8 @@ impl RegionTerms {
         })
     }
 
-    /// Returns the posterior of every term. The prior mean of skin (`true`), which has one term, is [`Self::prior`]; that
-    /// of other regions is the posterior of skin.
+    /// Returns the posterior of every term. The prior mean of skin (`true`), which has one term, is [`Self::prior`];
+    /// that of other regions is the posterior of skin.
     fn revised(
         &self,
         regression: &Regression,

@@ -1,5 +1,5 @@
-//! Regression of the observed on the predicted highlights and on their derivatives: a Gauss-Newton step for the specular
-//! term of every region.
+//! Regression of the observed on the predicted highlights and on their derivatives: a Gauss-Newton step for the
+//! specular term of every region.
 //!
 //! Diffuse radiance does not depend on the view, so the mean over the samples of a texel is subtracted.
 

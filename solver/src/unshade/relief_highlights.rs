@@ -30,8 +30,8 @@ impl<'a> ReliefHighlights<'a> {
         Self { specular, highlights: self.highlights.clone(), ..*self }
     }
 
-    /// The highlights, R, G, B, with normals bent by the first rows of `deviations`, and the derivative of their luminance
-    /// with respect to the deviation.
+    /// The highlights, R, G, B, with normals bent by the first rows of `deviations`, and the derivative of their
+    /// luminance with respect to the deviation.
     pub fn at(&self, samples: &Samples, deviations: &Planes) -> Planes {
         let bent = |i: usize| {
             Vec3::from_array(samples.normal.sample(i, 0))

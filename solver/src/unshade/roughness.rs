@@ -12,8 +12,8 @@ use crate::transport::CHANNELS;
 
 /// Factor on the roughness in the finite difference of the derivative.
 const ROUGHER: f32 = 1.1;
-/// Exponent of the cosine lobe that filters the light: almost no filter. Lamps are often smaller than cells, and a wider
-/// filter would reduce the estimated roughness further.
+/// Exponent of the cosine lobe that filters the light: almost no filter. Lamps are often smaller than cells, and a
+/// wider filter would reduce the estimated roughness further.
 const NEARLY_UNFILTERED_EXPONENT: i32 = 512;
 
 /// Returns the terms with the estimated roughness.

@@ -6,7 +6,7 @@ use capture::gbuffer::GBuffer;
 use capture::{Capture, View};
 use glam::Vec3;
 use solver::Config;
-use solver::config::{PaperConfig, TextureSize, UnshadeConfig};
+use solver::config::{PaperConfig, TextureSize};
 use solver::model::networks::Networks;
 use solver::model::samples::Samples;
 use solver::paper::fields::ShadingFields;
@@ -58,18 +58,7 @@ pub fn capture(folder: &Path) -> Capture {
 
 /// Every kind of stage, in seconds.
 pub fn short() -> Config {
-    let mut config = UnshadeConfig::default();
-    config.maps.texture_size = TextureSize::Side(64);
-    config.regions.texture_size = 32;
-    config.transport.texture_size = 32;
-    config.transport.rows = 8;
-    config.light.steps = 120;
-    config.joint.grey_steps = 60;
-    config.joint.steps = 60;
-    config.albedo.steps = 40;
-    config.relief.linearisations = 1;
-    config.relief.steps = 80;
-    Config::Unshade(config)
+    Config::from_toml(include_str!("../small.toml")).unwrap()
 }
 
 /// The published method with few steps.

@@ -1,28 +1,28 @@
-//! Memory that is asked for while a block is computed: what the next block will read.
+//! Prefetch of the next block's memory during the computation of a block.
 
 use crate::model::planes::{BLOCK, Planes, Row};
 use crate::simd::prefetch;
 
-/// Planes that any pass reads, at most.
+/// Largest number of planes of a pass.
 const PLANES: usize = 7;
-/// Values in a line of the cache.
+/// Values in a cache line.
 const LINE: usize = 16;
 /// Values asked for at a time, two lines: a block of a joint pass has 224 lines and 300 tiles, of the others up
 /// to 368 and from 40 to 150.
 const PACE: usize = 3 * LINE;
 
-/// Rows asked for a few lines at a time, between tiles of products: a core waits for some ten lines at most,
-/// and whatever it reads besides would have to wait as well. It has no influence on results.
+/// Prefetches rows a few lines at a time, between tiles of products: a core has about ten outstanding lines, and
+/// further reads would wait for them. It does not change results.
 pub struct Ahead<'a> {
     planes: [&'a [Row]; PLANES],
     plane: usize,
-    /// The next row to ask for and the requests left, for each of the rows at hand.
+    /// The next row and the remaining requests of the current planes.
     next: *const f32,
     left: usize,
 }
 
 impl<'a> Ahead<'a> {
-    /// The rows of a block, if there is one.
+    /// The rows of a block, if it exists.
     pub fn new(planes: &[&'a Planes], block: usize) -> Self {
         let mut rows = [[].as_slice(); PLANES];
         for (rows, planes) in rows.iter_mut().zip(planes).filter(|(_, p)| block < p.blocks()) {
@@ -33,7 +33,7 @@ impl<'a> Ahead<'a> {
         ahead
     }
 
-    /// Asks for the next lines.
+    /// Prefetches the next lines.
     #[inline(always)]
     pub fn ask(&mut self) {
         if self.left > 0 {
@@ -48,7 +48,7 @@ impl<'a> Ahead<'a> {
         }
     }
 
-    /// Goes on to the next planes that have rows.
+    /// Continues with the next planes that have rows.
     #[cold]
     #[inline(never)]
     fn turn(&mut self) {

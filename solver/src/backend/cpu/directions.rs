@@ -1,14 +1,14 @@
-//! From deviations to directions and back, as [`crate::model::normals`], in the passes' own vectors.
+//! Directions from deviations and the adjoint, as in [`crate::model::normals`], with the vectors of the passes.
 
 use super::lanes::Lanes;
 use crate::model::deviation_textures::BLURRED;
 use crate::model::normals::{DIRECTIONS, DirectionScale};
 use crate::model::planes::{BLOCK, Row};
 
-/// Three rows at one place.
+/// Three rows at the same lanes.
 type Vector<S> = [S; 3];
 
-/// Lengths of the bent normals, specular and diffuse: one over them.
+/// The inverse lengths of the bent normals, specular and diffuse.
 pub type Lengths = [Row; 2];
 
 #[inline(always)]
@@ -44,7 +44,7 @@ fn times_plus<S: Lanes>(a: Vector<S>, factor: S, b: Vector<S>) -> Vector<S> {
     [a[0].mul_add(factor, b[0]), a[1].mul_add(factor, b[1]), a[2].mul_add(factor, b[2])]
 }
 
-/// The directions of a block's samples under the deviations d and blur(d), rows as samples see them.
+/// The directions of a block's samples with the deviations d and blur(d).
 #[inline(always)]
 pub fn deviate<S: Lanes>(
     scale: &DirectionScale,
@@ -73,8 +73,8 @@ pub fn deviate<S: Lanes>(
     }
 }
 
-/// Carries gradients by the directions (the first six rows of `gradient`, times the diffuse and the specular one
-/// of `factors`) to both deviations.
+/// The gradients with respect to both deviations, from those with respect to the directions (the first six rows of
+/// `gradient`, times the diffuse and the specular row of `factors`).
 #[inline(always)]
 pub fn adjoint<S: Lanes>(
     scale: &DirectionScale,
@@ -102,7 +102,7 @@ pub fn adjoint<S: Lanes>(
     }
 }
 
-/// The part of a gradient across a unit vector, over the length that the vector had.
+/// The component of a gradient orthogonal to a unit vector, over the vector's length before normalisation.
 #[inline(always)]
 fn across<S: Lanes>(unit: Vector<S>, gradient: Vector<S>, over_length: S) -> Vector<S> {
     let along = S::splat(0.0).sub(dot(unit, gradient));

@@ -15,7 +15,7 @@ use crate::model::planes::{BLOCK, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::strips::{Strip, blocks};
 
-/// Chains of [`peak`]: more than the latency of a multiply-add times those begun per cycle.
+/// Chains of [`peak`]: more than the latency of a multiply-add times its throughput per cycle.
 pub const PEAK_CHAINS: usize = 12;
 
 /// Buffers of one task, reused from chunk to chunk.
@@ -26,7 +26,7 @@ pub struct Scratch {
     slopes: [Vec<Row>; 2],
     shading: [Row; 2],
     gradient: PixelGradient,
-    /// Gradients by the networks' parameters.
+    /// Gradients with respect to the networks' parameters.
     pub sums: Vec<f32>,
 }
 
@@ -45,7 +45,7 @@ impl Scratch {
     }
 }
 
-/// The inputs of the passes that have a target.
+/// The inputs of the passes with a target.
 pub struct Inputs<'a> {
     pub packed: &'a [Packed; 3],
     pub samples: &'a Samples,
@@ -149,7 +149,7 @@ fn joint_block<S: Lanes, const C: usize>(
     loss
 }
 
-/// Loss and gradients by directions and specular albedo, with frozen networks.
+/// Loss and gradients with respect to directions and specular albedo, with frozen networks.
 #[inline(always)]
 fn direction_gradient_body<S: Lanes, const C: usize>(
     inputs: &Inputs,
@@ -194,7 +194,7 @@ fn textured_body<S: Lanes, const C: usize>(
         deviate::<S>(scale, known, &bent, &mut lengths, &mut directions);
         let filled = samples.len() - block * BLOCK;
         if filled < BLOCK {
-            // A normal of zero has no direction.
+            // A zero normal has no direction.
             directions.iter_mut().for_each(|row| row.0[filled..].fill(0.0));
         }
         let pixels = Pixels { specular: &bent[SPECULAR], ..inputs.pixels(block) };
@@ -211,8 +211,8 @@ fn textured_body<S: Lanes, const C: usize>(
     loss
 }
 
-/// Loss; gradients by the specular albedo, and by the directions: those by the diffuse normal and by the
-/// reflected direction have the gradients by their shadings as a factor, which is left out.
+/// The loss, and the gradients with respect to the specular albedo and the directions. The latter are without their
+/// factors, the gradients with respect to the shadings.
 #[inline(always)]
 fn bend_block<S: Lanes, const C: usize>(
     packed: &[Packed; 3],
@@ -275,8 +275,8 @@ fn shade_body<S: Lanes, const C: usize>(
     }
 }
 
-/// `rounds` x [`PEAK_CHAINS`] multiply-adds on vectors, independent but for their own chain; and what
-/// came out, so that they are not left out.
+/// `rounds` x [`PEAK_CHAINS`] multiply-adds on vectors in independent chains; returns the result, so that the compiler
+/// does not remove them.
 #[inline(always)]
 fn peak_body<S: Lanes, const C: usize>(rounds: usize) -> f32 {
     let (factor, term) = (S::splat(0.999), S::splat(1e-3));

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// An instruction set that this machine has.
+/// An instruction set of this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Any machine.
@@ -19,7 +19,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// The levels this machine has, the slowest first.
+    /// The levels of this machine, the slowest first.
     pub fn available() -> Vec<Self> {
         #[cfg_attr(not(any(target_arch = "x86_64", target_arch = "aarch64")), expect(unused_mut))]
         let mut levels = vec![Self::Portable];

@@ -1,29 +1,27 @@
-//! The processor: explicit vectors of the widest instruction set there is.
+//! The processor, with explicit vectors of the widest available instruction set.
 //!
-//! Samples are worked through in chunks of [`CHUNK_BLOCKS`] blocks. A chunk's weight gradients are summed
-//! block by block, and over the chunks in their order in f64, so that the number of threads has no
-//! influence.
+//! Samples are processed in chunks of [`CHUNK_BLOCKS`] blocks. The gradients of the weights are summed block by block
+//! within a chunk, and over chunks in order in f64, so that results do not depend on the number of threads.
 //!
 //! Traffic between memory and a sample per iteration, in bytes; everything else lives in about
 //! 250 KiB of scratch per thread:
 //!
 //! | pass | read | written |
 //! |---|---|---|
-//! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients by the albedos |
+//! | [`Backend::joint`] | 72: position, two directions, Fresnel factor, colour, weight, albedos | 16: gradients with respect to the albedos |
 //! | [`Backend::joint_textures`] | 68: the same without the albedos, and place | 0 |
-//! | [`Backend::direction_gradient`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients by directions and specular albedo |
+//! | [`Backend::direction_gradient`] | 92: light vector, two directions, Fresnel factor, colour, weight, albedos | 28: gradients with respect to directions and specular albedo |
 //! | [`Backend::deviation_gradient`] | 100: light vector, normal, view, Fresnel factor, colour, weight, albedo, place | 0 |
 //! | [`Backend::shade`] | 56: light vector, two directions | 8 |
 //! | sampling or gathering `C` channels | 12 of place, `4 C` | `4 C` |
 //! | a diffuse step ([`Layer::gradient`](crate::model::layer::Layer::gradient)) | 44: S_d of R, G, B, specular layer, colour, weight, place | 0 |
-//! | a specular step with still normals | 32: what is left of the colour, F S_s, weight, place | 0 |
+//! | a specular step with fixed normals | 32: the residual colour, F S_s, weight, place | 0 |
 //! | a conjugate-gradient step of the heights | 76: 15 slopes, weight, place | 0 |
 //!
-//! A texel's value costs 24 bytes where Adam moves it, and 4 where it is sampled. A step on textures that bend
-//! normals costs a texel about 400 bytes more: what samples see of it, 32, and gradients by that, 32, are written
-//! and read pass by pass, and both go through the blur. A joint step is 7488 FLOP a sample, so that it is bound by
-//! arithmetic on every machine with more than 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps
-//! are bound by memory.
+//! A texel's value costs 24 bytes in Adam and 4 when it is sampled. A step on deviation textures costs about 400 bytes
+//! more per texel: the packed texel of 32 bytes and its gradient of 32 bytes are written and read pass by pass, and both
+//! are blurred. A joint step is 7488 FLOP per sample and therefore limited by arithmetic on every machine with more than
+//! 0.012 bytes of bandwidth per FLOP; the diffuse and specular steps are limited by memory.
 
 mod ahead;
 mod directions;
@@ -46,23 +44,23 @@ use crate::model::planes::{CHUNK_BLOCKS, Planes, Row};
 use crate::model::samples::Samples;
 use crate::model::strips::Strip;
 
-/// The processor at its fastest level.
+/// The processor backend at one level.
 #[derive(Clone, Copy, Debug)]
 pub struct Cpu {
     level: Level,
 }
 
 impl Cpu {
-    /// At the fastest level.
+    /// The backend at the fastest level.
     pub fn new() -> Self {
         let level = Level::available().last().copied().unwrap_or(Level::Portable);
         Self { level }
     }
 
-    /// At a level of [`Level::available`].
+    /// The backend at a level of [`Level::available`].
     ///
     /// # Panics
-    /// If this machine does not have it.
+    /// If this machine does not have the level.
     pub fn at(level: Level) -> Self {
         assert!(Level::available().contains(&level));
         Self { level }
@@ -70,8 +68,8 @@ impl Cpu {
 }
 
 impl Cpu {
-    /// Does nothing but multiply-adds on one thread, of the backend's own vectors; how many operations
-    /// (two each). For benchmarks: what a kernel could reach.
+    /// Runs only multiply-adds of the backend's vectors on one thread, and returns the number of operations (two each):
+    /// the ceiling of a kernel, for benchmarks.
     pub fn multiply_adds(&self, rounds: usize) -> f64 {
         std::hint::black_box(kernels::peak(self.level, rounds));
         (rounds * kernels::PEAK_CHAINS * self.level.flops_per_multiply_add()) as f64
@@ -88,7 +86,7 @@ fn pack(networks: &Networks) -> [Packed; 3] {
     Network::ALL.map(|network| Packed::new(networks, network))
 }
 
-/// Planes of `rows` rows, made by `pass` in parallel chunks; and its results, in the chunks' order.
+/// Planes of `rows` rows that `pass` fills in parallel chunks; and its results in the order of the chunks.
 fn chunks<T: Send>(
     networks: &Networks,
     rows: usize,
@@ -101,7 +99,7 @@ fn chunks<T: Send>(
     })
 }
 
-/// Losses and gradients of chunks, in their order.
+/// Sums the losses and gradients of chunks in order.
 fn total(networks: &Networks, parts: Vec<(f64, Vec<f32>)>) -> (f64, Vec<f32>) {
     let mut total = vec![0.0f64; networks.parameters.len()];
     let mut loss = 0.0;
@@ -142,7 +140,7 @@ impl Backend for Cpu {
         albedo: &[f32],
     ) -> TexturedJointGradient {
         let packed = &pack(networks);
-        // Sampled albedos are not asked for.
+        // The sampled albedos are not needed.
         let inputs = Inputs { packed, samples, directions, albedo: directions };
         let scratch = || Scratch::new(networks);
         let work = |scratch: &mut Scratch, strip: &mut Strip<ALBEDOS>| {

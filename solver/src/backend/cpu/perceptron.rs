@@ -1,8 +1,8 @@
 //! One multilayer perceptron on a block of samples: forward, backward, weight gradients.
 //!
-//! Matrices are walked in tiles of 4 outputs x `C` vectors, whose 4 C partial sums stay in
-//! registers; weights are packed so that a tile reads them in order. Gradients of weights are summed in
-//! tiles of 4 outputs x `C` inputs: as many sums, and those of the biases.
+//! Products are computed in tiles of 4 outputs x `C` vectors, whose 4 C partial sums stay in registers; weights are
+//! packed in the order in which tiles read them. Gradients of weights are summed in tiles of 4 outputs x `C` inputs,
+//! with the biases.
 
 use super::ahead::Ahead;
 use super::lanes::{Lanes, Task};
@@ -11,7 +11,7 @@ use crate::model::planes::{BLOCK, Row};
 
 /// Outputs per tile.
 const TILE: usize = 4;
-/// Inputs of the first layer; those of the others are a multiple of [`TILE`].
+/// Inputs of the first layer; the inputs of other layers are a multiple of [`TILE`].
 const INPUTS: usize = 3;
 
 /// A network's weights in the order of the tiles.
@@ -59,9 +59,9 @@ fn tiles(rows: usize, columns: usize, at: &dyn Fn(usize, usize) -> f32) -> Vec<[
 
 /// Activations of a block, and room for gradients.
 pub struct Trace {
-    /// Outputs of every layer; of the last one, what the caller makes of them.
+    /// Outputs of every layer; the caller may replace those of the last one.
     pub layers: Vec<Vec<Row>>,
-    /// Gradients of the layer at hand and of the one before.
+    /// Gradients of the current layer and of the previous one.
     delta: [Vec<Row>; 2],
 }
 
@@ -99,8 +99,8 @@ pub fn forward<S: Lanes, const C: usize>(
     }
 }
 
-/// Carries the gradients in [`Trace::outputs`] back to weights, biases (added to `sums`, in the
-/// order of the parameters) and, if asked, to the inputs (3 rows).
+/// Propagates the gradients in [`Trace::outputs`] back to weights and biases (added to `sums`, in the order of the
+/// parameters) and, if requested, to the inputs (3 rows).
 #[inline(always)]
 pub fn backward<S: Lanes, const C: usize>(
     packed: &Packed,

@@ -4,7 +4,7 @@
 use super::lanes::{self, Lanes};
 use crate::model::planes::{BLOCK, Row};
 
-/// z becomes e^z.
+/// Replaces z by e^z.
 #[inline(always)]
 pub fn exponentials<S: Lanes>(rows: &mut [Row]) {
     for row in rows {
@@ -18,7 +18,7 @@ pub fn exponentials<S: Lanes>(rows: &mut [Row]) {
     }
 }
 
-/// z becomes softplus(z), and `slopes` its derivative.
+/// Replaces z by softplus(z), and writes its derivative to `slopes`.
 #[inline(always)]
 pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
     for (row, slopes) in rows.iter_mut().zip(slopes) {
@@ -34,7 +34,7 @@ pub fn softplus<S: Lanes>(rows: &mut [Row], slopes: &mut [Row]) {
     }
 }
 
-/// Vectors that wait for each other's results in turn.
+/// Interleaved vectors, which hide the latency of each other's operations.
 const TURNS: usize = 4;
 
 #[inline(always)]
@@ -60,7 +60,7 @@ pub fn dot<S: Lanes>(a: &[Row], b: &[Row], out: &mut Row) {
     }
 }
 
-/// A kernel's shading = sum of light x softplus(z) over rows; z becomes its gradient by z.
+/// A kernel's shading = sum of light x softplus(z) over rows; replaces z by the gradient with respect to z.
 #[inline(always)]
 pub fn kernel<S: Lanes>(light: &[Row], kernel: &mut [Row], shading: &mut Row) {
     // AVX-512 has registers for more rows at once.
@@ -91,7 +91,7 @@ fn kernel_in_turns<S: Lanes, const T: usize>(light: &[Row], kernel: &mut [Row], 
     }
 }
 
-/// Rows times a factor.
+/// Multiplies rows by a factor.
 #[inline(always)]
 pub fn times<S: Lanes>(rows: &mut [Row], factor: &Row) {
     for row in rows {
@@ -103,7 +103,7 @@ pub fn times<S: Lanes>(rows: &mut [Row], factor: &Row) {
     }
 }
 
-/// Gradients before the last activations of all three networks, in place of their outputs.
+/// Replaces the outputs of all three networks by the gradients before their last activations.
 #[inline(always)]
 pub fn vector_gradients<S: Lanes>(
     by_shading: &[Row; 2],
@@ -142,7 +142,7 @@ pub struct Pixels<'a> {
     pub scale: f32,
 }
 
-/// Gradients by the two shadings and by the albedos of a block.
+/// Gradients with respect to the two shadings and the albedos of a block.
 pub struct PixelGradient {
     pub shading: [Row; 2],
     pub albedo: [Row; 4],

@@ -1,4 +1,4 @@
-//! Which adapters there are, and which of them computes.
+//! The adapters of this machine, and the choice of one.
 
 use crate::backend::error::{BackendError, VARIABLE};
 
@@ -13,7 +13,7 @@ pub struct Adapter {
     pub driver: String,
     /// True for a software adapter, which is never chosen in place of a GPU.
     pub software: bool,
-    /// The most likely to be fast first.
+    /// Rank, the fastest kind first.
     rank: u8,
     pub(super) adapter: wgpu::Adapter,
 }
@@ -38,7 +38,7 @@ impl Adapter {
         }
     }
 
-    /// Whether it can time what it does; see [`super::Gpu::timed`].
+    /// Whether it can time passes; see [`super::Gpu::timed`].
     pub fn has_clock(&self) -> bool {
         self.adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY)
     }

@@ -17,14 +17,14 @@ use crate::backend::resident::DeviceError;
 pub struct Gpu {
     pub(super) device: Device,
     pub(super) name: String,
-    /// Goes on if the device fails.
+    /// The backend after a failure of the device.
     pub(super) cpu: Cpu,
-    /// Why it did.
+    /// The failure.
     pub(super) failure: OnceLock<DeviceError>,
 }
 
 impl Gpu {
-    /// On this adapter.
+    /// Opens a device on this adapter.
     pub fn open(adapter: &Adapter) -> Result<Self, BackendError> {
         let refused = |error: DeviceError| BackendError::Refused {
             name: adapter.name.clone(),
@@ -36,16 +36,16 @@ impl Gpu {
         Ok(Self { device, name, cpu: Cpu::new(), failure: OnceLock::new() })
     }
 
-    /// With samples in pieces of this many and grids of no more workgroups than this along one axis, as
-    /// if bindings and grids were that small.
+    /// Limits the samples of a piece and the workgroups of a grid along one axis, as if bindings and grids were this
+    /// small.
     #[must_use]
     pub fn in_pieces(mut self, samples: usize, axis: usize) -> Self {
         (self.device.piece, self.device.axis) = (samples, axis);
         self
     }
 
-    /// Result of `work` and the time of every pass that it submits, each apart, which
-    /// costs time. No times if the adapter has no clock.
+    /// Returns the result of `work` and the time of each of its passes. The measurement takes time. There are no times
+    /// if the adapter has no clock.
     pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
         if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             *locked(&self.device.timings) = Some(Timings::new());
@@ -54,23 +54,23 @@ impl Gpu {
         (result, locked(&self.device.timings).take())
     }
 
-    /// Multiply-adds and bandwidth that compute kernels reach, the latter on three arrays of `bytes` each;
-    /// `budget` for either.
+    /// The ceilings of compute kernels: multiply-adds, and bandwidth on three arrays of `bytes` each. `budget` is the
+    /// time for each.
     pub fn ceilings(&self, bytes: usize, budget: Duration) -> Result<Ceilings, DeviceError> {
         ceilings::ceilings(&self.device, bytes, budget)
     }
 
-    /// Bytes that the device has given to this program, where its driver counts them.
+    /// Bytes that this program has allocated on the device, if its driver counts them.
     pub fn memory(&self) -> Option<u64> {
         self.device.device.generate_allocator_report().map(|report| report.total_allocated_bytes)
     }
 
-    /// Gives the device back. What still wants it goes on on the processor.
+    /// Releases the device. Further work runs on the processor.
     pub fn destroy(&self) {
         self.device.device.destroy();
     }
 
-    /// `run` on the device, or `otherwise` on the processor, whose answers are as good.
+    /// `run` on the device, or after a failure `otherwise` on the processor.
     pub(super) fn either<T>(
         &self,
         run: impl FnOnce(&Device) -> Result<T, DeviceError>,
@@ -79,13 +79,13 @@ impl Gpu {
         if self.failure.get().is_none() {
             match run(&self.device) {
                 Ok(result) => return result,
-                Err(error) => self.falls(&error),
+                Err(error) => self.mark_failed(&error),
             }
         }
         otherwise(&self.cpu)
     }
 
-    pub(super) fn falls(&self, error: &DeviceError) {
+    pub(super) fn mark_failed(&self, error: &DeviceError) {
         if self.failure.set(error.clone()).is_ok() {
             tracing::warn!("{}: {error}; the rest runs on {}", self.name, self.cpu.name());
         }

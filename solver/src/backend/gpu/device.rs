@@ -1,4 +1,4 @@
-//! A device with its queue: kernels, buffers, submissions, and what went wrong with it.
+//! A device with its queue: kernels, buffers, submissions, and its first fault.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -11,23 +11,23 @@ use crate::model::planes::BLOCK;
 
 /// Workgroups along one axis; a limit of WebGPU.
 const AXIS: usize = 65535;
-/// Rows that a piece may have.
+/// Largest number of rows of a piece.
 pub(super) const PIECE_ROWS: usize = 16;
-/// Most samples of a piece: bindings of 512 MiB. More would save no time.
+/// Largest number of samples of a piece: bindings of 512 MiB. Larger pieces are not faster.
 const LARGEST: usize = 1 << 23;
 
 /// An open device.
 pub(super) struct Device {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
-    /// The first thing that went wrong.
+    /// The first fault.
     fault: Arc<OnceLock<String>>,
     kernels: Mutex<HashMap<String, Arc<Kernel>>>,
     /// Samples of a piece; see [`super::pieces`].
     pub piece: usize,
     /// Workgroups along one axis of a grid.
     pub axis: usize,
-    /// Present while passes are timed.
+    /// The times of passes, while they are measured.
     pub timings: Mutex<Option<Timings>>,
 }
 
@@ -65,7 +65,7 @@ impl Device {
         Ok(Self { device, queue, fault, kernels, piece, axis: AXIS, timings })
     }
 
-    /// An error if anything has gone wrong since the device was opened.
+    /// An error if there has been a fault since the device was opened.
     pub fn check(&self) -> Result<(), DeviceError> {
         match self.fault.get() {
             Some(fault) => Err(DeviceError(fault.clone())),
@@ -73,7 +73,7 @@ impl Device {
         }
     }
 
-    /// A kernel, compiled when it is first asked for. See [`Kernel::new`].
+    /// A kernel, compiled at its first use. See [`Kernel::new`].
     pub fn kernel(
         &self,
         name: &'static str,
@@ -88,7 +88,7 @@ impl Device {
         Arc::clone(kernels.entry(source.clone()).or_insert_with(compile))
     }
 
-    /// A buffer for `count` floats, all zero.
+    /// A buffer of `count` zeros.
     pub fn floats(&self, name: &'static str, count: usize) -> wgpu::Buffer {
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(name),
@@ -110,7 +110,7 @@ impl Device {
         self.pieces("parameters", bytes.len(), wgpu::BufferUsages::UNIFORM, [bytes].into_iter())
     }
 
-    /// A buffer of `count` floats that come row by row.
+    /// A buffer of `count` floats, filled row by row.
     pub fn rows<'a>(
         &self,
         name: &'static str,
@@ -133,7 +133,7 @@ impl Device {
             usage,
             mapped_at_creation: true,
         });
-        // Without memory, or of a device that is lost, there is no range; its fault says so.
+        // Without memory or after the loss of the device there is no range; `check` reports the fault.
         if let Ok(mut range) = buffer.get_mapped_range_mut(..) {
             let mut at = 0;
             for piece in pieces {
@@ -143,14 +143,14 @@ impl Device {
         }
         buffer.unmap();
         if size > STAGED {
-            // A failure is a fault of the device, which says so when it is asked for results.
+            // A failure is a fault of the device, which `check` reports.
             self.queue.submit([]);
             let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
         }
         buffer
     }
 
-    /// Until everything that was submitted is done.
+    /// Waits for all submissions.
     pub fn wait(&self) -> Result<(), DeviceError> {
         self.check()?;
         let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
@@ -158,7 +158,7 @@ impl Device {
         polled.map(drop).map_err(|error| DeviceError(one_line(&error.to_string())))
     }
 
-    /// Contents of these buffers after all that was submitted.
+    /// Reads these buffers after all submissions.
     pub fn read<T: bytemuck::Pod>(
         &self,
         buffers: &[&wgpu::Buffer],
@@ -189,8 +189,7 @@ impl Device {
     }
 }
 
-/// Samples of a piece on a device that has bindings of this size: 2 million where there are 128 MiB, as
-/// every adapter has them.
+/// The samples of a piece on a device with bindings of this size: 2 million for 128 MiB, the least of any adapter.
 fn largest_piece(binding: u64) -> usize {
     usize::try_from(binding).map_or(LARGEST, |bytes| (bytes / (4 * PIECE_ROWS)).min(LARGEST))
         / BLOCK
@@ -202,15 +201,15 @@ const STORAGE: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE
     .union(wgpu::BufferUsages::COPY_SRC)
     .union(wgpu::BufferUsages::COPY_DST);
 
-/// Uploads larger than this leave the host's memory before the next one enters it, bytes.
+/// Size above which an upload is finished before the next one begins, to save host memory, bytes.
 const STAGED: usize = 32 << 20;
 
-/// Nothing that these locks protect is ever left half done.
+/// The protected data is consistent even after a panic.
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Drivers say what went wrong on several lines.
+/// Joins the several lines of drivers' messages.
 pub(super) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

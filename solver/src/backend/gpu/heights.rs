@@ -59,11 +59,12 @@ impl Descent for Heights<'_> {
     fn steps(&mut self, count: usize) -> Result<(), DeviceError> {
         let device = &self.gpu.device;
         device.submit(&self.step, None, count);
-        device.wait().inspect_err(|error| self.gpu.falls(error))
+        device.wait().inspect_err(|error| self.gpu.mark_failed(error))
     }
 
     fn unknowns(&mut self) -> Result<Vec<f32>, DeviceError> {
-        let read = self.gpu.device.read(&[&self.x]).inspect_err(|error| self.gpu.falls(error));
+        let read =
+            self.gpu.device.read(&[&self.x]).inspect_err(|error| self.gpu.mark_failed(error));
         Ok(read?.swap_remove(0))
     }
 }

@@ -1,6 +1,6 @@
 //! Compute kernels and their bindings.
 
-/// In every kernel: where samples lie in planes, and workgroups in a grid of two axes.
+/// Source in every kernel: the layout of planes, and the index of a workgroup in a grid of two axes.
 const COMMON: &str = include_str!("wgsl/common.wgsl");
 
 /// A compiled kernel.
@@ -66,7 +66,7 @@ impl Kernel {
             module: &module,
             entry_point: Some("main"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                // Every kernel writes what it reads.
+                // Every kernel writes workgroup memory before it reads it.
                 zero_initialize_workgroup_memory: false,
                 ..Default::default()
             },

@@ -7,10 +7,10 @@ use super::program::{Moved, Program, prior};
 use crate::model::planes::Planes;
 use crate::model::taps::Taps;
 
-/// Rows of what is known before the shading; see [`crate::backend::resident::Job::Layer`].
+/// Rows before the shading; see [`crate::backend::resident::Job::Layer`].
 const FIRST: usize = 4;
 
-/// The diffuse stages, the refinement, and the specular stages under normals that stay.
+/// The fit of one albedo under fixed shading.
 pub(super) fn program<'a>(gpu: &'a Gpu, taps: &Taps, known: &Planes, weight: f32) -> Program<'a> {
     let device = &gpu.device;
     let channels = known.rows() - FIRST;

@@ -1,8 +1,8 @@
 //! Graphics processors, through wgpu's compute shaders (Vulkan, Metal, DirectX 12).
 //!
 //! The fits of the published method, the last albedo of the default method, and the conjugate gradients of its relief
-//! run on the device from end to end, see [`super::resident`]. The processor fits the light, and does what happens
-//! once: G-buffers, rays, linearisations of the relief (their highlights come from the device), maps and views.
+//! run entirely on the device, see [`super::resident`]. The processor fits the light and computes everything that is
+//! needed once: G-buffers, rays, linearisations of the relief (with highlights from the device), maps and views.
 //!
 //! Layouts are the processor's: planes of blocks of 256 samples, gradients of textures by gather in texel
 //! order, sums in a fixed order without atomics. One adapter with one driver therefore gives the same
@@ -10,8 +10,8 @@
 //!
 //! Samples come in pieces that fit the bindings: of 128 MiB, which every adapter has, or up to 512 MiB.
 //!
-//! Costs of a sample and step with the published networks. Everything but the networks is bound by
-//! memory wherever a byte costs more than a dozen operations.
+//! Costs per sample and step with the published networks. Everything except the networks is limited by memory if a byte
+//! costs more than a dozen operations.
 //!
 //! | stage | operations | bytes: sampling / directions / networks or albedo / gather | texel and step |
 //! |---|---|---|---|
@@ -22,11 +22,11 @@
 //! The paper's capture (12 million pixels x 2000, then 48 million x 500 twice, 2048² textures) on an H200
 //! with the 67 TFLOP/s and 4.8 TB/s of its data sheet: warm-up 3.3 s of arithmetic (2.7 without the second
 //! evaluation), 0.8 s of memory, and 2.9 s of workgroup memory, through which 3.6 kB of layers a sample go
-//! to the weights' gradients; normals 1.7 s, 2.2 s; diffuse 0.4 s of memory. What overlaps is not
-//! known: 6 s if everything does, 11 s if nothing, 20 s at half the data sheet's speed. Not yet measured;
-//! `unshade bench` puts every pass beside its floor.
+//! to the weights' gradients; normals 1.7 s, 2.2 s; diffuse 0.4 s of memory. The overlap is unknown:
+//! 6 s with full overlap, 11 s without, 20 s at half of the data sheet's speed. Not yet measured; `unshade bench`
+//! compares every pass with its limit.
 //!
-//! A device that fails says so in one line, and the processor goes on.
+//! A device failure is logged in one line, and the processor continues.
 
 mod adapter;
 mod blurs;
@@ -141,7 +141,7 @@ impl Backend for Gpu {
         match heights::Heights::new(self, problem) {
             Ok(heights) => Some(Box::new(heights)),
             Err(error) => {
-                self.falls(&error);
+                self.mark_failed(&error);
                 None
             }
         }

@@ -1,4 +1,4 @@
-//! Dispatches that are recorded once and submitted often, and what differs from step to step.
+//! Dispatches that are recorded once and submitted often, with the values that differ between steps.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ pub(super) const THREADS: usize = 256;
 /// Distance of uniforms with dynamic offsets; the default limit of WebGPU.
 const SLOT: usize = 256;
 
-/// The operations and bytes that a dispatch cannot do without.
+/// The least operations and bytes of a dispatch.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Work {
     /// Floating-point operations, a multiply-add being two.
@@ -31,7 +31,7 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    /// A pass of `workgroups` workgroups, whatever their number.
+    /// A pass of any number of workgroups.
     pub fn new(
         device: &Device,
         kernel: &Arc<Kernel>,
@@ -56,7 +56,7 @@ impl Pass {
         Self { kernel: Arc::clone(kernel), buffers, slot: None, grid, work: Work::default() }
     }
 
-    /// One thread for each of `count` values.
+    /// A pass with one thread for each of `count` values.
     pub fn over(
         device: &Device,
         kernel: &Arc<Kernel>,
@@ -72,7 +72,7 @@ impl Pass {
         Self { slot: Some(slot), ..self }
     }
 
-    /// Also does for each of `count` things: operations, and values read or written.
+    /// Adds the cost of `count` items: operations, and values read or written.
     #[must_use]
     pub fn doing(self, count: usize, flops: usize, values: usize) -> Self {
         let (flops, bytes) = ((count * flops) as f64, (4 * count * values) as f64);
@@ -95,7 +95,7 @@ impl Pass {
     }
 }
 
-/// The values that differ from step to step: factors of the optimisers, and where the loss belongs.
+/// The values that differ between steps: factors of the optimisers, and the index of the loss.
 pub(super) struct Slots {
     buffer: wgpu::Buffer,
     bindings: wgpu::BindGroup,
@@ -152,7 +152,7 @@ impl Factors {
         Self([a, b, c, d, e, f, 1, step as u32, variable.maximum.to_bits(), 0, 0, 0])
     }
 
-    /// The factors of a variable that stays where it is.
+    /// The factors of a constant variable.
     pub fn still(step: usize) -> Self {
         Self([0, 0, 0, 0, 0, 0, 0, step as u32, 0, 0, 0, 0])
     }
@@ -167,7 +167,7 @@ pub(super) struct AdamFactors {
 
 impl AdamFactors {
     pub fn of(variable: &Variable) -> Self {
-        // Large numbers instead of infinity, which shaders may take for impossible.
+        // Large numbers instead of infinity, which shaders may assume not to occur.
         let (minimum, maximum) = (variable.minimum.max(f32::MIN), variable.maximum.min(f32::MAX));
         Self { optimiser: variable.adam.without_moments(), minimum, maximum }
     }

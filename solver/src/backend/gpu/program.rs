@@ -1,4 +1,4 @@
-//! The program of a stage: its passes, recorded once, and its variables.
+//! The program of a fit: its passes, recorded once, and its variables.
 
 use super::computing::Gpu;
 use super::device::Device;
@@ -29,7 +29,7 @@ impl Moved {
         }
     }
 
-    /// Networks, whose order on the host is another one.
+    /// Networks, which have another order on the host.
     pub fn in_layout(self, layout: Layout) -> Self {
         Self { layout: Some(layout), ..self }
     }
@@ -45,22 +45,22 @@ impl Moved {
     }
 }
 
-/// Partial sums of a part of the loss, and their number.
+/// Partial sums of a term of the loss, and their number.
 pub(super) type LossPart = (wgpu::Buffer, usize);
 
-/// A stage on the device.
+/// A fit on the device.
 pub(super) struct Program<'a> {
     gpu: &'a Gpu,
     passes: Vec<Pass>,
     slots: Slots,
     losses: wgpu::Buffer,
     moved: Vec<Moved>,
-    /// Done so far.
+    /// The number of steps taken.
     done: usize,
 }
 
 impl<'a> Program<'a> {
-    /// `gradients` leave the gradients of everything in `moved`, in whose order the host names its
+    /// `gradients` are the passes that write the gradients of everything in `moved`, which has the order of the host's
     /// variables.
     pub fn new(gpu: &'a Gpu, gradients: Vec<Pass>, loss: &[LossPart], moved: Vec<Moved>) -> Self {
         let device = &gpu.device;
@@ -82,14 +82,14 @@ impl<'a> Program<'a> {
     }
 
     fn check<T>(&self, result: Result<T, DeviceError>) -> Result<T, DeviceError> {
-        result.inspect_err(|error| self.gpu.falls(error))
+        result.inspect_err(|error| self.gpu.mark_failed(error))
     }
 }
 
-/// Parts that one workgroup adds up: the threads of a device wait for memory, many at a time or one by one.
+/// Parts that one workgroup sums; many workgroups hide the latency of memory.
 const SHARE: usize = 4096;
 
-/// The sum of `count` parts from `first` on: into the place of the step, or the first; `add` to it.
+/// The pass that sums `count` parts from `first` on into the step's slot, or the first slot; with `add`, to its value.
 pub(super) fn total(
     device: &Device,
     parts: &wgpu::Buffer,
@@ -108,7 +108,7 @@ pub(super) fn total(
     vec![sums(device, parts, [first, count], to, [by_step, add])]
 }
 
-/// The pass that adds up partial sums, share by share.
+/// The pass that sums partial sums, share by share.
 fn sums(
     device: &Device,
     parts: &wgpu::Buffer,
@@ -124,7 +124,7 @@ fn sums(
     pass.with_slot(0).doing(count, 1, 1)
 }
 
-/// The pass of the albedo prior, which writes the gradient anew; nothing without a weight.
+/// The pass of the albedo prior, which overwrites the gradient; `None` without a weight.
 pub(super) fn prior(
     device: &Device,
     albedo: &Moved,

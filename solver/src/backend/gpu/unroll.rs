@@ -1,9 +1,8 @@
-//! Loops that are written out before WGSL is compiled.
+//! Unrolling of loops before WGSL is compiled.
 //!
-//! Arrays that a loop's variable indexes end up in memory where a driver does not unroll the loop, and
-//! drivers differ in that. `#for j in 0..W` up to `#end`, each on a line of its own, is repeated for every
-//! value of j, with `reversed` at its end from the last to the first; bounds are numbers or names of
-//! constants.
+//! Some drivers do not unroll loops, and then arrays with a loop's index are in memory. `#for j in 0..W` up to `#end`,
+//! each on its own line, is repeated for every value of j; with `reversed` at the end of the line, from the last to the
+//! first. Bounds are numbers or names of constants.
 
 /// `source` without loops of this kind.
 pub(super) fn unrolled(source: &str, constants: &[(&str, u32)]) -> String {
@@ -39,7 +38,7 @@ fn expand(lines: &[String], constants: &[(&str, u32)], out: &mut String) {
         }
         for value in values {
             let with = |line: &String| replaced(line, words[0], &format!("{value}u"));
-            // In a block of its own, for the sake of its variables.
+            // A separate block scopes its variables.
             out.push_str("{\n");
             expand(&body.iter().map(with).collect::<Vec<_>>(), constants, out);
             out.push_str("}\n");

@@ -16,7 +16,6 @@ use glam::{Vec2, Vec3};
 
 use super::*;
 use crate::backend::cpu::Cpu;
-use crate::config::TextureSize;
 use crate::model::samples::Samples;
 use crate::run::progress::Options;
 use crate::solve::{solve_into, solve_on};
@@ -25,18 +24,10 @@ use crate::testing;
 use crate::{Config, Solution};
 
 fn small() -> UnshadeConfig {
-    let mut config = UnshadeConfig::default();
-    config.maps.texture_size = TextureSize::Side(64);
-    config.regions.texture_size = 32;
-    config.transport.texture_size = 32;
-    config.transport.rows = 8;
-    config.light.steps = 200;
-    config.joint.grey_steps = 100;
-    config.joint.steps = 50;
-    config.albedo.steps = 40;
-    config.relief.linearisations = 1;
-    config.relief.steps = 80;
-    config
+    match Config::from_toml(include_str!("../../../tests/small.toml")).unwrap() {
+        Config::Unshade(config) => config,
+        Config::Paper(_) => unreachable!("the file configures the default method"),
+    }
 }
 
 /// Samples of two small views.

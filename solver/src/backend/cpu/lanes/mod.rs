@@ -1,7 +1,7 @@
 //! Vectors of floats with one meaning and several widths.
 //!
-//! A vector type is only ever used inside functions that are entered after its instruction set was
-//! found (see [`super::Level`]); that is what makes the intrinsics sound.
+//! A vector type is used only inside functions that are entered after its instruction set was detected (see
+//! [`super::Level`]), which makes the intrinsics sound.
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod intrinsics;
@@ -17,9 +17,9 @@ pub use x86::{Avx2, Avx512};
 
 use crate::model::planes::{BLOCK, Row};
 
-/// Work that is written once for vectors of any width.
+/// A computation for vectors of any width.
 pub trait Task {
-    /// Does it.
+    /// Runs the computation.
     fn run<S: Lanes>(self);
 }
 
@@ -27,8 +27,7 @@ pub trait Task {
 pub trait Lanes: Copy {
     /// Number of floats; divides the block's length.
     const WIDTH: usize;
-    /// Does a task in a function of its own: there the compiler keeps a loop's sums in registers, whatever the
-    /// caller does besides.
+    /// Runs a task in a separate function, where the compiler keeps a loop's sums in registers.
     fn out_of_line(task: impl Task);
     /// All lanes `x`.
     fn splat(x: f32) -> Self;
@@ -59,7 +58,7 @@ pub trait Lanes: Copy {
     fn max(self, b: Self) -> Self;
     /// The smaller one; `b` if either is NaN.
     fn min(self, b: Self) -> Self;
-    /// Without its sign.
+    /// The absolute value.
     fn abs(self) -> Self;
     /// Nearest integer.
     fn round(self) -> Self;
@@ -75,16 +74,16 @@ pub trait Lanes: Copy {
 #[inline(always)]
 pub fn exp<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
     for x in &mut x {
-        // In this order a NaN passes through, so that a diverged solve shows in its loss.
+        // This order preserves a NaN, so that the loss of a diverged solve is NaN.
         *x = S::splat(88.0).min(*x);
     }
     exp_below(x)
 }
 
-/// [`exp`] in plain operations, which a compiler makes vectors of.
+/// [`exp`] in plain operations, which the compiler vectorises.
 #[inline(always)]
 pub fn exp_plain(x: f32) -> f32 {
-    /// Adding it leaves no bits for a fraction, and an integer in the lowest bits.
+    /// Its addition rounds to an integer, in the lowest bits.
     const SHIFT: f32 = 12_582_912.0;
     let x = x.clamp(LEAST, 88.0);
     let shifted = x * std::f32::consts::LOG2_E + SHIFT;
@@ -94,18 +93,17 @@ pub fn exp_plain(x: f32) -> f32 {
     f32::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 23))
 }
 
-/// Below, e^x stays what it is here, 4e-18: it changes no sum, but its products with gradients would be
-/// subnormal, which some processors take a hundred times as long for.
+/// Least argument, with e^x = 4e-18: smaller values change no sum, but their products with gradients would be
+/// subnormal, which take some processors a hundred times as long.
 const LEAST: f32 = -40.0;
-/// ln 2 in two parts, the first with so few bits that its product with an exponent is exact.
+/// ln 2 in two parts; the first has few bits, so that its product with an exponent is exact.
 const LN_2: f32 = 0.693_359_4;
 const REST_OF_LN_2: f32 = 2.121_944_4e-4;
-/// 1 + r + r^2 p(r) with the p that has the least largest error on |r| <= ln 2 / 2: 1.1e-8; the highest
-/// power first.
+/// 1 + r + r^2 p(r) with the minimax polynomial p on |r| <= ln 2 / 2, with an error of 1.1e-8; the highest power first.
 const EXP_FIRST: f32 = 0.001_394_111_3;
 const EXP: [f32; 6] = [0.008_363_175, 0.041_666_374, 0.166_665_76, 0.5, 1.0, 1.0];
 
-/// [`exp`] of what is not above 88.
+/// [`exp`] of arguments up to 88.
 #[inline(always)]
 fn exp_below<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
     let mut n = x;
@@ -126,8 +124,7 @@ fn exp_below<S: Lanes, const N: usize>(mut x: [S; N]) -> [S; N] {
     sums
 }
 
-/// Goes on with polynomials: sum x + factor for every factor. Vectors that wait for their last sum take
-/// turns.
+/// Horner's method: sum x + factor for every factor. Interleaved vectors hide the latency.
 #[inline(always)]
 fn horner<S: Lanes, const N: usize>(sums: &mut [S; N], x: &[S; N], factors: &[f32]) {
     for factor in factors {
@@ -151,7 +148,7 @@ pub fn softplus<S: Lanes, const N: usize>(x: [S; N]) -> ([S; N], [S; N]) {
     for slope in &mut slopes {
         *slope = one.add(*slope).reciprocal();
     }
-    // log(1 + e) / e on 0 to 1, with the least largest relative error: 3.3e-8.
+    // log(1 + e) / e on 0 to 1, with a minimax relative error of 3.3e-8.
     let mut sums = [S::splat(0.005_364_822_7); N];
     let factors = [
         -0.030_065_786,
@@ -171,7 +168,7 @@ pub fn softplus<S: Lanes, const N: usize>(x: [S; N]) -> ([S; N], [S; N]) {
     (sums, slopes)
 }
 
-/// Plain arrays, left to the compiler.
+/// Plain arrays, which the compiler vectorises.
 #[derive(Clone, Copy)]
 pub struct Portable(pub [f32; 8]);
 
@@ -214,7 +211,7 @@ impl Lanes for Portable {
     #[inline(always)] fn min(self, b: Self) -> Self { zip(self, b, |a, b| if a < b { a } else { b }) }
     #[inline(always)] fn abs(self) -> Self { zip(self, self, |a, _| a.abs()) }
     #[inline(always)] fn round(self) -> Self {
-        // Adding 1.5 * 2^23 leaves no bits for the fraction.
+        // The addition of 1.5 * 2^23 rounds to an integer.
         zip(self, self, |a, _| (a + 12_582_912.0) - 12_582_912.0)
     }
     #[inline(always)] fn scale(self, n: Self) -> Self {
@@ -233,7 +230,7 @@ impl Lanes for Portable {
 mod tests {
     use super::*;
 
-    /// The portable lanes stand for all: the other widths are compared with them as whole kernels.
+    /// Only portable lanes are tested here: the kernels of other widths are compared with them.
     #[test]
     fn exp_and_softplus_are_accurate_and_their_derivatives_match() {
         let (mut worst_exp, mut worst_softplus, mut worst_slope) = (0.0f64, 0.0f64, 0.0f64);
