@@ -80,7 +80,7 @@ struct Downwards<'a> {
 }
 
 impl<'a> Downwards<'a> {
-    /// With a kernel as [`convolve`] takes it.
+    /// Starts with the kernel of [`convolve`].
     fn new(kernel: &'a [f32], shape: Shape) -> Self {
         let reach = kernel.len() - 1;
         let length = (shape.width * shape.channels).next_multiple_of(TILE);

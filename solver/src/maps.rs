@@ -87,17 +87,17 @@ impl Snapshot {
         Self { stage: stage.to_owned(), ..Self::default() }
     }
 
-    /// With a diffuse albedo of side `size`.
+    /// Adds a diffuse albedo of side `size`.
     pub fn diffuse(self, texture: &[f32], size: usize) -> Self {
         Self { diffuse: Some(Small::of(texture, 3, size)), ..self }
     }
 
-    /// With a specular albedo of side `size`.
+    /// Adds a specular albedo of side `size`.
     pub fn specular(self, texture: &[f32], size: usize) -> Self {
         Self { specular: Some(Small::of(texture, 1, size)), ..self }
     }
 
-    /// With a deviation of the specular normal of side `size`.
+    /// Adds a deviation of the specular normal of side `size`.
     pub fn deviation(self, texture: &[f32], size: usize) -> Self {
         Self { deviation: Some(Small::of(texture, 3, size)), ..self }
     }

@@ -31,12 +31,12 @@ impl Camera {
     }
 
     /// World point to (column, row, depth): pixels, and metres along the optical axis. The depth
-    /// is positive in front of the camera; elsewhere the pixel means nothing.
+    /// is positive in front of the camera; behind it the pixel is undefined.
     pub fn project(&self, point: Vec3) -> Vec3 {
         self.project_local(self.world_to_camera().transform_point3(point))
     }
 
-    /// As [`Camera::project`], of a point in the camera's axes.
+    /// [`Camera::project`] of a point in the camera's axes.
     pub fn project_local(&self, local: Vec3) -> Vec3 {
         let depth = -local.z;
         Vec3::new(

@@ -29,7 +29,7 @@ impl Mesh {
         Self::open_with_parts(path).map(|(mesh, _)| mesh)
     }
 
-    /// As [`Mesh::open`], with the materials or objects that its triangles belong to.
+    /// [`Mesh::open`], with the material or object of each triangle.
     pub(crate) fn open_with_parts(path: &Path) -> Result<(Self, Parts), CaptureError> {
         let bytes = std::fs::read(path).map_err(|error| CaptureError::Read {
             path: path.to_path_buf(),

@@ -145,24 +145,24 @@ pub struct TexturedNormals<'a> {
     pub textures: &'a PackedDeviations,
 }
 
-/// Loss and gradients by [`Backend::joint`].
+/// The loss and the gradients of [`Backend::joint`].
 #[derive(Clone, Debug)]
 pub struct JointGradient {
     /// The data term.
     pub loss: f64,
-    /// By network parameter.
+    /// Gradient with respect to the parameters of the networks.
     pub networks: Vec<f32>,
-    /// By sampled albedo, [`ALBEDOS`] rows.
+    /// Gradient with respect to the sampled albedos, [`ALBEDOS`] rows.
     pub albedo: Planes,
 }
 
-/// Loss and gradients by [`Backend::joint_textures`].
+/// The loss and the gradients of [`Backend::joint_textures`].
 #[derive(Clone, Debug)]
 pub struct TexturedJointGradient {
     /// The data term.
     pub loss: f64,
-    /// By network parameter.
+    /// Gradient with respect to the parameters of the networks.
     pub networks: Vec<f32>,
-    /// By texel, [`ALBEDOS`] values each.
+    /// Gradient with respect to the albedos, [`ALBEDOS`] values per texel.
     pub albedo: Vec<f32>,
 }

@@ -29,7 +29,7 @@ pub enum Job<'a> {
     },
     /// Optimises one of the albedos, in which the model is linear.
     Layer {
-        /// From texels to pixels.
+        /// The texels of each pixel.
         taps: &'a Taps,
         /// Rows: the target R, G, B minus the other layer; the weight; and the shading of this layer, R, G, B for the
         /// diffuse albedo, one value for the specular albedo.
@@ -46,7 +46,7 @@ pub enum Job<'a> {
 pub struct NormalsJob<'a> {
     /// The pixels.
     pub samples: &'a Samples,
-    /// From the deviation texture to directions.
+    /// The map from the deviation texture to directions.
     pub deviation: &'a Deviation,
     /// Frozen.
     pub networks: &'a Networks,
@@ -98,7 +98,7 @@ pub trait Resident {
 /// The normal equations A x = b of `unshade/height_solve.rs`. The unknowns are a height and three changes of the albedo
 /// per texel.
 pub struct NormalEquations<'a> {
-    /// From texels to pixels.
+    /// The texels of each pixel.
     pub taps: &'a Taps,
     /// Derivatives of a sample's colour with respect to the specular deviation (3 rows), the diffuse deviation (3 of R,
     /// then of G and B) and the albedo (R, G, B).
@@ -111,7 +111,7 @@ pub struct NormalEquations<'a> {
     pub x: &'a [f32],
     /// Derivatives of the deviation with respect to the height's difference to the right, and downwards.
     pub basis: [&'a [Vec3]; 2],
-    /// From the specular deviation to the diffuse one.
+    /// The blur from the specular deviation to the diffuse one.
     pub blur: &'a Blur,
     /// Weight of the squared deviation.
     pub flatness: f32,

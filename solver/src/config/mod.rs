@@ -26,7 +26,7 @@ const PRESETS: [(&str, &str); 4] = [
     ("paper-tuned", include_str!("paper-tuned.toml")),
 ];
 
-/// How a capture is decomposed: the method, and every value of it.
+/// The method of a solve with all of its values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "base", rename_all = "lowercase")]
 pub enum Config {

@@ -6,7 +6,7 @@ use super::error::ConfigError;
 
 /// The range of a number.
 enum Range {
-    /// From the first to the second number.
+    /// Between the two numbers, both included.
     Within(f64, f64),
     /// Above the first number, up to the second.
     Above(f64, f64),

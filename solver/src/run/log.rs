@@ -17,7 +17,7 @@ pub(super) struct Log {
     pub seconds: Vec<(String, f64)>,
 }
 
-/// Where the caller stopped the solve.
+/// The step at which the caller interrupted the solve.
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub stage: String,

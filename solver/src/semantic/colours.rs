@@ -96,8 +96,8 @@ struct Under {
 }
 
 impl Under {
-    /// From the start that leaves the smaller sum of [`residuals`]: the pictures' colours, or these under one
-    /// reflectance.
+    /// Fits from two starts, the pictures' colours and these under one reflectance; returns the fit with the smaller sum of
+    /// [`residuals`].
     fn cells(chart: &Chart, config: &ColourSettings, under_one: &[Vec3]) -> Option<Self> {
         let from = |start: &[Vec3]| {
             let (regions, albedo) = by_cells(chart, config, start)?;

@@ -20,7 +20,7 @@ pub(super) struct Explanation<'a> {
     pub is_skin: Vec<bool>,
     /// The label of skin, and an unused one.
     pub skin_and_free: [u8; 2],
-    /// With these labels.
+    /// The fit with these labels.
     pub before: Explained,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Explanation<'a> {
         self.lamps.as_ref().map(|lamps| (lamps, self.is_skin.as_slice()))
     }
 
-    /// With some labels.
+    /// Fits the light to some labels.
     pub fn with(&self, labels: &[u8]) -> Explained {
         let albedo = match &self.lamps {
             None => self.chart.albedo(self.regions, &self.cells, labels),

@@ -36,7 +36,7 @@ pub(super) struct AlbedoEstimate {
 }
 
 /// Shading and highlights of the light on the relief, at samples.
-pub(super) struct Layers {
+pub(super) struct SampledLayers {
     /// S_d, R, G, B.
     pub shading: Planes,
     /// See [`Lighting::shading_with_derivative`].
@@ -45,7 +45,7 @@ pub(super) struct Layers {
     pub highlights: Planes,
 }
 
-impl Layers {
+impl SampledLayers {
     /// Evaluates the light on the normals of the relief and of its `blurred` deviation, both of the size of the
     /// samples' taps.
     pub fn new(
@@ -90,8 +90,8 @@ pub(super) fn fit_albedo(
 ) -> Result<AlbedoEstimate, SolveError> {
     let FullPictures { samples, face, regions } = *pictures;
     let size = samples.taps.size();
-    let Layers { shading, shading_with_derivative, highlights } =
-        Layers::new(run, lighting, &joint.terms, relief, &relief.blurred(), samples);
+    let SampledLayers { shading, shading_with_derivative, highlights } =
+        SampledLayers::new(run, lighting, &joint.terms, relief, &relief.blurred(), samples);
     let target = Planes::from_fn::<CHANNELS>(samples.len(), |i| {
         std::array::from_fn(|c| samples.target.get(c, i) - highlights.get(c, i))
     });

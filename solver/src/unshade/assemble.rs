@@ -7,7 +7,7 @@ use formats::cancel;
 use formats::maps::Maps;
 use formats::picture::Picture;
 
-use super::albedo::{AlbedoEstimate, Layers};
+use super::albedo::{AlbedoEstimate, SampledLayers};
 use super::light::JointEstimate;
 use super::lighting::Lighting;
 use super::region_terms::RegionTerms;
@@ -30,7 +30,7 @@ pub(super) struct Estimates<'a> {
     /// Its terms have the usual lobes, which belong to the light: it has absorbed a part of the difference to the
     /// measured roughness. Views use these.
     pub joint: &'a JointEstimate,
-    /// With the measured roughness, for the maps.
+    /// The terms with the measured roughness, for the maps.
     pub measured_terms: &'a RegionTerms,
     pub relief: Relief,
     pub final_albedo: AlbedoEstimate,
@@ -70,7 +70,7 @@ pub(super) fn assemble(
         cancel::check();
         let gbuffer = GBuffer::new(mesh, camera, None);
         let samples = scene.space.withheld(&gbuffer, size);
-        let layers = Layers::new(run, lighting, &joint.terms, &relief, &blurred, &samples);
+        let layers = SampledLayers::new(run, lighting, &joint.terms, &relief, &blurred, &samples);
         let albedo = samples.taps.sample::<CHANNELS>(&diffuse);
         let channels = ViewLayers::CHANNELS.len();
         let mut picture = Picture::new(camera.width, camera.height, channels);

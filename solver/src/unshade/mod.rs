@@ -101,8 +101,9 @@ pub(crate) fn solve(
     drop(coarse_samples);
     let lighting = Lighting::new(config, &near, &coarse_regions, &light, &joint);
 
-    let relief = run.stage_from("relief", Relief::none(scene.size), |run, name, _| {
-        fit_relief(run, name, &config.relief, &scene, &lighting, &joint)
+    let relief = run.stage("relief", |run, name| match run.is_interrupted() {
+        true => Ok(Relief::none(scene.size)),
+        false => fit_relief(run, name, &config.relief, &scene, &lighting, &joint),
     })?;
     let full_samples = scene.samples(None, scene.size);
     let full_regions = face.region_map(&scene, scene.size);

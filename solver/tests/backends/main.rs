@@ -62,7 +62,7 @@ const OWN: [(&str, OnAdapter); 6] = [
     ("a device lost before everything leaves everything to the processor", lost::before),
 ];
 
-/// Where the GPU's tests run.
+/// The adapter of the GPU's tests.
 static ADAPTER: LazyLock<Option<Adapter>> = LazyLock::new(|| match std::env::var(VARIABLE) {
     // An interpreter has no drivers.
     _ if cfg!(miri) => None,

@@ -16,7 +16,7 @@ use super::{FolderError, partial_path, place, with_suffix};
 /// the two is whole. What a cut left is put in order by the next [`Folder::begin`].
 #[derive(Debug)]
 pub struct Folder {
-    /// As the user names it.
+    /// The path as the user wrote it.
     named: PathBuf,
     target: PathBuf,
     partial: PathBuf,
@@ -41,8 +41,7 @@ impl Folder {
         Self::resume(target, "")
     }
 
-    /// As [`Folder::begin`], but an interrupted attempt with the same `key`, which is not empty, is
-    /// taken up with the files it has.
+    /// [`Folder::begin`] that keeps the files of an interrupted attempt with the same non-empty `key`.
     pub fn resume(target: &Path, key: &str) -> Result<Self, FolderError> {
         place::not_current(target)?;
         // A link stays and its folder is replaced.

@@ -24,7 +24,7 @@ pub fn read_exr_colour(path: &Path, names: &[&str]) -> Result<Picture, PictureEr
     finite(read_exr_unchecked(path, names, Content::Colour)?, path, names)
 }
 
-/// As [`read_exr`] or [`read_exr_colour`], with whatever NaN and infinities there are.
+/// [`read_exr`] or [`read_exr_colour`] that accepts NaN and infinities.
 pub fn read_exr_unchecked(
     path: &Path,
     names: &[&str],
@@ -43,7 +43,7 @@ pub fn read_colour(path: &Path) -> Result<Picture, PictureError> {
     finite(read_colour_unchecked(path)?, path, &RGB)
 }
 
-/// As [`read_colour`], with whatever NaN and infinities there are.
+/// [`read_colour`] that accepts NaN and infinities.
 pub fn read_colour_unchecked(path: &Path) -> Result<Picture, PictureError> {
     let bytes = kind::bytes_of(path)?;
     if kind::is_radiance(&bytes) {

@@ -17,7 +17,7 @@ const FLOPS_PER_ROUND: usize = 32;
 pub struct Ceilings {
     /// Multiply-adds as two operations, per second.
     pub flops: f64,
-    /// From and to memory, per second.
+    /// Bytes from and to memory, per second.
     pub bytes: f64,
 }
 

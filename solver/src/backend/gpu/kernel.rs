@@ -76,7 +76,7 @@ impl Kernel {
     }
 }
 
-/// How the slots of a step are bound.
+/// The layout of the bindings of a step's slots.
 pub(super) fn slot_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("slots"),

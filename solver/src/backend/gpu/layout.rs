@@ -97,7 +97,7 @@ impl Layout {
         16 * rows * (TILE + 1) + 4 * TILE
     }
 
-    /// From the order of the parameters to that of the blocks; zeros where there are none.
+    /// Reorders parameters into blocks, padded with zeros.
     pub fn pack(&self, parameters: &[f32]) -> Vec<f32> {
         let mut packed = vec![0.0; 4 * self.vectors()];
         self.place

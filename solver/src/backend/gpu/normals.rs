@@ -85,7 +85,7 @@ struct Chart<'a> {
 }
 
 impl Chart<'_> {
-    /// From the texture to the deviation d.
+    /// The passes from the texture to the deviation d.
     fn forth(&self, texture: &wgpu::Buffer, d: &wgpu::Buffer) -> Vec<Pass> {
         let parts = self.deviation.parts();
         let band = self.device.floats("band", self.count);
@@ -98,7 +98,7 @@ impl Chart<'_> {
         passes
     }
 
-    /// From gradients by d and by its blur to the gradient by the texture.
+    /// The adjoint passes: from the gradients with respect to d and its blur to the gradient with respect to the texture.
     fn back(
         &self,
         d: &wgpu::Buffer,

@@ -17,7 +17,7 @@ const SLOT: usize = 256;
 pub(super) struct Work {
     /// Floating-point operations, a multiply-add being two.
     pub flops: f64,
-    /// From and to memory, every value read once and written once.
+    /// Bytes from and to memory, every value read once and written once.
     pub bytes: f64,
 }
 

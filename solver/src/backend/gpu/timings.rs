@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-/// Times of the dispatches of one name, and the work that they cannot do without.
+/// The times of the dispatches of one name, and their least work.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
-    /// On the device.
+    /// Time on the device.
     pub milliseconds: f64,
-    /// How many there were.
+    /// The number of dispatches.
     pub dispatches: usize,
     /// Floating-point operations, a multiply-add being two.
     pub flops: f64,
-    /// From and to memory, every value read once and written once.
+    /// Bytes from and to memory, every value read once and written once.
     pub bytes: f64,
 }
 
-/// By the name of the pass.
+/// The times of passes by name.
 pub type Timings = BTreeMap<&'static str, PassTime>;

@@ -21,7 +21,7 @@ enum Fault {
     None,
     /// A stripe across all of them is brighter by this factor.
     Stripe(f32),
-    /// Where the mesh ends, they see half of what is behind it.
+    /// Pixels at silhouettes mix the mesh with the background.
     Mixed,
 }
 
