@@ -121,6 +121,27 @@ def test_scales_change_the_sheen_and_nothing_else(small):
     assert FaceSpec.from_table(scaled.spec.to_table()) == scaled.spec
 
 
+def test_small_maps_are_the_average_of_large_ones(faces, small):
+    """A map of 128 texels holds what four by four texels of one of 512 hold in the mean; of hair too, strand by strand."""
+    large, small = faces["natural"].maps, small.maps
+    inner = large.inside.reshape(128, 4, 128, 4).all(axis=(1, 3)) & small.inside
+    for name, error, bias in (
+        ("diffuse_albedo", 0.06, 0.01),
+        ("specular_albedo", 0.06, 0.01),
+        ("roughness", 0.03, 0.005),
+    ):
+        values = getattr(small, name).reshape(128, 128, -1)
+        mean = getattr(large, name).reshape(128, 4, 128, 4, -1).mean(axis=(1, 3))
+        for where, limit in ((inner, bias), (inner & (small.labels == Label.SCALP), 3 * bias)):
+            level, difference = values[where].mean(), (mean - values)[where]
+            assert np.abs(difference).mean() < error * level, name
+            assert abs(difference.mean()) < limit * level, name
+    mean = large.specular_normal.reshape(128, 4, 128, 4, 3).mean(axis=(1, 3))
+    cosine = (mean / np.linalg.norm(mean, axis=2, keepdims=True) * small.specular_normal).sum(axis=2)[inner]
+    # What is finer than the small map's texels is in the large one alone.
+    assert np.median(np.degrees(np.arccos(np.clip(cosine, -1, 1)))) < 2.5
+
+
 def test_paint_goes_on_across_the_rim_of_the_chart(faces):
     """Along the rim the chart and the rest of the head have the same albedo, gloss and hair."""
     face = faces["natural"]
@@ -167,6 +188,6 @@ def test_strands_are_as_long_and_cover_as_much_as_they_should(flat):
     # Texels are 0.4 mm wide and 0.2 mm high, and rows go down.
     end = (paths[:, -1] - paths[:, 0]) * [0.4, -0.2]
     np.testing.assert_allclose(end, np.broadcast_to([1.8, 2.4], end.shape), atol=1e-5)
-    layers, tone = field.draw([Strands(paths, np.full(80, 0.15), np.full(80, 0.7))], taper=0.0)
+    layers, tone = field.draw(Strands(paths, np.full(80, 0.15), np.full(80, 0.7)), taper=0.0)
     assert layers.sum() * 0.4 * 0.2 == pytest.approx(80 * 3.0 * 0.15, rel=0.1)
     np.testing.assert_allclose(tone[layers > 0], 0.7, rtol=1e-5)

@@ -48,8 +48,13 @@ def write_meshes(folder: Path, surface: Surface, parts: Sequence[Part]) -> list[
 def write_part(folder: Path, part: Part) -> dict[str, Any]:
     """One of the other parts of a head."""
     shape = {"vertices": part.vertices, "normals": part.normals, "triangles": part.triangles}
+    material: dict[str, Any]
+    if part.texture is not None:
+        names = ("diffuse", "specular", "diffuse_normal", "specular_normal", "roughness")
+        material = {name: _picture(folder / f"{part.name}_{name}.exr", getattr(part.texture, name)) for name in names}
+        return _mesh(folder, part.name, material, **shape, uv=part.texture.uv)
     if part.uv is None:
-        material: dict[str, Any] = {name: {"attribute": name} for name in ("diffuse", "specular")}
+        material = {name: {"attribute": name} for name in ("diffuse", "specular")}
         return _mesh(
             folder,
             part.name,

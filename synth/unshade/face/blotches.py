@@ -17,7 +17,7 @@ from .regions import Regions, pair
 from .spec import FaceSpec, stream
 
 _COARSE_MM = {26.0: (0.050, 0.016), 13.0: (0.054, 0.016), 6.5: (0.044, 0.013)}
-_FINE_MM = {3.2: (0.026, 0.012), 1.6: (0.022, 0.012), 0.9: (0.022, 0.012)}
+_FINE_MM = {3.2: (0.026, 0.012), 1.6: (0.022, 0.012), 0.9: (0.022, 0.012), 0.45: (0.018, 0.010), 0.23: (0.012, 0.007)}
 """Standard deviations in log luminance at each wavelength: of what melanin and blood do together, and of what each does
 alone. In a photographed face one direction of colour holds nine tenths of the variance at every scale."""
 

@@ -45,8 +45,8 @@ def character(spec: FaceSpec) -> Character:
     return Character(
         specular=even("specular factor", *SPECULAR_FACTORS),
         roughness=even("roughness factor", *ROUGHNESS_FACTORS),
-        mottle=even("mottle", 0.8, 1.5),
-        redness=even("redness", 0.7, 1.4),
+        mottle=even("mottle", 0.65, 1.15),
+        redness=even("redness", 0.6, 1.2),
         relief=even("relief factor", 0.8, 1.3),
         beard=str(beards.choice(list(BEARDS), p=_BEARD_PROBABILITIES)) if spec.gender > 0.6 else "shaven",
     )

@@ -51,13 +51,18 @@ def scalp_colour(points: np.ndarray, style: HairStyle, spec: FaceSpec) -> np.nda
 
 
 def draw_hairs(
-    field: Field, points: np.ndarray, grounds: list[Ground], style: HairStyle, person: Character, spec: FaceSpec
+    field: Field,
+    points: np.ndarray,
+    grounds: list[Ground],
+    texel: float,
+    style: HairStyle,
+    person: Character,
+    spec: FaceSpec,
 ) -> Hairs:
-    """Strands over the texels, at template points (M,3) mm, rooted in `grounds`."""
-    layers, tone = field.draw([_scalp_hair(field, ground, style, spec) for ground in grounds])
+    """Strands over the texels of `texel` mm, at template points (M,3) mm, rooted in `grounds`."""
+    cover, tone = field.cover([_scalp_hair(field, ground, style, spec) for ground in grounds], 1.3, texel)
     beard = [_beard(field, ground, style, person, spec) for ground in grounds]
-    beard_layers, beard_tone = field.draw(beard)
-    return Hairs(1 - np.exp(-1.3 * layers), tone * lock_tone(points, spec.seed), 1 - np.exp(-beard_layers), beard_tone)
+    return Hairs(cover, tone * lock_tone(points, spec.seed), *field.cover(beard, 1.0, texel))
 
 
 def _scalp_hair(field: Field, ground: Ground, style: HairStyle, spec: FaceSpec) -> Strands:
@@ -68,6 +73,9 @@ def _scalp_hair(field: Field, ground: Ground, style: HairStyle, spec: FaceSpec) 
     turns = rng.normal(0, 0.16, (count, 1)) + np.cumsum(rng.normal(0, 0.07, (count, 8)), axis=1)
     shade = np.exp(rng.normal(0, _TONES, count)) * np.where(rng.random(count) < 0.8 * style.grey, _GREYER, 1.0)
     length, width = rng.uniform(8, 24, count), rng.uniform(*_WIDTH_MM, count)
+    # Hair at its line is finer and shorter than behind it, and stands alone.
+    thick = scalp_cover(field.at(roots), style, spec.seed)
+    length, width = length * (0.55 + 0.45 * thick), width * (0.45 + 0.55 * thick)
     return field.strands(roots, length, _combed(stream(spec.seed, "comb")), turns, width, shade)
 
 

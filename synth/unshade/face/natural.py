@@ -15,7 +15,7 @@ from .character import Character, character
 from .hair import HairStyle
 from .locks import Hairs, draw_hairs
 from .noise import octaves, smooth_noise
-from .regions import Regions
+from .regions import Regions, smoothstep
 from .roughness import HIGH, LOW, NOMINAL
 from .skin import SPECULAR_LIMIT, Pigments
 from .spec import FaceSpec, stream
@@ -24,8 +24,24 @@ from .strands import Field
 from .texels import Texels
 from .vessels import VEIN_COLOUR, draw_vessels
 
-_UNDULATION = ((22.0, 0.36), (9.0, 0.10), (4.5, 0.055), (2.2, 0.030), (1.1, 0.012))
+_UNDULATION = (
+    (22.0, 0.24),
+    (9.0, 0.07),
+    (4.5, 0.04),
+    (2.2, 0.028),
+    (1.1, 0.014),
+    (0.55, 0.008),
+    (0.28, 0.005),
+    (0.16, 0.003),
+)
 """Wavelength and standard deviation of the added unevenness, mm."""
+
+_LIP_FURROWS = ((2.2, 0.050), (1.1, 0.030), (0.5, 0.012))
+"""Distance and depth (mm) of the upright furrows of the lips, from the large ones to the lines between them."""
+
+_MOIST = np.float32([0.09, 0.20, 0.68])
+_MOIST_SPECULAR = 0.010
+"""Lobes of moist lips, and what moisture adds to their specular albedo."""
 
 _STRAND_MM, _WHISKER_MM = 0.10, 0.06
 """Height of hair over the skin that it lies on."""
@@ -36,7 +52,8 @@ class Natural:
     """Layers over the texels (M,) of the chart.
 
     `melanin`, `blood`: factors on the pigments; `height` mm; `veins` 0 to 1; `hairs`; `lines`:
-    dark lines of the lips, log luminance; `sheen`: log of what the specular albedo varies by.
+    dark lines of the lips, log luminance; `sheen`: log of what the specular albedo varies by; `moisture` of the lips, 0
+    to 1.
     """
 
     person: Character
@@ -47,6 +64,7 @@ class Natural:
     hairs: Hairs
     lines: np.ndarray
     sheen: np.ndarray
+    moisture: np.ndarray
 
     def pigments(self, base: Pigments, fade: np.ndarray) -> Pigments:
         """Uneven pigments; `fade` (M,) is 0 at the chart's outer rim, where the rest of the head takes over."""
@@ -67,11 +85,13 @@ class Natural:
         """Specular albedo (M,) of this person; sheen of hair is a third of skin's."""
         hair = np.maximum(self.hairs.cover, self.hairs.beard_cover)
         own = values * np.exp(fade * self.sheen) * (1 - 0.6 * hair)
-        return np.clip(self.person.specular * own, 0, SPECULAR_LIMIT).astype(np.float32)
+        own = self.person.specular * own + np.float32(_MOIST_SPECULAR) * self.moisture
+        return np.clip(own, 0, SPECULAR_LIMIT).astype(np.float32)
 
     def roughness(self, lobes: np.ndarray, fade: np.ndarray) -> np.ndarray:
         """Lobes (M,3) of this person, the standard ones at the outer rim."""
         own = lobes * np.float32([self.person.roughness, self.person.roughness, 1])
+        own += self.moisture[:, None] * (_MOIST - own)
         own = np.clip(own, np.float32(LOW) * np.float32([0.7, 0.7, 1]), np.float32(HIGH) * np.float32([1.2, 1.2, 1]))
         return (np.float32(NOMINAL) + fade[:, None] * (own - np.float32(NOMINAL))).astype(np.float32)
 
@@ -95,7 +115,7 @@ def draw_natural(
     melanin, blood = draw_fine(regions.points, texel, spec, (person.mottle, person.redness))
     spots = draw_spots(regions.points, texels, canvas.sites, canvas.uv, texel, spec)
     threads, veins = draw_vessels(field, grounds[-1], texel, spec)
-    hairs = draw_hairs(field, regions.points, grounds, style, person, spec)
+    hairs = draw_hairs(field, regions.points, grounds, texel, style, person, spec)
     # Pores hold sebum that has gone dark.
     melanin = melanin + edge * spots.melanin + np.float32(0.12) * np.clip(pores, 0, 1)
     height = edge * spots.height + _STRAND_MM * hairs.cover + _WHISKER_MM * hairs.beard_cover
@@ -103,6 +123,7 @@ def draw_natural(
         if wavelength >= 2 * texel:
             bumps = smooth_noise(regions.points, wavelength, stream(spec.seed, "bumps", str(wavelength)))
             height = height + np.float32(person.relief * deviation) * (1 - 0.7 * regions.lips) * bumps
+    height += _lip_furrows(regions, texel, spec)
     return Natural(
         person=person,
         melanin=melanin_factor(melanin, spec),
@@ -112,7 +133,29 @@ def draw_natural(
         hairs=hairs,
         lines=_lip_lines(regions, texel, spec),
         sheen=np.float32(0.12) * octaves(regions.points, 12.0, 4, 2 * texel, stream(spec.seed, "specular patches")),
+        moisture=_lip_moisture(regions, texel, spec),
     )
+
+
+def _lip_furrows(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
+    """Height (M,) mm of the upright furrows of the lips: narrow grooves between full pads."""
+    height = np.zeros(len(regions.points), dtype=np.float32)
+    there = np.flatnonzero(regions.lips > 0)
+    upright = regions.points[there] * np.float32([1.0, 0.22, 0.5])
+    for distance, depth in _LIP_FURROWS:
+        if distance >= 2 * texel:
+            waves = smooth_noise(upright, distance, stream(spec.seed, "lip furrows", str(distance)))
+            height[there] -= np.float32(depth) * regions.lips[there] * np.exp(-((waves / np.float32(0.45)) ** 2))
+    return height
+
+
+def _lip_moisture(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:
+    """Moisture (M,) 0 to 1: most where the lips meet, and on the lower one; lips dry in patches."""
+    points, wet = regions.points, stream(spec.seed, "moisture").uniform(0.35, 0.75)
+    meet = np.exp(-0.5 * ((points[:, 1] + 66.6) / 3.0) ** 2)
+    patches = octaves(points, 6.0, 3, 2 * texel, stream(spec.seed, "moist patches"))
+    amount = wet * (0.55 + 0.25 * regions.lower_lip + 0.45 * meet + 0.16 * patches)
+    return (np.clip(amount, 0, 0.9) * smoothstep(0.15, 0.8, regions.lips)).astype(np.float32)
 
 
 def _lip_lines(regions: Regions, texel: float, spec: FaceSpec) -> np.ndarray:

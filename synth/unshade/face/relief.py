@@ -46,7 +46,9 @@ def draw_relief(
     height = -PORE_MM * fine.pores - FURROW_MM * rough * fine.furrows
     bare = (1 - regions.lips) * (1 - 0.85 * regions.upper_lid)
     height += 0.022 * rough * bare * octaves(regions.points, 3.0, 3, 2 * texel, stream(spec.seed, "grain"))
-    height += UNDULATION_MM * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
+    # Natural skin has undulations of its own at other scales.
+    undulation = UNDULATION_MM if spec.detail == "smooth" else 0.6 * UNDULATION_MM
+    height += undulation * octaves(regions.points, 9.0, 3, 2 * texel, stream(spec.seed, "undulation"))
     lips = regions.lips > 0
     height[lips] += _lip_creases(regions.points[lips], regions.lips[lips], texel, spec)
     folds = draw_folds(sketch, len(height), texel, spec) * (1 - regions.lips)

@@ -13,6 +13,9 @@ from .texels import Texels
 _STEP_TEXELS = 0.9
 """Largest distance of the points that stand for a strand's length."""
 
+_TELLING_MM = 0.33
+"""Side of the texels on which strands are told apart, where the texture's are larger."""
+
 _BATCH = 1 << 20
 """Points drawn at a time, to bound memory."""
 
@@ -55,6 +58,10 @@ class Field:
     def _at(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         cell = np.clip(places.astype(np.int64), 0, self.size - 1)
         return cell[:, 1], cell[:, 0]
+
+    def at(self, places: np.ndarray) -> np.ndarray:
+        """Template points (K,3) at places (K,2) in texels; any for those elsewhere."""
+        return self.points[self._at(np.nan_to_num(places))]
 
     def roots(self, per_cm2: float, weight: np.ndarray, ground: Ground, rng: np.random.Generator) -> np.ndarray:
         """Places (K,2) in texels, `per_cm2` strands on a square centimetre of the template where the `weight` (C,) is 1.
@@ -115,16 +122,37 @@ class Field:
         here = np.isfinite(roots[:, 0])
         return Strands(self.grow(roots[here], length[here], towards, turns[here]), width[here], tone[here])
 
-    def draw(self, groups: list[Strands], taper: float = 0.7) -> tuple[np.ndarray, np.ndarray]:
+    def draw(self, strands: Strands, taper: float) -> tuple[np.ndarray, np.ndarray]:
         """Layers (M,) of strands over each texel (1: covered once on average) and their mean tone (M,), 0 where there are none.
 
         Strands lose `taper` of their width on the way to the tip; a bilinear foot spreads each
         point over four texels.
         """
+        layers, tones = (picture[self.texels.inside] for picture in self._drawn([strands], taper, 1))
+        return layers.astype(np.float32), (tones / np.maximum(layers, 1e-9)).astype(np.float32)
+
+    def cover(self, groups: list[Strands], opacity: float, texel: float) -> tuple[np.ndarray, np.ndarray]:
+        """Share (M,) of each texel of `texel` mm that strands cover, of which one layer hides 1 - exp(-`opacity`), and the
+        mean tone (M,) of what covers it.
+
+        Strands that lie side by side in a coarse texel hide more of it than such that lie on one another, so they are
+        drawn on texels fine enough to tell them apart.
+        """
+        fine = max(1, round(texel / _TELLING_MM))
+        layers, tones = self._drawn(groups, 0.7, fine)
+        cover = 1 - np.exp(-opacity * layers)
+        tones = cover * tones / np.maximum(layers, 1e-9)
+        blocks = (self.size, fine, self.size, fine)
+        cover, tones = (picture.reshape(blocks).mean(axis=(1, 3))[self.texels.inside] for picture in (cover, tones))
+        return cover.astype(np.float32), (tones / np.maximum(cover, 1e-9)).astype(np.float32)
+
+    def _drawn(self, groups: list[Strands], taper: float, fine: int) -> np.ndarray:
+        """Layers and their summed tones (2,N,N) on a grid `fine` times as fine as the texels."""
+        side = fine * self.size + 2
         # A margin of a texel catches feet outside the picture.
-        layers, tones = np.zeros((2, (self.size + 2) ** 2))
+        layers, tones = np.zeros((2, side**2))
         for strands in groups:
-            pieces = np.linalg.norm(np.diff(strands.paths, axis=1), axis=2).max(axis=1, initial=0.0)
+            pieces = fine * np.linalg.norm(np.diff(strands.paths, axis=1), axis=2).max(axis=1, initial=0.0)
             # Strands of like length are drawn together, with as many points.
             order = np.argsort(pieces, kind="stable")
             start = 0
@@ -134,13 +162,15 @@ class Field:
                 part = order[start : start + most]
                 part = part[: np.searchsorted(pieces[part], max(1.25 * count, 2) * _STEP_TEXELS, side="right")]
                 count = max(count, int(np.ceil(pieces[part[-1]] / _STEP_TEXELS)))
-                self._splat(strands.paths[part], strands.width[part], strands.tone[part], count, taper, layers, tones)
+                self._splat(
+                    strands.paths[part], strands.width[part], strands.tone[part], count, taper, fine, layers, tones
+                )
                 start += len(part)
-        inner = np.pad(self.texels.inside, 1).ravel()
-        layers, tones = layers[inner], tones[inner]
-        return layers.astype(np.float32), (tones / np.maximum(layers, 1e-9)).astype(np.float32)
+        return np.stack([picture.reshape(side, side)[1:-1, 1:-1] for picture in (layers, tones)])
 
-    def _splat(self, paths, width, tone, count: int, taper: float, layers: np.ndarray, tones: np.ndarray) -> None:
+    def _splat(
+        self, paths, width, tone, count: int, taper: float, fine: int, layers: np.ndarray, tones: np.ndarray
+    ) -> None:
         """Adds strands, each of whose pieces is `count` points, to `layers` and `tones`."""
         ahead = np.diff(paths, axis=1)
         at = self._at((paths[:, :-1] + 0.5 * ahead).reshape(-1, 2))
@@ -149,18 +179,19 @@ class Field:
         length = np.linalg.norm(step[:, :1] * across + step[:, 1:] * down, axis=1)
         e, f, g = ((a * b).sum(axis=1) for a, b in ((across, across), (across, down), (down, down)))
         # Texels that each point stands for: its part of the strand over a texel's surface.
-        share = length / np.maximum(np.sqrt(np.maximum(e * g - f * f, 0)), 1e-9)
+        share = fine**2 * length / np.maximum(np.sqrt(np.maximum(e * g - f * f, 0)), 1e-9)
         fraction = (np.arange(count) + 0.5) / count
         along = (np.arange(ahead.shape[1])[:, None] + fraction) / ahead.shape[1]
         area = share.reshape(len(paths), -1, 1) * width[:, None, None] * (1 - taper * along**2)
-        places = paths[:, :-1, None] + fraction[:, None] * ahead[:, :, None] + 0.5
-        places = np.clip(places, 0, self.size + 0.999)
+        side = fine * self.size + 2
+        places = fine * (paths[:, :-1, None] + fraction[:, None] * ahead[:, :, None]) + 0.5
+        places = np.clip(places, 0, side - 1.001)
         corner = places.astype(np.int32)
         right, low = np.moveaxis(places - corner, -1, 0)
-        first = corner[..., 1] * (self.size + 2) + corner[..., 0]
+        first = corner[..., 1] * side + corner[..., 0]
         tone = np.broadcast_to(tone[:, None, None], first.shape)
         for dy, dx in ((0, 0), (0, 1), (1, 0), (1, 1)):
             amount = area * (right if dx else 1 - right) * (low if dy else 1 - low)
-            index = (first + (dy * (self.size + 2) + dx)).ravel()
+            index = (first + (dy * side + dx)).ravel()
             layers += np.bincount(index, amount.ravel(), minlength=layers.size)
             tones += np.bincount(index, (amount * tone).ravel(), minlength=layers.size)

@@ -29,11 +29,11 @@ def draw_vessels(field: Field, ground: Ground, texel: float, spec: FaceSpec) -> 
     red = (1.5 * sites.wings + sites.nose + 0.8 * sites.cheek) * (1 - sites.lips) * (1 - sites.lids)
     often = _THREADS[spec.fitzpatrick] * rng.uniform(0.2, 1.6) * (0.5 + spec.age)
     threads = _winding(field, field.roots(often, red, ground, rng), (2.0, 9.0), (0.12, 0.28), 0.5, rng)
-    layers, tone = field.draw([threads], 0.4)
+    layers, tone = field.draw(threads, 0.4)
     blue = (sites.temple + 0.35 * sites.forehead + 0.8 * sites.under_eye) * (1 - sites.lids)
     often = _VEINS[spec.fitzpatrick] * rng.uniform(0.3, 1.5)
     veins = _winding(field, field.roots(often, blue, ground, rng), (15.0, 40.0), (1.0, 2.0), 0.22, rng)
-    wide = smoothed(np.minimum(field.draw([veins], 0.3)[0], 1.5), field.texels, _VEIN_BLUR_MM / texel)
+    wide = smoothed(np.minimum(field.draw(veins, 0.3)[0], 1.5), field.texels, _VEIN_BLUR_MM / texel)
     return np.minimum(layers, 1.2) * tone, np.clip(wide, 0, 1).astype(np.float32)
 
 
