@@ -109,4 +109,4 @@ def relight(
     }
     write_json(folder.path / "relit.json", document)
     folder.commit()
-    meter.note("relit")
+    meter.finish("relit")

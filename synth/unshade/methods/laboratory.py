@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from ..camera.camera import Camera
+from ..files.array_store import ArrayStore
 from ..heads import build_head
 from ..render.layers import Layers
 from ..render.lights.point import Ball
 from ..render.meter import Meter
 from ..render.passes import seed_of
-from ..render.picture_store import PictureStore
 from ..render.rigs import cameras
 from ..render.scene import ChartMaps
 from ..render.shots import Shots
@@ -54,7 +54,7 @@ class Laboratory:
 
     def _shots(self, samples: int) -> Shots:
         render = replace(self._scene.render, samples=samples)
-        return Shots(self._face, ChartMaps.truth(self._face), render, PictureStore.of_user())
+        return Shots(self._face, ChartMaps.truth(self._face), render, ArrayStore.of_user())
 
     def _take(self, shots: Shots, jobs: list[tuple[Light, Camera]], samples: int) -> list[Layers]:
         render = self._scene.render

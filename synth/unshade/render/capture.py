@@ -19,6 +19,7 @@ from ..camera.camera import Camera
 from ..captured_mesh import degrade, deviation
 from ..face import Chart, Face, FaceSpec, Label
 from ..face.ita import face_ita
+from ..files.array_store import ArrayStore
 from ..files.folder import ResumableFolder, content_hash
 from ..files.obj_text import obj_text
 from ..files.pictures import ROUGHNESS_CHANNELS, read_gray, read_rgb, write_exr, write_gray, write_json, write_text
@@ -31,7 +32,6 @@ from .layers import Layers
 from .llvm import Choice
 from .meter import Meter, Progress
 from .passes import seed_of
-from .picture_store import PictureStore
 from .probes import TexelVisibility, nearest_texels, view_through_centres
 from .rigs import cameras
 from .scene import ChartMaps
@@ -80,7 +80,7 @@ class Capture:
     def write(self) -> None:
         self.meter.note("face")
         face = build_head(self.scene.face)
-        shots = Shots(face, ChartMaps.truth(face), self.stated.render, PictureStore.of_user())
+        shots = Shots(face, ChartMaps.truth(face), self.stated.render, ArrayStore.of_user())
         self._write_mesh(face.chart)
         self._write_maps(face)
         self._write_views(face, shots)
@@ -90,7 +90,7 @@ class Capture:
         self._write_coverage(face, shots)
         write_text(self.truth / "scene.toml", scene_text(self.stated))
         self.folder.commit()
-        self.meter.note("capture")
+        self.meter.finish("capture")
 
     def _write_mesh(self, perfect: Chart) -> None:
         """The mesh that solvers get, and the cameras that were fitted to it."""

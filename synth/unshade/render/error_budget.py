@@ -20,6 +20,7 @@ from PIL import Image
 from scipy.ndimage import binary_erosion
 
 from ..errors import SceneError
+from ..files.array_store import ArrayStore
 from ..files.folder import ResumableFolder, content_hash
 from ..files.pictures import read_gray, write_bytes, write_exr, write_json, write_text
 from ..fingerprint import fingerprint
@@ -29,7 +30,6 @@ from ..srgb import encoded
 from .layers import Layers
 from .meter import Meter, Progress
 from .passes import seed_of
-from .picture_store import PictureStore
 from .relight import MAP_FILES, read_maps
 from .rigs import cameras
 from .scene import ChartMaps
@@ -106,7 +106,7 @@ def write_budget(
         if differs in pictures:  # the others are the true maps whosever they are
             pictures[frozenset(mix)] = pictures[differs]
             continue
-        shots = Shots(face, mixed(truth, found, mix), scene.render, PictureStore.of_user())
+        shots = Shots(face, mixed(truth, found, mix), scene.render, ArrayStore.of_user())
         # The light's exposure is the face's, whatever its maps.
         model = model or shots.light(chosen_light)
         shots.set_light(chosen_light.name, model)

@@ -16,7 +16,8 @@ class Layers:
     variance: np.ndarray
     """Variance of the mean of the total."""
     half: np.ndarray | None = None
-    """The total of one half of the samples, independent of the other; None where they were not so split."""
+    """The total of one half of the samples, independent of the other, float16: its rounding is far below its noise.
+    None where they were not so split."""
 
     @property
     def total(self) -> np.ndarray:
@@ -25,5 +26,5 @@ class Layers:
 
     def channels(self) -> dict[str, np.ndarray]:
         """The EXR channels that describe how the picture came about."""
-        halves = {} if self.half is None else {"half": self.half}
+        halves = {} if self.half is None else {"half": self.half.astype(np.float32)}
         return {"diffuse": self.diffuse, "specular": self.specular, "variance": self.variance, **halves}

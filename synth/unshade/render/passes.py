@@ -2,8 +2,8 @@
 
 The samples of a pixel are split over independent passes, each stratified in itself; the
 spread of the passes gives the variance of the mean that scoring needs for its noise
-floor, and the mean of half of them what it needs to leave the noise out. Sums run over blocks of neighbouring samples, never through atomics, so equal
-seeds give equal bytes.
+floor, and the mean of half of them what it needs to leave the noise out. Sums run over
+blocks of neighbouring samples, never through atomics, so equal seeds give equal bytes.
 """
 
 from __future__ import annotations
@@ -85,16 +85,22 @@ def _render_bands(band, sensor, samples, seed, lens, progress) -> Layers:
         if progress:
             progress(top * width * samples, height * width * samples)
         count = min(rows, height - top)
-        bands.append(band(sensor, lens, samples // passes, passes, seed_of(seed, top), top, count))
+        bands.append(_layers(band(sensor, lens, samples // passes, passes, seed_of(seed, top), top, count)))
     if progress:
         progress(height * width * samples, height * width * samples)
-    picture = np.concatenate(bands)
-    mean = picture.mean(2).astype(np.float32)
-    variance = (picture[..., :3] + picture[..., 3:]).var(2, ddof=1) / passes
+    diffuse, specular, variance, half = (np.concatenate(parts) for parts in zip(*bands))
     # Passes are independent of one another, so halves of them are; of an odd number none is half.
-    first = picture[:, :, : passes // 2].mean(2)
-    half = None if passes % 2 else (first[..., :3] + first[..., 3:]).astype(np.float32)
-    return Layers(mean[..., :3], mean[..., 3:], variance.astype(np.float32), half)
+    return Layers(diffuse, specular, variance, None if passes % 2 else half)
+
+
+def _layers(means: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The fields of `Layers` of some rows, from the means of their passes [rows, width, passes, 6]."""
+    passes = means.shape[2]
+    mean = means.mean(2).astype(np.float32)
+    variance = (means[..., :3] + means[..., 3:]).var(2, ddof=1) / passes
+    first = means[:, :, : passes // 2].mean(2)
+    half = (first[..., :3] + first[..., 3:]).clip(max=np.finfo(np.float16).max)
+    return mean[..., :3], mean[..., 3:], variance.astype(np.float32), half.astype(np.float16)
 
 
 def _band(estimator, sensor, lens, samples, passes, seed, top, rows) -> np.ndarray:

@@ -16,6 +16,7 @@ from .. import _native
 from ..camera.camera import Camera
 from ..errors import CaptureError, SceneError
 from ..face import Chart
+from ..files.array_store import ArrayStore
 from ..files.folder import ResumableFolder, content_hash
 from ..fingerprint import fingerprint
 from ..formation.lens import opaque
@@ -24,7 +25,6 @@ from ..scene_file.light import parse_light
 from .given_light import GivenLight
 from .lights.found import found_light
 from .meter import Meter, Progress
-from .picture_store import PictureStore
 from .relight import MAP_FILES, read_maps, write_relit
 from .shots import Shots
 
@@ -94,7 +94,7 @@ def relight_photographed(
     target = ResumableFolder(out, f"{key}\n{given.key}" if given else key)
     mesh = capture.mesh
     chart = Chart(mesh["vertices"], mesh["normals"], mesh["uvs"], mesh["triangles"])
-    shots = Shots(PhotographedHead(chart), chart_maps, render, PictureStore.of_user())  # type: ignore[arg-type]
+    shots = Shots(PhotographedHead(chart), chart_maps, render, ArrayStore.of_user())  # type: ignore[arg-type]
     lights = [*([Light(FOUND, "envmap")] if found else []), *others]
     if found:
         shots.set_light(FOUND, found)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..errors import MapsError
+from ..files.array_store import ArrayStore
 from ..files.folder import ResumableFolder, content_hash
 from ..files.pictures import ROUGHNESS_CHANNELS, read_exr, read_gray, require_finite, write_exr, write_json
 from ..fingerprint import fingerprint
@@ -20,7 +21,6 @@ from ..scene_file import Light, Scene
 from .given_light import GivenLight
 from .meter import Meter, Progress
 from .passes import seed_of
-from .picture_store import PictureStore
 from .rigs import cameras
 from .scene import ChartMaps
 from .scene_text import scene_text
@@ -63,7 +63,7 @@ def relight(
     lights = [given.light] if given else scene.lights
     meter = Meter(progress, len(scales) * len(lights) * len(views), render.width * render.height * render.samples)
     meter.note("face")
-    shots = Shots(build_head(scene.face), chart_maps, render, PictureStore.of_user())
+    shots = Shots(build_head(scene.face), chart_maps, render, ArrayStore.of_user())
     if given:
         shots.set_light(given.light.name, given.model)
     write_relit(folder, shots, [(view, None) for view in views], lights, scales, seed_offset, meter)
@@ -101,7 +101,7 @@ def write_relit(
     document = {"scales": dict(scales), "samples": render.samples, "seed": render.seed, "seed_offset": seed_offset}
     write_json(folder.path / "relit.json", document)
     folder.commit()
-    meter.note("relit")
+    meter.finish("relit")
 
 
 def read_maps(folder: Path, warn: Callable[[str], None]) -> ChartMaps:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..face import Face
+from ..files.array_store import ArrayStore
 from ..files.content_key import content_key
 from ..fingerprint import fingerprint
 from ..formation import Lens
@@ -18,7 +19,6 @@ from . import lights
 from .denoise import denoised
 from .layers import Layers
 from .lights.found import CellSphere
-from .picture_store import PictureStore
 from .scene import ChartMaps, HeadScene, LitHead
 from .tiers import render_tier
 
@@ -27,7 +27,7 @@ class Shots:
     """``face`` with ``maps`` on its chart. Nothing is loaded into the renderer before the
     first picture that the store does not hold."""
 
-    def __init__(self, face: Face, maps: ChartMaps, render: Render, store: PictureStore) -> None:
+    def __init__(self, face: Face, maps: ChartMaps, render: Render, store: ArrayStore) -> None:
         self._face = face
         self.maps = maps
         self.render = render
@@ -74,7 +74,7 @@ class Shots:
         done and in all.
         """
         key = content_key(self._shapes_key, self._maps_key, self.light(light), camera, lens, seed, shared_seed)
-        kept = self._store.get(key)
+        kept = self._store.get(key, Layers)
         if kept is None:
             kept = self._render_anew(light, camera, seed, shared_seed, report, lens)
             self._store.put(key, kept)
@@ -83,6 +83,8 @@ class Shots:
 
     def _render_anew(self, light, camera, seed, shared_seed, report, lens) -> Layers:
         if light.name not in self._lit:
+            # One at a time: each has an acceleration structure of its own, gigabytes for relief as geometry.
+            self._lit.clear()
             self._lit[light.name] = self.head.lit(self.light(light))
         sensor = camera.sensor(self.render.samples)
         layers = render_tier(

@@ -1,8 +1,8 @@
-"""Rendered pictures kept by content, so that only what changed is rendered again.
+"""Pictures and painted maps kept by content, so that only what changed is made again.
 
-A picture's key is the hash of all that decides it (`content_key`): shapes, maps, light,
-camera, samples, seed, and the renderer's own sources and versions. So a store is never
-wrong, only full: the pictures that were used longest ago make room.
+The key of a value is the hash of all that decides it (`content_key`): for a picture shapes, maps, light, camera,
+samples, seed, and the renderer's own sources and versions. So a store is never wrong, only full: the files that were
+used longest ago make room.
 """
 
 from __future__ import annotations
@@ -12,22 +12,22 @@ import os
 import zipfile
 from dataclasses import fields
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..cache_folder import cache_folder
 from ..errors import StorageError
-from .layers import Layers
+
+_Value = TypeVar("_Value")
 
 SWITCH = "UNSHADE_RENDER_CACHE"
 """Environment variable: a folder, or ``off``."""
 
 LIMIT_BYTES = 4 << 30
 
-_PARTS = tuple(field.name for field in fields(Layers))
 
-
-class PictureStore:
+class ArrayStore:
     """``folder`` None keeps nothing."""
 
     def __init__(self, folder: Path | None, limit_bytes: int = LIMIT_BYTES) -> None:
@@ -35,28 +35,28 @@ class PictureStore:
         self.limit_bytes = limit_bytes
 
     @classmethod
-    def of_user(cls) -> PictureStore:
+    def of_user(cls) -> ArrayStore:
         """The store of this machine's user: in `cache_folder`, or where `SWITCH` names."""
         said = os.environ.get(SWITCH)
         if said == "off":
             return cls(None)
         return cls(Path(said) if said else cache_folder() / "renders")
 
-    def get(self, key: str) -> Layers | None:
-        """The picture of this key, if it is there and whole."""
+    def get(self, key: str, kind: type[_Value]) -> _Value | None:
+        """The dataclass ``kind`` of arrays that has this key, if it is there and whole."""
         if self.folder is None:
             return None
         path = self._path(key)
         try:
             with np.load(path, allow_pickle=False) as stored:
-                layers = Layers(**{name: stored[name] for name in _PARTS if name != "half" or name in stored})
+                value = kind(**{name: stored[name] for name in stored.files})
             os.utime(path)
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        except (OSError, ValueError, TypeError, EOFError, zipfile.BadZipFile):
             return None
-        return layers
+        return value
 
-    def put(self, key: str, layers: Layers) -> None:
-        """Keeps a picture. Raises `StorageError` if the folder cannot be written."""
+    def put(self, key: str, value: Any) -> None:
+        """Keeps a dataclass of arrays, of which some may be None. Raises `StorageError` if the folder cannot be written."""
         if self.folder is None:
             return
         path = self._path(key)
@@ -64,15 +64,15 @@ class PictureStore:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             with partial.open("wb") as file:
-                parts = {name: getattr(layers, name) for name in _PARTS}
-                np.savez(file, **{name: part for name, part in parts.items() if part is not None})
+                arrays = {field.name: getattr(value, field.name) for field in fields(value)}
+                np.savez(file, **{name: array for name, array in arrays.items() if array is not None})
             os.replace(partial, path)
             self._make_room()
         except OSError as error:
             with contextlib.suppress(OSError):
                 partial.unlink()
             raise StorageError(
-                f"{self.folder}: cannot keep a picture: {error.strerror}; make room, let {SWITCH} name another folder, or {SWITCH}=off"
+                f"{self.folder}: cannot keep a file: {error.strerror}; make room, let {SWITCH} name another folder, or {SWITCH}=off"
             ) from error
 
     def _path(self, key: str) -> Path:
