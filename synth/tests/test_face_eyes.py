@@ -6,8 +6,12 @@ import pytest
 from scipy.ndimage import label
 
 from unshade.face import FaceSpec, cache, eyeball, eyes, lids
+from unshade.face.caruncle import make_caruncles
+from unshade.face.eye_paint import paint_eyes
 from unshade.face.geometry import place
 from unshade.face.identity import pose, shape
+from unshade.face.lashes import make_lashes
+from unshade.face.opening import openings
 from unshade.face.teeth import make_mouth
 from unshade.face.wet_line import make_wet_lines
 
@@ -110,6 +114,43 @@ def test_the_wet_line_lies_on_the_eyeball_along_the_lower_lid(seed):
         assert np.ptp(line.vertices[:, 0]) > 0.015
         assert line.vertices[:, 1].max() < eye[1] + 0.003
     assert make_wet_lines(head, placed(seed, **BLINK)[2]) == []
+
+
+@pytest.mark.parametrize("seed", [7, 202])
+def test_lashes_grow_from_the_edges_of_the_lids_and_miss_the_eye(seed):
+    head, spec, geometry = placed(seed)
+    lids = openings(head, geometry)
+    vertices = make_lashes(head, geometry, lids, np.zeros(3), spec)[0].vertices.astype(float)
+    # Tubes of three sides and eight rings.
+    lashes = vertices.reshape(-1, 8, 3, 3).mean(axis=2)
+    margin = np.concatenate([np.concatenate([lid.upper, lid.lower]) for lid in lids])
+    root, tip = lashes[:, 0], lashes[:, -1]
+    distance = np.linalg.norm(root[:, None] - margin, axis=2)
+    assert distance.min(axis=1).max() < 0.002
+    upper = (distance.argmin(axis=1) % (2 * len(lids[0].upper))) < len(lids[0].upper)
+    assert (tip[upper, 1] > root[upper, 1]).mean() > 0.95 and (tip[~upper, 1] < root[~upper, 1]).mean() > 0.95
+    for eye, gaze in zip(geometry.eyes, geometry.gaze):
+        assert eyeball.clearance(tip, eye, gaze).min() > 0.0005
+    shut = placed(seed, **BLINK)[2]
+    assert make_caruncles(openings(head, shut)) == [] and len(make_caruncles(lids)) == 2
+    fallen = make_lashes(head, shut, openings(head, shut), np.zeros(3), spec)[0].vertices.reshape(-1, 8, 3, 3).mean(2)
+    assert (fallen[: len(fallen) // 2, -1, 1] - fallen[: len(fallen) // 2, 0, 1]).mean() < 0
+
+
+@pytest.mark.parametrize("seed", [7, 202])
+def test_the_white_of_a_natural_eye_is_darkest_under_the_lids_and_reddest_in_the_corner(seed):
+    head, spec, geometry = placed(seed)
+    lids = openings(head, geometry)
+    for part, lid in zip(paint_eyes(eye_parts(head, spec, geometry), lids, spec), lids):
+        middle = 0.5 * (lid.upper + lid.lower)
+        places = np.stack([middle[-40], lid.upper[-40] - [0, 0.0004, 0], middle[14]]) - lid.sphere[:3]
+        x, y, z = (places @ lid.turn).T
+        rows, columns = part.diffuse.shape[:2]
+        row = np.arccos(z / np.linalg.norm(places, axis=1)) / np.pi * rows
+        column = np.arctan2(y, x) % (2 * np.pi) / (2 * np.pi) * columns
+        white, shaded, corner = part.diffuse[row.astype(int), column.astype(int)]
+        assert white.min() > 0.2 and shaded.mean() < 0.8 * white.mean()
+        assert corner[0] / corner[1] > 1.3 * white[0] / white[1]
 
 
 @pytest.mark.parametrize("seed", [7, 202])

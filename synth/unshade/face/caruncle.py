@@ -10,7 +10,7 @@ from .geometry import Part, textured_part
 from .opening import Opening
 from .regions import smoothstep
 
-_RADII = (0.0021, 0.0011, 0.0006)
+_RADII = (0.0021, 0.0012, 0.0004)
 """Half its length, height and thickness, m."""
 
 _INWARD = 0.0011
@@ -19,7 +19,7 @@ _INWARD = 0.0011
 _OPEN = 0.001, 0.004
 """Between these openings (m) of the lids it rises from the eyeball."""
 
-_COLOUR = np.array([0.44, 0.235, 0.20])
+_COLOUR = np.array([0.43, 0.24, 0.205])
 _SPECULAR = 0.02
 _RINGS, _SEGMENTS = 12, 24
 

@@ -180,7 +180,7 @@ def _vessels(grid: _Grid, opening: Opening, spec: FaceSpec) -> np.ndarray:
 
 
 def _shade(grid: _Grid, opening: Opening) -> np.ndarray:
-    """Share (R,W,1) of the light that is lost by the lids; under them all."""
+    """Share (R,W,1) of the light that is lost beside the lids' edges."""
     lost = np.zeros(grid.theta.shape)
     for lid, (most, reach) in zip((opening.upper, opening.lower), _SHADE):
         distance = 1000 * cKDTree(lid).query(grid.places.reshape(-1, 3))[0].reshape(lost.shape)

@@ -26,6 +26,9 @@ _RINGS, _SIDES = 8, 3
 _EDGE = 0.0008
 """Roots lie this far (m) out over the lid's edge."""
 
+_OPEN = (0.008, 0.001)
+"""Heights (m) of the opening between which the upper lashes turn down."""
+
 _SPECULAR = 0.008
 """Of lashes, which have the gloss of all textured parts: hair reflects 4 %, but off its own slope."""
 
@@ -85,7 +88,10 @@ def _curves(
     size = size * smoothstep(0.10, 0.35, along) ** 0.5
     curl = rng.normal(1.0, 0.08, count)[:, None]
     first = unit(outward + (0.10 if up > 0 else 0.25) * rise + fan * tangent)
-    last = unit((0.35 if up > 0 else 0.6) * outward + (1.15 if up > 0 else 0.7) * curl * rise + 1.5 * fan * tangent)
+    # A lid that closes turns its lashes down with it.
+    shut = float(smoothstep(*_OPEN, opening.height))
+    bend = 1.15 - 1.6 * shut if up > 0 else 0.7
+    last = unit((0.35 if up > 0 else 0.6) * outward + bend * curl * rise + 1.5 * fan * tangent)
     t = np.linspace(0, 1, _RINGS)[None, :, None]
     directions = unit((1 - t) * first[:, None] + t * last[:, None])
     steps = directions * (size / (_RINGS - 1))[:, None, None]

@@ -47,7 +47,7 @@ def openings(head: Head, geometry: Geometry) -> list[Opening]:
         crossing, fraction, hidden = margin(triangles, clearance(geometry.positions, sphere, turn))
         edge = between(geometry.positions, crossing, fraction)
         lids = margin_sides(triangles, crossing, hidden, edge)
-        inner = max(side * edge[lid, 0].min() if side > 0 else side * edge[lid, 0].max() for lid in lids)
+        inner = max((side * edge[lid, 0]).min() for lid in lids)
         outer = min((side * edge[lid, 0]).max() for lid in lids)
         found.append(Opening(*(_course(edge[lid], side, inner, outer) for lid in lids), sphere, turn, side))
     return found
