@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,8 +10,10 @@ from pathlib import Path
 import pytest
 
 from unshade.errors import VariantError
-from unshade.render import llvm
+from unshade.render import cuda, llvm
 from unshade.render.llvm import Candidate, Probe
+from unshade.render.physics import child as children
+from unshade.render.physics.variants import check_variants
 
 
 @pytest.fixture
@@ -59,6 +62,48 @@ def test_without_a_library_the_fallback_is_announced_with_the_fix(monkeypatch):
     choice = llvm.choose()
     assert choice.variant == "scalar_rgb" and choice.llvm is None
     assert "fminimum" in choice.warning and llvm.FIX in choice.warning
+
+
+@pytest.mark.parametrize(
+    ("gpu", "requested", "variant", "warning"),
+    [
+        (cuda.Gpu(True), "auto", "cuda_ad_rgb", None),
+        (cuda.Gpu(True), "cpu", "llvm_ad_rgb", None),
+        (cuda.Gpu(True), "llvm_ad_rgb", "llvm_ad_rgb", None),
+        (cuda.Gpu(False, "no device"), "auto", "llvm_ad_rgb", None),
+        (
+            cuda.Gpu(True, "OptiX is missing"),
+            "auto",
+            "llvm_ad_rgb",
+            "traces nothing.*OptiX is missing; install an NVIDIA",
+        ),
+    ],
+)
+def test_auto_takes_a_gpu_that_traces(monkeypatch, gpu, requested, variant, warning):
+    pretend(monkeypatch, GOOD)
+    monkeypatch.setattr(cuda, "probe", lambda: gpu)
+    choice = llvm.choose(requested)
+    assert choice.variant == variant and (choice.llvm is None) == (variant == "cuda_ad_rgb")
+    assert re.search(warning, choice.warning) if warning else choice.warning is None
+
+
+def test_a_gpu_that_is_demanded_is_not_replaced(monkeypatch):
+    pretend(monkeypatch, GOOD)
+    monkeypatch.setattr(cuda, "driver", lambda: None)
+    with pytest.raises(VariantError, match="cuda_ad_rgb cannot trace here: no NVIDIA device.*leave variant out"):
+        llvm.choose("cuda_ad_rgb")
+
+
+def test_a_gpu_renders_what_the_processors_do():
+    """Both draw the same samples; single precision rounds them differently, and few paths take another way."""
+    if not cuda.probe().ok:
+        pytest.skip(f"cuda_ad_rgb: {cuda.probe().reason}")
+    both = (
+        children.render_in_child(children.Setting(variant=variant, samples=100))
+        for variant in ("cuda_ad_rgb", "llvm_ad_rgb")
+    )
+    verdict = check_variants(children.Setting(samples=100), render=lambda setting: tuple(both))
+    assert verdict.ok, verdict
 
 
 def test_a_variant_that_is_demanded_is_not_replaced(monkeypatch):

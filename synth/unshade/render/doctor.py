@@ -11,7 +11,7 @@ from .. import perceptual
 from ..cache_folder import cache_folder
 from ..face import FaceError
 from ..face.base_mesh import data_folder, data_version
-from . import llvm
+from . import cuda, llvm
 
 _PACKAGES = ("mitsuba", "drjit", "numpy", "scipy", "libigl", "pillow")
 
@@ -37,12 +37,14 @@ def _package(name: str) -> dict[str, Any]:
 
 
 def _variant() -> list[dict[str, Any]]:
-    choice = llvm.choose()
+    choice, gpu = llvm.choose(), cuda.probe()
     library = choice.llvm
     found = f"{library.version}, {library.path} ({library.origin})" if library else str(choice.warning)
     return [
         _entry("llvm", library is not None, found, llvm.FIX),
-        _entry("variant", True, choice.variant),
+        # That there is none is no fault, that it traces nothing is.
+        _entry("gpu", gpu.ok or not gpu.found, f"traces with {cuda.CUDA_VARIANT}" if gpu.ok else gpu.reason, cuda.FIX),
+        _entry("variant", True, cuda.CUDA_VARIANT if gpu.ok else choice.variant),
     ]
 
 

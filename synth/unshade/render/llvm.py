@@ -3,24 +3,25 @@
 Left alone, Dr.Jit takes any libLLVM it finds; versions 15 and 16 abort the whole process.
 So the library is named explicitly and tried in a child process first. Without a library
 that works, ``scalar_rgb`` is the announced fallback: right, but too slow for more than
-small pictures, since the material is Python code. The two draw different samples: one
-capture is rendered, and relit, in one variant only.
+small pictures, since the material is Python code. An NVIDIA GPU that traces (`cuda`) comes
+first where a scene leaves the choice. Variants draw different samples or round differently:
+one capture is rendered, and relit, in one variant only.
 """
 
 from __future__ import annotations
 
 import importlib.metadata
-import json
 import os
 import re
 import subprocess
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..cache_folder import cache_folder
 from ..errors import VariantError
+from . import cuda, probe_memory
+from .cuda import CUDA_VARIANT
 
 LLVM_VARIANT, SCALAR_VARIANT = "llvm_ad_rgb", "scalar_rgb"
 
@@ -112,13 +113,12 @@ def probe(candidate: Candidate) -> Probe:
         return Probe(path, candidate.origin, None, f"cannot be read: {error.strerror}")
     drjit, mitsuba = (importlib.metadata.version(name) for name in ("drjit", "mitsuba"))
     key = f"{path} {stat.st_size} {stat.st_mtime_ns} drjit={drjit} mitsuba={mitsuba}"
-    memory = cache_folder() / "llvm-probes.json"
-    known = _recall(memory)
+    known = probe_memory.recall()
     if isinstance(known.get(key), str):
         return Probe(path, candidate.origin, known[key])
     result = _try(candidate)
-    if result.ok:
-        _remember(memory, known | {key: result.version})
+    if result.version is not None:
+        probe_memory.remember(key, result.version)
     return result
 
 
@@ -139,32 +139,29 @@ def _try(candidate: Candidate) -> Probe:
     return Probe(str(candidate.path), candidate.origin, None, f"exit status {child.returncode}: {words}")
 
 
-def _recall(memory: Path) -> dict[str, str]:
-    try:
-        known = json.loads(memory.read_text())
-    except (OSError, ValueError):
-        return {}
-    return known if isinstance(known, dict) else {}
+def choose(requested: str = "cpu") -> Choice:
+    """The variant for a request: ``auto`` takes a GPU, an LLVM or the fallback, whichever works first, ``cpu`` no GPU;
+    else the name of a variant.
 
-
-def _remember(memory: Path, known: dict[str, str]) -> None:
-    partial = memory.with_name(f"{memory.name}.{os.getpid()}.partial")
-    try:
-        memory.parent.mkdir(parents=True, exist_ok=True)
-        partial.write_text(json.dumps(known, indent=1, sort_keys=True))
-        partial.replace(memory)
-    except OSError:
-        # A cache that cannot be written costs two seconds at the next start, nothing else.
-        partial.unlink(missing_ok=True)
-
-
-def choose(requested: str = "auto") -> Choice:
-    """The variant for a request: ``auto`` or the name of a variant.
-
-    Raises `VariantError` where ``llvm_ad_rgb`` is demanded and no library works.
+    Raises `VariantError` where a variant is demanded that does not work.
     """
     if requested == SCALAR_VARIANT:
         return Choice(SCALAR_VARIANT, None)
+    gpu_warning = None
+    if requested in ("auto", CUDA_VARIANT):
+        gpu = cuda.probe()
+        if gpu.ok:
+            return Choice(CUDA_VARIANT, None)
+        if requested == CUDA_VARIANT:
+            raise VariantError(f"{CUDA_VARIANT} cannot trace here: {gpu.reason}; {cuda.FIX}")
+        if gpu.found:
+            gpu_warning = f"the GPU traces nothing, so the processors do: {gpu.reason}; {cuda.FIX}"
+    choice = _on_processors(requested)
+    return replace(choice, warning="; ".join(filter(None, [gpu_warning, choice.warning])) or None)
+
+
+def _on_processors(requested: str) -> Choice:
+    """``llvm_ad_rgb``, or unless that is demanded ``scalar_rgb``."""
     failures = []
     for candidate in candidates():
         result = probe(candidate)

@@ -10,7 +10,7 @@ from typing import Any
 from ..errors import SceneError
 from ..tables import Table, integer, one_of, read, vector
 
-VARIANTS = ("auto", "llvm_ad_rgb", "scalar_rgb")
+VARIANTS = ("auto", "llvm_ad_rgb", "cuda_ad_rgb", "scalar_rgb")
 MATERIALS = ("skin", "principled")
 TIERS = ("opaque", "diffusion", "volume")
 DENOISERS = ("none", "oidn")
