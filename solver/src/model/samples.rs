@@ -73,12 +73,14 @@ struct Sample {
     view_index: u32,
 }
 
-impl SampleSpace {
+impl Default for SampleSpace {
     /// Pictures as they are, and no inputs of networks.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self { network_inputs: None, picture_scale: 1.0, perturbation_seed: 0 }
     }
+}
 
+impl SampleSpace {
     /// Adds the inputs of networks. Positions span -1 to 1 along the longest side of the mesh's box, times
     /// `position_scale`. `f0` is the reflectance at normal incidence in Schlick's factor; `None` is a factor of 1.
     pub fn with_network_inputs(self, mesh: &Mesh, position_scale: f32, f0: Option<f32>) -> Self {

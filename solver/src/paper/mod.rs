@@ -109,7 +109,7 @@ pub(crate) fn plan(config: &PaperConfig, extent: &Extent) -> Vec<Work> {
 /// The conversion of pictures to samples for networks of this configuration.
 pub fn sample_space(mesh: &Mesh, config: &PaperConfig) -> SampleSpace {
     let f0 = config.rendering.fresnel.then_some(config.skin.f0);
-    SampleSpace::new()
+    SampleSpace::default()
         .with_network_inputs(mesh, config.networks.position_scale, f0)
         .with_perturbed_pictures(config.rendering.rounding_seed)
 }

@@ -183,7 +183,7 @@ mod tests {
         let views: Vec<_> =
             testing::rig(2, 40).iter().map(|camera| testing::view(&mesh, camera, shade)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
-        let samples = SampleSpace::new().training(&views, &gbuffers, None, 64);
+        let samples = SampleSpace::default().training(&views, &gbuffers, None, 64);
         (transport, light.collect(), samples)
     }
 

@@ -19,8 +19,8 @@ fn a_convex_surface_sees_its_whole_hemisphere() {
     }
 }
 
-/// The inside of a sphere under light from all sides is as bright as under the open sky if its
-/// walls are white: what a ray meets shines as what it hides.
+/// The inside of a white sphere in uniform light is as bright as an unoccluded surface: a hit surface has the radiance
+/// of the sky behind it.
 #[test]
 fn an_open_box_gathers_bounced_light() {
     let mut mesh = testing::dome(16);
@@ -96,8 +96,8 @@ fn threads_do_not_change_a_bit() {
     assert_eq!(pool(1).install(build), pool(3).install(build));
 }
 
-/// A lamp that is one cell of a sphere of radius 2 around a convex surface, which hides nothing from
-/// itself, against the integral over the lamp's area (cosines at both ends over the squared distance).
+/// A lamp of one cell on a sphere of radius 2 around a convex surface, against the integral over the lamp's area
+/// (cosines at both ends over the squared distance).
 #[test]
 fn a_near_lamp_follows_the_inverse_square() {
     let mesh = testing::dome(16);
@@ -159,7 +159,7 @@ fn shading_by_normal_is_the_change_of_shading_with_the_normal() {
     let config = TransportConfig { bounces: 0, rays_per_cell_side: 6, ..config(32) };
     let sky = Sky::lat_long(8);
     let transport = Transport::new(&mesh, &sky, &config, 0);
-    // A lamp overhead in front, far above the horizon of the texels that are looked at.
+    // A lamp in front, far above the horizon of the tested texels.
     let lit = |direction: Vec3| if direction.dot(Vec3::Z) > 0.85 { 1.0 } else { 0.0 };
     let light: Vec<f32> = sky.centres().iter().flat_map(|d| [lit(*d); CHANNELS]).collect();
     let slopes = transport.shading_by_normal(&light);

@@ -61,7 +61,7 @@ impl<'a> ExplicitModel<'a> {
         Self { config, prior_weight, has_grey_prior: false, transport, samples, reflection }
     }
 
-    /// Adds the prior on coloured shading, or removes it.
+    /// Enables or disables the prior on grey shading.
     #[must_use]
     pub(super) fn with_grey_prior(self, has_grey_prior: bool) -> Self {
         Self { has_grey_prior, ..self }
@@ -152,14 +152,17 @@ impl<'a> ExplicitModel<'a> {
         let cells = by_log_light.iter_mut().zip(by_light_of_highlights).zip(&light);
         cells.for_each(|((shading, highlights), light)| *shading = (*shading + highlights) * light);
         let LightConfig { colour, colour_softness, .. } = *self.config;
-        let colour = light_colour(log_light, colour, colour_softness, &mut by_log_light);
+        let light_colour = light_colour(log_light, colour, colour_softness, &mut by_log_light);
         let along = |slopes: Vec<f32>| {
             let products =
                 slopes.iter().zip(&by_shading).map(|(a, b)| f64::from(*a) * f64::from(*b));
             products.sum::<f64>() as f32
         };
         Gradient {
-            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>() + smoothness + colour + grey,
+            loss: by_sample.iter().map(|(_, loss)| loss).sum::<f64>()
+                + smoothness
+                + light_colour
+                + grey,
             by_log_light,
             by_relative_nearness: by_nearness.map_or(0.0, along),
             by_albedo,

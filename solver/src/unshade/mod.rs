@@ -53,7 +53,7 @@ pub(crate) fn solve(
     run: &mut Run,
     layer_sink: Option<&mut LayerSink>,
 ) -> Result<Results, SolveError> {
-    let space = SampleSpace::new().with_perturbed_pictures(config.rendering.rounding_seed);
+    let space = SampleSpace::default().with_perturbed_pictures(config.rendering.rounding_seed);
     let target_luminance = Some(config.rendering.exposure);
     let scene = Scene::new(capture, space, target_luminance, config.maps.texture_size)?;
     let coarse_size = config.transport.texture_size;

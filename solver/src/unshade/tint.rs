@@ -48,7 +48,7 @@ pub(super) mod tests {
         let cameras = testing::rig(2, 48);
         let views: Vec<_> = cameras.iter().map(|c| testing::view(&mesh, c, shade)).collect();
         let gbuffers = GBuffer::of_views(&mesh, &views);
-        let samples = SampleSpace::new().training(&views, &gbuffers, None, 16);
+        let samples = SampleSpace::default().training(&views, &gbuffers, None, 16);
         let predicted = (0..samples.len())
             .map(|i| [1.0, 1.1, 1.3].map(|c: f32| c * (1.0 + (i as f32 * 12.9898).sin())))
             .collect();

@@ -1,5 +1,4 @@
-//! Every kernel against the model written out in f64, value by value, and its derivatives by central
-//! differences in f64.
+//! Every kernel against the model in f64, value by value, and derivatives against central differences in f64.
 
 use solver::backend::cpu::{Cpu, Level};
 use solver::backend::{Backend, DIRECTION_ROWS};

@@ -1,4 +1,4 @@
-//! Devices that are lost: the solve goes on on the processor.
+//! After the loss of a device, the solve continues on the processor.
 
 use std::ops::ControlFlow;
 
@@ -19,7 +19,7 @@ const STAGES: [usize; 6] = [60, 60, 60, 60, 20, 40];
 /// Steps of all stages.
 const STEPS: usize = 300;
 
-/// Loses the device once `at` steps are done.
+/// Loses the device after `at` steps.
 fn solve(gpu: &Gpu, at: usize) -> (Solution, Vec<usize>) {
     let folder = tempfile::tempdir().unwrap();
     let capture = capture(folder.path());
@@ -55,7 +55,7 @@ pub fn within_the_heights(adapter: &Adapter) {
     let gpu = Gpu::open(adapter).unwrap();
     let (solution, heard) = solve(&gpu, 243);
     assert_complete(&solution);
-    // Fits come in submissions, heights are reported step by step, and once.
+    // Fits report submissions; heights report every step, and only once.
     let heights: Vec<usize> = heard.iter().copied().filter(|step| *step > 240).collect();
     assert_eq!(heights, (241..=STEPS).collect::<Vec<_>>());
 }
@@ -64,7 +64,7 @@ pub fn within_a_stage(adapter: &Adapter) {
     let gpu = Gpu::open(adapter).unwrap();
     let (solution, heard) = solve(&gpu, 281);
     assert_complete(&solution);
-    // The host knows nothing of the steps that were lost, so the stage is done and reported from its first step again.
+    // The lost steps are unknown to the host, so the stage restarts and is reported from its first step.
     assert!(heard.iter().filter(|step| **step == 261).count() > 1, "{heard:?}");
     assert_eq!(heard.last(), Some(&STEPS));
 }

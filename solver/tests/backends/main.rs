@@ -1,7 +1,7 @@
 //! One set of tests for every backend: the processor at each of its instruction sets, and a GPU.
 //!
-//! The GPU is the one that `UNSHADE_ADAPTER` names, else a software adapter, else whatever there is.
-//! Without any, its tests are skipped, by name.
+//! The GPU is the one that `UNSHADE_ADAPTER` names, else a software adapter, else any adapter. Without an adapter, its
+//! tests are skipped by name.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
@@ -28,7 +28,7 @@ use solver::backend::{Backend, Choice};
 
 /// A test's body: on a backend, against the processor where it needs a reference.
 type Body = fn(&dyn Backend);
-/// A test's body that opens a device of its own.
+/// The body of a test that opens its own device.
 type OnAdapter = fn(&Adapter);
 
 /// Tests of every backend.
@@ -41,7 +41,7 @@ const SHARED: [(&str, Body); 6] = [
     ("deviated normals in one pass is that through planes", textured::normals),
 ];
 
-/// Tests of backends that take in whole stages.
+/// Tests of backends that run whole fits.
 const RESIDENT: [(&str, Body); 7] = [
     ("50 steps of the warm-up are the processor's", stages::warm_up),
     ("50 steps of the diffuse stage are the processor's", stages::diffuse),
@@ -153,7 +153,7 @@ fn choice(adapter: &Adapter) {
     assert!(Choice::Cpu.open().unwrap().name().starts_with("cpu, "));
 }
 
-/// A device that fails in a test must not pass it on the processor.
+/// A test fails if its device failed, even if the processor continued.
 fn passed(backend: &dyn Backend, body: Body) -> Result<(), Failed> {
     let name = backend.name();
     body(backend);

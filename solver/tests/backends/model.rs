@@ -1,4 +1,4 @@
-//! The pixel model written out in f64, and inputs to try it on.
+//! The pixel model in f64, and test inputs.
 
 use solver::config::PaperConfig;
 use solver::model::networks::{Network, Networks};
@@ -21,7 +21,7 @@ pub fn planes<const R: usize>(seed: usize, low: f32, high: f32) -> Planes {
     Planes::from_fn::<R>(LEN, |i| std::array::from_fn(|row| value(i, row)))
 }
 
-/// Only the samples in `weighted` count, so that a gradient can be compared with theirs alone.
+/// Only the samples in `weighted` have weights above 0, so that a gradient can be compared with theirs.
 pub fn samples(weighted: &[usize]) -> Samples {
     Samples {
         position: planes::<3>(1, -1.0, 1.0),

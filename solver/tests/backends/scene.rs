@@ -1,4 +1,4 @@
-//! A small scene whose answer is known.
+//! A small scene with a known solution.
 
 use std::path::Path;
 
@@ -30,8 +30,7 @@ fn views(count: usize, size: usize) -> Vec<View> {
     testing::rig(count, size).iter().map(|camera| testing::view(&mesh, camera, lit)).collect()
 }
 
-/// Samples of some views, and a state to start from; a few thousand samples, and no whole number of
-/// blocks.
+/// Samples of some views, and an initial state: a few thousand samples, not a whole number of blocks.
 pub fn problem(config: &PaperConfig) -> (Samples, ShadingFields) {
     let mesh = testing::dome(24);
     let views = views(3, 64);
@@ -56,7 +55,7 @@ pub fn capture(folder: &Path) -> Capture {
     Capture::open(folder).unwrap()
 }
 
-/// Every kind of stage, in seconds.
+/// The default method with all stages in seconds.
 pub fn short() -> Config {
     Config::from_toml(include_str!("../small.toml")).unwrap()
 }

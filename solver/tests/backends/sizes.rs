@@ -56,15 +56,15 @@ impl Inputs {
     }
 }
 
-/// All that a backend finds.
+/// All results of a backend.
 struct Evaluated {
     losses: [f64; 2],
     networks: Vec<f32>,
-    /// Gradients by albedos and by directions, light, shading.
+    /// Gradients with respect to albedos and directions, light, shading.
     planes: [Planes; 4],
 }
 
-/// Every backend finds of so many samples what the portable kernels find of them one by one.
+/// The results of any number of samples are those of the portable kernels for each sample.
 pub fn samples(backend: &dyn Backend) {
     let (networks, portable) = (networks(), Cpu::at(Level::Portable));
     for &len in LENGTHS {
@@ -112,7 +112,7 @@ pub fn samples(backend: &dyn Backend) {
     }
 }
 
-/// Sampling and its adjoint as written out, one texel after the other.
+/// Sampling and its adjoint, against a loop over texels.
 pub fn textures() {
     const CHANNELS: usize = 4;
     let sizes: &[usize] = if cfg!(miri) { &[2, 3] } else { &[2, 3, 64] };

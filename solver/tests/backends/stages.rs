@@ -1,4 +1,4 @@
-//! Stages that a device takes in whole, against the same stages on the processor.
+//! Fits on a device, against the same fits on the processor.
 
 use std::time::Duration;
 
@@ -18,12 +18,12 @@ use solver::transport::{HIGHLIGHT_ROWS, LIGHT_EXPONENT, Sky, SpecularTerm, Trans
 use super::scene::problem;
 use super::testing;
 
-/// Steps that are compared.
+/// The number of compared steps.
 const STEPS: usize = 50;
 /// Relative tolerance of every loss.
 const TOLERANCE: f64 = 1e-4;
-/// Tolerance of all values of a kind together: the norm of the difference over that of their way. Adam
-/// makes a whole step of the faintest gradient, whose sign is rounding.
+/// Tolerance of a variable: the norm of the difference over that of the total change. Single values may differ, since
+/// Adam takes a whole step along any gradient, even one whose sign is rounding.
 const WAY: f64 = 0.01;
 
 /// The losses of the steps, and the variables after them.
@@ -133,7 +133,7 @@ pub fn skin_highlights(backend: &dyn Backend) {
     }
 }
 
-/// Without a clock of the adapter's there is nothing to compare.
+/// Skipped without a clock of the adapter.
 pub fn timed(adapter: &Adapter) {
     let config = PaperConfig::default();
     let (samples, state) = problem(&config);

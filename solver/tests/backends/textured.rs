@@ -1,4 +1,4 @@
-//! Passes through textures, against planes between their parts.
+//! Passes through textures, against separate passes with planes between them.
 
 use solver::backend::cpu::Cpu;
 use solver::backend::{Backend, JointGradient, TexturedNormals};
@@ -17,7 +17,7 @@ use solver::paper::normals::Normals;
 use super::scene::problem;
 use super::testing;
 
-/// A backend without passes of its own over textures.
+/// A backend without textured passes.
 struct ByPlanes<'a>(&'a dyn Backend);
 
 impl Backend for ByPlanes<'_> {
@@ -67,7 +67,7 @@ pub fn joint(backend: &dyn Backend) {
     }
 }
 
-/// Loss and gradients of a bent dome; the texels that nothing sees have none. With a narrow blur and a wide one.
+/// Loss and gradients of a bent dome, with a narrow and a wide blur; unseen texels have no gradient.
 pub fn normals(backend: &dyn Backend) {
     for blur in [0.05, 0.14] {
         let mut config = PaperConfig::default();
@@ -117,7 +117,7 @@ pub fn steps() {
             let stage = || Normals::new(&config, &samples, &deviation, &start, &cpu);
             let mut first = stage();
             let mut losses: Vec<_> = (0..stop).map(|_| first.step(&cpu, 1.0)).collect();
-            // What another process would read.
+            // The values that another process would read.
             let mut second = stage();
             for (to, from) in second.variables().into_iter().zip(first.variables()) {
                 to.values.clone_from(from.values);

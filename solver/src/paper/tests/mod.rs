@@ -136,7 +136,7 @@ fn a_rounding_seed_moves_the_last_digits_of_every_picture_and_no_more() {
     let views = views(2, 24);
     let gbuffers = GBuffer::of_views(&mesh, &views);
     let targets = |seed: u64| {
-        let space = SampleSpace::new().with_perturbed_pictures(seed);
+        let space = SampleSpace::default().with_perturbed_pictures(seed);
         let samples = space.training(&views, &gbuffers, None, SIDE);
         (0..samples.len()).map(|i| samples.target.get(1, i)).collect::<Vec<f32>>()
     };

@@ -1,4 +1,4 @@
-//! The relief of pictures whose relief is known.
+//! The relief of pictures with a known relief.
 
 use capture::gbuffer::Atlas;
 
@@ -25,14 +25,14 @@ enum Fault {
     Mixed,
 }
 
-/// Squares of the missed part of the relief, and of the relief, over the seen texels: within the stripe, and beside it.
+/// Squared errors of the relief, and squares of the relief, over the seen texels: inside of the stripe, and outside.
 struct Missed {
     missed: [f32; 2],
     energy: [f32; 2],
     residuals: Vec<f64>,
 }
 
-/// No penalties, so that only the pictures count, and no paint.
+/// No penalties and no paint: the pictures alone determine the relief.
 fn unpenalised() -> ReliefConfig {
     ReliefConfig {
         diffuse_share: 0.0,
@@ -44,7 +44,7 @@ fn unpenalised() -> ReliefConfig {
     }
 }
 
-/// A solve of pictures that the model itself made from a known height, under a lamp before a dome.
+/// Solves pictures that the model rendered from known heights, under a lamp in front of a dome.
 fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let mut config = UnshadeConfig { relief, ..UnshadeConfig::default() };
     config.transport.texture_size = SIDE;
@@ -53,7 +53,7 @@ fn missed(relief: ReliefConfig, fault: Fault) -> Missed {
     let mesh = testing::dome(24);
     let views = views(5, 64);
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    let mut samples = SampleSpace::new().training(&views, &gbuffers, None, SIDE);
+    let mut samples = SampleSpace::default().training(&views, &gbuffers, None, SIDE);
     let transport = Transport::new(&mesh, &Sky::lat_long(8), &config.transport, 0);
     let towards = |centre: &Vec3| centre.dot(Vec3::new(0.3, 0.4, 0.87)).max(0.0).powi(8);
     let cells = Sky::lat_long(8).centres();
@@ -123,7 +123,7 @@ fn is_striped(texel: usize) -> bool {
     (28..32).contains(&(texel % SIDE))
 }
 
-/// Whether one of the four pixels beside a sample's shows nothing.
+/// Whether one of the four neighbours of a sample's pixel is not covered.
 fn beside_nothing(gbuffers: &[GBuffer], samples: &Samples, i: usize) -> bool {
     let gbuffer = &gbuffers[samples.view_index[i] as usize];
     let (pixel, width) = (samples.pixel[i], gbuffer.width as u32);
@@ -136,16 +136,15 @@ fn a_known_relief_is_found() {
     let Missed { missed, energy, residuals } = missed(unpenalised(), Fault::None);
     let [missed, energy]: [f32; 2] = [missed, energy].map(|parts| parts.iter().sum());
     assert!(energy > 1.0, "{energy}");
-    // Without its coarse part and the rim, which are never relief, no solve finds all of it or explains all pictures.
+    // Its coarse part and the rim are excluded by design, so a part of the relief and of the residual remains.
     assert!(missed < 0.5 * energy, "{} of the relief is missed", missed / energy);
     let (first, last) = (residuals[0], residuals[residuals.len() - 1]);
     assert!(last < 0.5 * first, "{first} {last}");
 }
 
-/// An edge that is too strong for relief and paint is an error of the model: it becomes no relief, and spoils none
-/// beside it.
+/// An edge that is too strong for relief and paint is an error of the model.
 #[test]
-fn an_edge_outside_of_the_model_becomes_no_relief() {
+fn a_model_error_does_not_become_relief_nor_change_relief_beside_it() {
     let solved = |fault| missed(UnshadeConfig::default().relief, fault);
     let [clean, striped] = [Fault::None, Fault::Stripe(3.0)].map(solved);
     let [within, beside] = striped.missed;
@@ -153,9 +152,9 @@ fn an_edge_outside_of_the_model_becomes_no_relief() {
     assert!(beside < 1.25 * clean.missed[1], "beside it: {beside} instead of {:?}", clean.missed);
 }
 
-/// Pixels that see two surfaces become no relief.
+/// Pixels at silhouettes mix two surfaces.
 #[test]
-fn a_rim_that_sees_two_surfaces_is_left_out() {
+fn silhouettes_do_not_become_relief() {
     let missed = |fault| -> f32 { missed(unpenalised(), fault).missed.iter().sum() };
     let [clean, mixed] = [Fault::None, Fault::Mixed].map(missed);
     assert!(mixed < 1.1 * clean, "{mixed} {clean}");

@@ -1,4 +1,4 @@
-//! Light, distance and albedo with the highlights of the same light.
+//! Tests of light, distance, albedo and roughness on rendered highlights.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::LazyLock;
@@ -75,8 +75,7 @@ fn reflected(rougher: f32, normal: Vec3, view: Vec3, light: Vec3) -> f32 {
     schlick(SPECULAR, view.dot(half)) * (lobe(0.15 * rougher) + lobe(0.35 * rougher))
 }
 
-/// A small white lamp close to a dome of dark skin, whose shading and whose highlights are computed apart
-/// from the solver.
+/// A small white lamp close to a dome of dark skin, with shading and highlights computed independently of the solver.
 struct Lamp {
     config: UnshadeConfig,
     sky: Sky,
@@ -84,11 +83,11 @@ struct Lamp {
     samples: Samples,
     /// R, G, B per texel.
     albedo: Vec<f32>,
-    /// From the middle of the dome.
+    /// The direction from the centre of the dome.
     direction: Vec3,
 }
 
-/// Radii of the dome from its middle to the lamp.
+/// Distance of the lamp from the dome's centre, in radii of the dome.
 const RADIUS: f32 = 6.0;
 const ALBEDO: Vec3 = Vec3::new(0.12, 0.07, 0.05);
 
@@ -120,7 +119,7 @@ fn lamp(rougher: f32) -> Lamp {
     let views: Vec<View> = testing::rig(6, 96).iter().map(view).collect();
     let gbuffers = GBuffer::of_views(&mesh, &views);
     let size = config.transport.texture_size;
-    let samples = SampleSpace::new().training(&views, &gbuffers, None, size);
+    let samples = SampleSpace::default().training(&views, &gbuffers, None, size);
     let sky = Sky::lat_long(config.transport.rows);
     let transport = Transport::with_nearness(&mesh, &sky, &config.transport, 0);
     let albedo = ALBEDO.to_array().repeat(size * size);
@@ -134,7 +133,7 @@ impl Lamp {
         ExplicitModel::new(&self.config, &self.transport, samples, &terms, light, 0.1)
     }
 
-    /// The light that explains the pictures with an albedo.
+    /// Fits the light to the pictures with an albedo.
     fn found<'a>(&'a self, albedo: &'a [f32], reflectance: f32, rate: f32) -> LightFit<'a> {
         let log_light = vec![0.0; CHANNELS * self.sky.len()];
         let model = self.model(reflectance, &self.samples, &exp(&log_light));
@@ -150,9 +149,9 @@ impl Lamp {
 /// Share of the configured learning rate.
 const SLOW: f32 = 0.25;
 
-/// The lamp before skin of the usual roughness.
+/// The lamp in front of skin of the usual roughness.
 static LAMP: LazyLock<Lamp> = LazyLock::new(|| lamp(1.0));
-/// The logarithm of its light and its nearness in the transport's unit, by an albedo and highlights that are right.
+/// The log radiance and the relative nearness, fitted with the true albedo and reflectance.
 static FOUND: LazyLock<(Vec<f32>, f32)> = LazyLock::new(|| {
     let fit = LAMP.found(&LAMP.albedo, SPECULAR, SLOW);
     (fit.log_light.clone(), fit.relative_nearness[0])
@@ -169,12 +168,12 @@ fn highlights_locate_the_lamp() {
     let matt = LAMP.found(&LAMP.albedo, 0.0, SLOW);
     let (with, without) =
         (place(&FOUND.0, FOUND.1), place(&matt.log_light, matt.relative_nearness[0]));
-    // A cell is 11 degrees wide, and shading is taken as linear in the inverse distance.
+    // A cell is 11 degrees wide, and the model of shading is linear in the inverse distance.
     assert!(with.1 < 12.0 && (with.0 - RADIUS).abs() < 0.35 * RADIUS, "{with:?}");
     assert!(without.1 > 45.0 && without.0 < 0.6 * RADIUS, "shading alone would do: {without:?}");
 }
 
-/// A light of that many cells explains both on the whole face.
+/// A light fitted to the whole face fits the mottled skin as well.
 #[test]
 fn cross_validation_keeps_mottled_skin_out_of_the_light() {
     let lamp = &*LAMP;
@@ -219,7 +218,7 @@ fn cross_validation_keeps_mottled_skin_out_of_the_light() {
     assert!(folds > 0.9 * whole, "a lamp: {folds}, by the whole face {whole}");
 }
 
-/// The albedo is less red and more blue than skin, and so the light comes out too red.
+/// The albedo is less red and more blue than skin, so the fitted light is too red.
 #[test]
 fn highlights_correct_the_colour_of_the_light() {
     let lamp = &*LAMP;
@@ -237,7 +236,7 @@ fn highlights_correct_the_colour_of_the_light() {
     assert!(before[0] > 1.1 && before[2] < 0.9, "{before:?}");
     for c in [0, 2] {
         let after = before[c] * tint[c] / tint[1];
-        // Not all of it: the light outside of the highlights has taken more of the tint.
+        // The correction is partial: the light outside of the highlights has more of the tint.
         assert!((after - 1.0).abs() < 0.6 * (before[c] - 1.0).abs(), "{before:?} {after}");
     }
 }
@@ -263,7 +262,7 @@ fn strong_highlights_count_no_more_than_weak_ones() {
     assert!(alike < 0.8 && 1.0 - by_error < 0.75 * (1.0 - alike), "{alike} {by_error}");
 }
 
-/// The cell that stands for the lamp is larger than the lamp, which makes skin seem sharper.
+/// A cell is larger than the lamp, so the roughness is underestimated.
 #[test]
 fn highlights_show_the_roughness_of_skin() {
     for truth in [0.6f32, 1.6] {

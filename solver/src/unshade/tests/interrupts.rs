@@ -1,4 +1,4 @@
-//! Interrupts: what is written then, and that a solve continues to the same bytes.
+//! Interrupted solves write maps, and continue to the same bytes.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::*;
 use crate::run::checkpoint::Checkpoint;
 
-/// Every stage of a solve, in seconds.
+/// A solve with all stages in seconds.
 pub fn short() -> UnshadeConfig {
     let mut config = small();
     config.light.steps = 24;
@@ -18,7 +18,7 @@ pub fn short() -> UnshadeConfig {
     config
 }
 
-/// Name of the checkpoint's owner in these tests.
+/// The program of the checkpoints in these tests.
 const PROGRAM: &str = "tests";
 
 /// All files below a folder with their bytes, without wall times.
@@ -80,7 +80,7 @@ fn resume_after_an_interrupt_gives_identical_bytes() {
     assert!(!folder.path().join("whole.checkpoint").exists());
     layers_show_the_pictures(&whole, &capture);
 
-    // Every run continues the one before and is interrupted in its turn.
+    // Every run continues the previous one and is interrupted as well.
     let mut first = 1;
     for (step, place) in CUTS {
         let mut begun = None;
@@ -102,7 +102,7 @@ fn resume_after_an_interrupt_gives_identical_bytes() {
         let record: serde_json::Value =
             serde_json::from_slice(&fs::read(maps.join("solve.json")).unwrap()).unwrap();
         assert_eq!(record["interrupted"], place);
-        // The relief begins anew, everything else at the next step.
+        // The relief restarts; all other stages continue with the next step.
         first = if place.starts_with("relief") { 46 } else { step + 1 };
     }
     solve_into(&Cpu::new(), &maps, PROGRAM, &capture, &config, &mut |progress| {
@@ -113,7 +113,7 @@ fn resume_after_an_interrupt_gives_identical_bytes() {
     assert!(!checkpoint.exists());
 }
 
-/// The layers of the training views add up, and show what was photographed.
+/// The layers of the training views sum to the pictures.
 fn layers_show_the_pictures(maps: &Path, capture: &Capture) {
     for view in &capture.train {
         let file = maps.join("layers").join(format!("{}.exr", view.camera.name));
@@ -130,13 +130,13 @@ fn layers_show_the_pictures(maps: &Path, capture: &Capture) {
                 energy += truth.powi(2);
             }
         }
-        // A solve this short is far off; pixels in wrong places would be further.
+        // The error of such a short solve is large; that of misplaced pixels is larger.
         assert!(error < 0.3 * energy, "{}: {error} of {energy}", view.camera.name);
     }
     assert_eq!(fs::read_dir(maps.join("layers")).unwrap().count(), capture.train.len());
 }
 
-/// A process that is killed leaves the last checkpoint of its stage, not one of its last step.
+/// A killed process leaves the last periodic checkpoint, not one of its last step.
 #[test]
 fn resume_after_a_kill_continues_the_fit() {
     let folder = tempfile::tempdir().unwrap();
@@ -148,7 +148,7 @@ fn resume_after_a_kill_continues_the_fit() {
         Options { checkpoint: Some(checkpoint), ..Options::default() }
     };
     let backend = Cpu::new();
-    // What lies there when step 27 has been reported is what a kill would have left.
+    // The files at the report of step 27 are those that a kill would have left.
     let from = Checkpoint::beside(&maps, PROGRAM);
     let to = Checkpoint::beside(&killed, PROGRAM);
     let whole = solve_on(&backend, &capture, &config, options(&maps), &mut |progress| {
@@ -197,7 +197,7 @@ fn a_checkpoint_of_another_solve_is_not_used() {
     assert_eq!(begun_at(PROGRAM, &other), 1, "another configuration");
     assert_eq!(begun_at("another", &other), 1, "another program");
     assert_eq!(begun_at("another", &other), 2);
-    // Half a file, as after a full disk.
+    // A truncated file, as after a full disk.
     let path = checkpoint.join("fit.postcard");
     let bytes = fs::read(&path).unwrap();
     fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();

@@ -1,4 +1,4 @@
-//! Whole solves of a small scene whose answer is known, and the parts of the default method.
+//! Whole solves of a small scene with a known solution, and the parts of the default method.
 
 mod confidence;
 mod height_solve;
@@ -35,7 +35,7 @@ fn samples(size: usize) -> Samples {
     let mesh = testing::dome(12);
     let views = views(2, 24);
     let gbuffers = GBuffer::of_views(&mesh, &views);
-    SampleSpace::new().training(&views, &gbuffers, None, size)
+    SampleSpace::default().training(&views, &gbuffers, None, size)
 }
 
 /// Mean squared error to decibels.
@@ -58,7 +58,7 @@ fn a_known_scene_is_recovered_and_its_withheld_view_predicted() {
         let polar = chart.length() * 0.2f32.acos();
         let position = (chart.normalize() * polar.sin()).extend(polar.cos());
         let truth = region(position).1;
-        // Edges of regions are as sharp as the views' pixels; they are not what is tested here.
+        // Edges of regions are limited by the views' resolution, and left out.
         let near = |d: Vec2| region(position + d.extend(0.0)).1 == truth;
         if [Vec2::X, -Vec2::X, Vec2::Y, -Vec2::Y].iter().all(|d| near(*d * 0.08)) {
             errors.extend((Vec3::from_slice(&albedo.data[3 * at..]) - truth).to_array());
@@ -81,7 +81,7 @@ fn a_known_scene_is_recovered_and_its_withheld_view_predicted() {
     assert_eq!(solution.views[0].name, withheld.camera.name);
 }
 
-/// Bytes are equal for any number of threads, without `truth`, and nothing else is in the folder.
+/// The bytes are equal for any number of threads, without `truth`, and the folder has no other files.
 #[test]
 fn solutions_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
@@ -127,7 +127,7 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
         .collect();
     stages.sort();
     assert_eq!(stages, ["01-joint", "02-relief", "03-albedo"]);
-    // The last stage of a map leaves what the map is, up to what was resampled.
+    // The last stage of a map has the final map, since nothing is resampled here.
     let last = Maps::read(&target.join("stages/03-albedo")).unwrap();
     assert_eq!(last.diffuse_albedo, first.maps.diffuse_albedo);
     assert!(last.specular_normal.is_none());
@@ -141,8 +141,8 @@ fn solutions_do_not_depend_on_the_number_of_threads() {
     assert_eq!(record["config"]["seed"], 0);
 }
 
-/// Pictures and the reflectance of skin are the only absolute levels: both four times as large give four times the
-/// albedos, to the bit, and nothing else.
+/// Pictures and the reflectance of skin are the only absolute levels: a factor of four on both multiplies the albedos
+/// by four, to the bit, and changes nothing else.
 #[test]
 fn albedo_is_proportional_to_exposure_and_reflectance_of_skin() {
     let maps = |factor: f32| -> Maps {
@@ -154,7 +154,7 @@ fn albedo_is_proportional_to_exposure_and_reflectance_of_skin() {
         testing::write_capture(folder.path(), &testing::dome(24), &views, 1);
         let capture = Capture::open(folder.path()).unwrap();
         let mut config = interrupts::short();
-        // Its thresholds are on logarithms of the pictures, whose rounding differs.
+        // Its thresholds are on logarithms of the pictures, which round differently.
         config.regions.hair_in_skin = false;
         config.skin.reflectance *= factor;
         solve(&capture, &Config::Unshade(config), &mut silent).unwrap().maps

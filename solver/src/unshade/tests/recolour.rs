@@ -28,7 +28,7 @@ fn under_a_known_light_hair_in_the_shade_gets_its_own_colour_and_skin_stays() {
     let (size, rows) = (config.transport.texture_size, config.transport.rows);
     let luminance = Some(config.rendering.exposure);
     let scene =
-        Scene::new(&capture, SampleSpace::new(), luminance, config.maps.texture_size).unwrap();
+        Scene::new(&capture, SampleSpace::default(), luminance, config.maps.texture_size).unwrap();
     let face = FaceRegions::new(&scene, &config);
     let regions = face.region_map(&scene, size);
     let before = face.mean_colours(&scene, &regions);

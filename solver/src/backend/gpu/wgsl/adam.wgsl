@@ -1,16 +1,16 @@
-// A step of Adam, one value a thread; see fit/adam.rs.
+// A step of Adam, one thread per value; see fit/adam.rs.
 
 struct Factors {
-    // The learning rate and the second moment's root, with their corrections.
+    // The bias-corrected learning rate, and the factor on the root of the second moment.
     rate: f32,
     root: f32,
     beta1: f32,
     beta2: f32,
     epsilon: f32,
     least: f32,
-    // 0: the values stay where they are.
+    // 0: the values are constant.
     moves: u32,
-    // Number of the step within its submission.
+    // Index of the step within its submission.
     step: u32,
     most: f32,
 }
@@ -42,7 +42,7 @@ fn main(
     first[at] = m;
     second[at] = v;
     let moved = values[at] - factors.rate * m / (sqrt(v) * factors.root + factors.epsilon);
-    // Unlike max, this lets a NaN through, which the loss then shows.
+    // Unlike max, this preserves a NaN, so that the loss becomes NaN.
     let above = select(moved, factors.least, moved < factors.least);
     values[at] = select(above, factors.most, above > factors.most);
 }

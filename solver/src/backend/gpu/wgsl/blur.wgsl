@@ -1,14 +1,14 @@
-// One axis of the Gaussian blur of a texture of 3 channels; see model/blur.rs. VERTICAL: the axis. SCALED: 0
-// not, 1 the values read, 2 the result by what the weights inside the texture sum to.
+// One axis of the Gaussian blur of a texture of 3 channels; see model/blur.rs. VERTICAL: the axis. SCALED: the inverse
+// sum of the weights inside the texture multiplies 0 nothing, 1 the input, 2 the result.
 
 struct Parameters {
     size: u32,
-    // Texels on both sides.
+    // Texels to which the kernel reaches on either side.
     reach: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
-// From the centre outwards.
+// Weights from the centre outwards.
 @group(0) @binding(1) var<storage, read> kernel: array<f32>;
 @group(0) @binding(2) var<storage, read> norms: array<f32>;
 @group(0) @binding(3) var<storage, read> texels: array<f32>;

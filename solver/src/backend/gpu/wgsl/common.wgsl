@@ -6,7 +6,7 @@ fn place(sample: u32, row: u32, rows: u32) -> u32 {
     return ((sample / BLOCK) * rows + row) * BLOCK + sample % BLOCK;
 }
 
-// Grids have two axes, because one ends at 65535 workgroups.
+// Grids have two axes, because an axis is limited to 65535 workgroups.
 fn linear(group: vec3<u32>, groups: vec3<u32>) -> u32 {
     return group.y * groups.x + group.x;
 }

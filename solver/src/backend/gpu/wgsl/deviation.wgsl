@@ -1,6 +1,6 @@
 // The steps between the deviation texture and its blurs, value by value; see model/deviation.rs.
-// WHAT: 0 the deviation d of what its band is made of, 1 the gradient by that, 2 the difference of the two
-// blurs' adjoints. d = range x tanh. BAND: 0 if no second blur is subtracted.
+// WHAT: 0 the deviation d = range x tanh(B t), 1 the gradient with respect to B t, 2 the difference of the two blurs'
+// adjoints. BAND: 0 if no second blur is subtracted.
 
 struct Parameters {
     count: u32,

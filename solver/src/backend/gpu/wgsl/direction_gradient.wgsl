@@ -1,4 +1,4 @@
-// Loss, and gradients by directions and specular albedo, with frozen networks and known light.
+// The loss, and the gradients with respect to directions and specular albedo, with frozen networks and L(p).
 
 struct Parameters {
     samples: u32,
@@ -72,7 +72,7 @@ fn main(
     }
     sums[t] = loss;
     workgroupBarrier();
-    // A grid of two axes may have a few workgroups too many.
+    // A grid of two axes may have a few superfluous workgroups.
     if t == 0u && number * 64u < parameters.samples {
         var sum = 0.0;
         for (var s = 0u; s < 64u; s++) {

@@ -1,5 +1,5 @@
-// From sampled deviations to directions, and gradients back; see model/normals.rs. WHAT: 0 there, 1 back,
-// in place of the gradients by the directions.
+// Directions from sampled deviations, and the adjoint; see model/normals.rs. WHAT: 0 the directions, 1 the adjoint,
+// which overwrites the gradients with respect to the directions.
 
 struct Parameters {
     samples: u32,

@@ -1,4 +1,4 @@
-// A product of two vectors, by workgroup.
+// The dot product of two vectors, one partial sum per workgroup.
 
 struct Parameters {
     count: u32,

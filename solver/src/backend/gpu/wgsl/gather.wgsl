@@ -7,15 +7,15 @@ struct Parameters {
     // Texels of this dispatch.
     first_texel: u32,
     texels: u32,
-    // Samples of this piece: the first, and how many.
+    // The first sample of this piece, and their number.
     first: u32,
     samples: u32,
-    // First of the rows read, and all rows of the planes.
+    // The first row that is read, and the number of rows of the planes.
     row: u32,
     rows: u32,
-    // 1: add to what is there.
+    // 1: add to the existing values.
     add: u32,
-    // Where the gradient begins.
+    // Offset of the gradient in its buffer.
     offset: u32,
 }
 
@@ -53,7 +53,7 @@ fn main(
     for (var half = 0u; half < 2u; half++) {
         if here && y + half >= 1u {
             let own = (y + half - 1u) * size + x;
-            // Samples of the cell to the left, where the texel is the right one, then those of its own cell.
+            // First the samples of the cell to the left, whose right texel this is, then those of the texel's own cell.
             let middle = begin(own);
             let end = begin(own + 1u);
             for (var i = begin(select(own, own - 1u, x > 0u)) + lane; i < end; i += LANES) {

@@ -1,5 +1,5 @@
-// The image of a vector of unknowns: of its heights, the adjoint of height_bend.wgsl; of all, the penalties
-// on the unknowns themselves.
+// The product of the normal equations' matrix with a vector: the adjoint of height_deviation.wgsl, and the damping of
+// the unknowns.
 
 struct Parameters {
     size: u32,
@@ -11,10 +11,10 @@ struct Parameters {
 @group(0) @binding(1) var<storage, read> basis: array<f32>;
 @group(0) @binding(2) var<storage, read> by_bend: array<f32>;
 @group(0) @binding(3) var<storage, read> unknowns: array<f32>;
-// The albedo's part holds the gradient of the pictures.
+// The part of the albedo has the gradient of the pictures.
 @group(0) @binding(4) var<storage, read_write> image: array<f32>;
 
-// The gradient by the height's change at a texel: 0 to the right, 3 downwards.
+// The gradient with respect to the height's difference at a texel: 0 to the right, 3 downwards.
 fn along(at: u32, axis: u32) -> f32 {
     var sum = 0.0;
     for (var k = 0u; k < 3u; k++) {
@@ -42,7 +42,7 @@ fn main(
     let x = at % size;
     let y = at / size;
     var sum = 0.0;
-    // A texel's height counts where it is the neighbour of one that has both neighbours.
+    // A texel's height also contributes at neighbours that have both of their neighbours.
     if x >= 2u {
         sum += along(at - 1u, 0u);
     }

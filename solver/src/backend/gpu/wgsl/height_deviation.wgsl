@@ -1,11 +1,11 @@
-// The deviation of the normal by heights; see model/height.rs.
+// The deviation of the normal from heights; see model/height.rs.
 
 struct Parameters {
     size: u32,
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
-// Deviation by the height's change to the right (3) and downwards (3), of every texel.
+// Derivatives of the deviation with respect to the height's difference to the right (3) and downwards (3), per texel.
 @group(0) @binding(1) var<storage, read> basis: array<f32>;
 @group(0) @binding(2) var<storage, read> height: array<f32>;
 @group(0) @binding(3) var<storage, read_write> deviation: array<f32>;

@@ -1,18 +1,17 @@
-// Forward, shading and backward of all three networks. A workgroup takes tile after tile of 64 samples,
-// one a thread. Of every tile, gradients and inputs of all layers of one network go to workgroup memory,
-// and each thread sums the outer products of its own block of weights over its own part of the tile's
-// samples: no atomics, a fixed order. The networks are written out one after the other, so that weights,
-// activations and sums have fixed places: operands in the constants' cache, and registers. The hidden
-// layers are evaluated twice, which keeps 56 instead of 168 registers alive besides the 60 of the sums.
+// Forward pass, shading and backward pass of all three networks. A workgroup processes tiles of 64 samples, one thread
+// per sample. For each tile, gradients and inputs of all layers of one network are in workgroup memory, and each thread
+// sums the outer products of its block of weights over its part of the tile's samples: no atomics, a fixed order. The
+// networks are unrolled, so that weights are operands from the constant cache, and activations and sums are in
+// registers. The hidden layers are evaluated twice, which needs 56 instead of 168 live registers besides the 60 of the
+// sums.
 
 struct Parameters {
     tiles: u32,
-    // Workgroups of this dispatch, and of all before it.
+    // The workgroups of this dispatch, and of all earlier ones.
     groups: u32,
     first_group: u32,
     scale: f32,
-    // 0, unknown to the compiler: else it might see that the second evaluation is the first, and keep all
-    // hidden layers in between.
+    // 0, unknown to the compiler. Otherwise it might merge both evaluations, and keep all hidden layers in between.
     nothing: u32,
 }
 
@@ -26,10 +25,10 @@ struct Parameters {
 @group(0) @binding(8) var<storage, read_write> losses: array<f32>;
 
 const TILE: u32 = 64u;
-// Threads that share the samples of one block, samples of each; blocks of one thread.
+// Threads per block, samples per thread; blocks per thread.
 const PARTS: u32 = max(1u, TILE / BLOCKS);
 const PART: u32 = TILE / PARTS;
-// One more than the samples, so that the blocks' reads fall into different banks.
+// One more than the samples, which avoids bank conflicts.
 const STRIDE: u32 = TILE + 1u;
 
 // Inputs of every layer: x, y, z, 1; then the hidden ones.
@@ -38,7 +37,7 @@ var<workgroup> inputs: array<vec4<f32>, (1u + HIDDEN) * STRIDE>;
 var<workgroup> deltas: array<vec4<f32>, (HIDDEN + O) * STRIDE>;
 var<workgroup> sums: array<f32, TILE>;
 
-// Where the inputs and the gradients of a block are.
+// The offsets of the inputs and the gradients of a block.
 fn rows_of(block: u32) -> vec2<u32> {
     if block < W {
         return vec2(0u, block);

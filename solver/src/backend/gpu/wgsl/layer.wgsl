@@ -1,5 +1,5 @@
-// Loss and gradient by a sampled albedo in which the model is linear. CHANNELS: 3 for the diffuse albedo,
-// 1 for the specular one. See Job::Layer of backend/resident.rs.
+// The loss, and the gradient with respect to a sampled albedo in which the model is linear. CHANNELS: 3 for the diffuse
+// albedo, 1 for the specular albedo. See Job::Layer of backend/resident.rs.
 
 struct Parameters {
     samples: u32,
@@ -12,7 +12,7 @@ struct Parameters {
 @group(0) @binding(1) var<storage, read> cell: array<u32>;
 @group(0) @binding(2) var<storage, read> fraction: array<vec2<f32>>;
 @group(0) @binding(3) var<storage, read> texels: array<f32>;
-// Rows: what is left of the target R, G, B, weight, shading of CHANNELS.
+// Rows: target R, G, B minus the other layer, weight, shading of CHANNELS.
 @group(0) @binding(4) var<storage, read> known: array<f32>;
 @group(0) @binding(5) var<storage, read_write> by_albedo: array<f32>;
 @group(0) @binding(6) var<storage, read_write> losses: array<f32>;
@@ -63,7 +63,7 @@ fn main(
         }
         workgroupBarrier();
     }
-    // A grid of two axes may have a few workgroups too many.
+    // A grid of two axes may have a few superfluous workgroups.
     if t == 0u && number * 256u < parameters.samples {
         losses[parameters.first_group + number] = parameters.scale * sums[0];
     }

@@ -1,4 +1,4 @@
-// Nothing but multiply-adds, independent but for their own chain.
+// Only multiply-adds, in independent chains.
 
 struct Parameters {
     factor: f32,

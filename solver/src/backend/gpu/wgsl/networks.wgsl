@@ -1,7 +1,7 @@
 // Three equal perceptrons in blocks of 4 x 4 weights. Constants: W hidden vec4s, H hidden layers, O
-// output vec4s, HIDDEN = H W. A network is first its blocks, layer by layer, output by output, input by input, four
-// columns each; then the biases of all layers but the first, whose biases are the fourth column of its
-// blocks (the input is x, y, z, 1). See layout.rs.
+// output vec4s, HIDDEN = H W. A network has its blocks first, layer by layer, output by output, input by input, four
+// columns each; then the biases of all layers except the first, whose biases are the fourth column of its blocks (the
+// input is x, y, z, 1). See layout.rs.
 
 const BLOCKS: u32 = W + (H - 1u) * W * W + O * W;
 const BIASES: u32 = 4u * BLOCKS;
@@ -36,7 +36,7 @@ fn hidden_layers(network: u32, x: vec3<f32>, h: ptr<function, Hidden>) {
     #end
 }
 
-// Before the last activation.
+// The outputs before the last activation.
 fn output_layer(network: u32, h: ptr<function, Hidden>) -> Outputs {
     let base = network * NETWORK;
     var out: Outputs;
@@ -55,7 +55,7 @@ fn open_gates(h: vec4<f32>) -> vec4<f32> {
     return select(vec4(0.0), vec4(1.0), h > vec4(0.0));
 }
 
-// From gradients before the last activation to those before every hidden one.
+// Backpropagates gradients before the last activation to those before every hidden activation.
 fn backward(network: u32, h: ptr<function, Hidden>, by_output: Outputs, by_hidden: ptr<function, Hidden>) {
     let base = network * NETWORK;
     #for k in 0..W
@@ -84,7 +84,7 @@ const LEAST = vec4(-40.0);
 fn exponentials(z: Outputs) -> Outputs {
     var out: Outputs;
     #for j in 0..O
-        // Unlike clamp, this lets a NaN through, which the loss then shows.
+        // Unlike clamp, this preserves a NaN, so that the loss becomes NaN.
         let least = select(z[j], LEAST, z[j] < LEAST);
         out[j] = exp(select(least, vec4(88.0), least > vec4(88.0)));
     #end
@@ -105,7 +105,7 @@ fn softplus(z: vec4<f32>) -> vec4<f32> {
     return max(z, vec4(0.0)) + 2.0 * s * sum;
 }
 
-// Its derivative.
+// The derivative of softplus.
 fn logistic(z: vec4<f32>) -> vec4<f32> {
     let e = exp(max(-abs(z), LEAST));
     return select(e, vec4(1.0), z > vec4(0.0)) / (1.0 + e);

@@ -1,17 +1,17 @@
-// Product of one sample's unknowns with the normal equations' matrix, in place: the colour that they explain,
-// weighted and carried back to the unknowns. See unshade/height_solve.rs.
+// The product of one sample's unknowns with the normal equations' matrix, in place: the colour of the linear model,
+// weighted and multiplied by the transpose. See unshade/height_solve.rs.
 
 struct Parameters {
     samples: u32,
-    // Share of a colour's part along that of the diffuse layer that counts for nothing.
+    // The removed share of a colour's component along the diffuse layer.
     diffuse_share: f32,
 }
 
-// Least square of a diffuse layer's colour that has a direction.
+// Least squared norm of a diffuse layer's colour, by which is divided.
 const LEAST_SQUARE: f32 = 1e-12;
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
-// Slopes by n_s (3), by n_d of R, G, B (9), by the albedo (3); then the weight.
+// Derivatives with respect to n_s (3), n_d of R, G, B (9) and the albedo (3); then the weight.
 @group(0) @binding(1) var<storage, read> slopes: array<f32>;
 // Both deviations and the albedo's unknowns.
 @group(0) @binding(2) var<storage, read_write> unknowns: array<f32>;
@@ -37,7 +37,7 @@ fn main(
         return;
     }
     let specular = slope(i, 0u);
-    // Columns: of R, G, B.
+    // Columns: R, G, B.
     let diffuse = mat3x3(slope(i, 3u), slope(i, 6u), slope(i, 9u));
     let shading = slope(i, 12u);
     let explained = unknown(i, 3u) * diffuse + dot(specular, unknown(i, 0u)) + shading * unknown(i, 6u);

@@ -1,5 +1,5 @@
-// The gradient by the deviation: of the pictures, directly and by its blur, and of the penalties on the
-// deviation and on its differences. See unshade/height_solve.rs.
+// The gradient with respect to the deviation: of the pictures, direct and through the blur, and of the penalties on the
+// deviation and its differences. See unshade/deviation_penalty.rs.
 
 struct Parameters {
     size: u32,

@@ -1,6 +1,6 @@
-// One step of a pyramid on a texture of 3 channels; see model/pyramid.rs. DOUBLE: 0 a texture is halved, 1 it
-// is interpolated to twice its side. SCALED: whether the finer texture's values are multiplied by what the
-// weights inside it sum to.
+// One step of a pyramid on a texture of 3 channels; see model/pyramid.rs. DOUBLE: 0 halves a texture, 1 interpolates it
+// to twice its side. SCALED: whether the finer texture's values are multiplied by the inverse sum of the weights inside
+// it.
 
 struct Parameters {
     // Side of the finer texture.
@@ -12,8 +12,8 @@ struct Parameters {
 @group(0) @binding(2) var<storage, read> texels: array<f32>;
 @group(0) @binding(3) var<storage, read_write> result: array<f32>;
 
-// Weight of a fine texel in a coarse one: three quarters in the one that it lies in, the rest in its nearest
-// neighbour; beyond the border, in the last one.
+// The weight of a fine texel in a coarse one: three quarters in the coarse texel that contains it, a quarter in the
+// nearest neighbour; clamped at the border.
 fn weight(fine: u32, coarse: u32, size: u32) -> f32 {
     if fine / 2u != coarse {
         return 0.25;
@@ -36,7 +36,7 @@ fn main(
     let x = at / 3u % side;
     let y = at / (3u * side);
     let channel = at % 3u;
-    // Texels of the other texture, from a first to a last one.
+    // The first and the last texel of the other texture.
     var first = vec2(2u * max(x, 1u) - 1u, 2u * max(y, 1u) - 1u);
     var last = vec2(2u * x + 2u, 2u * y + 2u);
     var other = size;

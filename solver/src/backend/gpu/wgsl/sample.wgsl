@@ -1,12 +1,12 @@
-// A texture of CHANNELS channels at every sample, bilinearly.
+// Samples a texture of CHANNELS channels bilinearly.
 
 struct Parameters {
     samples: u32,
     size: u32,
-    // First of the rows written, and all rows of the planes.
+    // The first row that is written, and the number of rows of the planes.
     row: u32,
     rows: u32,
-    // Where the texture begins.
+    // Offset of the texture in its buffer.
     first: u32,
 }
 

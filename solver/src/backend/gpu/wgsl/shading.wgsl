@@ -1,4 +1,4 @@
-// L(p) of every sample, or S_d and S_s with L(p) known. WHAT: 0 the light, 1 the shading.
+// L(p) of every sample, or S_d and S_s from L(p). WHAT: 0 the light, 1 the shading.
 
 struct Parameters {
     samples: u32,

@@ -1,4 +1,4 @@
-// Highlights of a light on bent normals, and how they change with those: one sample a thread. See
+// Highlights of a light, and their derivatives with respect to the normals: one thread per sample. See
 // transport/highlights.rs; the lobes are those of transport/skin.rs.
 
 struct Parameters {
@@ -16,18 +16,18 @@ struct Parameters {
 }
 
 @group(0) @binding(0) var<uniform> parameters: Parameters;
-// In blocks of 16 cells seven rows: direction from the sky's centre, R, G, B, luminance.
+// Blocks of 16 cells with seven rows: direction from the sky's centre, R, G, B, luminance.
 @group(0) @binding(1) var<storage, read> lit: array<f32>;
 @group(0) @binding(2) var<storage, read> visible: array<f32>;
-// Row of every sample; and place of every row.
+// The row of every sample, and the place of every row.
 @group(0) @binding(3) var<storage, read> row: array<u32>;
 @group(0) @binding(4) var<storage, read> places: array<f32>;
 // Rows: normal, view, reflectance at normal incidence, factor on the roughness.
 @group(0) @binding(5) var<storage, read> surface: array<f32>;
-// Rows: R, G, B, how the luminance changes with x, y, z of the normal.
+// Rows: R, G, B, derivatives of the luminance with respect to the normal's x, y, z.
 @group(0) @binding(6) var<storage, read_write> highlights: array<f32>;
 
-// The sum of the lobes, and its derivatives by n.h, n.v and n.l.
+// The sum of the lobes, and its derivatives with respect to n.h, n.v and n.l.
 struct Lobes {
     value: f32,
     by_c: f32,

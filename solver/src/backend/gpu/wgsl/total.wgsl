@@ -1,4 +1,4 @@
-// Sums in a fixed order, each by one workgroup: into the place of the step's loss, or into its own.
+// Sums in a fixed order, one workgroup per sum: into the slot of the step's loss, or into separate values.
 
 struct Factors {
     unused: array<vec4<u32>, 1>,
@@ -11,9 +11,9 @@ struct Parameters {
     count: u32,
     // Parts of a workgroup.
     share: u32,
-    // 1: into the step's place.
+    // 1: into the step's slot.
     by_step: u32,
-    // 1: add to what is there.
+    // 1: add to the existing value.
     add: u32,
 }
 
@@ -45,7 +45,7 @@ fn main(
         }
         workgroupBarrier();
     }
-    // A grid of two axes may have a few workgroups too many.
+    // A grid of two axes may have a few superfluous workgroups.
     if t == 0u && (number == 0u || begin < parameters.count) {
         let place = select(number, factors.step, parameters.by_step == 1u);
         let before = select(0.0, result[place], parameters.add == 1u);

@@ -1,4 +1,4 @@
-// The workgroups' partial sums of `joint`, added in a fixed order: one workgroup a vec4 of the networks.
+// Adds the workgroups' partial sums of `joint` in a fixed order: one workgroup per vec4 of the networks.
 
 struct Parameters {
     // Workgroups of `joint`.
@@ -32,7 +32,7 @@ fn main(
     var block = within / 4u;
     var column = within % 4u;
     if within >= BIASES {
-        // A bias lies with the first block of its row of blocks.
+        // A bias is stored with the first block of its row of blocks.
         block = W + (within - BIASES) * W;
         column = 4u;
     }
