@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import subprocess
 import sys
 import zipfile
@@ -140,9 +141,12 @@ def test_the_pages_commands_are_understood_in_any_folder(
 
 
 def test_the_wheel_carries_all_that_the_package_reads(tmp_path: Path) -> None:
-    """Compiled before, so this only packs; `make wheel` installs it into an empty environment and runs it there."""
+    """`make wheel` installs it into an empty environment and runs it there."""
     maturin = [Path(sys.executable).with_name("maturin"), "build", "--release", "--quiet", "-o", tmp_path]
-    subprocess.run(maturin, cwd=ROOT, check=True, capture_output=True)
+    # In the environment of `make build`, whose compiled code this packs; in another, cargo compiles it again.
+    path = f"{ROOT / '.tools' / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    built_in = {**os.environ, "PATH": path, "VIRTUAL_ENV": sys.prefix}
+    subprocess.run(maturin, cwd=ROOT, check=True, capture_output=True, env=built_in)
     (wheel,) = tmp_path.glob("*.whl")
     packed = set(zipfile.ZipFile(wheel).namelist())
     files = [path.relative_to(ROOT / "synth") for path in (ROOT / "synth" / "unshade").rglob("*") if path.is_file()]
