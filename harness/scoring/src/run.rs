@@ -5,11 +5,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use formats::atomic;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
-/// The version of `run.json` that is read.
-const FORMAT: u32 = 1;
+/// The version of `run.json` that is read and written.
+pub const FORMAT: u32 = 1;
 
 /// A run's manifest cannot be used; each message is one line.
 #[derive(Debug, thiserror::Error)]
@@ -41,7 +42,7 @@ pub enum RunFileError {
 }
 
 /// The manifest of a run.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Serialize)]
 pub struct RunFile {
     /// Version of the file format.
     pub format: u32,
@@ -55,11 +56,15 @@ pub struct RunFile {
     #[serde(default)]
     pub versions: BTreeMap<String, Value>,
     /// Text of the suite's file.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub suite_toml: Option<String>,
+    /// Bytes that the stages of each kind left, by their folders.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub bytes: BTreeMap<String, u64>,
 }
 
 /// One capture and everything that was made from it.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Serialize)]
 pub struct Case {
     /// Name of the case.
     pub id: String,
@@ -79,7 +84,7 @@ pub struct Case {
 }
 
 /// A method on a case.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Serialize)]
 pub struct Method {
     /// Name of the method in the suite.
     pub id: String,
@@ -90,22 +95,33 @@ pub struct Method {
     pub class: Class,
     /// Title in tables.
     pub title: Option<String>,
-    /// The author.
-    pub author: Option<String>,
-    /// A hash of its settings and files.
-    pub content: Option<String>,
     /// The method that this is one seed of, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
     /// The solver's seed, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
+    /// The author.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub author: Option<String>,
+    /// A hash of its settings and files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub content: Option<String>,
+    /// Settings that the suite gives it.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub set: Map<String, Value>,
+    /// The reason why it has no results.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<String>,
     /// Folder of its maps.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub maps: Option<PathBuf>,
     /// Folder of its relit pictures.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub relit: Option<PathBuf>,
     /// File of its scores.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub scores: Option<PathBuf>,
-    /// The reason why it has no results.
-    pub failed: Option<String>,
 }
 
 /// Class of a method's inputs; only passive methods are ranked.
@@ -136,9 +152,12 @@ pub enum Kind {
 }
 
 impl RunFile {
+    /// The name of the file in a run's folder.
+    pub const NAME: &'static str = "run.json";
+
     /// Reads the manifest of a run's folder.
     pub fn open(run: &Path) -> Result<Self, RunFileError> {
-        let path = run.join("run.json");
+        let path = run.join(Self::NAME);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(reason) => return Err(RunFileError::Read { path, reason }),
@@ -150,6 +169,16 @@ impl RunFile {
             }
             Ok(file) => Ok(file),
         }
+    }
+
+    /// Writes the manifest into a run's folder.
+    pub fn write(&self, run: &Path) -> io::Result<()> {
+        atomic::write_file(&run.join(Self::NAME), &serde_json::to_vec_pretty(self)?)
+    }
+
+    /// Every method of every case.
+    pub fn methods(&self) -> impl Iterator<Item = (&Case, &Method)> {
+        self.cases.iter().flat_map(|case| case.methods.iter().map(move |method| (case, method)))
     }
 }
 

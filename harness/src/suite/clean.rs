@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use formats::atomic::{Folder, FolderError, MARK, remove_folder};
-use serde_json::Value;
+use scoring::run::RunFile;
 
 use super::earlier::{self, Bound};
 use super::error::RunError;
@@ -136,18 +136,16 @@ fn remove_part(run: &Path, name: &str, foreign: &mut Vec<PathBuf>) -> Result<(),
 /// Ids of a run's stages, with dots, sorted: those of its suite, and those that were finished for an earlier
 /// state of it.
 fn ids(run: &Path) -> io::Result<Vec<String>> {
-    let manifest: Value = fs::read(run.join("run.json"))
-        .ok()
-        .and_then(|bytes| serde_json::from_slice(&bytes).ok())
-        .unwrap_or_default();
-    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let name = |value: &Value| value["id"].as_str().unwrap_or_default().to_owned();
     let mut ids = Vec::new();
-    for case in list(&manifest["cases"]) {
-        ids.push(format!("{}.{}", StageKind::Capture.name(), name(&case)));
-        for method in list(&case["solvers"]) {
-            ids.push(format!("{}.{}.{}", StageKind::Maps.name(), name(&case), name(&method)));
-        }
+    // The records below are enough for a run that has no manifest yet.
+    if let Ok(manifest) = RunFile::open(run) {
+        let captures = manifest.cases.iter();
+        ids.extend(captures.map(|case| format!("{}.{}", StageKind::Capture.name(), case.id)));
+        ids.extend(
+            manifest.methods().map(|(case, method)| {
+                format!("{}.{}.{}", StageKind::Maps.name(), case.id, method.id)
+            }),
+        );
     }
     for entry in fs::read_dir(run.join("stages"))? {
         let name = entry?.file_name().to_string_lossy().into_owned();

@@ -89,18 +89,16 @@ fn order(executor: &StageExecutor, plan: &[Stage], records: &Records) -> Result<
     let mut contents = Contents::new();
     let mut tasks = Vec::new();
     for stage in plan {
-        let (key, path) = (executor.key(stage, &contents).ok(), executor.path(stage));
-        let valid =
-            key.map(|key| records.valid(&stage.id, &key.hash, &path)).transpose()?.flatten();
-        match &valid {
-            Some(record) => drop(contents.insert(stage.id.clone(), record.output.clone())),
+        let output = executor.kept(stage, &contents, records)?.map(|kept| kept.record.output);
+        match &output {
+            Some(output) => drop(contents.insert(stage.id.clone(), output.clone())),
             None if !stage.wanted => continue,
             // What comes back takes its place.
-            None => records.set_aside(&stage.id, "", &path)?,
+            None => records.set_aside(&stage.id, "", &executor.path(stage))?,
         }
         tasks.push(json!({
             "id": stage.id, "after": stage.after.iter().map(|at| &plan[*at].id).collect::<Vec<_>>(),
-            "path": stage.path, "case": suite.cases[stage.case].id, "output": valid.map(|record| record.output),
+            "path": stage.path, "case": suite.cases[stage.case].id, "output": output,
             "name": stage.cell(suite),
         }));
     }

@@ -3,34 +3,13 @@
 use std::path::Path;
 
 use formats::atomic;
+use scoring::run::Class;
 use serde_json::Value;
 
 use super::error::RunError;
 use super::program::copy_blind;
 use crate::synth::Request;
 use crate::synth::Tools;
-
-/// Class of a method's inputs; methods of different classes are in no ranking together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// The capture that every solver gets.
-    Passive,
-    /// Photographs of the same face in light of the method's own choice.
-    Controlled,
-    /// The truth.
-    Privileged,
-}
-
-impl Class {
-    /// In lower case, as tables show it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Passive => "passive",
-            Self::Controlled => "controlled",
-            Self::Privileged => "privileged",
-        }
-    }
-}
 
 /// A method of the Python package, `unshade.methods`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

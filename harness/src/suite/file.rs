@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use scoring::run::Class;
 use toml::{Table, Value};
 
 use super::cases::{self, Case};
-use super::competitor::Class;
 use super::error::RunError;
 use super::method::{self, Method};
 use super::near;

@@ -1,101 +1,98 @@
-//! `run.json`: what a run consists of, where everything lies, and which methods failed.
+//! The manifest of a run: its cases and methods, where everything lies, and which methods failed.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
+use scoring::run::{Case, FORMAT, Method, RunFile};
 use serde_json::{Value, json};
 
+use super::cases;
 use super::file::Suite;
+use super::method;
 use super::sources::{SCORE_SOURCES, SOLVER_SOURCES};
 use crate::synth::Fingerprints;
 
 /// Facts of a run that has ended.
-pub(super) struct Made<'a> {
+#[derive(Default)]
+pub(super) struct Ended {
     /// Methods that failed: `<case>/<method>` and why. What an earlier run left of such a method is not
     /// named.
-    pub failed: &'a BTreeMap<String, String>,
+    pub failed: BTreeMap<String, String>,
     /// `<case>/<method>` of which nothing valid is there, and which was not to be run.
     pub left_out: BTreeSet<String>,
     /// The identity of each method, by its id, see [`MethodWork::identity`](super::method_work).
     pub contents: BTreeMap<String, String>,
     /// Bytes that the stages of each kind left, by their folders.
-    pub sizes: BTreeMap<&'static str, u64>,
+    pub bytes: BTreeMap<String, u64>,
 }
 
-impl Default for Made<'_> {
-    fn default() -> Self {
-        static NOTHING: BTreeMap<String, String> = BTreeMap::new();
-        Self {
-            failed: &NOTHING,
-            left_out: BTreeSet::new(),
-            contents: BTreeMap::new(),
-            sizes: BTreeMap::new(),
-        }
+/// The manifest of a run of `suite`.
+pub(super) fn manifest(suite: &Suite, renderer: &Fingerprints, ended: Ended) -> RunFile {
+    let mut cases: Vec<Case> =
+        suite.cases.iter().map(|case| described(suite, case, &ended)).collect();
+    cases.retain(|case| !case.methods.is_empty() || ended.left_out.is_empty());
+    let mut versions = versions(renderer);
+    versions.insert("solver sources".to_owned(), SOLVER_SOURCES.into());
+    RunFile {
+        format: FORMAT,
+        suite: suite.name.clone(),
+        title: Some(suite.title.clone()),
+        cases,
+        versions,
+        suite_toml: Some(suite.text.clone()),
+        bytes: ended.bytes,
     }
 }
 
-/// The content of `run.json`.
-pub(super) fn manifest(suite: &Suite, renderer: &Fingerprints, made: &Made) -> Value {
-    let cases: Vec<Value> = suite
-        .cases
-        .iter()
-        .map(|case| {
-            let solvers: Vec<Value> = suite
-                .methods
-                .iter()
-                .filter(|method| !made.left_out.contains(&format!("{}/{}", case.id, method.id)))
-                .map(|method| {
-                    let name = format!("{}/{}", case.id, method.id);
-                    let below = |folder| format!("{folder}/{name}");
-                    let mut solver = json!({
-                        "id": method.id, "kind": method.work().role(), "class": method.work().class().name(),
-                        "title": method.title,
-                    });
-                    if let Some((name, seed)) = &method.replicate {
-                        solver["of"] = json!(name);
-                        solver["seed"] = json!(seed);
-                    }
-                    if let Some(author) = &method.author {
-                        solver["author"] = json!(author);
-                    }
-                    if let Some(content) = made.contents.get(&method.id) {
-                        solver["content"] = json!(content);
-                    }
-                    if !method.set.is_empty() {
-                        solver["set"] = json!(method.set);
-                    }
-                    if let Some(reason) = made.failed.get(&name) {
-                        solver["failed"] = json!(reason);
-                    } else {
-                        solver["maps"] = json!(below("maps"));
-                        solver["relit"] = json!(below("relit"));
-                        solver["scores"] = json!(format!("{}.json", below("scores")));
-                    }
-                    solver
-                })
-                .collect();
-            json!({
-                "id": case.id, "face": case.scene.name_of("face"),
-                "light": case.scene.name_of("light"), "variant": case.variant,
-                "seed": case.seed,
-                "capture": match &case.photographed {
-                    Some(folder) => folder.display().to_string(),
-                    None => format!("captures/{}", case.id),
-                },
-                "solvers": solvers,
-            })
-        })
-        .filter(|case| case["solvers"] != json!([]) || made.left_out.is_empty())
-        .collect();
-    let mut manifest = json!({
-        "format": 1, "suite": suite.name, "title": suite.title, "cases": cases,
-        "versions": {
-            "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer.to_string(),
-            "solver sources": SOLVER_SOURCES, "scoring sources": SCORE_SOURCES,
-        },
-        "suite_toml": suite.text,
+/// Versions of the program, the renderer and the scores.
+pub(super) fn versions(renderer: &Fingerprints) -> BTreeMap<String, Value> {
+    [
+        ("unshade", env!("CARGO_PKG_VERSION").into()),
+        ("renderer", renderer.to_string().into()),
+        ("scoring sources", SCORE_SOURCES.into()),
+    ]
+    .map(|(name, version)| (name.to_owned(), version))
+    .into()
+}
+
+fn described(suite: &Suite, case: &cases::Case, ended: &Ended) -> Case {
+    let capture = match &case.photographed {
+        // A manifest is UTF-8.
+        Some(folder) => folder.to_string_lossy().into_owned(),
+        None => format!("captures/{}", case.id),
+    };
+    let methods = suite.methods.iter().filter_map(|method| {
+        let name = format!("{}/{}", case.id, method.id);
+        (!ended.left_out.contains(&name)).then(|| column(method, &name, ended))
     });
-    if !made.sizes.is_empty() {
-        manifest["bytes"] = json!(made.sizes);
+    Case {
+        id: case.id.clone(),
+        face: case.scene.name_of("face").to_owned(),
+        light: case.scene.name_of("light").to_owned(),
+        variant: case.variant.clone(),
+        seed: case.seed,
+        capture: capture.into(),
+        methods: methods.collect(),
     }
-    manifest
+}
+
+fn column(method: &method::Method, name: &str, ended: &Ended) -> Method {
+    let failed = ended.failed.get(name).cloned();
+    let below = |folder: &str| failed.is_none().then(|| PathBuf::from(format!("{folder}/{name}")));
+    let replicate = method.replicate.as_ref();
+    Method {
+        id: method.id.clone(),
+        kind: method.work().role(),
+        class: method.work().class(),
+        title: Some(method.title.clone()),
+        of: replicate.map(|(name, _)| name.clone()),
+        seed: replicate.map(|(_, seed)| *seed),
+        author: method.author.clone(),
+        content: ended.contents.get(&method.id).cloned(),
+        set: json!(method.set).as_object().cloned().unwrap_or_default(),
+        maps: below("maps"),
+        relit: below("relit"),
+        scores: failed.is_none().then(|| format!("scores/{name}.json").into()),
+        failed,
+    }
 }

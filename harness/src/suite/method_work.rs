@@ -4,9 +4,9 @@ use std::fmt::Debug;
 use std::path::Path;
 
 use formats::content_hash::hash_parts;
+use scoring::run::{Class, Kind};
 
 use super::case_size::CaseSize;
-use super::competitor::Class;
 use super::error::RunError;
 use super::key::{Inputs, Key};
 use super::preflight::ResolvedMethod;
@@ -19,9 +19,9 @@ pub(super) type Fault = (&'static str, String);
 
 /// A kind of method.
 pub(super) trait MethodWork {
-    /// `solver`, `baseline`, `privileged` or `oracle`, as results name it.
-    fn role(&self) -> &'static str {
-        "solver"
+    /// The part that it plays in results.
+    fn role(&self) -> Kind {
+        Kind::Solver
     }
 
     /// Class of its inputs.

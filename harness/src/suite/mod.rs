@@ -57,7 +57,7 @@ pub use case_place::case_places;
 pub use cases::Case;
 pub use clean::{Cleaned, Part, clean};
 pub use cluster::{Cluster, check_worker};
-pub use competitor::{Class, Competitor};
+pub use competitor::Competitor;
 pub use earlier::Bound;
 pub use error::RunError;
 pub use file::{NETS, RENDERERS, SCALES, Suite};

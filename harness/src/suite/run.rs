@@ -5,7 +5,6 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -18,7 +17,7 @@ use super::cost::drawn;
 use super::error::RunError;
 use super::executor::{Contents, StageExecutor};
 use super::file::Suite;
-use super::manifest::{Made, manifest};
+use super::manifest::{Ended, manifest};
 use super::observer::Observer;
 use super::plan::{Stage, StageKind, plan};
 use super::pool::{self, Work};
@@ -116,7 +115,7 @@ pub(super) fn stages(
     let mut times = Times::new(out, &plan);
     let redo = &options.redo;
     let executor = StageExecutor::new(suite, out, tools, &renderer, &methods, redo);
-    write_manifest(&executor, &Made::default())?;
+    manifest(suite, &renderer, Ended::default()).write(out)?;
     times.around.start = start.elapsed().as_secs_f64();
     let reading = Instant::now();
     if let Some(cases) = prepare(&executor, &plan, &records)? {
@@ -143,8 +142,8 @@ pub(super) fn stages(
             contents.insert(resolved.method.id.clone(), hash_parts(&parts));
         }
     }
-    let made = Made { failed: &done.failed, left_out, contents, sizes: sizes(&plan, &times) };
-    write_manifest(&executor, &made)?;
+    let (failed, bytes) = (done.failed.clone(), bytes(&plan, &times));
+    manifest(suite, &renderer, Ended { failed, left_out, contents, bytes }).write(out)?;
     Ok((lock, times, done))
 }
 
@@ -203,23 +202,17 @@ pub fn report(
     Ok(())
 }
 
-fn write_manifest(executor: &StageExecutor, made: &Made) -> Result<(), RunError> {
-    let manifest = manifest(executor.suite, executor.renderer, made);
-    let text = serde_json::to_vec_pretty(&manifest).map_err(io::Error::from)?;
-    Ok(atomic::write_file(&executor.out.join("run.json"), &text)?)
-}
-
 /// Bytes that the stages of each kind left.
-fn sizes(plan: &[Stage], times: &Times) -> BTreeMap<&'static str, u64> {
+fn bytes(plan: &[Stage], times: &Times) -> BTreeMap<String, u64> {
     let kinds: BTreeMap<&str, StageKind> =
         plan.iter().map(|stage| (stage.id.as_str(), stage.kind)).collect();
-    let mut sizes = BTreeMap::new();
+    let mut bytes = BTreeMap::new();
     for record in times.records() {
         if let Some(kind) = kinds.get(record.id.as_str()) {
-            *sizes.entry(kind.folder()).or_insert(0) += record.bytes;
+            *bytes.entry(kind.folder().to_owned()).or_insert(0) += record.bytes;
         }
     }
-    sizes
+    bytes
 }
 
 /// Writes the scenes of all cases, and checks those that are still to be rendered: how many, if any.

@@ -7,19 +7,20 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::{self, Folder};
 use formats::content_hash::hash_path;
+use report::ReportError;
 use scoring::check::{self, Finding, Level};
+use scoring::run::{self, FORMAT, RunFile};
 use scoring::score::{self, Scores};
 use sealing::{Secret, Statement};
 use serde::Deserialize;
-use serde_json::{Value, json};
 
 use super::error::RunError;
 use super::file::{RENDERERS, SCALES};
+use super::manifest;
 use super::observer::Observer;
 use super::plan::StageKind;
 use super::remote_stage::versions;
 use super::seal::{Relight, Round, SealedCase};
-use super::sources::SCORE_SOURCES;
 use super::stages;
 use crate::synth::Tools;
 
@@ -102,7 +103,7 @@ pub struct Checked {
 /// Looks through a submission as who scores it would: a folder of maps for the captures of a round (`public`),
 /// or a run's folder with its scores, for a leaderboard.
 pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked, RunError> {
-    if folder.join("run.json").is_file() && !folder.join(FILE).is_file() {
+    if folder.join(RunFile::NAME).is_file() && !folder.join(FILE).is_file() {
         return check_scored(folder);
     }
     let mut checked = Checked::default();
@@ -160,29 +161,25 @@ pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked,
     Ok(checked)
 }
 
-/// A run's folder, of which a leaderboard is made: its scores are there, and of what they say.
+/// Checks a run's folder for a leaderboard: its scores are there, and belong to its cases and methods.
 fn check_scored(run: &Path) -> Result<Checked, RunError> {
     let mut checked = Checked::default();
-    let path = run.join("run.json");
-    let wrong = |reason| RunError::File { path: path.clone(), reason };
-    let manifest: Value = serde_json::from_slice(&fs::read(&path).map_err(wrong)?)
-        .map_err(|error| wrong(io::Error::other(error)))?;
-    for case in manifest["cases"].as_array().into_iter().flatten() {
-        for method in case["solvers"].as_array().into_iter().flatten() {
-            let Some(file) = method["scores"].as_str() else { continue };
-            checked.of += 1;
-            match Scores::read(&run.join(file)) {
-                Err(error) => checked.faults.push(error.to_string()),
-                Ok(scores) if scores.light != case["light"] || scores.solver != method["id"] => {
-                    checked
-                        .faults
-                        .push(format!("{file}: is of another case or method than run.json says"));
-                }
-                Ok(_) => checked.cases += 1,
+    for (case, method) in RunFile::open(run).map_err(ReportError::from)?.methods() {
+        let Some(file) = &method.scores else { continue };
+        checked.of += 1;
+        match Scores::read(&run.join(file)) {
+            Err(error) => checked.faults.push(error.to_string()),
+            Ok(scores) if scores.light != case.light || scores.solver != method.id => {
+                let file = file.display();
+                checked
+                    .faults
+                    .push(format!("{file}: is of another case or method than run.json says"));
             }
+            Ok(_) => checked.cases += 1,
         }
     }
     if checked.of == 0 {
+        let path = run.join(RunFile::NAME);
         checked.faults.push(format!("{}: names no scores; finish the run", path.display()));
     }
     if sealing::is_signed(run)
@@ -311,38 +308,54 @@ impl Scoring<'_> {
         Ok(scores.write(&file)?)
     }
 
+    /// The case of the manifest.
+    fn described(&self, case: &SealedCase, scored: &Scored) -> run::Case {
+        let Submission { name, title, by, .. } = self.submission;
+        let failed = scored.failed.get(&case.id).cloned();
+        let scores = failed.is_none().then(|| self.file(&case.id).into());
+        let method = run::Method {
+            id: name.clone(),
+            kind: run::Kind::Solver,
+            class: run::Class::Passive,
+            title: Some(title.as_ref().unwrap_or(name).clone()),
+            of: None,
+            seed: None,
+            author: Some(by.clone()),
+            content: None,
+            set: serde_json::Map::new(),
+            failed,
+            maps: None,
+            relit: None,
+            scores,
+        };
+        run::Case {
+            id: case.id.clone(),
+            face: case.face.clone(),
+            light: case.light.clone(),
+            variant: case.variant.clone(),
+            seed: None,
+            capture: format!("captures/{}", case.id).into(),
+            methods: vec![method],
+        }
+    }
+
     /// Writes the manifest, and the statement with its signature.
     fn sign(&self, scored: Scored, secret: &Secret) -> Result<BTreeMap<String, String>, RunError> {
         let (round, name) = (self.round, &self.submission.name);
-        let cases: Vec<Value> = (round.cases.iter())
-            .map(|case| {
-                let title = self.submission.title.as_ref().unwrap_or(name);
-                let mut solver =
-                    json!({"id": name, "kind": "solver", "class": "passive", "title": title,
-                    "author": self.submission.by});
-                match scored.failed.get(&case.id) {
-                    Some(reason) => solver["failed"] = json!(reason),
-                    None => solver["scores"] = json!(self.file(&case.id)),
-                }
-                json!({
-                    "id": case.id, "face": case.face, "light": case.light, "variant": case.variant,
-                    "capture": format!("captures/{}", case.id), "solvers": [solver],
-                })
-            })
-            .collect();
         let renderer = self.tools.interpreter.fingerprints()?;
-        let run = json!({
-            "format": 1, "suite": round.suite,
-            "title": format!("{}, round {}: {} by {}", round.suite, round.round, name, self.submission.by),
-            "cases": cases,
-            "versions": {
-                "unshade": env!("CARGO_PKG_VERSION"), "renderer": renderer.to_string(), "scoring sources": SCORE_SOURCES,
-            },
-        });
-        let text = serde_json::to_vec_pretty(&run).map_err(io::Error::from)?;
-        fs::write(self.out.join("run.json"), text)?;
+        let by = &self.submission.by;
+        RunFile {
+            format: FORMAT,
+            suite: round.suite.clone(),
+            title: Some(format!("{}, round {}: {name} by {by}", round.suite, round.round)),
+            cases: round.cases.iter().map(|case| self.described(case, &scored)).collect(),
+            versions: manifest::versions(&renderer),
+            suite_toml: None,
+            bytes: BTreeMap::new(),
+        }
+        .write(self.out)?;
         let written = round.cases.iter().filter(|case| !scored.failed.contains_key(&case.id));
-        let names = written.map(|case| self.file(&case.id)).chain(["run.json".to_owned()]);
+        let names = written.map(|case| self.file(&case.id)).chain([RunFile::NAME.to_owned()]);
         let files = names.map(|name| Ok((name.clone(), hash_path(&self.out.join(&name))?)));
         let of = |hash: &dyn Fn(&SealedCase) -> String| {
             round.cases.iter().map(|case| (case.id.clone(), hash(case))).collect()

@@ -1,5 +1,7 @@
 //! A baseline.
 
+use scoring::run::Kind;
+
 use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::key::{Inputs, Key};
@@ -12,8 +14,8 @@ use crate::suite::stage_work::{Effort, Step};
 use crate::synth::Tools;
 
 impl MethodWork for BaselineSettings {
-    fn role(&self) -> &'static str {
-        "baseline"
+    fn role(&self) -> Kind {
+        Kind::Baseline
     }
 
     fn title(&self, _: &str) -> String {

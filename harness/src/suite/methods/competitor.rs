@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use scoring::run::Class;
 use serde_json::Value;
 
 use crate::suite::case_size::CaseSize;
-use crate::suite::competitor::Class;
 use crate::suite::error::RunError;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::{CompetitorMethod, MethodKind};

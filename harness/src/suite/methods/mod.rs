@@ -38,11 +38,6 @@ impl MethodKind {
 }
 
 impl Method {
-    /// `solver`, `baseline`, `privileged` or `oracle`, as results name it.
-    pub fn role(&self) -> &'static str {
-        self.work().role()
-    }
-
     /// The properties and the work of the method.
     pub(super) fn work(&self) -> &dyn MethodWork {
         self.kind.work()

@@ -1,9 +1,9 @@
 //! Methods that read the truth.
 
+use scoring::run::{Class, Kind};
 use scoring::score;
 
 use crate::suite::case_size::CaseSize;
-use crate::suite::competitor::Class;
 use crate::suite::error::RunError;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::MethodKind;
@@ -29,8 +29,8 @@ fn identity(resolved: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError> 
 }
 
 impl MethodWork for Oracle {
-    fn role(&self) -> &'static str {
-        "oracle"
+    fn role(&self) -> Kind {
+        Kind::Oracle
     }
 
     fn class(&self) -> Class {
@@ -66,8 +66,8 @@ impl MethodWork for Oracle {
 }
 
 impl MethodWork for LabelMeans {
-    fn role(&self) -> &'static str {
-        "privileged"
+    fn role(&self) -> Kind {
+        Kind::Privileged
     }
 
     fn class(&self) -> Class {
