@@ -9,10 +9,11 @@ use std::time::Instant;
 
 use super::error::RunError;
 use super::file::Suite;
-use super::finished::{Made, Record};
+use super::finished::{Provenance, Record};
 use super::output::Output;
 use super::plan::{Stage, StageKind};
 use super::preflight::ResolvedMethod;
+use super::program::Usage;
 use super::record::{Records, now};
 use super::size::size_of;
 use super::sources::Sources;
@@ -138,7 +139,7 @@ impl<'a> StageExecutor<'a> {
         stage: &Stage,
         contents: &Contents,
         records: &Records,
-        make: impl FnOnce(&Path) -> Result<Made, RunError>,
+        make: impl FnOnce(&Path) -> Result<Option<Usage>, RunError>,
     ) -> Result<StageResult, RunError> {
         let key = self.key(stage, contents)?;
         let path = self.path(stage);
@@ -152,11 +153,11 @@ impl<'a> StageExecutor<'a> {
             fs::create_dir_all(folder)?;
         }
         let start = Instant::now();
-        let made = make(&path)?;
+        let usage = make(&path)?;
         let output = Output::of(stage.kind, &path)?;
         records.adopt(&stage.id, &key.hash, &output)?;
         let effort = stage.effort(self.suite);
-        let made = Made { at: now(), from: key.made_from, ..made };
+        let made = Provenance { at: now(), from: key.made_from, usage };
         let record = Record {
             id: stage.id.clone(),
             output,

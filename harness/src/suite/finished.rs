@@ -13,13 +13,13 @@ pub(super) struct Finished {
     pub output: Output,
 }
 
-/// How an output came about, beside what it was made from. It is no content: two runs differ in it.
+/// The circumstances in which an output was made. They are not part of its content: two runs differ in them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Made {
+pub struct Provenance {
     /// When, in UTC.
     #[serde(default)]
     pub at: String,
-    /// By what, in words.
+    /// The code that made it, in words.
     #[serde(default)]
     pub from: String,
     /// Time and memory that a program took.
@@ -49,7 +49,7 @@ pub struct Record {
     /// Key of the records that it is compared with, see [`Effort`](super::stage_work).
     #[serde(default)]
     pub what: String,
-    /// How it came about.
+    /// The circumstances.
     #[serde(default)]
-    pub made: Made,
+    pub made: Provenance,
 }

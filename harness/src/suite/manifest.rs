@@ -82,7 +82,7 @@ fn column(method: &method::Method, name: &str, ended: &Ended) -> Method {
     let replicate = method.replicate.as_ref();
     Method {
         id: method.id.clone(),
-        kind: method.work().role(),
+        kind: method.role(),
         class: method.work().class(),
         title: Some(method.title.clone()),
         of: replicate.map(|(name, _)| name.clone()),

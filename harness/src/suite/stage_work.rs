@@ -6,10 +6,10 @@ use super::case_size::CaseSize;
 use super::error::RunError;
 use super::executor::StageExecutor;
 use super::file::Suite;
-use super::finished::Made;
 use super::key::{Inputs, Key};
 use super::method::Method;
 use super::plan::Stage;
+use super::program::Usage;
 
 /// Called with how many of how many steps are done, and what is being done.
 pub(super) type Step<'a> = &'a mut dyn FnMut(u64, u64, &str);
@@ -43,14 +43,14 @@ pub(super) trait StageWork: Sync {
     /// Key of what a stage reads, and of nothing else.
     fn key(&self, inputs: &Inputs) -> Result<Key, RunError>;
 
-    /// Makes the output of a stage at `out`.
+    /// Makes the output of a stage at `out`; returns the time and memory of a program.
     fn make(
         &self,
         executor: &StageExecutor,
         stage: &Stage,
         out: &Path,
         step: Step,
-    ) -> Result<Made, RunError>;
+    ) -> Result<Option<Usage>, RunError>;
 
     /// How much there is to do for a case of this size.
     fn effort(&self, suite: &Suite, size: &CaseSize, method: Option<&Method>) -> Effort;

@@ -12,10 +12,8 @@ use super::error::RunError;
 use super::packaged::Kind;
 use super::place;
 use super::scene::{self, Scene};
+use super::stage_work::Step;
 use crate::synth::{Export, Request, Tools};
-
-/// Called with how many of how many steps are done, and what is being done.
-type Step<'a> = &'a mut dyn FnMut(u64, u64, &str);
 
 /// Renders the scene file `scene`, or a scene that comes with unshade, into the capture folder `out`.
 pub fn synth(scene: &Path, out: &Path, tools: &Tools, step: Step) -> Result<(), RunError> {

@@ -133,7 +133,7 @@ fn suite() {
             format!("scene {}", scene.files().len())
         });
         let suite = met(Suite::open(&path), |suite| {
-            let kinds: Vec<_> = suite.methods.iter().map(|method| method.role()).collect();
+            let kinds: Vec<_> = suite.methods.iter().map(|method| method.role().name()).collect();
             format!("suite {} {}", "*".repeat(suite.cases.len().min(9)), kinds.join(" "))
         });
         // Messages begin with the file's path.

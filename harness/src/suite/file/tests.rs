@@ -260,7 +260,7 @@ fn every_case_is_there_in_every_variant_and_a_variant_changes_only_what_it_names
         suite.methods[0].kind,
         MethodKind::Baseline(BaselineSettings { baseline, texture_size: 512 })
     );
-    assert_eq!(suite.methods[0].work().role(), scoring::run::Kind::Baseline);
+    assert_eq!(suite.methods[0].role(), scoring::run::Kind::Baseline);
 }
 
 #[test]

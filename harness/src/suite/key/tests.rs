@@ -12,7 +12,6 @@ use super::super::clean::clean;
 use super::super::earlier::Bound;
 use super::super::executor::{Contents, StageExecutor};
 use super::super::file::Suite;
-use super::super::finished::Made;
 use super::super::method::MethodKind;
 use super::super::plan::{Stage, StageKind, plan};
 use super::super::preflight;
@@ -143,7 +142,7 @@ impl Place {
         let mut ran: BTreeMap<StageKind, Vec<&str>> = BTreeMap::new();
         for stage in plan(&suite) {
             let key = executor.key(&stage, &contents)?.hash;
-            let make = |path: &Path| make(&executor, &stage, path, &key).map(|()| Made::default());
+            let make = |path: &Path| make(&executor, &stage, path, &key).map(|()| None);
             let done = executor.run_by(&stage, &contents, &records, make)?;
             if !done.kept {
                 let method = stage.method.map(|method| &*suite.methods[method].id);

@@ -6,6 +6,8 @@ mod privileged;
 mod program;
 mod solver;
 
+use scoring::run::Kind;
+
 use super::method::{Method, MethodKind};
 use super::method_work::{Fault, MethodWork};
 use super::seeds::Vary;
@@ -38,6 +40,11 @@ impl MethodKind {
 }
 
 impl Method {
+    /// The part that it plays in results.
+    pub fn role(&self) -> Kind {
+        self.work().role()
+    }
+
     /// The properties and the work of the method.
     pub(super) fn work(&self) -> &dyn MethodWork {
         self.kind.work()

@@ -6,10 +6,10 @@ use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::executor::StageExecutor;
 use crate::suite::file::Suite;
-use crate::suite::finished::Made;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::Method;
 use crate::suite::plan::{Stage, StageKind};
+use crate::suite::program::Usage;
 use crate::suite::stage_work::{Effort, StageWork, Step, rendering_memory};
 use crate::synth::Request;
 
@@ -27,11 +27,11 @@ impl StageWork for Capture {
         stage: &Stage,
         out: &Path,
         step: Step,
-    ) -> Result<Made, RunError> {
+    ) -> Result<Option<Usage>, RunError> {
         let id = &executor.suite.cases[stage.case].id;
         let scene = executor.out.join(StageKind::Capture.folder()).join(format!("{id}.toml"));
         executor.tools.run(&Request::Synth { scene: &scene, out }, step)?;
-        Ok(Made::default())
+        Ok(None)
     }
 
     fn effort(&self, _: &Suite, size: &CaseSize, _: Option<&Method>) -> Effort {

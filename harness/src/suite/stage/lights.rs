@@ -6,10 +6,10 @@ use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::executor::StageExecutor;
 use crate::suite::file::Suite;
-use crate::suite::finished::Made;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::Method;
 use crate::suite::plan::Stage;
+use crate::suite::program::Usage;
 use crate::suite::stage_work::{Effort, RENDERER, StageWork, Step};
 use crate::synth::Request;
 
@@ -26,9 +26,9 @@ impl StageWork for Lights {
         stage: &Stage,
         out: &Path,
         step: Step,
-    ) -> Result<Made, RunError> {
+    ) -> Result<Option<Usage>, RunError> {
         executor.tools.run(&Request::Lights { capture: &executor.capture(stage), out }, step)?;
-        Ok(Made::default())
+        Ok(None)
     }
 
     fn effort(&self, _: &Suite, _: &CaseSize, _: Option<&Method>) -> Effort {

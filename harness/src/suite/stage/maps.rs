@@ -6,12 +6,10 @@ use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::executor::{DEBUG, StageExecutor};
 use crate::suite::file::Suite;
-use crate::suite::finished::Made;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::Method;
-
 use crate::suite::plan::{Stage, StageKind};
-use crate::suite::program::{self, Place};
+use crate::suite::program::{self, Place, Usage};
 use crate::suite::stage_work::{Effort, SMALL, StageWork, Step};
 
 pub(super) struct Maps;
@@ -31,8 +29,8 @@ impl StageWork for Maps {
         stage: &Stage,
         out: &Path,
         step: Step,
-    ) -> Result<Made, RunError> {
-        let Some(resolved) = executor.method(stage) else { return Ok(Made::default()) };
+    ) -> Result<Option<Usage>, RunError> {
+        let Some(resolved) = executor.method(stage) else { return Ok(None) };
         let case = &executor.suite.cases[stage.case];
         let run = executor.out;
         let name = format!("{}/{}", case.id, resolved.method.id);
@@ -48,8 +46,7 @@ impl StageWork for Maps {
             secret: files.chain([run.to_path_buf()]).collect(),
             scratch: &program::scratch_prefix(run),
         };
-        let usage = resolved.method.work().make(resolved, &place, executor.tools, step)?;
-        Ok(Made { usage, ..Made::default() })
+        resolved.method.work().make(resolved, &place, executor.tools, step)
     }
 
     fn effort(&self, _: &Suite, size: &CaseSize, method: Option<&Method>) -> Effort {

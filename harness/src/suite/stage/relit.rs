@@ -10,10 +10,10 @@ use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::executor::StageExecutor;
 use crate::suite::file::Suite;
-use crate::suite::finished::Made;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::Method;
 use crate::suite::plan::{Stage, StageKind};
+use crate::suite::program::Usage;
 use crate::suite::stage_work::{Effort, StageWork, Step, relit_pixels, rendering_memory};
 use crate::suite::stages::{Relight, relight};
 
@@ -42,7 +42,7 @@ impl StageWork for Relit {
         stage: &Stage,
         out: &Path,
         step: Step,
-    ) -> Result<Made, RunError> {
+    ) -> Result<Option<Usage>, RunError> {
         let (suite, tools) = (executor.suite, executor.tools);
         let (capture, maps) = (&executor.capture(stage), &executor.output(stage, StageKind::Maps));
         let method = executor.method(stage);
@@ -58,7 +58,7 @@ impl StageWork for Relit {
             fs::write(folder.path().join("relit.json"), "{\"scales\": {}}\n")?;
             folder.commit()?;
         }
-        Ok(Made::default())
+        Ok(None)
     }
 
     fn effort(&self, suite: &Suite, size: &CaseSize, method: Option<&Method>) -> Effort {

@@ -8,11 +8,11 @@ use crate::suite::case_size::CaseSize;
 use crate::suite::error::RunError;
 use crate::suite::executor::StageExecutor;
 use crate::suite::file::Suite;
-use crate::suite::finished::Made;
 use crate::suite::key::{Inputs, Key};
 use crate::suite::method::Method;
 use crate::suite::perceptual::lpips;
 use crate::suite::plan::{Stage, StageKind};
+use crate::suite::program::Usage;
 use crate::suite::stage_work::{Effort, SMALL, StageWork, Step, lights_of, relit_pixels};
 
 pub(super) struct Scores;
@@ -35,7 +35,7 @@ impl StageWork for Scores {
         stage: &Stage,
         out: &Path,
         _: Step,
-    ) -> Result<Made, RunError> {
+    ) -> Result<Option<Usage>, RunError> {
         let (suite, tools) = (executor.suite, executor.tools);
         let capture = executor.capture(stage);
         let [maps, relit] =
@@ -49,7 +49,7 @@ impl StageWork for Scores {
         }
         suite.metrics.add_rows(&mut scores, [&capture, &maps], Some(&relit), tools)?;
         scores.write(out)?;
-        Ok(Made::default())
+        Ok(None)
     }
 
     fn effort(&self, suite: &Suite, size: &CaseSize, method: Option<&Method>) -> Effort {
