@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use formats::atomic::{self, Folder};
 use formats::content_hash::hash_path;
-use report::ReportError;
 use scoring::check::{self, Finding, Level};
 use scoring::run::{self, FORMAT, RunFile};
 use scoring::score::{self, Scores};
@@ -164,7 +163,14 @@ pub fn check_submission(folder: &Path, public: Option<&Path>) -> Result<Checked,
 /// Checks a run's folder for a leaderboard: its scores are there, and belong to its cases and methods.
 fn check_scored(run: &Path) -> Result<Checked, RunError> {
     let mut checked = Checked::default();
-    for (case, method) in RunFile::open(run).map_err(ReportError::from)?.methods() {
+    let manifest = match RunFile::open(run) {
+        Ok(manifest) => manifest,
+        Err(fault) => {
+            checked.faults.push(fault.to_string());
+            return Ok(checked);
+        }
+    };
+    for (case, method) in manifest.methods() {
         let Some(file) = &method.scores else { continue };
         checked.of += 1;
         match Scores::read(&run.join(file)) {
