@@ -13,7 +13,7 @@ WIDTH = 7.2
 """Width of a page's text, inches."""
 FONT = 7
 """Points."""
-LEFT = 0.28
+LEFT = 0.32
 """Room for the rows' titles, inches."""
 GAP = 0.03
 LINE = 0.13
@@ -36,9 +36,14 @@ def _layout(block: dict[str, Any]) -> tuple[float, list[float], float]:
         lines = max(
             [cell["caption"].count("/") // 2 + 1 for cell in row["cells"] if cell and cell["caption"]], default=0
         )
-        rows.append(width + GAP + LINE * lines)
+        rows.append(_panel_height(row, width) + GAP + LINE * lines)
     top = LINE * (1.5 if block["title"] else 0) + LINE * _heading_lines(block, width) + 0.06
     return width, rows, top + sum(rows) + (BAR if block["error"] else 0.05)
+
+
+def _panel_height(row: dict[str, Any], width: float) -> float:
+    """Inches of the row's highest panel."""
+    return width * max((cell["height_over_width"] for cell in row["cells"] if cell), default=1.0)
 
 
 def _heading_lines(block: dict[str, Any], width: float) -> int:
@@ -67,17 +72,19 @@ def draw(part: SubFigure, blocks: list[dict[str, Any]], folder: Path) -> None:
         part.text(*place(x, down), _wrapped(title, width), ha="center", va="bottom")
     down += 0.02
     for row, tall in zip(block["rows"], rows):
-        part.text(*place(0.12, down + width / 2), _wrapped(row["title"], width), rotation=90, ha="center", va="center")
+        high = _panel_height(row, width)
+        title = _wrapped(row["title"], high)
+        part.text(*place(LEFT / 2, down + high / 2), title, rotation=90, ha="center", va="center")
         for at, cell in enumerate(row["cells"]):
             if cell is None:
                 continue
             x = LEFT + at * (width + GAP)
-            axes = part.add_axes((x / WIDTH, 1 - (down + width) / whole, width / WIDTH, width / whole))
+            axes = part.add_axes((x / WIDTH, 1 - (down + high) / whole, width / WIDTH, high / whole))
             axes.imshow(image.imread(folder / cell["file"]), interpolation="nearest")
             axes.set_axis_off()
             if cell["caption"]:
                 caption = cell["caption"].replace(" / ", "\n", 1)
-                part.text(*place(x + width / 2, down + width + 0.01), caption, ha="center", va="top", size=FONT - 1.5)
+                part.text(*place(x + width / 2, down + high + 0.01), caption, ha="center", va="top", size=FONT - 1.5)
         down += tall
     if block["error"]:
         _colour_bar(part, block["error"], (LEFT / WIDTH, (BAR - 0.14) / whole, 0.3, 0.07 / whole))

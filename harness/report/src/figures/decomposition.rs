@@ -98,7 +98,13 @@ fn parts(
     }
     let layers = file(format!("layers/{}.exr", frame.name));
     for (part, layer) in [("diffuse-layer", Layer::DIFFUSE), ("specular-layer", Layer::SPECULAR)] {
-        cells.push(drawing.picture(&name(part), layers.as_deref(), &layer, String::new())?);
+        cells.push(drawing.picture(
+            &name(part),
+            layers.as_deref(),
+            &layer,
+            frame,
+            String::new(),
+        )?);
     }
     Ok(cells)
 }

@@ -56,6 +56,7 @@ pub(super) struct PanelRow {
 pub(super) struct Panel {
     /// Below the figure's folder.
     pub file: String,
+    pub height_over_width: f64,
     pub caption: String,
 }
 
@@ -128,7 +129,8 @@ impl Drawing {
         let path = self.root.join(&file);
         create_parent(&path)?;
         raster.save(&path)?;
-        Ok(Panel { file, caption })
+        let height_over_width = raster.height as f64 / raster.width as f64;
+        Ok(Panel { file, height_over_width, caption })
     }
 
     /// Adds a row of the CSV: an object with the names of the columns as its keys.

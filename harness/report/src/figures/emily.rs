@@ -25,15 +25,18 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         if first.case.light == second.case.light {
             continue;
         }
-        let mut rows = matrix_rows(sources, drawing, first, &second.case.light)?;
-        rows.extend(matrix_rows(sources, drawing, second, &first.case.light)?);
         let parts = ["view synthesis, same light", "relit, same light", "relit, opposite light"];
         let mut columns = vec!["input".to_owned()];
         for part in parts {
             columns.extend([part.to_owned(), "result".to_owned(), "error".to_owned()]);
         }
-        let error = Some((ERROR.label().to_owned(), ERROR.top()));
-        drawing.blocks.push(Block::Panels(Panels { title: face, columns, rows, error }));
+        for (case, other) in [(first, second), (second, first)] {
+            let rows = matrix_rows(sources, drawing, case, &other.case.light)?;
+            let title = format!("{face}, captured in {}", case.case.light);
+            let error = Some((ERROR.label().to_owned(), ERROR.top()));
+            let columns = columns.clone();
+            drawing.blocks.push(Block::Panels(Panels { title, columns, rows, error }));
+        }
     }
     if drawing.rows.is_empty() {
         return Err(
@@ -41,7 +44,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
         );
     }
     drawing.caption = format!(
-        "The Digital Emily matrix: each row begins with the capture that was given. Observation, result and error \
+        "The Digital Emily matrix: each row begins with a picture of the capture. Observation, result and error \
          against it ({} from 0 to {}) of the withheld view by the method itself, of its maps relit in the same light, \
          and relit in the opposite light (albedo after its one factor). PSNR of sRGB values / SSIM / FLIP over the \
          face, all withheld views.",
@@ -82,9 +85,10 @@ fn matrix_rows(
                 &format!("{id}-{part}-truth"),
                 truth.as_deref(),
                 all,
+                frame,
                 String::new(),
             )?);
-            cells.push(drawing.picture(&name, made.as_deref(), all, scores.in_words())?);
+            cells.push(drawing.picture(&name, made.as_deref(), all, frame, scores.in_words())?);
             cells.push(drawing.error(
                 &format!("{name}-error"),
                 made.as_deref(),
@@ -97,7 +101,7 @@ fn matrix_rows(
                 "light": light.unwrap_or(own), "psnr_srgb": psnr, "ssim": ssim, "flip_mean": flip,
             }));
         }
-        rows.push(PanelRow { title: format!("{own}: {}", column.method.title()), cells });
+        rows.push(PanelRow { title: column.method.title().to_owned(), cells });
     }
     Ok(rows)
 }

@@ -2,6 +2,7 @@
 //! includes both, and a description that `unshade.figures` draws as one PNG and PDF.
 
 mod ablations;
+mod crop;
 mod decomposition;
 mod detail;
 mod drawing;

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use formats::picture::{Content, Picture};
+use formats::picture::{Content, GrayImage, Picture};
 
+use super::crop::Crop;
 use super::drawing::{Drawing, Panel};
 use super::source::CaseSource;
 use crate::comparison_figures::{read_if_present, read_mask_if_present};
@@ -19,20 +20,26 @@ use crate::views::Layer;
 pub(super) const ERROR: Measure = Measure::Display;
 
 impl Drawing {
-    /// A picture or one of its layers; none if it was not made.
+    /// The head in a picture of a frame, or in one of its layers; none if it was not made.
     pub fn picture(
         &self,
         name: &str,
         path: Option<&Path>,
         layer: &Layer,
+        frame: &Frame,
         caption: String,
     ) -> Result<Option<Panel>, ReportError> {
         let found = match path {
             Some(path) => read_if_present(path, layer.channels, Content::Colour)?,
             None => None,
         };
-        let panel = |picture| self.panel(name, &tone::colour(&picture, layer.exposure), caption);
-        found.map(panel).transpose()
+        let Some(found) = found else { return Ok(None) };
+        let head = mask_of(frame)?.and_then(|mask| Crop::around(&mask));
+        let shown = match head {
+            Some(head) => head.of(found),
+            None => found,
+        };
+        self.panel(name, &tone::colour(&shown, layer.exposure), caption).map(Some)
     }
 
     /// The training view nearest to the first withheld one.
@@ -43,8 +50,9 @@ impl Drawing {
     ) -> Result<Option<Panel>, ReportError> {
         let direction = frames.test.first().map_or([0.0, 0.0, 1.0], |frame| frame.direction);
         let Some(index) = frames.nearest_train(direction) else { return Ok(None) };
-        let image = Some(frames.train[index].image.as_path());
-        self.picture(&format!("{}-input", source.case.id), image, &Layer::ALL, String::new())
+        let frame = &frames.train[index];
+        let name = format!("{}-input", source.case.id);
+        self.picture(&name, Some(&frame.image), &Layer::ALL, frame, String::new())
     }
 
     /// A map; none if it was not made.
@@ -70,13 +78,24 @@ impl Drawing {
         let read = |path| read_if_present(path, Layer::ALL.channels, Content::Colour);
         let Some(made) = made.map(read).transpose()?.flatten() else { return Ok(None) };
         let Some(truth) = truth.map(read).transpose()?.flatten() else { return Ok(None) };
-        let mask =
-            frame.mask.as_ref().map(|mask| read_mask_if_present(mask)).transpose()?.flatten();
-        let field = difference::field(&made, &truth, mask.as_ref(), ERROR, 1.0);
-        let panel =
-            |field| self.panel(name, &tone::false_colour(&field, ERROR.top()), String::new());
-        field.map(panel).transpose()
+        let mask = mask_of(frame)?;
+        let head = mask.as_ref().and_then(Crop::around);
+        let Some(field) = difference::field(&made, &truth, mask.as_ref(), ERROR, 1.0) else {
+            return Ok(None);
+        };
+        let whole =
+            Picture { width: field.width, height: field.height, channels: 1, data: field.values };
+        let Picture { width, height, data: values, .. } = match head {
+            Some(head) => head.of(whole),
+            None => whole,
+        };
+        let field = tone::Field { width, height, values };
+        self.panel(name, &tone::false_colour(&field, ERROR.top()), String::new()).map(Some)
     }
+}
+
+fn mask_of(frame: &Frame) -> Result<Option<GrayImage>, ReportError> {
+    Ok(frame.mask.as_ref().map(|mask| read_mask_if_present(mask)).transpose()?.flatten())
 }
 
 /// The metrics below a picture, of one frame or of all.

@@ -31,6 +31,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             &format!("{id}-truth-view"),
             Some(&frame.image),
             &Layer::ALL,
+            frame,
             nothing(),
         )?);
         for map in &maps {
@@ -42,6 +43,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             &format!("{id}-truth-relit"),
             truth.as_deref(),
             &Layer::ALL,
+            frame,
             nothing(),
         )?);
         let mut rows = vec![PanelRow { title: frames.reference.word().to_owned(), cells }];
@@ -53,7 +55,13 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
             let name = format!("{id}-by-{method}");
             let mut cells = vec![
                 None,
-                drawing.picture(&format!("{name}-view"), view.as_deref(), &Layer::ALL, caption)?,
+                drawing.picture(
+                    &format!("{name}-view"),
+                    view.as_deref(),
+                    &Layer::ALL,
+                    frame,
+                    caption,
+                )?,
             ];
             for map in &maps {
                 let path = source.map(column, &format!("{}.exr", map.subject));
@@ -72,6 +80,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                 &format!("{name}-relit"),
                 relit.as_deref(),
                 &Layer::ALL,
+                frame,
                 caption,
             )?);
             rows.push(PanelRow { title: column.method.title().to_owned(), cells });

@@ -53,6 +53,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                 &format!("{name}-truth"),
                 truth.as_deref(),
                 &Layer::ALL,
+                frame,
                 nothing,
             )?);
             for (method, _) in &names {
@@ -66,7 +67,7 @@ pub(super) fn draw(sources: &Sources, drawing: &mut Drawing) -> Result<(), Repor
                 };
                 let caption = scores.as_ref().map_or(String::new(), PictureScores::in_words);
                 let name = format!("{name}-by-{method}");
-                cells.push(drawing.picture(&name, path.as_deref(), &Layer::ALL, caption)?);
+                cells.push(drawing.picture(&name, path.as_deref(), &Layer::ALL, frame, caption)?);
             }
         }
         let scored = source.columns.iter().filter(|column| sources.shows(column));
