@@ -10,12 +10,14 @@ import numpy as np
 from PIL import Image
 
 import unshade
-from unshade.files.pictures import read_exr
+from unshade.files.pictures import read_exr, read_gray
 from unshade.render import llvm
 
 llvm.activate(llvm.choose())
 
-SIDE = 256
+SIDE = 420
+"""Width of a tile, pixels."""
+GAP = 6
 
 
 def srgb(linear: np.ndarray) -> np.ndarray:
@@ -30,28 +32,40 @@ def picture(path: Path) -> np.ndarray:
     return np.stack([channels[name] for name in "RGB"], axis=-1)
 
 
+def head(mask: np.ndarray) -> tuple[slice, slice]:
+    """A square around the face, with room for the hair above it."""
+    rows, columns = np.nonzero(mask)
+    side = int(1.35 * max(np.ptp(rows), np.ptp(columns)))
+    top = max(0, int(rows.max() - 0.9 * side))
+    left = max(0, int((columns.min() + columns.max() - side) / 2))
+    return slice(top, top + side), slice(left, left + side)
+
+
 def tile(pixels: np.ndarray) -> np.ndarray:
-    """A square of the picture's row."""
-    return np.asarray(Image.fromarray(pixels).resize((SIDE, SIDE), Image.Resampling.LANCZOS))
+    """A tile of the picture with its gap."""
+    small = np.asarray(Image.fromarray(pixels).resize((SIDE, SIDE), Image.Resampling.LANCZOS))
+    return np.pad(small, ((0, GAP), (0, GAP), (0, 0)), constant_values=255)
 
 
 def main(run: Path) -> None:
-    """Writes ``docs/demo.jpg`` from the first case and solver of ``run``."""
+    """Writes ``docs/demo.jpg`` from the first case and solver of ``run``: the truth above what was recovered."""
     case = json.loads((run / "run.json").read_text())["cases"][0]
     solver, capture = case["solvers"][0], unshade.Capture(run / case["capture"])
-    frame = capture.withheld[-1]
-    truth = picture(capture.path / "images" / f"{frame}.exr")
-    relit = picture(run / solver["relit"] / "global" / case["light"] / f"{frame}.exr")
+    frame, lights = capture.withheld[-1], [case["light"]]
+    relit = capture.path / "truth/relit"
+    lights += sorted({path.name for path in relit.iterdir()} - set(lights))[:2]
     true, maps = capture.truth(), unshade.Maps.read(run / solver["maps"])
-    inside = (capture.truth().coverage > 0)[..., None]
+    face = head(read_gray(capture.path / "masks" / f"{frame}.png"))
+    chart = head(true.coverage)
     normal = lambda n: np.round(255 * (0.5 * n + 0.5)).astype(np.uint8)
-    tiles = [
-        srgb(truth), srgb(relit), srgb(4 * np.abs(truth - relit)),
-        srgb(true.diffuse_albedo * inside), srgb(maps.diffuse_albedo * inside),
-        normal(true.specular_normal) * inside, normal(maps.specular_normal) * inside,
-    ]  # fmt: skip
-    row = np.concatenate([tile(pixels) for pixels in tiles], axis=1)
-    Image.fromarray(row).save(Path(__file__).with_name("demo.jpg"), quality=88)
+    shown = lambda m: [srgb(m.diffuse_albedo), normal(m.specular_normal)]
+    rows = []
+    for folder, of in ((relit, true), (run / solver["relit"] / "global", maps)):
+        tiles = [srgb(picture(folder / light / f"{frame}.exr"))[face] for light in lights]
+        seen = np.asarray(Image.fromarray(true.coverage).resize(of.diffuse_albedo.shape[1::-1])) > 0
+        tiles += [(pixels * seen[..., None])[chart] for pixels in shown(of)]
+        rows.append(np.concatenate([tile(pixels) for pixels in tiles], axis=1))
+    Image.fromarray(np.concatenate(rows)[:-GAP, :-GAP]).save(Path(__file__).with_name("demo.jpg"), quality=90)
 
 
 if __name__ == "__main__":
