@@ -41,8 +41,11 @@ demo: build
 	$(BIN)/unshade run scenes/suites/demo.toml -o runs/demo
 	@echo "open runs/demo/report/index.html"
 
+# The Digital Emily matrix of one head; the whole one, a day on two cores, is `unshade run emily -o runs/emily`.
 emily: build
-	$(BIN)/unshade run scenes/suites/emily.toml -o runs/emily
+	$(BIN)/unshade run scenes/suites/emily-small.toml -o runs/emily-small
+	$(BIN)/unshade figure fig9 runs/emily-small -o runs/emily-small-figure
+	@echo "open runs/emily-small/report/index.html, runs/emily-small-figure/figure.png; all of it: unshade run emily"
 
 # Blender's Cycles as a second renderer and for .blend files, in an environment of its own: Blender's wheel wants
 # an older numpy than ours, and is for one Python alone.
