@@ -24,7 +24,10 @@ def test_a_name_stands_for_what_comes_with_unshade(tmp_path: Path, monkeypatch: 
     assert command("synth", "photographic", "--describe").stdout.startswith("scene photographic\n")
     failed = command("run", "photographic", "-o", "run", check=False)
     assert failed.returncode == 2 and not Path("run").exists()
-    assert failed.stderr.count("\n") == 1 and " ci, competitors, degraded, demo, emily, emily-small, held-out, " in failed.stderr
+    assert (
+        failed.stderr.count("\n") == 1
+        and " ci, competitors, degraded, demo, emily, emily-small, held-out, " in failed.stderr
+    )
     with pytest.raises(unshade.errors.SceneError, match="no scene of this name comes with unshade; there are ci, demo"):
         unshade.synth("dmeo", "capture")
     # A file of the same name wins.
