@@ -41,6 +41,11 @@ def head(mask: np.ndarray) -> tuple[slice, slice]:
     return slice(top, top + side), slice(left, left + side)
 
 
+def sized(pixels: np.ndarray, like: np.ndarray) -> np.ndarray:
+    """A picture in the size of another."""
+    return np.asarray(Image.fromarray(pixels).resize(like.shape[::-1], Image.Resampling.LANCZOS))
+
+
 def tile(pixels: np.ndarray) -> np.ndarray:
     """A tile of the picture with its gap."""
     small = np.asarray(Image.fromarray(pixels).resize((SIDE, SIDE), Image.Resampling.LANCZOS))
@@ -62,8 +67,7 @@ def main(run: Path) -> None:
     rows = []
     for folder, of in ((relit, true), (run / solver["relit"] / "global", maps)):
         tiles = [srgb(picture(folder / light / f"{frame}.exr"))[face] for light in lights]
-        seen = np.asarray(Image.fromarray(true.coverage).resize(of.diffuse_albedo.shape[1::-1])) > 0
-        tiles += [(pixels * seen[..., None])[chart] for pixels in shown(of)]
+        tiles += [(sized(pixels, true.coverage) * (true.coverage > 0)[..., None])[chart] for pixels in shown(of)]
         rows.append(np.concatenate([tile(pixels) for pixels in tiles], axis=1))
     Image.fromarray(np.concatenate(rows)[:-GAP, :-GAP]).save(Path(__file__).with_name("demo.jpg"), quality=90)
 
