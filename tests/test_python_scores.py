@@ -82,7 +82,10 @@ def test_scores_print_copy_and_are_written_as_the_command_line_does(quick: Path,
     few = scores.select(subject="specular_albedo")
     first, *rows = repr(few).splitlines()
     assert first == f"Scores of quick on {CASE}, {len(few)} rows" and len(rows) == len(few)
-    assert "specular_albedo/rmse@coverage-e5:none" in rows[0] and f"{few.value(metric='rmse'):.4g}" in rows[0]
+    assert (
+        "specular_albedo/rmse@coverage-e5:none" in rows[0]
+        and f"{few.value(metric='rmse', region='coverage-e5'):.4g}" in rows[0]
+    )
     assert repr(scores).splitlines()[-1].endswith("more; select(...) chooses")
     table = scores.to_arrow()
     assert table.num_rows == len(scores) and table.column_names[:3] == ["id", "subject", "metric"]

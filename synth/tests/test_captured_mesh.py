@@ -8,7 +8,7 @@ from unshade.captured_mesh import degrade, deviation
 from unshade.errors import SceneError
 from unshade.face import Chart
 from unshade.face.cache import load_head
-from unshade.face.geometry import part_mesh, place
+from unshade.face.geometry import place
 from unshade.face.identity import shape
 from unshade.face.spec import FaceSpec
 from unshade.face.texels import rasterise
@@ -46,8 +46,11 @@ def sheet(height=None, arc=2.2):
 @pytest.fixture(scope="module")
 def face_chart():
     head, spec = load_head(), FaceSpec("ada", 1, "III", 0.5, 0.5, (0.3, 0.3, 0.4), 0.5, texture_size=64)
-    _, mesh = part_mesh(place(head, shape(head, spec)), head.part_chart)
-    return Chart(uv=head.chart_uv.astype(np.float32), **mesh)
+    geometry, used = place(head, shape(head, spec)), head.chart_vertices
+    return Chart(
+        *(a.astype(np.float32) for a in (geometry.positions[used], geometry.normals[used], head.chart_uv)),
+        head.chart_triangles.astype(np.uint32),
+    )
 
 
 SHEET = sheet()

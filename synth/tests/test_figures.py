@@ -29,7 +29,7 @@ def folder_with(folder: Path, *blocks: dict[str, Any]) -> Path:
 
 def panels(columns: int, rows: int) -> dict[str, Any]:
     """Teal everywhere, orange in the last cell, and nothing in the first of the last row."""
-    cell = lambda name: {"file": f"panels/{name}.png", "caption": "27.95 dB / 0.857 / 0.144"}
+    cell = lambda name: {"file": f"panels/{name}.png", "height_over_width": 1.0, "caption": "27.95 dB / 0.857 / 0.144"}
     cells = [[cell("teal") for _ in range(columns)] for _ in range(rows)]
     cells[-1][-1] = cell("orange")
     cells[-1][0] = None
@@ -66,7 +66,7 @@ def area(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
     return np.argwhere((np.abs(picture.astype(int) - colour) <= 2).all(axis=2))
 
 
-def test_panels_are_squares_of_equal_size_in_their_places(tmp_path: Path) -> None:
+def test_panels_have_equal_size_in_their_places(tmp_path: Path) -> None:
     png, _ = draw(folder_with(tmp_path / "f", panels(5, 3)))
     picture = np.array(Image.open(png).convert("RGB"))
     assert picture.shape[1] == 2160

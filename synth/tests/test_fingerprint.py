@@ -76,8 +76,8 @@ def test_stages_begin_where_their_processes_do() -> None:
     tree = ast.parse(Path(stage.__file__).read_text())
     functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
     for verb, stages in (
-        ("_synth", ("capture",)), ("_lights", ("lights",)), ("_relight", ("mitsuba", "cycles")),
-        ("_relight_photographed", ("photographed",)), ("_lpips", ("lpips",)), ("_activate", ("capture",)),
+        ("_synth", ("capture",)), ("_lights", ("lights",)), ("_relight", ("mitsuba", "cycles", "photographed")),
+        ("_lpips", ("lpips",)), ("_activate", ("capture",)),
     ):  # fmt: skip
         begins = {module for name in stages for module in fingerprint.STAGES[name][1:]}
         for node in ast.walk(functions[verb]):

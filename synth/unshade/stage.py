@@ -86,13 +86,20 @@ def _relight(
             from .cycles.relight import relight
         else:
             from .render.relight import relight
-    from .render.given_light import given_light
-
     relight(
-        source, Path(maps), Path(out), given=given_light(Path(light)) if light else None,
+        source, Path(maps), Path(out), given=_given(light),
         scales=dict(scales), seed_offset=0, progress=_progress, warn=_warn,
     )  # fmt: skip
     return {"relit": out, "variant": choice.variant}
+
+
+def _given(light: str | None) -> Any:
+    """The light of a file; no stage of a run has one."""
+    if not light:
+        return None
+    from .render.given_light import given_light
+
+    return given_light(Path(light))
 
 
 def _budget(capture: str, maps: str, out: str, light: str | None, view: str | None, factor: float) -> dict[str, Any]:
