@@ -52,7 +52,7 @@ pub struct Measured {
 
 /// Measurements of the same steps on any device.
 struct Timed {
-    /// Of a step, the shortest of several.
+    /// The shortest of several measurements of a step.
     seconds: f64,
     losses: Vec<f64>,
     /// Bytes.

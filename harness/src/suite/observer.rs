@@ -4,7 +4,7 @@
 pub trait Observer {
     /// A suite is read, and its first stage begins soon.
     fn suite_begins(&mut self) {}
-    /// A line for the reader that is no result.
+    /// Shows a line to the user, besides the results.
     fn message(&mut self, _line: &str) {}
     /// `done` of `total` stages are finished and `id` begins.
     fn stage_begins(&mut self, id: &str, done: usize, total: usize);

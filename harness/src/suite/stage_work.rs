@@ -71,7 +71,7 @@ pub(super) fn lights_of(size: &CaseSize, method: Option<&Method>) -> f64 {
     f64::from(u8::from(own)) + size.other_lights
 }
 
-/// Scales of the albedo that maps are relit with: one, where there is no truth.
+/// The number of scale modes in which maps are relit; 1 for photographs, which have no truth to fit a scale to.
 fn scales_of(suite: &Suite, size: &CaseSize) -> f64 {
     if size.photographed { 1.0 } else { suite.scales.len() as f64 }
 }

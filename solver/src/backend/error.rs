@@ -6,7 +6,7 @@ pub const VARIABLE: &str = "UNSHADE_ADAPTER";
 /// A backend cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum BackendError {
-    /// There is no hardware GPU.
+    /// No hardware GPU was found.
     #[error(
         "no GPU was found ({}); install its Vulkan driver, or take the backend cpu or auto",
         listed(there)

@@ -11,6 +11,7 @@ use scoring::run::Kind;
 use super::method::{Method, MethodKind};
 use super::method_work::{Fault, MethodWork};
 use super::seeds::Vary;
+use privileged::FromTruth;
 
 impl MethodKind {
     /// The properties and the work of methods of this kind.
@@ -18,8 +19,8 @@ impl MethodKind {
         match self {
             Self::Fields(solver) => solver,
             Self::Program(program) => &**program,
-            Self::Oracle => &privileged::Oracle,
-            Self::LabelMeans => &privileged::LabelMeans,
+            Self::Oracle => &FromTruth::Oracle,
+            Self::LabelMeans => &FromTruth::LabelMeans,
             Self::Competitor(competitor) => competitor,
             Self::Baseline(baseline) => baseline,
         }

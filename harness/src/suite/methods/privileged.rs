@@ -13,24 +13,21 @@ use crate::suite::program::{Place, Usage};
 use crate::suite::stage_work::{Effort, Step};
 use crate::synth::Tools;
 
-/// The true maps.
-pub(super) struct Oracle;
-
-/// The true mean colour of every label.
-pub(super) struct LabelMeans;
-
-fn effort(size: &CaseSize, kind: &MethodKind) -> Effort {
-    let raw = bytes_of_maps(size.solved_texels());
-    Effort { fixed: 0.1, rate: 0.3, work: 1e-6 * size.texels, raw, class: cost_class(kind) }
+/// An answer that is made of the truth.
+#[derive(Clone, Copy)]
+pub(super) enum FromTruth {
+    /// The true maps.
+    Oracle,
+    /// The true mean colour of every label.
+    LabelMeans,
 }
 
-fn identity(resolved: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError> {
-    Ok(Some(vec![resolved.method.id.clone()]))
-}
-
-impl MethodWork for Oracle {
+impl MethodWork for FromTruth {
     fn role(&self) -> Kind {
-        Kind::Oracle
+        match self {
+            Self::Oracle => Kind::Oracle,
+            Self::LabelMeans => Kind::Privileged,
+        }
     }
 
     fn class(&self) -> Class {
@@ -38,53 +35,25 @@ impl MethodWork for Oracle {
     }
 
     fn title(&self, _: &str) -> String {
-        "oracle (true maps)".to_owned()
-    }
-
-    fn key(&self, _: &ResolvedMethod, inputs: &Inputs) -> Result<Key, RunError> {
-        Ok(Key::of(&["oracle", &inputs.capture()?.truth, inputs.executor.sources.scores]))
-    }
-
-    fn identity(&self, resolved: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError> {
-        identity(resolved)
-    }
-
-    fn make(
-        &self,
-        _: &ResolvedMethod,
-        place: &Place,
-        _: &Tools,
-        _: Step,
-    ) -> Result<Option<Usage>, RunError> {
-        score::oracle_maps(place.capture, place.maps)?;
-        Ok(None)
-    }
-
-    fn effort(&self, size: &CaseSize) -> Effort {
-        effort(size, &MethodKind::Oracle)
-    }
-}
-
-impl MethodWork for LabelMeans {
-    fn role(&self) -> Kind {
-        Kind::Privileged
-    }
-
-    fn class(&self) -> Class {
-        Class::Privileged
-    }
-
-    fn title(&self, _: &str) -> String {
-        "true mean of each label".to_owned()
+        let title = match self {
+            Self::Oracle => "oracle (true maps)",
+            Self::LabelMeans => "true mean of each label",
+        };
+        title.to_owned()
     }
 
     fn key(&self, _: &ResolvedMethod, inputs: &Inputs) -> Result<Key, RunError> {
         let (capture, sources) = (inputs.capture()?, inputs.executor.sources);
-        Ok(Key::of(&["label-means", &capture.given, &capture.truth, sources.scores]))
+        Ok(match self {
+            Self::Oracle => Key::of(&["oracle", &capture.truth, sources.scores]),
+            Self::LabelMeans => {
+                Key::of(&["label-means", &capture.given, &capture.truth, sources.scores])
+            }
+        })
     }
 
     fn identity(&self, resolved: &ResolvedMethod) -> Result<Option<Vec<String>>, RunError> {
-        identity(resolved)
+        Ok(Some(vec![resolved.method.id.clone()]))
     }
 
     fn make(
@@ -94,11 +63,19 @@ impl MethodWork for LabelMeans {
         _: &Tools,
         _: Step,
     ) -> Result<Option<Usage>, RunError> {
-        score::label_mean_maps(place.capture, place.maps)?;
+        match self {
+            Self::Oracle => score::oracle_maps(place.capture, place.maps)?,
+            Self::LabelMeans => score::label_mean_maps(place.capture, place.maps)?,
+        }
         Ok(None)
     }
 
     fn effort(&self, size: &CaseSize) -> Effort {
-        effort(size, &MethodKind::LabelMeans)
+        let kind = match self {
+            Self::Oracle => MethodKind::Oracle,
+            Self::LabelMeans => MethodKind::LabelMeans,
+        };
+        let raw = bytes_of_maps(size.solved_texels());
+        Effort { fixed: 0.1, rate: 0.3, work: 1e-6 * size.texels, raw, class: cost_class(&kind) }
     }
 }

@@ -44,8 +44,8 @@ impl Gpu {
         self
     }
 
-    /// Returns the result of `work` and the time of each of its passes. The measurement takes time. There are no times
-    /// if the adapter has no clock.
+    /// Returns the result of `work` and the time of each of its passes, which slows the work; no times if the adapter has
+    /// no clock.
     pub fn timed<T>(&self, work: impl FnOnce() -> T) -> (T, Option<Timings>) {
         if self.device.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             *locked(&self.device.timings) = Some(Timings::new());
