@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
-from .face import Face, FaceSpec, Maps, build_face
+from .face import Face, build_face
 from .files.array_store import ArrayStore
 from .files.content_key import content_key
 from .fingerprint import fingerprint
@@ -16,19 +18,19 @@ from .scene_file import AnyHead
 def build_head(head: AnyHead) -> Face:
     """Raises `FaceError` for a head that cannot be built.
 
-    Maps of a generated face are painted once and kept (`ArrayStore`): the stages of a suite need them again and again.
+    Maps and raised surface of a generated face are made once and kept (`ArrayStore`): the stages of a suite need them
+    again and again.
     """
     if isinstance(head, HeadFiles):
         return build_own_head(head)
-    face = build_face(head)
-    return replace(face, paint=lambda: _painted(face, head))
+    store, source = ArrayStore.of_user(), fingerprint("face.build")
 
+    def keep(name: str, kind: type, make: Callable[[], Any]) -> Any:
+        key = content_key(source, name, head)
+        arrays = store.get(key, kind)
+        if arrays is None:
+            arrays = make()
+            store.put(key, arrays)
+        return arrays
 
-def _painted(face: Face, spec: FaceSpec) -> Maps:
-    store = ArrayStore.of_user()
-    key = content_key(fingerprint("face.build"), spec)
-    maps = store.get(key, Maps)
-    if maps is None:
-        maps = face.paint()
-        store.put(key, maps)
-    return maps
+    return replace(build_face(head), keep=keep)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -47,18 +48,20 @@ class Face:
     chart: Chart
     parts: list[Part]
     paint: Callable[[], Maps]
+    keep: Callable[[str, type, Callable[[], Any]], Any] = lambda name, kind, make: make()
+    """Gives the arrays of a name, of a kind (a dataclass), from an earlier build or by making them."""
 
     @cached_property
     def maps(self) -> Maps:
         """Painted when first asked for: relighting needs the shapes alone."""
-        return self.paint()
+        return self.keep("maps", Maps, self.paint)
 
     @cached_property
     def surface(self) -> Chart:
         """The rendered surface: the chart, or with `displacement` a finer one that is raised by the painted relief."""
         if not getattr(self.spec, "displacement", False):
             return self.chart
-        return displaced(self.chart, self.maps.height)
+        return self.keep("surface", Chart, lambda: displaced(self.chart, self.maps.height))
 
 
 def build_face(spec: FaceSpec) -> Face:

@@ -72,11 +72,13 @@ def rasterise(uv: np.ndarray, triangles: np.ndarray, size: int) -> Texels:
     extent = np.floor(points.max(axis=1)).astype(np.int64) - low + 1
     owner = np.full(size * size, -1, dtype=np.int64)
     weights = np.zeros((size * size, 3), dtype=np.float32)
-    boxes, number, counts = np.unique(extent, axis=0, return_inverse=True, return_counts=True)
-    groups = np.split(np.argsort(number.ravel(), kind="stable"), np.cumsum(counts)[:-1])
+    # Most triangles of a fine mesh hold no texel's centre.
+    some = np.flatnonzero((extent > 0).all(axis=1))
+    widths, heights = extent[some].T
+    boxes, number, counts = np.unique(widths * (size + 1) + heights, return_inverse=True, return_counts=True)
+    groups = np.split(some[np.argsort(number, kind="stable")], np.cumsum(counts)[:-1])
     for box, group in zip(boxes, groups):
-        if (box <= 0).any():
-            continue
+        box = np.array(divmod(int(box), size + 1))
         step = max(1, _BATCH // int(box.prod()))
         for start in range(0, len(group), step):
             _cover(points, low, group[start : start + step], box, size, owner, weights)

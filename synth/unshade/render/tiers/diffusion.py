@@ -30,10 +30,11 @@ class BakedIrradiance:
     bakes: int
 
 
-def bake(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=None) -> BakedIrradiance:
+def bake(
+    head: HeadScene, lit: LitHead, points: SkinPoints, render: Render, seed: int, progress=None
+) -> BakedIrradiance:
     """As many paths per point as a pixel has samples, one bake for each pass of a picture."""
     passes = passes_for(render.samples)
-    points = SkinPoints.of(head)
     light = irradiance.bake(
         lit, points, bakes=passes, samples=render.samples // passes, depth=render.depth,
         seed=seed_of("irradiance", seed), progress=progress,

@@ -15,8 +15,10 @@ import numpy as np
 from ...scene_file import Render
 from ..scene import HeadScene, LitHead
 from . import diffusion, volume
+from .surface import SkinPoints
 
 _baked: weakref.WeakKeyDictionary[LitHead, tuple[tuple, diffusion.BakedIrradiance]] = weakref.WeakKeyDictionary()
+_points: weakref.WeakKeyDictionary[HeadScene, SkinPoints] = weakref.WeakKeyDictionary()
 _flesh: weakref.WeakKeyDictionary[HeadScene, tuple[bytes, volume.Flesh]] = weakref.WeakKeyDictionary()
 
 
@@ -25,7 +27,9 @@ def baked(head: HeadScene, lit: LitHead, render: Render, seed: int, progress=Non
     key = (_albedo_key(head), render.samples, render.depth, render.subsurface_mm, seed)
     kept = _baked.get(lit)
     if kept is None or kept[0] != key:
-        kept = _baked[lit] = (key, diffusion.bake(head, lit, render, seed, progress))
+        if head not in _points:
+            _points[head] = SkinPoints.of(head)
+        kept = _baked[lit] = (key, diffusion.bake(head, lit, _points[head], render, seed, progress))
     return kept[1]
 
 
